@@ -1,0 +1,25 @@
+/// YAML <-> Request; the one reader. An unknown key is an error that suggests the nearest known one.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Where model paths may lie; empty = anywhere (command line). The ROS node sets it.
+struct PathRules {
+  std::vector<std::string> roots;
+  std::vector<std::pair<std::string, std::string>> packages;  ///< package:// name -> directory, besides ROS_PACKAGE_PATH
+};
+
+/// `overrides`: "path.to.key=value" as given to --set. Throws an input Error with file, line and key.
+Request read_request(const std::string& path, const std::vector<std::string>& overrides = {}, const PathRules& rules = {});
+Request read_request_text(const std::string& yaml, const std::string& base_directory,
+                          const std::vector<std::string>& overrides = {}, const PathRules& rules = {});
+/// Every key with its value, readable back.
+std::string write_request(const Request& request);
+
+}  // namespace bin_scenes

@@ -1,0 +1,42 @@
+/// Where the time of a scene went, and what was skipped. A stage has one name everywhere: file, shader, timer.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace bin_scenes {
+
+/// Wall times (ms) and counters of one scene or batch, summed by name. Never decides anything in a simulation.
+struct Profile {
+  std::map<std::string, double> stages_ms;
+  std::map<std::string, std::uint64_t> counters;
+
+  void add(const std::string& stage, double ms) { stages_ms[stage] += ms; }
+  void count(const std::string& counter, std::uint64_t n = 1) { counters[counter] += n; }
+  void merge(const Profile& other) {
+    for (const auto& [name, ms] : other.stages_ms) stages_ms[name] += ms;
+    for (const auto& [name, n] : other.counters) counters[name] += n;
+  }
+};
+
+/// Adds the life time of the object to one stage.
+class StageTimer {
+ public:
+  StageTimer(Profile& profile, std::string stage)
+      : profile_(profile), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
+  ~StageTimer() {
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start_;
+    profile_.add(stage_, spent.count());
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  Profile& profile_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,45 @@
+/// The main job, from request to judged scenes and their images. Tool, node and benchmark all call this.
+#pragma once
+
+#include "bin_scenes/quality/quality.hpp"
+#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/solver/pour.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace bin_scenes {
+
+/// Keeps what is expensive between requests: GL device, solvers' programs, loaded parts, the camera.
+/// One thread at a time (the GL context belongs to the thread that made it).
+class Generator {
+ public:
+  Generator();
+  ~Generator();
+
+  struct Result {
+    Scene scene;
+    std::vector<RangeImage> images;  ///< only if asked for
+  };
+  struct Options {
+    bool render = true;  ///< false: no sensor image is made (nobody looks)
+    RunHooks hooks;
+  };
+
+  /// Loads, prepares, pours, judges and renders request.scenes scenes from request.first on, and hands each over as
+  /// soon as it is done (in order of index). Throws Error; scenes handed over before stay valid.
+  void generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done);
+
+  /// Models of the last request, by part line.
+  const std::vector<PartModelPtr>& parts() const;
+  const PartModelPtr& bin_model() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget.
+double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
+
+}  // namespace bin_scenes

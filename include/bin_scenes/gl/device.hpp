@@ -1,0 +1,50 @@
+/// A headless OpenGL 4.5 context through EGL. Knows nothing of physics.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::gl {
+
+/// One EGL device as doctor lists it.
+struct DeviceInfo {
+  std::string name;       ///< EGL vendor / DRM node
+  bool software = false;  ///< EGL_MESA_device_software
+  bool usable = false;    ///< a 4.5 core context could be made
+  std::string renderer, version, detail;  ///< GL_RENDERER, GL_VERSION; what failed if not usable
+};
+
+struct Limits {
+  int storage_blocks = 0, shared_bytes = 0, invocations = 0, groups_per_axis = 0;
+  long long storage_bytes = 0;
+};
+
+/// Owns the context; made current on the thread that constructs it, which then owns all GL calls.
+class Device {
+ public:
+  /// Prefers hardware; software devices only if nothing else works or BIN_SCENES_GL=software; surfaceless Mesa last.
+  /// Throws an environment Error that lists every attempt.
+  Device();
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  /// The process-wide device of this thread, made on first use.
+  static Device& current();
+
+  std::string renderer() const;  ///< GL_RENDERER
+  std::string vendor() const;
+  std::string version() const;   ///< GL_VERSION, with the driver's
+  bool software() const;         ///< llvmpipe, softpipe, swrast
+  const Limits& limits() const;
+  void make_current();
+
+  static std::vector<DeviceInfo> enumerate();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bin_scenes::gl

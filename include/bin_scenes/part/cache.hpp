@@ -1,0 +1,30 @@
+/// Disk cache of prepared parts in $XDG_CACHE_HOME/bin_scenes (else ~/.cache/bin_scenes).
+/// Keyed by content, parameters and format version; written by rename, so that two processes do no harm;
+/// checksummed and never trusted: a damaged file is rebuilt. Not writable is not an error: it works without.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// SHA-256 as lower-case hex.
+std::string sha256_hex(const void* data, std::size_t size);
+std::string sha256_hex(const std::string& text);
+
+class Cache {
+ public:
+  static Cache& global();  ///< BIN_SCENES_CACHE=off switches it off
+
+  std::string directory() const;
+  /// Contents stored under `key` if whole and undamaged.
+  std::optional<Bytes> read(const std::string& kind, const std::string& key) const;
+  void write(const std::string& kind, const std::string& key, const Bytes& bytes) const;
+};
+
+}  // namespace bin_scenes

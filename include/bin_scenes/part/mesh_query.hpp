@@ -1,0 +1,44 @@
+/// Exact questions to a triangle mesh: nearest point, inside or outside. The yardstick of quality and of shape errors.
+#pragma once
+
+#include "bin_scenes/scene/mesh.hpp"
+
+#include <memory>
+
+namespace bin_scenes {
+
+struct NearestPoint {
+  Vec3 point = Vec3::Zero();    ///< on the surface
+  double distance = 0.0;        ///< unsigned (m)
+  std::size_t triangle = 0;
+};
+
+/// Bounding-volume tree over the triangles of a mesh; immutable after construction, safe to share between threads.
+class MeshQuery {
+ public:
+  explicit MeshQuery(Mesh mesh);
+  ~MeshQuery();
+  MeshQuery(MeshQuery&&) noexcept;
+  MeshQuery& operator=(MeshQuery&&) noexcept;
+
+  const Mesh& mesh() const;
+  /// Nearest surface point; gives up (distance = infinity) beyond `limit`.
+  NearestPoint nearest(const Vec3& point, double limit = std::numeric_limits<double>::infinity()) const;
+  /// Generalised winding number: 1 inside, 0 outside, robust to small gaps and overlapping shells (> 0.5 = inside).
+  double winding(const Vec3& point) const;
+  bool inside(const Vec3& point) const { return winding(point) > 0.5; }
+  /// Negative inside (m).
+  double signed_distance(const Vec3& point) const;
+  /// Calls visit(triangle index) for triangles whose bounds overlap the box (model frame).
+  template <class Visit>
+  void overlapping(const Aabb& box, Visit&& visit) const {
+    overlapping_impl(box, [](void* v, std::size_t t) { (*static_cast<std::remove_reference_t<Visit>*>(v))(t); }, &visit);
+  }
+
+ private:
+  void overlapping_impl(const Aabb& box, void (*visit)(void*, std::size_t), void* context) const;
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,59 @@
+/// One CAD part, made ready for simulation: mesh, mass properties, and the proxies a solver asks for, each made at
+/// most once per content and parameters (in memory and in the disk cache) and only when asked for.
+#pragma once
+
+#include "bin_scenes/part/convex_hulls.hpp"
+#include "bin_scenes/part/distance_field.hpp"
+#include "bin_scenes/part/mass_properties.hpp"
+#include "bin_scenes/part/mesh_query.hpp"
+#include "bin_scenes/part/samples.hpp"
+#include "bin_scenes/part/spheres.hpp"
+#include "bin_scenes/scene/mesh_loader.hpp"
+
+#include <memory>
+#include <string>
+
+namespace bin_scenes {
+
+/// Error of a proxy against the mesh, as fractions of the bounding diagonal (measures.md).
+struct ShapeError {
+  double to_mesh_mean = 0, to_mesh_max = 0;      ///< proxy surface -> mesh
+  double from_mesh_mean = 0, from_mesh_max = 0;  ///< mesh -> proxy surface
+  double volume = 0;                             ///< (proxy - mesh) / mesh
+};
+
+class PartModel {
+ public:
+  /// Loads through the cache. Throws like load_mesh.
+  static std::shared_ptr<const PartModel> load(const std::string& path, const LoadOptions& options = {});
+  /// From a mesh in memory (tests, generated shapes); `name` stands for the path.
+  static std::shared_ptr<const PartModel> from_mesh(const Mesh& mesh, const std::string& name);
+  ~PartModel();
+
+  const std::string& path() const;
+  const Mesh& mesh() const;
+  const LoadReport& load_report() const;
+  const MassProperties& mass() const;  ///< density 1
+  double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
+  double radius() const;               ///< largest vertex distance from the centre of mass (m)
+
+  // Proxies: thread-safe, lazy, cached on disk. References live as long as the model.
+  const MeshQuery& query() const;
+  const SphereSet& spheres(const VoxelOptions& options) const;
+  const DistanceField& field(const FieldOptions& options) const;
+  const ConvexHulls& hulls(const HullOptions& options) const;
+  const SampleSet& samples(const SampleOptions& options) const;
+
+  ShapeError sphere_error(const VoxelOptions& options) const;
+  ShapeError field_error(const FieldOptions& options) const;
+  ShapeError hull_error(const HullOptions& options) const;
+
+ private:
+  PartModel();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+using PartModelPtr = std::shared_ptr<const PartModel>;
+
+}  // namespace bin_scenes

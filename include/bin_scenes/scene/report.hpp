@@ -1,0 +1,58 @@
+/// What is known about a finished scene, measured on the true meshes (quality/), not on a solver's proxy.
+#pragma once
+
+#include "bin_scenes/core/profile.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Something the user should know, with its remedy: a buffer that had to grow, a mesh that was repaired.
+struct Flag {
+  std::string code;    ///< stable, snake_case: "mesh_repaired", "contact_overflow"
+  std::string text;    ///< what happened, with figures
+  std::string remedy;  ///< setting to raise, or what to do
+};
+
+/// Quantiles over pairs (m).
+struct Quantiles {
+  double median = 0.0, p95 = 0.0, max = 0.0;
+};
+Quantiles quantiles(std::vector<double> values);
+
+struct PenetrationReport : Quantiles {
+  std::array<int, 2> pair = {-1, -1};  ///< ids of the worst pair; {-1, -1} if nothing overlaps
+  double p95_relative = 0.0, max_relative = 0.0;  ///< / smaller part's bounding diagonal
+  double bin_max = 0.0;                ///< worst part against the bin (m)
+  int bin_part = -1;
+  std::size_t pairs = 0;               ///< overlapping pairs
+};
+
+struct DriftReport : Quantiles {       ///< m, moved centre of mass over 0.5 s of a re-run
+  bool measured = false;
+  double turn_p95 = 0.0;               ///< rad
+};
+
+struct Report {
+  bool at_rest = false;
+  bool accepted = false;
+  std::vector<std::string> reasons;    ///< why not accepted
+  std::string solver;                  ///< "sphere", "sphere/thesis", "bullet"
+  std::string solver_reason;           ///< why `auto` chose it
+  std::string device;                  ///< GL_RENDERER, or "cpu"
+  double simulated_s = 0.0, wall_s = 0.0;
+  std::uint64_t steps = 0;
+  Profile profile;
+  PenetrationReport penetration;
+  Quantiles gap;                       ///< free way below parts that touch nothing that holds them (m)
+  DriftReport drift;
+  std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite
+  std::vector<int> not_poured;         ///< ids that found no room above the heap
+  std::uint64_t state_hash = 0;        ///< of all final poses, bit for bit
+  std::vector<Flag> flags;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,153 @@
+/// What a user asks for: plain data, one field per key of the request file (docs/request.md), SI units.
+/// config/ reads it from YAML, ros/ from the message; both fill the same struct and the same check() judges it.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+enum class Unit { metre, centimetre, millimetre, inch };
+double metres_per(Unit unit);
+const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
+
+/// The bin. Its origin is the middle of the floor's top, z up.
+struct Bin {
+  enum class Kind {
+    box,    ///< floor and four walls, analytic
+    mesh,   ///< a mesh of its own, with a pose in the bin frame
+    floor,  ///< endless plane z = 0
+    none    ///< nothing: free flight
+  };
+  Kind kind = Kind::box;
+  Vec3 inner_size = Vec3(0.40, 0.30, 0.20);  ///< box: inner length x, width y, height z (m)
+  double wall_thickness = 0.005;             ///< box: of walls and floor (m); seen by cameras, never by the physics
+  std::string mesh;                          ///< mesh: path
+  std::optional<Unit> unit;                  ///< mesh: unit of the file
+  Pose pose;                                 ///< mesh: file frame in the bin frame
+  double friction = 0.5;                     ///< pair coefficient = sqrt(part * bin)
+  double restitution = 0.0;                  ///< pair coefficient = the larger of the two
+};
+
+/// One line of `parts`: `count` copies of one model.
+struct PartLine {
+  std::string model;           ///< path as written by the user
+  std::string path;            ///< resolved absolute path; filled by the reader
+  std::optional<Unit> unit;    ///< none: metres, unless the size is implausible for the bin (an error)
+  double scale = 1.0;          ///< multiplies the model after the unit
+  std::size_t count = 1;
+  std::optional<double> density;    ///< kg/m3; default 1000 if mass is not given either
+  std::optional<double> mass;       ///< kg, of one part
+  double friction = 0.5;
+  double restitution = 0.1;
+  std::optional<double> thickness;  ///< m: gives an open surface this wall thickness instead of refusing it
+  std::vector<Pose> poses;          ///< given start poses of the model frame in the bin frame; size = count or empty
+  std::vector<Twist> velocities;    ///< given start velocities; empty = at rest
+  bool fixed = false;               ///< an obstacle: stays at its given pose
+};
+
+struct Pour {
+  enum class Pattern {
+    rain,  ///< parts enter just above the heap as it grows
+    grid,  ///< the thesis's: all at once on a 3-D grid above the bin
+    given  ///< poses come with the parts or from an earlier scene
+  };
+  Pattern pattern = Pattern::rain;
+  double drop_height = 0.02;     ///< rain: free way of a part's lowest point to the heap below it (m); higher = harder impacts
+  double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
+  std::string scene;             ///< given: path of a scene.json to go on from
+  double limit = 20.0;           ///< simulated seconds after which a scene that still moves is given up
+  double rest_window = 0.25;     ///< s: nothing may have moved over this window of simulated time
+  double rest_move = 1e-3;       ///< largest displacement over the window / part diagonal that counts as rest
+  double rest_turn = 1e-2;       ///< largest turn over the window (rad) that counts as rest
+};
+
+enum class SolverType { automatic, sphere, bullet };
+const char* name_of(SolverType type);
+
+/// Settings of Bullet. Lengths are in part sizes where noted: Bullet simulates a scaled world.
+struct BulletSettings {
+  double time_step = 1.0 / 240.0;  ///< s; larger is faster and lets thin parts interlock
+  int iterations = 20;             ///< sequential-impulse sweeps per step; more = stiffer piles, linear cost
+  double margin = 0.005;           ///< collision margin / part diagonal, shrunk into the hulls; smaller = slower, exacter
+  bool sleeping = true;            ///< islands at rest cost nothing
+  double hull_error = 0.01;        ///< largest surface error of the convex decomposition / part diagonal
+  int max_hulls = 64;              ///< cap on hulls per part; cost per touching pair grows with its square
+};
+
+/// The sphere solver as the thesis describes it (docs/thesis.md); preset `thesis`.
+struct ThesisSettings {
+  double time_step = 0.01;       ///< s
+  int sub_steps = 1;             ///< whole steps of time_step / sub_steps each
+  int iterations = 10;           ///< impulse/velocity passes per step; 5 or 10 in the thesis
+  double bias = 0.2;             ///< beta, 0.1 .. 0.3: share of the penetration turned into velocity per step
+  double slop = 0.01;            ///< penetration left alone / sphere radius
+  double rest_velocity = 0.0;    ///< m/s below which restitution is 0; 0 = 2 g dt
+  int voxels = 10;               ///< voxels along the part's longest side
+  double tightness = 1.0;        ///< voxel pitch / sphere diameter; < 1 = overlapping spheres, smoother surface
+  bool modified_normals = true;  ///< face spheres carry the true surface's normal
+  int grid_size = 128;           ///< cells per axis of the collision grid
+  double cell_size = 1.0;        ///< cell edge / largest sphere diameter, >= 1
+  int contacts_per_sphere = 4;   ///< capacity; grown and reported when it does not do
+};
+
+/// The default sphere solver (docs/solver.md): surface samples of one part against the distance field of the other.
+struct SphereSettings {
+  double time_step = 1.0 / 240.0;  ///< s, one collision detection each
+  int sub_steps = 4;               ///< contact solves per time step
+  int coarse_samples = 96;         ///< per part while pouring
+  int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost
+  double field_cell = 0.01;        ///< cell of the distance field / part diagonal
+};
+
+struct SolverSettings {
+  SolverType type = SolverType::automatic;
+  enum class Preset { standard, thesis } preset = Preset::standard;  ///< which sphere solver
+  BulletSettings bullet;
+  ThesisSettings thesis;
+  SphereSettings sphere;
+};
+
+/// A range camera. Frame: optical (x right, y down, z forward).
+struct Sensor {
+  std::string name = "camera";
+  int width = 640, height = 480;
+  double fov = 0.75;            ///< horizontal field of view (rad); sets the intrinsics unless K is given
+  std::vector<double> k;        ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
+  std::optional<Pose> pose;     ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
+  double near = 0.05, far = 10.0;  ///< m; nothing is seen outside
+};
+
+/// When a scene counts as accepted; the report names what failed.
+struct Acceptance {
+  double penetration = 0.02;  ///< largest penetration of any pair / smaller part diagonal
+  bool escaped = false;       ///< true: scenes with escaped parts are accepted too
+};
+
+struct Request {
+  std::uint64_t seed = 0;
+  std::size_t scenes = 1;
+  std::size_t first = 0;       ///< index of the first scene; scene i comes from (seed, i) alone
+  Bin bin;
+  Vec3 gravity = Vec3(0.0, 0.0, -9.81);
+  std::vector<PartLine> parts;
+  Pour pour;
+  SolverSettings solver;
+  std::vector<Sensor> sensors;
+  Acceptance accept;
+  std::optional<double> seconds;  ///< simulate exactly this long instead of until rest
+  bool drift_check = false;       ///< run on for 0.5 s and report how far parts move
+  double memory_budget = 4e9;     ///< bytes; a request estimated above it is refused with the figure
+  std::string text_sha256;        ///< hash of the request as read; filled by the reader
+
+  std::size_t part_count() const;
+};
+
+/// Throws one input Error for the first field that makes no sense (negative count, NaN, friction < 0, ...).
+void check(const Request& request);
+
+}  // namespace bin_scenes

@@ -1,0 +1,35 @@
+/// A finished scene: true poses, states, report.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/report.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+enum class PartState { resting, moving, escaped, fixed, not_poured };
+const char* name_of(PartState state);
+
+struct ScenePart {
+  int id = 0;             ///< stable across every output
+  std::size_t line = 0;   ///< index into Request::parts
+  std::string model;      ///< as the user wrote it
+  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame
+  Twist velocity;         ///< of the centre of mass, when the simulation ended
+  PartState state = PartState::moving;
+  std::map<std::string, double> visible_fraction;  ///< by sensor name
+};
+
+struct Scene {
+  std::uint64_t seed = 0;
+  std::size_t index = 0;
+  std::vector<ScenePart> parts;
+  std::vector<Sensor> sensors;  ///< with pose and K filled in
+  Report report;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,83 @@
+/// The small interface behind which both solvers stand. The unit of work is a batch of worlds: one scene is a batch
+/// of one, and a world's result does not depend on which other worlds run beside it.
+///
+///     add_world ─► insert bodies ─► advance ─► states ─► ... ─► remove_world
+///
+/// A world knows bodies, walls, gravity; pouring, rest and acceptance are the business of solver/pour.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/report.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What never changes about a body.
+struct BodyDef {
+  std::size_t part = 0;     ///< index into WorldDef::parts
+  double mass = 1.0;        ///< kg; > 0. Inertia follows from the part's mass properties
+  double friction = 0.5;    ///< pair = sqrt(a*b)
+  double restitution = 0.0; ///< pair = max(a, b)
+  bool fixed = false;       ///< never moves; infinite mass
+};
+
+struct BodyState {
+  Pose pose;       ///< model frame in the bin frame
+  Twist velocity;  ///< of the centre of mass, bin frame
+};
+
+/// What never changes about a world.
+struct WorldDef {
+  std::vector<PartModelPtr> parts;
+  std::vector<BodyDef> bodies;
+  Bin bin;
+  PartModelPtr bin_model;        ///< Bin::Kind::mesh only: closed or open mesh, metres, in the frame Bin::pose places
+  double wall_height = 0.0;      ///< m above the floor up to which box walls reach; pour extends them above bin.inner_size.z
+  Vec3 gravity = Vec3(0, 0, -9.81);
+};
+
+using WorldId = std::size_t;
+
+/// Pouring tolerates coarse shapes; settling must be exact. A solver may ignore the hint.
+enum class Phase { pour, settle };
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// All bodies absent. Throws on what the solver cannot do or what does not fit the memory budget.
+  virtual WorldId add_world(const WorldDef& def) = 0;
+  virtual void remove_world(WorldId world) = 0;
+
+  /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
+  virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
+  /// Takes a body out and wakes what it touched.
+  virtual void remove(WorldId world, std::size_t body) = 0;
+  virtual void set_phase(WorldId world, Phase phase) = 0;
+
+  /// Simulates the next `seconds` of each listed world; rounds to whole steps, at least one, and returns the
+  /// simulated time (the same for every world). Never depends on wall time.
+  virtual double advance(const std::vector<WorldId>& worlds, double seconds) = 0;
+
+  /// States of all bodies in order of WorldDef::bodies; absent ones keep what they had (initially: NaN position).
+  virtual std::vector<BodyState> states(WorldId world) const = 0;
+  /// Bodies that the solver itself holds asleep, same order; a hint for progress and counters, not the verdict on rest.
+  virtual std::vector<bool> asleep(WorldId world) const = 0;
+
+  virtual double step_size() const = 0;          ///< s of one collision detection
+  virtual std::uint64_t steps(WorldId world) const = 0;
+  virtual const Profile& profile() const = 0;    ///< stage times and counters since construction
+  virtual std::vector<Flag> flags(WorldId world) const = 0;
+  virtual std::string name() const = 0;          ///< "sphere", "sphere/thesis", "bullet"
+  virtual std::string device() const = 0;        ///< GL_RENDERER or "cpu"
+};
+
+/// The solver a request asks for. For SolverType::automatic it chooses by device, part and count from measured costs
+/// and appends why to `reason`.
+std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts, std::string& reason);
+
+}  // namespace bin_scenes
