@@ -22,9 +22,11 @@ class MeshQuery {
   MeshQuery& operator=(MeshQuery&&) noexcept;
 
   const Mesh& mesh() const;
-  /// Nearest surface point; gives up (distance = infinity) beyond `limit`.
+  /// Nearest surface point; gives up (distance = infinity) beyond `limit`. The tighter the limit the faster: a
+  /// neighbour's distance plus the way from there is always a valid one.
   NearestPoint nearest(const Vec3& point, double limit = std::numeric_limits<double>::infinity()) const;
   /// Generalised winding number: 1 inside, 0 outside, robust to small gaps and overlapping shells (> 0.5 = inside).
+  /// Far triangles are summed by a tree expansion (Barill et al. 2018): error below 5e-3, 5e-4 r.m.s.
   double winding(const Vec3& point) const;
   bool inside(const Vec3& point) const { return winding(point) > 0.5; }
   /// Negative inside (m).
