@@ -1,0 +1,358 @@
+#include "bin_scenes/part/distance_field.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/part/mesh_query.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace bin_scenes {
+namespace {
+
+// Nodes closer to the surface than this (in cells) get the exact nearest triangle by rasterisation. The eight nodes
+// around a point half a cell off the surface are less than sqrt(3) + 1/2 cells away: what a contact reads is exact.
+constexpr double kBand = 3.0;
+
+constexpr std::int32_t kNone = -1;
+
+/// A triangle prepared for many nearest-point questions; grid units (one node = 1).
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.5, with the constant products taken out.
+struct PreparedTriangle {
+  Vec3 a, ab, ac, normal;
+  double ab_ab, ab_ac, ac_ac;
+  Vec3 center;  // of a sphere of radius `reach` around the triangle
+  double reach;
+
+  PreparedTriangle(const Vec3& a_, const Vec3& b, const Vec3& c)
+      : a(a_), ab(b - a_), ac(c - a_), ab_ab(ab.dot(ab)), ab_ac(ab.dot(ac)), ac_ac(ac.dot(ac)) {
+    normal = ab.cross(ac);
+    const double length = normal.norm();
+    // A sliver has no trustworthy normal; zero keeps it out of the slab test below.
+    normal = length > 1e-12 ? Vec3(normal / length) : Vec3::Zero();
+    center = (a + b + c) / 3;
+    reach = std::sqrt(std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()}));
+  }
+
+  Vec3 nearest(const Vec3& p) const {
+    const Vec3 ap = p - a;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return a;
+    const double d3 = d1 - ab_ab, d4 = d2 - ab_ac;
+    if (d3 >= 0 && d4 <= d3) return a + ab;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * ratio(d1, d1 - d3);
+    const double d5 = d1 - ab_ac, d6 = d2 - ac_ac;
+    if (d6 >= 0 && d5 <= d6) return a + ac;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * ratio(d2, d2 - d6);
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 >= d3 && d5 >= d6) return a + ab + (ac - ab) * ratio(d4 - d3, d4 - d3 + d5 - d6);
+    const double scale = 1.0 / (va + vb + vc);
+    return a + ab * (vb * scale) + ac * (vc * scale);
+  }
+
+ private:
+  /// An edge of a degenerate triangle may have no length.
+  static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
+};
+
+/// The nearest surface point known to a node, in grid units.
+struct Nearest {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  float distance = std::numeric_limits<float>::infinity();
+  std::int32_t triangle = kNone;
+};
+
+/// Builds the field in four steps, each one function: rasterise, sweep, refine, sign.
+class FieldBuilder {
+ public:
+  FieldBuilder(const MeshQuery& query, DistanceField& field) : query_(query), field_(field) {
+    stride_ = {1, field.nodes[0], static_cast<std::ptrdiff_t>(field.nodes[0]) * field.nodes[1]};
+    nodes_.resize(static_cast<std::size_t>(stride_[2]) * field.nodes[2]);
+    const Mesh& mesh = query.mesh();
+    triangles_.reserve(mesh.triangles.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+      triangles_.emplace_back(to_grid(mesh.vertices[a]), to_grid(mesh.vertices[b]), to_grid(mesh.vertices[c]));
+    }
+  }
+
+  void build() {
+    rasterise();
+    sweep();
+    refine();
+    sign();
+  }
+
+ private:
+  Vec3 to_grid(const Vec3& point) const { return (point - field_.origin) / field_.cell; }
+  std::size_t index(int x, int y, int z) const { return static_cast<std::size_t>(x + stride_[1] * y + stride_[2] * z); }
+
+  /// Exact nearest triangle of every node within the band: each triangle visits the nodes of its own neighbourhood.
+  void rasterise() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const PreparedTriangle& triangle = triangles_[t];
+      const Vec3 b = triangle.a + triangle.ab, c = triangle.a + triangle.ac;
+      const Vec3 lower = triangle.a.cwiseMin(b).cwiseMin(c).array() - kBand;
+      const Vec3 upper = triangle.a.cwiseMax(b).cwiseMax(c).array() + kBand;
+      const auto first = [&](int axis) { return std::max(0, static_cast<int>(std::ceil(lower[axis]))); };
+      const auto last = [&](int axis) {
+        return std::min(field_.nodes[axis] - 1, static_cast<int>(std::floor(upper[axis])));
+      };
+      for (int z = first(2); z <= last(2); ++z) {
+        for (int y = first(1); y <= last(1); ++y) {
+          // Only the part of the row inside the slab |n.(p - a)| <= band can be within the band: without this cut a
+          // large oblique triangle would visit its whole bounding box.
+          double row_lower = lower[0], row_upper = upper[0];
+          const double offset = triangle.normal.dot(Vec3(0, y, z) - triangle.a), slope = triangle.normal[0];
+          if (std::abs(slope) > 1e-9) {
+            const double x1 = (-kBand - offset) / slope, x2 = (kBand - offset) / slope;
+            row_lower = std::max(row_lower, std::min(x1, x2));
+            row_upper = std::min(row_upper, std::max(x1, x2));
+          } else if (std::abs(offset) > kBand) {
+            continue;
+          }
+          const int x_last = std::min(field_.nodes[0] - 1, static_cast<int>(std::floor(row_upper)));
+          for (int x = std::max(0, static_cast<int>(std::ceil(row_lower))); x <= x_last; ++x) {
+            const Vec3 node(x, y, z);
+            Nearest& best = nodes_[index(x, y, z)];
+            const double reach = best.distance + triangle.reach;
+            if ((node - triangle.center).squaredNorm() > reach * reach) continue;
+            const Vec3 nearest = triangle.nearest(node);
+            const float distance = static_cast<float>((node - nearest).norm());
+            if (distance < best.distance) best = {nearest.cast<float>(), distance, static_cast<std::int32_t>(t)};
+          }
+        }
+      }
+    }
+    // What lies outside the band has not seen every triangle: it starts over from its neighbours, but may keep the
+    // candidate it has.
+    exact_.assign(nodes_.size(), 0);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) exact_[i] = nodes_[i].distance <= kBand;
+  }
+
+  /// Hands nearest points from node to node away from the band (vector distance transform, Danielsson 1980,
+  /// "Euclidean distance mapping"): down and up the slices, inside a slice down and up the rows, inside a row both
+  /// ways.
+  void sweep() {
+    const auto [nx, ny, nz] = field_.nodes;
+    const auto offer = [&](std::size_t to, std::ptrdiff_t step, int x, int y, int z) {
+      const Nearest& from = nodes_[to + step];
+      if (exact_[to] || from.triangle == kNone) return;
+      const float distance = (Eigen::Vector3f(x, y, z) - from.point).norm();
+      if (distance < nodes_[to].distance) nodes_[to] = {from.point, distance, from.triangle};
+    };
+    for (int down = 0; down < 2; ++down) {
+      for (int k = 0; k < nz; ++k) {
+        const int z = down ? nz - 1 - k : k;
+        if (k > 0) {
+          for (int y = 0; y < ny; ++y)
+            for (int x = 0; x < nx; ++x) offer(index(x, y, z), down ? stride_[2] : -stride_[2], x, y, z);
+        }
+        for (int back = 0; back < 2; ++back) {
+          for (int j = 0; j < ny; ++j) {
+            const int y = back ? ny - 1 - j : j;
+            if (j > 0) {
+              for (int x = 0; x < nx; ++x) offer(index(x, y, z), back ? stride_[1] : -stride_[1], x, y, z);
+            }
+            for (int x = 1; x < nx; ++x) offer(index(x, y, z), -1, x, y, z);
+            for (int x = nx - 2; x >= 0; --x) offer(index(x, y, z), 1, x, y, z);
+          }
+        }
+      }
+    }
+  }
+
+  /// A nearest point handed on was nearest to another node. Asking the triangles that this node and its neighbours
+  /// know makes the distance exact again for all but a few nodes near the medial axis.
+  void refine() {
+    field_.values.resize(nodes_.size());
+    const auto [nx, ny, nz] = field_.nodes;
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        for (int x = 0; x < nx; ++x) {
+          const std::size_t i = index(x, y, z);
+          double distance = nodes_[i].distance;
+          if (!exact_[i]) {
+            const Vec3 node(x, y, z);
+            std::array<std::int32_t, 7> known;
+            int count = 0;
+            const auto ask = [&](std::int32_t t) {
+              if (std::find(known.begin(), known.begin() + count, t) != known.begin() + count) return;
+              known[count++] = t;
+              distance = std::min(distance, (node - triangles_[t].nearest(node)).norm());
+            };
+            ask(nodes_[i].triangle);
+            if (x > 0) ask(nodes_[i - 1].triangle);
+            if (x + 1 < nx) ask(nodes_[i + 1].triangle);
+            if (y > 0) ask(nodes_[i - stride_[1]].triangle);
+            if (y + 1 < ny) ask(nodes_[i + stride_[1]].triangle);
+            if (z > 0) ask(nodes_[i - stride_[2]].triangle);
+            if (z + 1 < nz) ask(nodes_[i + stride_[2]].triangle);
+          }
+          field_.values[i] = static_cast<float>(distance);
+        }
+      }
+    }
+  }
+
+  /// The sign can only change across the surface, and the straight way between two nodes meets no surface if their
+  /// distances add up to more than its length. Nodes joined by such ways form regions; one winding number settles a
+  /// region. Ends by scaling the values to metres.
+  void sign() {
+    std::vector<std::uint8_t> seen(nodes_.size(), 0);
+    std::vector<std::array<int, 3>> region;
+    const auto [nx, ny, nz] = field_.nodes;
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        for (int x = 0; x < nx; ++x) {
+          if (seen[index(x, y, z)]) continue;
+          collect_region({x, y, z}, seen, region);
+          sign_region(region);
+        }
+      }
+    }
+    for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
+  }
+
+  void collect_region(const std::array<int, 3>& start, std::vector<std::uint8_t>& seen,
+                      std::vector<std::array<int, 3>>& region) const {
+    static const float kLength[4] = {0.0f, 1.0001f, 1.4144f, 1.7323f};  // a little more than sqrt(1, 2, 3): rounding
+    region.assign(1, start);
+    seen[index(start[0], start[1], start[2])] = 1;
+    for (std::size_t next = 0; next < region.size(); ++next) {
+      const auto [x, y, z] = region[next];
+      const float here = std::abs(field_.values[index(x, y, z)]);
+      for (int dz = -1; dz <= 1; ++dz) {
+        if (z + dz < 0 || z + dz >= field_.nodes[2]) continue;
+        for (int dy = -1; dy <= 1; ++dy) {
+          if (y + dy < 0 || y + dy >= field_.nodes[1]) continue;
+          for (int dx = -1; dx <= 1; ++dx) {
+            if (x + dx < 0 || x + dx >= field_.nodes[0]) continue;
+            const std::size_t there = index(x + dx, y + dy, z + dz);
+            if (seen[there]) continue;
+            const int axes = std::abs(dx) + std::abs(dy) + std::abs(dz);
+            // Signs of settled regions do not matter here: seen nodes are skipped above.
+            if (here + field_.values[there] <= kLength[axes]) continue;
+            seen[there] = 1;
+            region.push_back({x + dx, y + dy, z + dz});
+          }
+        }
+      }
+    }
+  }
+
+  void sign_region(const std::vector<std::array<int, 3>>& region) {
+    const auto inside = [&](const std::array<int, 3>& n) {
+      return query_.inside(field_.origin + field_.cell * Vec3(n[0], n[1], n[2]));
+    };
+    const auto flip = [&](const std::array<int, 3>& n) {
+      float& value = field_.values[index(n[0], n[1], n[2])];
+      value = -value;
+    };
+    // Through a hole wider than a cell a region leaks to the other side: its probes then disagree, and each node
+    // is settled by itself.
+    constexpr std::size_t kProbes = 8;
+    const std::size_t step = std::max<std::size_t>(1, region.size() / kProbes);
+    const bool first = inside(region.front());
+    bool agree = true;
+    for (std::size_t i = step; agree && i < region.size(); i += step) agree = inside(region[i]) == first;
+    for (const auto& node : region) {
+      if (agree ? first : inside(node)) flip(node);
+    }
+  }
+
+  const MeshQuery& query_;
+  DistanceField& field_;
+  std::array<std::ptrdiff_t, 3> stride_;
+  std::vector<PreparedTriangle> triangles_;
+  std::vector<Nearest> nodes_;
+  std::vector<std::uint8_t> exact_;
+};
+
+/// Lays the grid over the bounding box; the cell grows until the grid fits into max_nodes.
+DistanceField empty_field(const Aabb& box, const FieldOptions& options) {
+  DistanceField field;
+  const double padding = std::max(1.0, options.padding);
+  field.cell = options.cell * box.diagonal();
+  for (;;) {
+    const Vec3 cells = box.size() / field.cell;
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) count *= std::ceil(cells[axis] + 2 * padding) + 1;
+    if (count <= static_cast<double>(options.max_nodes)) break;
+    field.cell *= std::max(1.01, std::cbrt(count / static_cast<double>(options.max_nodes)));
+    field.coarsened = true;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    field.nodes[axis] = static_cast<int>(std::ceil(box.size()[axis] / field.cell + 2 * padding)) + 1;
+  }
+  const Vec3 extent(field.nodes[0] - 1, field.nodes[1] - 1, field.nodes[2] - 1);
+  field.origin = box.center() - 0.5 * field.cell * extent;
+  return field;
+}
+
+/// The cell of a point inside the grid and the position in it, 0..1 an axis.
+struct CellPosition {
+  std::array<int, 3> node;
+  Vec3 fraction;
+};
+
+CellPosition locate(const DistanceField& field, const Vec3& grid_point) {
+  CellPosition position;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = std::clamp(grid_point[axis], 0.0, field.nodes[axis] - 1.0);
+    position.node[axis] = std::min(static_cast<int>(x), field.nodes[axis] - 2);
+    position.fraction[axis] = x - position.node[axis];
+  }
+  return position;
+}
+
+}  // namespace
+
+double DistanceField::distance(const Vec3& point) const {
+  const Vec3 grid_point = (point - origin) / cell;
+  const auto [node, f] = locate(*this, grid_point);
+  double value = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
+    const double weight = (dx ? f[0] : 1 - f[0]) * (dy ? f[1] : 1 - f[1]) * (dz ? f[2] : 1 - f[2]);
+    value += weight * at(node[0] + dx, node[1] + dy, node[2] + dz);
+  }
+  const Vec3 nearest = Vec3(node[0], node[1], node[2]) + f;
+  return value + cell * (grid_point - nearest).norm();
+}
+
+Vec3 DistanceField::normal(const Vec3& point) const {
+  const auto [node, f] = locate(*this, (point - origin) / cell);
+  Vec3 gradient = Vec3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
+    const double wx = dx ? f[0] : 1 - f[0], wy = dy ? f[1] : 1 - f[1], wz = dz ? f[2] : 1 - f[2];
+    const double value = at(node[0] + dx, node[1] + dy, node[2] + dz);
+    gradient += value * Vec3((dx ? 1 : -1) * wy * wz, (dy ? 1 : -1) * wx * wz, (dz ? 1 : -1) * wx * wy);
+  }
+  const double length = gradient.norm();
+  return length > 1e-9 * cell ? Vec3(gradient / length) : Vec3::Zero();
+}
+
+DistanceField distance_field(const MeshQuery& query, const FieldOptions& options) {
+  const Mesh& mesh = query.mesh();
+  const Aabb box = mesh.bounds();
+  if (mesh.empty() || !(box.diagonal() > 0)) {
+    throw input_error("a mesh without surface has no distance field", "distance_field", "give a mesh with triangles");
+  }
+  if (!(options.cell > 0) || options.max_nodes < 1000) {
+    throw input_error("field cell " + std::to_string(options.cell) + " with at most " +
+                          std::to_string(options.max_nodes) + " nodes is no grid",
+                      "FieldOptions", "use a cell above 0 (0.01 = 1 % of the diagonal) and at least 1000 nodes");
+  }
+  DistanceField field = empty_field(box, options);
+  FieldBuilder(query, field).build();
+  return field;
+}
+
+DistanceField distance_field(const Mesh& mesh, const FieldOptions& options) {
+  return distance_field(MeshQuery(mesh), options);
+}
+
+}  // namespace bin_scenes
