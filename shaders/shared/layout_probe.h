@@ -1,0 +1,19 @@
+// Proves that structs declared once lie alike in C++ and std430: shaders/test/layout_probe.comp moves each field.
+#ifndef LAYOUT_PROBE_H
+#define LAYOUT_PROBE_H
+#include "shared/types.h"
+GPU_STRUCTS_BEGIN
+struct LayoutProbe {
+  vec4 vector;
+  uvec2 pair;
+  float number;
+  uint word;
+  ivec4 signed_words;
+  vec2 two;
+  uint tail[2];
+};
+GPU_STRUCTS_END
+#ifdef __cplusplus
+static_assert(sizeof(bin_scenes::gpu::LayoutProbe) == 64, "std430 layout");
+#endif
+#endif

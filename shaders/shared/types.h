@@ -1,0 +1,19 @@
+// GLSL's types for C++, so that one struct serves both languages. Members are vec4, uvec4, ivec4, vec2, uvec2, uint,
+// int, float only: with vec3 the layouts of std430 and C++ part.
+#ifdef __cplusplus
+#pragma once
+#include <cstdint>
+namespace bin_scenes::gpu {
+using uint = std::uint32_t;
+struct alignas(8) vec2 { float x, y; };
+struct alignas(8) uvec2 { uint x, y; };
+struct alignas(16) vec4 { float x, y, z, w; };
+struct alignas(16) uvec4 { uint x, y, z, w; };
+struct alignas(16) ivec4 { int x, y, z, w; };
+}  // namespace bin_scenes::gpu
+#define GPU_STRUCTS_BEGIN namespace bin_scenes::gpu {
+#define GPU_STRUCTS_END }
+#else
+#define GPU_STRUCTS_BEGIN
+#define GPU_STRUCTS_END
+#endif

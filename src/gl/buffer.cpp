@@ -1,0 +1,142 @@
+#include "bin_scenes/gl/buffer.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/program.hpp"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace bin_scenes::gl {
+
+Storage::~Storage() {
+  if (id_) glDeleteBuffers(1, &id_);
+}
+
+Storage::Storage(Storage&& other) noexcept
+    : label_(std::move(other.label_)), id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+
+Storage& Storage::operator=(Storage&& other) noexcept {
+  std::swap(label_, other.label_);
+  std::swap(id_, other.id_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+void Storage::allocate(std::size_t bytes) {
+  bytes = std::max<std::size_t>(bytes, 16);  // an empty buffer can not be bound
+  const long long limit = Device::current().limits().storage_bytes;
+  if (bytes > static_cast<std::size_t>(limit))
+    throw environment_error("GPU buffer '" + label_ + "' needs " + std::to_string(bytes >> 20) +
+                                " MiB, but the driver allows " + std::to_string(limit >> 20) + " MiB per buffer",
+                            Device::current().renderer(), "use fewer or coarser parts, or fewer scenes at once");
+  if (id_) glDeleteBuffers(1, &id_), id_ = 0;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    throw environment_error(
+        "out of device memory: GPU buffer '" + label_ + "' needs " + std::to_string(bytes >> 20) + " MiB",
+        Device::current().renderer(), "use fewer parts or fewer scenes at once");
+  glObjectLabel(GL_BUFFER, id_, static_cast<GLsizei>(label_.size()), label_.data());
+  bytes_ = bytes;
+  clear();
+}
+
+void Storage::grow(std::size_t bytes) {
+  if (bytes <= bytes_) return;
+  Storage larger(label_);
+  larger.allocate(bytes);
+  if (bytes_) larger.copy_from(*this, 0, 0, bytes_);
+  *this = std::move(larger);
+}
+
+void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
+  assert(offset + bytes <= bytes_);
+  if (bytes) glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {
+  assert(offset + bytes <= bytes_);
+  if (!bytes) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void Storage::copy_from(const Storage& source, std::size_t source_offset, std::size_t offset, std::size_t bytes) {
+  assert(source_offset + bytes <= source.bytes_ && offset + bytes <= bytes_);
+  if (!bytes) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glCopyNamedBufferSubData(source.id_, id_, static_cast<GLintptr>(source_offset), static_cast<GLintptr>(offset),
+                           static_cast<GLsizeiptr>(bytes));
+}
+
+void Storage::clear() {
+  fill(0, 0, bytes_);
+}
+
+void Storage::fill(std::uint32_t word, std::size_t offset, std::size_t bytes) {
+  assert(offset % 4 == 0 && bytes % 4 == 0 && offset + bytes <= bytes_);
+  if (!bytes) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                            GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+}
+
+void Storage::bind(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
+
+void Storage::bind(unsigned binding, std::size_t offset, std::size_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id_, static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes));
+}
+
+void Storage::bind_indirect() const {
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_);
+}
+
+ReadBack::ReadBack(std::size_t bytes) : bytes_(bytes) {
+  constexpr GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(bytes), nullptr, flags | GL_CLIENT_STORAGE_BIT);
+  mapped_ = glMapNamedBufferRange(id_, 0, static_cast<GLsizeiptr>(bytes), flags);
+}
+
+ReadBack::~ReadBack() {
+  if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
+  glDeleteBuffers(1, &id_);
+}
+
+void ReadBack::request(const Storage& source, std::size_t offset, std::size_t bytes) {
+  assert(bytes <= bytes_);
+  if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glCopyNamedBufferSubData(source.id(), id_, static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
+  glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+}
+
+bool ReadBack::ready() const {
+  if (!fence_) return false;
+  const GLenum state = glClientWaitSync(static_cast<GLsync>(fence_), 0, 0);
+  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+}
+
+const void* ReadBack::wait() {
+  if (fence_) {
+    constexpr GLuint64 second = 1000000000;
+    while (glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, second) == GL_TIMEOUT_EXPIRED) {
+    }
+    glDeleteSync(static_cast<GLsync>(fence_));
+    fence_ = nullptr;
+  }
+  return mapped_;
+}
+
+}  // namespace bin_scenes::gl

@@ -1,0 +1,91 @@
+#include "shader_source.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace bin_scenes::gl {
+
+namespace fs = std::filesystem;
+
+std::string shader_directory() {
+  std::vector<fs::path> places;
+  if (const char* set = std::getenv("BIN_SCENES_SHADERS"); set && *set) places = {set};
+  if (places.empty()) {
+    std::error_code failed;
+    const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
+    places = {BIN_SCENES_SHADER_SOURCE_DIR, BIN_SCENES_SHADER_INSTALL_DIR};
+    if (!failed) places.push_back(executable.parent_path() / "../share/bin_scenes/shaders");
+  }
+  std::string tried;
+  for (const fs::path& place : places) {
+    std::error_code failed;
+    if (fs::is_directory(place / "shared", failed)) return place.string();
+    tried += "\n  " + place.string();
+  }
+  throw environment_error("no shader directory; looked for:" + tried, "shaders",
+                          "set BIN_SCENES_SHADERS to the folder 'shaders' of bin_scenes");
+}
+
+namespace {
+
+std::string read_text(const fs::path& path, const std::string& wanted_by) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in)
+    throw environment_error("shader file can not be read", path.string() + wanted_by,
+                            "the installation is incomplete: install bin_scenes again, or set BIN_SCENES_SHADERS");
+  return text.str();
+}
+
+void append(const fs::path& directory, const std::string& file, const std::string& wanted_by, ShaderSource& source) {
+  if (std::find(source.files.begin(), source.files.end(), file) != source.files.end()) return;
+  const std::size_t number = source.files.size();
+  source.files.push_back(file);
+  std::istringstream lines(read_text(directory / file, wanted_by));
+  source.text += "#line 1 " + std::to_string(number) + "\n";
+  static const std::regex include("^\\s*#include\\s+\"([^\"]+)\".*");
+  std::string line;
+  for (std::size_t at = 1; std::getline(lines, line); ++at) {
+    std::smatch match;
+    // A cheap look first: regex on every line costs more than the compiler.
+    if (line.find("#include") != std::string::npos && std::regex_match(line, match, include)) {
+      append(directory, match[1], " (included by " + file + ":" + std::to_string(at) + ")", source);
+      source.text += "#line " + std::to_string(at + 1) + " " + std::to_string(number) + "\n";
+    } else {
+      source.text += line + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+ShaderSource read_shader(const std::string& file, const Defines& defines) {
+  ShaderSource source;
+  source.text = "#version 450 core\n";
+  for (const auto& [name, value] : defines) source.text += "#define " + name + " " + value + "\n";
+  append(shader_directory(), file, "", source);
+  return source;
+}
+
+std::string with_file_names(const std::string& log, const ShaderSource& source) {
+  static const std::regex place("^(\\d+)(?::(\\d+)(?:\\(\\d+\\))?|\\((\\d+)\\))");
+  std::istringstream lines(log);
+  std::string line, text;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    if (std::regex_search(line, match, place) && std::stoul(match[1]) < source.files.size())
+      line = source.files[std::stoul(match[1])] + ":" + (match[2].matched ? match[2] : match[3]).str() +
+             match.suffix().str();
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
+}
+
+}  // namespace bin_scenes::gl

@@ -1,0 +1,21 @@
+/// Text of a shader as the compiler gets it, and the way back from its messages to files.
+#pragma once
+
+#include "bin_scenes/gl/program.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes::gl {
+
+struct ShaderSource {
+  std::string text;                ///< #version, defines, includes resolved, #line marks
+  std::vector<std::string> files;  ///< by the source number of #line
+};
+
+ShaderSource read_shader(const std::string& file, const Defines& defines);
+
+/// Replaces "<source number>:<line>" (Mesa) and "<source number>(<line>)" (NVIDIA) by "<file>:<line>".
+std::string with_file_names(const std::string& log, const ShaderSource& source);
+
+}  // namespace bin_scenes::gl

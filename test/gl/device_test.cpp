@@ -1,0 +1,48 @@
+#include "bin_scenes/gl/device.hpp"
+
+#include <gtest/gtest.h>
+
+namespace bin_scenes::gl {
+namespace {
+
+TEST(Device, OpensTheSoftwareRendererWhenAsked) {
+  Device& device = Device::current();  // the tests set BIN_SCENES_GL=software
+  EXPECT_TRUE(device.software()) << device.renderer();
+  EXPECT_FALSE(device.version().empty());
+}
+
+TEST(Device, LimitsHoldWhatThePassesRelyOn) {
+  const Limits& limits = Device::current().limits();
+  EXPECT_GE(limits.storage_blocks, 8);
+  EXPECT_GE(limits.invocations, 1024);
+  EXPECT_GE(limits.shared_bytes, 32768);
+  EXPECT_GE(limits.groups_per_axis, 65535);
+  EXPECT_GE(limits.storage_bytes, 1LL << 27);
+}
+
+TEST(Device, EnumerationNamesEveryDeviceAndLeavesTheContextCurrent) {
+  const std::string renderer = Device::current().renderer();
+  const std::vector<DeviceInfo> infos = Device::enumerate();
+  ASSERT_FALSE(infos.empty());
+  bool usable = false;
+  for (const DeviceInfo& info : infos) {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_EQ(info.usable, info.detail.empty()) << info.name << ": " << info.detail;
+    usable = usable || info.usable;
+  }
+  EXPECT_TRUE(usable);
+  EXPECT_EQ(Device::current().renderer(), renderer);
+  Device::current().make_current();
+}
+
+TEST(Device, TwoDevicesLiveSideBySide) {
+  {
+    Device second;
+    EXPECT_FALSE(second.renderer().empty());
+  }
+  Device::current().make_current();
+  EXPECT_FALSE(Device::current().renderer().empty());
+}
+
+}  // namespace
+}  // namespace bin_scenes::gl
