@@ -19,11 +19,7 @@ struct Corner {
   std::uint32_t triangle;
 };
 
-struct Node {
-  Aabb box;
-  std::uint32_t first = 0;  // leaf: first corner; else index of the second child (the first one follows the node)
-  std::uint32_t count = 0;  // leaf: corners; inner node: 0
-};
+using Node = MeshQuery::Node;
 
 /// Far field of a node's triangles: the first three terms of the expansion of the winding number about `center`
 /// (Barill et al. 2018, "Fast winding numbers for soups and clouds", section 3). With n dA the area element at
@@ -259,6 +255,14 @@ MeshQuery& MeshQuery::operator=(MeshQuery&&) noexcept = default;
 
 const Mesh& MeshQuery::mesh() const {
   return tree_->mesh;
+}
+
+const std::vector<MeshQuery::Node>& MeshQuery::nodes() const {
+  return tree_->nodes;
+}
+
+std::size_t MeshQuery::leaf_triangle(std::size_t position) const {
+  return tree_->corners[position].triangle;
 }
 
 NearestPoint MeshQuery::nearest(const Vec3& point, double limit) const {

@@ -8,8 +8,8 @@
 namespace bin_scenes {
 
 struct NearestPoint {
-  Vec3 point = Vec3::Zero();    ///< on the surface
-  double distance = 0.0;        ///< unsigned (m)
+  Vec3 point = Vec3::Zero();  ///< on the surface
+  double distance = 0.0;      ///< unsigned (m)
   std::size_t triangle = 0;
 };
 
@@ -34,8 +34,20 @@ class MeshQuery {
   /// Calls visit(triangle index) for triangles whose bounds overlap the box (model frame).
   template <class Visit>
   void overlapping(const Aabb& box, Visit&& visit) const {
-    overlapping_impl(box, [](void* v, std::size_t t) { (*static_cast<std::remove_reference_t<Visit>*>(v))(t); }, &visit);
+    overlapping_impl(
+        box, [](void* v, std::size_t t) { (*static_cast<std::remove_reference_t<Visit>*>(v))(t); }, &visit);
   }
+
+  /// Node of the tree. Depth-first order: an inner node's first child follows it, `first` is its second child. A leaf
+  /// (count > 0) holds the triangles leaf_triangle(first) .. leaf_triangle(first + count - 1).
+  struct Node {
+    Aabb box;
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+  };
+  /// The tree itself, for walks over two meshes at once; empty for an empty mesh.
+  const std::vector<Node>& nodes() const;
+  std::size_t leaf_triangle(std::size_t position) const;
 
  private:
   void overlapping_impl(const Aabb& box, void (*visit)(void*, std::size_t), void* context) const;
