@@ -1,0 +1,29 @@
+# Messages and package metadata for catkin, which wants them declared from the folder of package.xml. Sets
+# BIN_SCENES_CATKIN_* for src/ros and test/ros; no other target sees a ROS header.
+
+# ROS 1 lives in the system's Python; another python3 first on the PATH knows neither empy nor genmsg.
+if(EXISTS /usr/bin/python3)
+  foreach(variable PYTHON_EXECUTABLE Python3_EXECUTABLE)
+    if(NOT ${variable})
+      set(${variable} /usr/bin/python3 CACHE FILEPATH "Python that has ROS 1")
+    endif()
+  endforeach()
+endif()
+
+find_package(catkin REQUIRED COMPONENTS
+  geometry_msgs message_generation rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs
+  visualization_msgs)
+
+add_message_files(FILES
+  Bin.msg Counter.msg Drift.msg ErrorCode.msg Flag.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
+  ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg)
+add_service_files(FILES GenerateScene.srv)
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+
+catkin_package(CATKIN_DEPENDS geometry_msgs message_runtime std_msgs)
+
+# catkin sends every library and program of the project to its development space. Only what rosrun has to find goes
+# there (src/ros); a build with ROS leaves the rest where a build without ROS does.
+unset(CMAKE_ARCHIVE_OUTPUT_DIRECTORY)
+unset(CMAKE_LIBRARY_OUTPUT_DIRECTORY)
+unset(CMAKE_RUNTIME_OUTPUT_DIRECTORY)

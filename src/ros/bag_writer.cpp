@@ -1,0 +1,77 @@
+#include "bag_writer.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <rosbag/bag.h>
+#include <boost/make_shared.hpp>
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace bin_scenes {
+
+namespace {
+
+enum class Latch { no, yes };
+
+/// An open bag whose messages all have one stamp.
+class SceneBag {
+ public:
+  SceneBag(const std::string& path, const ros::Time& stamp) : bag_(path, rosbag::bagmode::Write), stamp_(stamp) {}
+
+  template <class Message>
+  void write(const std::string& topic, const Message& message, Latch latch) {
+    namespace traits = ros::message_traits;
+    // The header that a recording would have received from the node.
+    auto header = boost::make_shared<ros::M_string>();
+    (*header)["type"] = traits::datatype<Message>();
+    (*header)["md5sum"] = traits::md5sum<Message>();
+    (*header)["message_definition"] = traits::definition<Message>();
+    (*header)["callerid"] = "/bin_scenes";
+    (*header)["latching"] = latch == Latch::yes ? "1" : "0";
+    bag_.write(topic.front() == '/' ? topic : "/" + topic, stamp_, message, header);
+  }
+
+  void close() { bag_.close(); }
+
+ private:
+  rosbag::Bag bag_;
+  ros::Time stamp_;
+};
+
+}  // namespace
+
+ros::Time bag_stamp(std::size_t index) {
+  return ros::Time(static_cast<std::uint32_t>(index + 1), 0);
+}
+
+void write_bag(const std::string& path, const Scene& scene, const Request& request,
+               const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
+               const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames) {
+  const SceneMessages messages = scene_messages(scene, request, parts, bin_model, frames, stamp);
+  const std::string unfinished = path + "." + std::to_string(getpid()) + ".tmp";
+  try {
+    SceneBag bag(unfinished, stamp);
+    bag.write(topic::tf_static, messages.statics, Latch::yes);  // first, so that a player knows the frames at once
+    bag.write(topic::tf, messages.parts, Latch::no);
+    bag.write(topic::scene, messages.scene, Latch::yes);
+    bag.write(topic::markers, messages.markers, Latch::yes);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const ImageMessages image = image_messages(images[i], stamp);
+      const auto name = [&](const char* relative) { return topic::of_sensor(relative, i, images[i].sensor.name); };
+      bag.write(name(topic::points), image.points, Latch::yes);
+      bag.write(name(topic::depth), image.depth, Latch::yes);
+      bag.write(name(topic::camera_info), image.camera_info, Latch::yes);
+      bag.write(name(topic::labels), image.labels, Latch::yes);
+    }
+    bag.close();
+    if (std::rename(unfinished.c_str(), path.c_str()) != 0) throw rosbag::BagIOException("cannot be renamed");
+  } catch (const rosbag::BagException& error) {
+    std::remove(unfinished.c_str());
+    throw environment_error(std::string("the bag cannot be written: ") + error.what(), path,
+                            "check that the directory exists, is writable, and has room");
+  }
+}
+
+}  // namespace bin_scenes

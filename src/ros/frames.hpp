@@ -1,0 +1,32 @@
+/// Names of TF frames, and where the bin stands.
+#pragma once
+
+#include "bin_scenes/scene/scene.hpp"
+
+#include <geometry_msgs/Pose.h>
+#include <ros/time.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+
+namespace bin_scenes {
+
+struct Frames {
+  std::string bin = "bin";       ///< frame of the bin: middle of the floor's top, z up
+  std::string parent = "world";  ///< frame the bin stands in; empty: the bin frame is the root
+  Pose bin_pose;                 ///< of the bin frame in `parent`
+};
+
+std::string part_frame(int id);                       ///< "part_0007"
+std::string sensor_frame(const std::string& sensor);  ///< "<name>_optical_frame"
+
+geometry_msgs::Pose pose_message(const Pose& pose);
+/// The inverse. A quaternion of four zeros, the default of a message, is the identity.
+Pose pose_from(const geometry_msgs::Pose& message);
+
+/// One transform bin frame -> part frame for each part with a finite pose.
+tf2_msgs::TFMessage part_transforms(const Scene& scene, const Frames& frames, const ros::Time& stamp);
+/// Parent -> bin frame, and bin frame -> optical frame for each sensor: what does not move with the scene.
+tf2_msgs::TFMessage static_transforms(const Scene& scene, const Frames& frames, const ros::Time& stamp);
+
+}  // namespace bin_scenes

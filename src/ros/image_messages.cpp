@@ -1,0 +1,116 @@
+#include "image_messages.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "frames.hpp"
+
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <cstring>
+
+namespace bin_scenes {
+
+namespace {
+
+/// One point as it lies in the cloud's data.
+struct Point {
+  float x, y, z, normal_x, normal_y, normal_z, intensity;
+  std::uint32_t label;
+};
+static_assert(sizeof(Point) == 32);
+
+sensor_msgs::PointField field(const char* name, std::size_t offset, std::uint8_t type) {
+  sensor_msgs::PointField f;
+  f.name = name;
+  f.offset = static_cast<std::uint32_t>(offset);
+  f.datatype = type;
+  f.count = 1;
+  return f;
+}
+
+template <class Pixel>
+sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const Sensor& sensor, const std::string& encoding,
+                         const std_msgs::Header& header) {
+  sensor_msgs::Image message;
+  message.header = header;
+  message.width = static_cast<std::uint32_t>(sensor.width);
+  message.height = static_cast<std::uint32_t>(sensor.height);
+  message.encoding = encoding;
+  message.is_bigendian = false;
+  message.step = static_cast<std::uint32_t>(message.width * sizeof(Pixel));
+  message.data.resize(pixels.size() * sizeof(Pixel));
+  if (!pixels.empty()) std::memcpy(message.data.data(), pixels.data(), message.data.size());
+  return message;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header) {
+  using Field = sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 message;
+  message.header = header;
+  message.width = static_cast<std::uint32_t>(image.sensor.width);
+  message.height = static_cast<std::uint32_t>(image.sensor.height);
+  message.fields = {field("x", offsetof(Point, x), Field::FLOAT32),
+                    field("y", offsetof(Point, y), Field::FLOAT32),
+                    field("z", offsetof(Point, z), Field::FLOAT32),
+                    field("normal_x", offsetof(Point, normal_x), Field::FLOAT32),
+                    field("normal_y", offsetof(Point, normal_y), Field::FLOAT32),
+                    field("normal_z", offsetof(Point, normal_z), Field::FLOAT32),
+                    field("intensity", offsetof(Point, intensity), Field::FLOAT32),
+                    field("label", offsetof(Point, label), Field::UINT32)};
+  message.is_bigendian = false;
+  message.is_dense = false;
+  message.point_step = sizeof(Point);
+  message.row_step = message.point_step * message.width;
+  message.data.resize(std::size_t(message.row_step) * message.height);
+  std::uint8_t* out = message.data.data();
+  for (int row = 0; row < image.sensor.height; ++row) {
+    for (int column = 0; column < image.sensor.width; ++column) {
+      const std::size_t pixel = std::size_t(row) * image.sensor.width + column;
+      const auto p = point_at(image, column, row);
+      const auto& n = image.normal[pixel];
+      const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
+      std::memcpy(out, &point, sizeof point);
+      out += sizeof point;
+    }
+  }
+  return message;
+}
+
+sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header) {
+  return plane(image.depth, image.sensor, sensor_msgs::image_encodings::TYPE_32FC1, header);
+}
+
+sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header) {
+  return plane(image.label, image.sensor, sensor_msgs::image_encodings::TYPE_16UC1, header);
+}
+
+sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header) {
+  if (sensor.k.size() != 9) {
+    throw input_error("the intrinsic matrix has " + std::to_string(sensor.k.size()) + " values",
+                      "sensor " + sensor.name, "give the nine of a 3x3 matrix, or leave K out");
+  }
+  sensor_msgs::CameraInfo message;
+  message.header = header;
+  message.width = static_cast<std::uint32_t>(sensor.width);
+  message.height = static_cast<std::uint32_t>(sensor.height);
+  message.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  message.D.assign(5, 0.0);
+  for (std::size_t i = 0; i < 9; ++i) {
+    message.K[i] = sensor.k[i];
+    message.R[i] = i % 4 == 0 ? 1.0 : 0.0;
+    message.P[i / 3 * 4 + i % 3] = sensor.k[i];
+  }
+  return message;
+}
+
+ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = sensor_frame(image.sensor.name);
+  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image.sensor, header),
+          label_message(image, header)};
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,135 @@
+#include "markers.hpp"
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace bin_scenes {
+
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kEndlessFloor = 4.0;  // m: edge of what is shown of it
+
+/// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
+std_msgs::ColorRGBA part_color(int id) {
+  const double hue = 6.0 * std::fmod(0.61803398875 * (id + 1), 1.0);
+  const auto channel = [hue](double shift) {
+    const double k = std::fmod(shift + hue, 6.0);
+    return 0.9 - 0.5 * std::max(0.0, std::min({k, 4.0 - k, 1.0}));  // HSV to RGB, value 0.9, range 0.5
+  };
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(channel(5.0));
+  color.g = static_cast<float>(channel(3.0));
+  color.b = static_cast<float>(channel(1.0));
+  color.a = 1.0f;
+  return color;
+}
+
+std_msgs::ColorRGBA bin_color() {
+  std_msgs::ColorRGBA color;
+  color.r = color.g = color.b = 0.6f;
+  color.a = 0.5f;  // parts behind a wall stay visible
+  return color;
+}
+
+Marker marker(const std::string& name, int id, const Pose& pose, const Frames& frames, const ros::Time& stamp) {
+  Marker m;
+  m.header.frame_id = frames.bin;
+  m.header.stamp = stamp;
+  m.ns = name;
+  m.id = id;
+  m.action = Marker::ADD;
+  m.pose = pose_message(pose);
+  return m;
+}
+
+void set_mesh(Marker& m, const std::string& uri, double scale) {
+  m.type = Marker::MESH_RESOURCE;
+  m.mesh_resource = uri;
+  m.scale.x = m.scale.y = m.scale.z = scale;
+}
+
+struct Box {
+  Vec3 center, size;
+};
+
+/// Floor and four walls round the inner space of the bin; the long walls cover the corners.
+std::array<Box, 5> walls(const Bin& bin) {
+  const Vec3 in = bin.inner_size;
+  const double t = std::max(bin.wall_thickness, 1e-3);  // a box marker of no thickness is refused by RViz
+  const double x = 0.5 * (in.x() + t), y = 0.5 * (in.y() + t), z = 0.5 * in.z();
+  return {Box{{0, 0, -0.5 * t}, {in.x() + 2 * t, in.y() + 2 * t, t}}, Box{{-x, 0, z}, {t, in.y(), in.z()}},
+          Box{{x, 0, z}, {t, in.y(), in.z()}}, Box{{0, -y, z}, {in.x() + 2 * t, t, in.z()}},
+          Box{{0, y, z}, {in.x() + 2 * t, t, in.z()}}};
+}
+
+}  // namespace
+
+std::string resource_uri(const std::string& model, const std::string& path) {
+  if (model.rfind("package://", 0) == 0) return model;
+  std::string uri = "file://";
+  for (const unsigned char c : path) {
+    if (std::isalnum(c) || c == '/' || c == '-' || c == '_' || c == '.' || c == '~') {
+      uri += static_cast<char>(c);
+    } else {
+      char code[4];
+      std::snprintf(code, sizeof code, "%%%02X", c);
+      uri += code;
+    }
+  }
+  return uri;
+}
+
+visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request& request,
+                                              const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
+                                              const Frames& frames, const ros::Time& stamp) {
+  visualization_msgs::MarkerArray array;
+  Marker clear = marker("", 0, Pose(), frames, stamp);
+  clear.action = Marker::DELETEALL;
+  array.markers.push_back(clear);
+
+  const Bin& bin = request.bin;
+  const auto add_box = [&](const Box& box) {
+    Marker m = marker("bin", static_cast<int>(array.markers.size()), {box.center, Quat::Identity()}, frames, stamp);
+    m.type = Marker::CUBE;
+    m.scale.x = box.size.x();
+    m.scale.y = box.size.y();
+    m.scale.z = box.size.z();
+    m.color = bin_color();
+    array.markers.push_back(m);
+  };
+  switch (bin.kind) {
+    case Bin::Kind::box:
+      for (const Box& box : walls(bin)) add_box(box);
+      break;
+    case Bin::Kind::floor:
+      add_box({{0, 0, -0.5e-3}, {kEndlessFloor, kEndlessFloor, 1e-3}});
+      break;
+    case Bin::Kind::mesh:
+      if (bin_model) {
+        Marker m = marker("bin", 0, bin.pose, frames, stamp);
+        set_mesh(m, resource_uri(bin.mesh, bin_model->path()), metres_per(bin_model->load_report().unit));
+        m.color = bin_color();
+        array.markers.push_back(m);
+      }
+      break;
+    case Bin::Kind::none:
+      break;
+  }
+
+  for (const ScenePart& part : scene.parts) {
+    if (!part.pose.finite()) continue;
+    const PartModelPtr& model = parts.at(part.line);
+    Marker m = marker("parts", part.id, part.pose, frames, stamp);
+    set_mesh(m, resource_uri(part.model, model->path()),
+             metres_per(model->load_report().unit) * request.parts.at(part.line).scale);
+    m.color = part_color(part.id);
+    array.markers.push_back(m);
+  }
+  return array;
+}
+
+}  // namespace bin_scenes

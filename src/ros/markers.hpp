@@ -1,0 +1,22 @@
+/// What RViz shows of a scene.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/scene.hpp"
+#include "frames.hpp"
+
+#include <visualization_msgs/MarkerArray.h>
+
+namespace bin_scenes {
+
+/// A deletion of everything older, then the parts (namespace "parts", marker id = part id, the model file as mesh
+/// resource scaled to metres, one colour each) and the bin (namespace "bin": its walls and floor as boxes, or its
+/// mesh). `parts` are the models by part line, `bin_model` that of a bin given as a mesh.
+visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request& request,
+                                              const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
+                                              const Frames& frames, const ros::Time& stamp);
+
+/// How RViz finds a model: package:// as the user wrote it, else file:// with the absolute path, percent-encoded.
+std::string resource_uri(const std::string& model, const std::string& path);
+
+}  // namespace bin_scenes

@@ -1,0 +1,29 @@
+/// This package's messages, in namespace bin_scenes_msgs.
+///
+/// The generator puts them into a namespace named after the package, where bin_scenes::Scene, bin_scenes::Sensor and
+/// others would collide with the library's structs of the same names. Inside this package the generated headers are
+/// therefore read under another namespace. What goes over the wire (type names, MD5 sums) are string literals and does
+/// not change; other packages include the headers as usual.
+#pragma once
+
+// Everything that the generated headers include comes first, so that the renaming touches nothing else.
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3.h>
+#include <ros/builtin_message_traits.h>
+#include <ros/message_operations.h>
+#include <ros/serialization.h>
+#include <ros/service_traits.h>
+#include <ros/types.h>
+#include <std_msgs/Header.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#define bin_scenes bin_scenes_msgs
+#include <bin_scenes/ErrorCode.h>
+#include <bin_scenes/GenerateScene.h>
+#include <bin_scenes/Scene.h>
+#include <bin_scenes/SceneRequest.h>
+#undef bin_scenes

@@ -1,0 +1,42 @@
+/// What is said about one scene, and under which names: the node publishes it, the bag writer writes it, and so a bag
+/// holds what a recording of the node would hold.
+#pragma once
+
+#include "image_messages.hpp"
+#include "markers.hpp"
+#include "scene_message.hpp"
+
+namespace bin_scenes {
+
+/// Topic names, relative to the node's namespace.
+namespace topic {
+constexpr char scene[] = "scene";
+constexpr char markers[] = "markers";
+constexpr char points[] = "points";
+constexpr char depth[] = "depth/image_rect";
+constexpr char camera_info[] = "depth/camera_info";
+constexpr char labels[] = "labels/image_raw";
+constexpr char tf[] = "/tf";
+constexpr char tf_static[] = "/tf_static";
+
+/// Topics of sensor number `index`: the first has the plain name, every further one its own below the sensor's name.
+inline std::string of_sensor(const char* name, std::size_t index, const std::string& sensor) {
+  return index == 0 ? name : sensor + "/" + name;
+}
+}  // namespace topic
+
+/// A scene as messages, all of one stamp; images are apart because they are made only if somebody looks.
+struct SceneMessages {
+  bin_scenes_msgs::Scene scene;
+  visualization_msgs::MarkerArray markers;
+  tf2_msgs::TFMessage parts;    ///< for /tf
+  tf2_msgs::TFMessage statics;  ///< for /tf_static
+};
+
+inline SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                                    const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp) {
+  return {scene_message(scene, request, frames, stamp), scene_markers(scene, request, parts, bin_model, frames, stamp),
+          part_transforms(scene, frames, stamp), static_transforms(scene, frames, stamp)};
+}
+
+}  // namespace bin_scenes
