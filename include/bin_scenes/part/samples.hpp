@@ -10,7 +10,7 @@ namespace bin_scenes {
 struct SurfaceSample {
   Vec3 point = Vec3::Zero();   ///< on the surface, model frame (m)
   Vec3 normal = Vec3::Zero();  ///< outward, averaged at edges and corners
-  double spacing = 0.0;        ///< distance to the next samples of its kind (m)
+  double spacing = 0.0;        ///< mean distance to the next samples of its kind (m)
 };
 
 struct SampleSet {
@@ -19,10 +19,16 @@ struct SampleSet {
 };
 
 struct SampleOptions {
-  int count = 1000;           ///< aim; sharp features may add to it
-  double sharp_angle = 0.5;   ///< rad: edges bent more than this are sampled as edges
+  int count = 1000;          ///< aim; met exactly unless the spacing comes to nothing
+  double sharp_angle = 0.5;  ///< rad: edges bent more than this are sampled as edges
 };
 
+class MeshQuery;
+
+/// Corners first, then convex sharp edges at half the spacing of the faces, then faces by farthest point sampling,
+/// until `count` is reached. Where corners and edges alone would need more than 0.7 of it, they are thinned out. Walls
+/// of closed cavities and faces inside another shell of the same part get none: nothing can touch them. Deterministic.
 SampleSet surface_samples(const Mesh& mesh, const SampleOptions& options);
+SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options);
 
 }  // namespace bin_scenes
