@@ -11,11 +11,11 @@
 namespace bin_scenes {
 
 struct Progress {
-  std::string phase;             ///< "load", "prepare", "pour", "settle", "quality", "render", "write"
-  std::size_t scene = 0;         ///< index of the scene
+  std::string phase;      ///< "load", "prepare", "pour", "settle", "quality", "render", "write"
+  std::size_t scene = 0;  ///< index of the scene
   std::size_t parts = 0, resting = 0;
   double simulated_s = 0.0;
-  double fraction = 0.0;         ///< 0..1, never falls
+  double fraction = 0.0;  ///< 0..1, never falls
 };
 
 /// Hooks a caller may set; all optional.

@@ -18,11 +18,11 @@ namespace bin_scenes {
 
 /// What never changes about a body.
 struct BodyDef {
-  std::size_t part = 0;     ///< index into WorldDef::parts
-  double mass = 1.0;        ///< kg; > 0. Inertia follows from the part's mass properties
-  double friction = 0.5;    ///< pair = sqrt(a*b)
-  double restitution = 0.0; ///< pair = max(a, b)
-  bool fixed = false;       ///< never moves; infinite mass
+  std::size_t part = 0;      ///< index into WorldDef::parts
+  double mass = 1.0;         ///< kg; > 0. Inertia follows from the part's mass properties
+  double friction = 0.5;     ///< pair = sqrt(a*b)
+  double restitution = 0.0;  ///< pair = max(a, b)
+  bool fixed = false;        ///< never moves; infinite mass
 };
 
 struct BodyState {
@@ -35,8 +35,9 @@ struct WorldDef {
   std::vector<PartModelPtr> parts;
   std::vector<BodyDef> bodies;
   Bin bin;
-  PartModelPtr bin_model;        ///< Bin::Kind::mesh only: closed or open mesh, metres, in the frame Bin::pose places
-  double wall_height = 0.0;      ///< m above the floor up to which box walls reach; pour extends them above bin.inner_size.z
+  PartModelPtr bin_model;  ///< Bin::Kind::mesh only: closed or open mesh, metres, in the frame Bin::pose places
+  double wall_height =
+      0.0;  ///< m above the floor up to which box walls reach; pour extends them above bin.inner_size.z
   Vec3 gravity = Vec3(0, 0, -9.81);
 };
 
@@ -68,16 +69,17 @@ class Solver {
   /// Bodies that the solver itself holds asleep, same order; a hint for progress and counters, not the verdict on rest.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
 
-  virtual double step_size() const = 0;          ///< s of one collision detection
+  virtual double step_size() const = 0;  ///< s of one collision detection
   virtual std::uint64_t steps(WorldId world) const = 0;
-  virtual const Profile& profile() const = 0;    ///< stage times and counters since construction
+  virtual const Profile& profile() const = 0;  ///< stage times and counters since construction
   virtual std::vector<Flag> flags(WorldId world) const = 0;
-  virtual std::string name() const = 0;          ///< "sphere", "sphere/thesis", "bullet"
-  virtual std::string device() const = 0;        ///< GL_RENDERER or "cpu"
+  virtual std::string name() const = 0;    ///< "sphere", "sphere/thesis", "bullet"
+  virtual std::string device() const = 0;  ///< GL_RENDERER or "cpu"
 };
 
 /// The solver a request asks for. For SolverType::automatic it chooses by device, part and count from measured costs
 /// and appends why to `reason`.
-std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts, std::string& reason);
+std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts,
+                                    std::string& reason);
 
 }  // namespace bin_scenes

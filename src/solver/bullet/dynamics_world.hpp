@@ -1,0 +1,39 @@
+/// Bullet's discrete dynamics world with a second-order integrator: free flight, sliding and rolling follow their
+/// closed forms at any step size, and a body that tumbles freely keeps its energy and angular momentum.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+namespace bin_scenes::bullet {
+
+/// What the integrator remembers of a body between the start and the end of a step; hung on btRigidBody's user pointer.
+struct Motion {
+  Vec3 inertia = Vec3::Ones();  ///< principal moments (Bullet's body frame is the principal frame)
+  btVector3 linear{0, 0, 0};    ///< velocity at the start of the step
+  btVector3 middle{0, 0, 0};    ///< angular velocity of torque-free motion in the middle of the step
+  btVector3 free{0, 0, 0};      ///< and at its end
+  enum class Touch { nothing, plane, more } touch = Touch::nothing;  ///< what pushed it in this step
+  btVector3 normal{0, 0, 0};  ///< Touch::plane: the one direction of all its contacts
+};
+
+/// One step of Euler's equations without torque, I dw/dt = (I w) x w in the body frame, by the implicit midpoint rule,
+/// which keeps both quadratic invariants (energy and |L|^2) exactly; returns the angular velocity at the end.
+Vec3 torque_free_step(const Vec3& inertia, const Vec3& angular, double dt);
+
+ATTRIBUTE_ALIGNED16(class) DynamicsWorld : public btDiscreteDynamicsWorld {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+ protected:
+  void predictUnconstraintMotion(btScalar dt) override;
+  void integrateTransforms(btScalar dt) override;
+
+ private:
+  void find_touches();
+};
+
+}  // namespace bin_scenes::bullet

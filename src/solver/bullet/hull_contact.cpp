@@ -1,0 +1,99 @@
+#include "hull_contact.hpp"
+
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <initializer_list>
+#include <new>
+
+namespace bin_scenes::bullet {
+
+namespace {
+
+/// GJK's nearest points, with the margins of hulls and triangles taken out; a sphere's margin is its radius and stays.
+struct NearestPoints : public btDiscreteCollisionDetectorInterface::Result {
+  btScalar margin_a = 0, margin_b = 0, distance = 0;
+  btVector3 normal{0, 0, 0}, point{0, 0, 0};
+  bool found = false;
+
+  void setShapeIdentifiersA(int, int) override {}
+  void setShapeIdentifiersB(int, int) override {}
+  void addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b, btScalar depth) override {
+    normal = normal_on_b;
+    point = point_on_b - normal_on_b * margin_b;
+    distance = depth + margin_a + margin_b;
+    found = true;
+  }
+};
+
+btScalar own_margin(const btConvexShape& shape) {
+  return shape.isPolyhedral() ? shape.getMargin() : btScalar(0);
+}
+
+const btConvexPolyhedron* faces(const btConvexShape& shape) {
+  return shape.isPolyhedral() ? static_cast<const btPolyhedralConvexShape&>(shape).getConvexPolyhedron() : nullptr;
+}
+
+}  // namespace
+
+HullContact::HullContact(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+                         const btCollisionObjectWrapper* b, btConvexPenetrationDepthSolver* depth_solver)
+    : btActivatingCollisionAlgorithm(info, a, b), manifold_(info.m_manifold), depth_solver_(depth_solver) {}
+
+HullContact::~HullContact() {
+  if (own_manifold_ && manifold_) m_dispatcher->releaseManifold(manifold_);
+}
+
+void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                                   const btDispatcherInfo&, btManifoldResult* result) {
+  if (!manifold_) {
+    manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
+    own_manifold_ = true;
+  }
+  result->setPersistentManifold(manifold_);
+
+  const auto& shape_a = *static_cast<const btConvexShape*>(a->getCollisionShape());
+  const auto& shape_b = *static_cast<const btConvexShape*>(b->getCollisionShape());
+  const btScalar reach = manifold_->getContactBreakingThreshold() + result->m_closestPointDistanceThreshold;
+
+  NearestPoints nearest;
+  nearest.margin_a = own_margin(shape_a);
+  nearest.margin_b = own_margin(shape_b);
+  btVoronoiSimplexSolver simplex;
+  btGjkPairDetector gjk(&shape_a, &shape_b, &simplex, depth_solver_);
+  btGjkPairDetector::ClosestPointInput input;
+  input.m_transformA = a->getWorldTransform();
+  input.m_transformB = b->getWorldTransform();
+  const btScalar farthest = shape_a.getMargin() + shape_b.getMargin() + reach;
+  input.m_maximumDistanceSquared = farthest * farthest;
+  gjk.getClosestPoints(input, nearest, nullptr);
+
+  if (nearest.found && nearest.distance <= reach) {
+    result->addContactPoint(nearest.normal, nearest.point, nearest.distance);
+    if (const auto* faces_a = faces(shape_a), *faces_b = faces(shape_b); faces_a && faces_b)
+      btPolyhedralContactClipping::clipHullAgainstHull(nearest.normal, *faces_a, *faces_b, input.m_transformA,
+                                                       input.m_transformB, nearest.distance, reach, clipped_a_,
+                                                       clipped_b_, *result);
+  }
+  if (own_manifold_) result->refreshContactPoints();
+}
+
+btCollisionAlgorithm* HullContact::Factory::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                                     const btCollisionObjectWrapper* a,
+                                                                     const btCollisionObjectWrapper* b) {
+  void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(HullContact));
+  return new (memory) HullContact(info, a, b, &depth_solver);
+}
+
+void HullContact::Factory::register_at(btCollisionDispatcher& dispatcher) {
+  for (const int other : {CONVEX_HULL_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, TRIANGLE_SHAPE_PROXYTYPE}) {
+    dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, other, this);
+    dispatcher.registerCollisionCreateFunc(other, CONVEX_HULL_SHAPE_PROXYTYPE, this);
+  }
+}
+
+}  // namespace bin_scenes::bullet

@@ -1,0 +1,48 @@
+/// Contact between convex pieces at their true surfaces. Bullet's own algorithm finds a whole contact patch only once
+/// cores overlap, and one point a step before that, so that flat parts rock until enough points have gathered; it also
+/// keeps a gap of both margins towards spheres, planes and triangles. Here GJK (EPA where cores overlap) gives the
+/// normal, margins are taken out again, and faces that lie against each other are clipped at once.
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
+
+namespace bin_scenes::bullet {
+
+class HullContact : public btActivatingCollisionAlgorithm {
+ public:
+  HullContact(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+              const btCollisionObjectWrapper* b, btConvexPenetrationDepthSolver* depth_solver);
+  ~HullContact() override;
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                 btManifoldResult*) override {
+    return 1;  // nothing here is swept: steps are cut short instead
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    if (manifold_ && own_manifold_) manifolds.push_back(manifold_);
+  }
+
+  /// Makes Bullet use it for every pair of a hull with a hull, a sphere or a triangle.
+  struct Factory : public btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+    void register_at(btCollisionDispatcher& dispatcher);
+
+    btGjkEpaPenetrationDepthSolver depth_solver;
+  };
+
+ private:
+  btPersistentManifold* manifold_;
+  bool own_manifold_ = false;
+  btConvexPenetrationDepthSolver* depth_solver_;
+  btVertexArray clipped_a_, clipped_b_;
+};
+
+}  // namespace bin_scenes::bullet

@@ -1,0 +1,258 @@
+#include "world.hpp"
+
+#include "convert.hpp"
+
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+
+#include <algorithm>
+#include <cmath>
+
+extern btScalar gContactBreakingThreshold;  // NOLINT: names of Bullet's
+extern btScalar gDeactivationTime;          // NOLINT
+
+namespace bin_scenes::bullet {
+
+namespace {
+
+// Lengths in units of the scaled world: the median part's diagonal is 1.
+constexpr double contact_distance = 0.005;
+constexpr double step_length = 0.02;  ///< way of the fastest part in one cut of a step
+constexpr int most_cuts = 16;
+constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
+constexpr double endless = 1e4;       ///< half the edge of an endless floor
+constexpr double sleep_speed = 1e-3;  ///< units/s, a quarter of what Pour::rest_move allows by default
+constexpr double sleep_turn = 1e-2;   ///< rad/s, likewise of Pour::rest_turn
+constexpr double sleep_time = 0.5;    ///< s an island must stay below both
+constexpr double release_rate = 6.0;  ///< 1/s at which overlap is let out
+constexpr double converged = 1e-5;    ///< units/s: iterations stop when no contact asks for more
+
+btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
+  return std::sqrt(a->getFriction() * b->getFriction());
+}
+btScalar larger(const btCollisionObject* a, const btCollisionObject* b) {
+  return std::max(a->getRestitution(), b->getRestitution());
+}
+
+/// Bullet keeps these per process, not per world. All worlds of this solver want the same, so setting them again and
+/// again is harmless.
+void set_globals() {
+  gContactBreakingThreshold = contact_distance;
+  gDeactivationTime = sleep_time;
+  gCalculateCombinedFrictionCallback = geometric_mean;
+  gCalculateCombinedRestitutionCallback = larger;
+}
+
+double median_diagonal(const WorldDef& def) {
+  std::vector<double> diagonals;
+  for (const BodyDef& body : def.bodies)
+    if (!body.fixed) diagonals.push_back(def.parts[body.part]->diagonal());
+  if (diagonals.empty())
+    for (const BodyDef& body : def.bodies) diagonals.push_back(def.parts[body.part]->diagonal());
+  if (diagonals.empty()) return 1.0;
+  std::nth_element(diagonals.begin(), diagonals.begin() + diagonals.size() / 2, diagonals.end());
+  return diagonals[diagonals.size() / 2];
+}
+
+}  // namespace
+
+struct World::Body {
+  const BodyDef* def = nullptr;
+  PartShapePtr shape;
+  Motion motion;
+  std::unique_ptr<btRigidBody> rigid;  ///< none while absent
+  BodyState last;                      ///< what an absent body had last
+};
+
+World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSource& shapes)
+    : def_(def),
+      settings_(settings),
+      scale_(1.0 / median_diagonal(def)),
+      dispatcher_(&configuration_),
+      world_(&dispatcher_, &broadphase_, &contact_solver_, &configuration_) {
+  set_globals();
+  dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
+                                 ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+  hull_contact_.register_at(dispatcher_);
+  world_.setGravity(to_bt(Vec3(def.gravity * scale_)));
+  world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  world_.getDispatchInfo().m_useContinuous = false;  // swept boxes would find pairs that are then rejected
+  world_.setForceUpdateAllAabbs(false);              // walls and sleepers do not move
+
+  btContactSolverInfo& info = world_.getSolverInfo();
+  info.m_numIterations = settings.iterations;
+  info.m_solverMode = ContactSolver::mode;
+  info.m_leastSquaresResidualThreshold = converged * converged;
+  info.m_warmstartingFactor = 1.0;
+  info.m_splitImpulse = true;  // overlap moves poses, never velocities
+  info.m_splitImpulsePenetrationThreshold = 0.0;
+  info.m_restitutionVelocityThreshold = 2.0 * def.gravity.norm() * scale_ * settings.time_step;
+
+  Vec3 unset = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (const BodyDef& body_def : def_.bodies) {
+    auto body = std::make_unique<Body>();
+    body->def = &body_def;
+    body->shape = shapes(def_.parts[body_def.part], scale_);
+    body->motion.inertia = body->shape->inertia * body_def.mass;
+    body->last.pose.position = unset;
+    bodies_.push_back(std::move(body));
+  }
+  add_walls(def.wall_height);
+}
+
+World::~World() {
+  for (auto& body : bodies_)
+    if (body->rigid) world_.removeRigidBody(body->rigid.get());
+  for (auto& wall : walls_) world_.removeRigidBody(wall.get());
+}
+
+void World::add_static(btCollisionShape* shape, const btTransform& pose) {
+  btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape);
+  info.m_startWorldTransform = pose;
+  info.m_friction = def_.bin.friction;
+  info.m_restitution = def_.bin.restitution;
+  walls_.push_back(std::make_unique<btRigidBody>(info));
+  world_.addRigidBody(walls_.back().get());
+}
+
+void World::add_walls(double wall_height) {
+  const auto box = [&](const Vec3& lower, const Vec3& upper) {
+    auto shape = std::make_unique<btConvexHullShape>();
+    for (int i = 0; i < 8; ++i)
+      shape->addPoint(
+          to_bt(Vec3((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(), (i & 4 ? upper : lower).z())), false);
+    shape->setMargin(0.0);
+    shape->recalcLocalAabb();
+    shape->initializePolyhedralFeatures();
+    add_static(shape.get(), btTransform::getIdentity());
+    wall_shapes_.push_back(std::move(shape));
+  };
+  switch (def_.bin.kind) {
+    case Bin::Kind::none:
+      return;
+    case Bin::Kind::floor:
+      box({-endless, -endless, -wall_size}, {endless, endless, 0});
+      return;
+    case Bin::Kind::mesh: {
+      bin_mesh_ = mesh_shape(def_.bin_model->mesh(), scale_);
+      add_static(bin_mesh_.shape.get(), to_bt(Pose{def_.bin.pose.position * scale_, def_.bin.pose.orientation}));
+      return;
+    }
+    case Bin::Kind::box: {
+      const double x = 0.5 * def_.bin.inner_size.x() * scale_, y = 0.5 * def_.bin.inner_size.y() * scale_;
+      const double z = std::max(wall_height, def_.bin.inner_size.z()) * scale_, t = wall_size;
+      box({-x - t, -y - t, -t}, {x + t, y + t, 0});
+      box({-x - t, -y - t, 0}, {-x, y + t, z});
+      box({x, -y - t, 0}, {x + t, y + t, z});
+      box({-x - t, -y - t, 0}, {x + t, -y, z});
+      box({-x - t, y, 0}, {x + t, y + t, z});
+      return;
+    }
+  }
+}
+
+btTransform World::body_transform(const Body& body, const Pose& pose) const {
+  const Pose principal = pose * body.shape->principal;
+  return to_bt(Pose{principal.position * scale_, principal.orientation});
+}
+
+void World::insert(std::size_t index, const BodyState& state) {
+  Body& body = *bodies_[index];
+  if (body.rigid) {
+    world_.removeRigidBody(body.rigid.get());
+    body.rigid.reset();
+  }
+  const BodyDef& def = *body.def;
+  btRigidBody::btRigidBodyConstructionInfo info(def.fixed ? 0.0 : def.mass, nullptr, body.shape->shape.get(),
+                                                to_bt(body.motion.inertia));
+  info.m_startWorldTransform = body_transform(body, state.pose);
+  info.m_friction = def.friction;
+  info.m_restitution = def.restitution;
+  info.m_linearSleepingThreshold = sleep_speed;
+  info.m_angularSleepingThreshold = sleep_turn;
+  body.rigid = std::make_unique<btRigidBody>(info);
+  body.rigid->setFlags(0);  // gravity and the gyroscopic term are the world's business
+  body.rigid->setUserPointer(&body.motion);
+  if (!settings_.sleeping) body.rigid->setActivationState(DISABLE_DEACTIVATION);
+  if (!def.fixed) {
+    body.rigid->setLinearVelocity(to_bt(Vec3(state.velocity.linear * scale_)));
+    body.rigid->setAngularVelocity(to_bt(state.velocity.angular));
+  }
+  world_.addRigidBody(body.rigid.get());
+  body.last = state;
+}
+
+void World::remove(std::size_t index) {
+  Body& body = *bodies_[index];
+  if (!body.rigid) return;
+  body.last = states()[index];
+  for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+    if (manifold.getBody0() == body.rigid.get()) manifold.getBody1()->activate();
+    if (manifold.getBody1() == body.rigid.get()) manifold.getBody0()->activate();
+  }
+  world_.removeRigidBody(body.rigid.get());
+  body.rigid.reset();
+}
+
+int World::cuts() const {
+  double way = 0.0;
+  for (const auto& body : bodies_) {
+    if (!body->rigid || body->rigid->isStaticObject() || !body->rigid->isActive()) continue;
+    const double speed =
+        body->rigid->getLinearVelocity().length() + body->rigid->getAngularVelocity().length() * body->shape->radius;
+    if (std::isfinite(speed)) way = std::max(way, speed * settings_.time_step);
+  }
+  return std::clamp(static_cast<int>(std::ceil(way / step_length)), 1, most_cuts);
+}
+
+void World::advance(int steps) {
+  set_globals();
+  for (int s = 0; s < steps; ++s) {
+    const int n = world_.getDispatcher()->getNumManifolds() > 0 ? cuts() : 1;
+    const double dt = settings_.time_step / n;
+    world_.getSolverInfo().m_erp2 = 1.0 - std::exp(-release_rate * dt);
+    for (int k = 0; k < n; ++k) world_.stepSimulation(dt, 0);
+    steps_ += static_cast<std::uint64_t>(n);
+  }
+}
+
+std::vector<BodyState> World::states() const {
+  std::vector<BodyState> result;
+  result.reserve(bodies_.size());
+  for (const auto& body : bodies_) {
+    if (!body->rigid || body->def->fixed) {
+      result.push_back(body->last);
+      continue;
+    }
+    Pose principal = from_bt(body->rigid->getWorldTransform());
+    principal.position /= scale_;
+    BodyState state;
+    state.pose = principal * body->shape->principal.inverse();
+    state.velocity.linear = from_bt(body->rigid->getLinearVelocity()) / scale_;
+    state.velocity.angular = from_bt(body->rigid->getAngularVelocity());
+    result.push_back(state);
+  }
+  return result;
+}
+
+std::vector<bool> World::asleep() const {
+  std::vector<bool> result;
+  for (const auto& body : bodies_) result.push_back(body->rigid && !body->def->fixed && !body->rigid->isActive());
+  return result;
+}
+
+std::vector<Flag> World::flags() const {
+  std::vector<Flag> result;
+  for (std::size_t p = 0; p < def_.parts.size(); ++p) {
+    const auto user = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b->def->part == p; });
+    if (user == bodies_.end() || (*user)->shape->hulls_met) continue;
+    result.push_back({"hull_error",
+                      "the hulls of " + def_.parts[p]->path() + " leave the mesh by " +
+                          std::to_string(100.0 * (*user)->shape->hull_error) + " % of its diagonal",
+                      "raise solver.bullet.max_hulls or solver.bullet.hull_error, or use the sphere solver"});
+  }
+  return result;
+}
+
+}  // namespace bin_scenes::bullet

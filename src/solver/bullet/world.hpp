@@ -1,0 +1,66 @@
+/// One world of the Bullet solver: bodies, walls, gravity, in a scale in which the median part is one unit.
+#pragma once
+
+#include "contact_solver.hpp"
+#include "dynamics_world.hpp"
+#include "hull_contact.hpp"
+#include "shape.hpp"
+
+#include "bin_scenes/solver/solver.hpp"
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace bin_scenes::bullet {
+
+using PartShapePtr = std::shared_ptr<const PartShape>;
+/// Shape of a part at a scale; the solver keeps them, so that a batch of worlds shares what it can.
+using ShapeSource = std::function<PartShapePtr(const PartModelPtr&, double scale)>;
+
+class World {
+ public:
+  World(const WorldDef& def, const BulletSettings& settings, const ShapeSource& shapes);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  void insert(std::size_t body, const BodyState& state);
+  void remove(std::size_t body);
+  /// `steps` times the settings' time step, each cut so that the fastest part moves a small share of its size at once.
+  void advance(int steps);
+
+  std::vector<BodyState> states() const;
+  std::vector<bool> asleep() const;
+  std::uint64_t steps() const { return steps_; }
+  std::uint64_t contact_rows() const { return contact_solver_.rows; }
+  std::vector<Flag> flags() const;
+
+ private:
+  struct Body;
+  void add_static(btCollisionShape* shape, const btTransform& pose);
+  void add_walls(double wall_height);
+  int cuts() const;
+  btTransform body_transform(const Body& body, const Pose& pose) const;
+
+  WorldDef def_;
+  BulletSettings settings_;
+  double scale_ = 1.0;  ///< units per metre
+  btDefaultCollisionConfiguration configuration_;
+  HullContact::Factory hull_contact_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  ContactSolver contact_solver_;
+  DynamicsWorld world_;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  MeshShape bin_mesh_;
+  std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> walls_;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace bin_scenes::bullet
