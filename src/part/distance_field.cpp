@@ -1,5 +1,7 @@
 #include "bin_scenes/part/distance_field.hpp"
 
+#include "triangle.hpp"
+
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 
@@ -15,47 +17,6 @@ namespace {
 constexpr double kBand = 3.0;
 
 constexpr std::int32_t kNone = -1;
-
-/// A triangle prepared for many nearest-point questions; grid units (one node = 1).
-/// Ericson 2005, "Real-Time Collision Detection", section 5.1.5, with the constant products taken out.
-struct PreparedTriangle {
-  Vec3 a, ab, ac, normal;
-  double ab_ab, ab_ac, ac_ac;
-  Vec3 center;  // of a sphere of radius `reach` around the triangle
-  double reach;
-
-  PreparedTriangle(const Vec3& a_, const Vec3& b, const Vec3& c)
-      : a(a_), ab(b - a_), ac(c - a_), ab_ab(ab.dot(ab)), ab_ac(ab.dot(ac)), ac_ac(ac.dot(ac)) {
-    normal = ab.cross(ac);
-    const double length = normal.norm();
-    // A sliver has no trustworthy normal; zero keeps it out of the slab test below.
-    normal = length > 1e-12 ? Vec3(normal / length) : Vec3::Zero();
-    center = (a + b + c) / 3;
-    reach = std::sqrt(std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()}));
-  }
-
-  Vec3 nearest(const Vec3& p) const {
-    const Vec3 ap = p - a;
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return a;
-    const double d3 = d1 - ab_ab, d4 = d2 - ab_ac;
-    if (d3 >= 0 && d4 <= d3) return a + ab;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * ratio(d1, d1 - d3);
-    const double d5 = d1 - ab_ac, d6 = d2 - ac_ac;
-    if (d6 >= 0 && d5 <= d6) return a + ac;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * ratio(d2, d2 - d6);
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 >= d3 && d5 >= d6) return a + ab + (ac - ab) * ratio(d4 - d3, d4 - d3 + d5 - d6);
-    const double scale = 1.0 / (va + vb + vc);
-    return a + ab * (vb * scale) + ac * (vc * scale);
-  }
-
- private:
-  /// An edge of a degenerate triangle may have no length.
-  static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
-};
 
 /// The nearest surface point known to a node, in grid units.
 struct Nearest {

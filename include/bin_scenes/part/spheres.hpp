@@ -15,18 +15,23 @@ struct Sphere {
 
 struct SphereSet {
   std::vector<Sphere> spheres;
-  double pitch = 0.0;               ///< voxel edge (m)
+  double pitch = 0.0;  ///< voxel edge (m)
   std::size_t interior_removed = 0;
 };
 
 struct VoxelOptions {
-  int voxels = 10;          ///< along the longest side of the bounding box
-  double tightness = 1.0;   ///< pitch / sphere diameter; < 1 = overlapping spheres
+  int voxels = 10;         ///< along the longest side of the bounding box
+  double tightness = 1.0;  ///< pitch / sphere diameter; < 1 = overlapping spheres
   bool keep_interior = false;
-  std::vector<double> radii;  ///< optional: several radii (m), largest first; big spheres fill the inside, small ones the rim
+  std::vector<double> radii;  ///< optional, instead of voxels: radii (m), largest first; big spheres fill the inside,
+                              ///< small ones the rim
 };
 
+class MeshQuery;
+
 /// Voxelises the inside of a closed mesh. A part thinner than one voxel still gets the voxels its surface crosses.
+/// The outermost spheres touch the bounding box from inside, whatever the tightness.
 SphereSet voxel_spheres(const Mesh& mesh, const VoxelOptions& options);
+SphereSet voxel_spheres(const MeshQuery& query, const VoxelOptions& options);
 
 }  // namespace bin_scenes
