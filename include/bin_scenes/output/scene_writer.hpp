@@ -1,26 +1,70 @@
 /// Files of a finished scene. Everything is written to a temporary name first and renamed: nothing half-written.
+/// A full disk or an unwritable directory is an environment Error.
 #pragma once
 
+#include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_camera.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace bin_scenes {
 
-/// scene.json as text (interfaces.md, format "bin_scenes/1").
+/// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null. Only report.wall_s,
+/// report.stages_ms and report.counters may differ between two runs of a request on one class of device.
 std::string scene_json(const Scene& scene, const Request& request);
-/// Reads poses, states and ids back; throws an input Error naming file and key.
+/// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
 Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label.
+
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label,
+/// where label is 0 for background and bin, id + 1 for a part. Written by PCL: pcd_supported() is false, and this an
+/// environment Error, in a build without it.
 void write_pcd(const std::string& path, const RangeImage& image);
-/// Depth as 16-bit PNG (0.1 mm), labels as 16-bit PNG, and a shaded picture to look at.
+bool pcd_supported();
+
+/// <sensor>_depth.png, 16 bit, 0.1 mm, 0 = nothing seen, 65535 = 6.5535 m or more; <sensor>_labels.png, 16 bit,
+/// id + 1; <sensor>.png, a shaded picture to look at.
 void write_pngs(const std::string& directory, const RangeImage& image);
-/// BOP layout (scene_gt.json, scene_camera.json, scene_gt_info.json, depth/, mask_visib/), instance = id.
-void write_bop(const std::string& directory, const Scene& scene, const Request& request,
+
+/// One scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md): a camera
+/// is an image of the scene; lengths in mm; depth/, gray/, mask_visib/, scene_gt.json, scene_gt_info.json,
+/// scene_camera.json. A part's entry also carries its `id`, which is its place in the list unless parts before it
+/// were never poured. `parts[line]` are the models.
+void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
+/// models/obj_<obj_id>.ply and models_info.json (mm) of a BOP data set.
+void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts);
+/// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.
+std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
+
+/// Binary little-endian PLY; every coordinate times `scale`.
+void write_ply(const std::string& path, const Mesh& mesh, double scale = 1.0);
+
+/// Writes a scene into a bag with the topics and types of the live node. Set by the ROS rim when it is built in.
+using BagWriter = std::function<void(const std::string& path, const Scene&, const Request&,
+                                     const std::vector<PartModelPtr>& parts, const std::vector<RangeImage>& images)>;
+void register_bag_writer(BagWriter writer);
+/// Empty without ROS.
+const BagWriter& bag_writer();
+
+/// A file or directory that only appears under its name once it is whole: work on path(), then commit().
+/// Destroyed without commit(), it leaves nothing behind. commit() replaces what stood there.
+class Temporary {
+ public:
+  explicit Temporary(const std::string& target);
+  ~Temporary();
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const std::string& path() const { return path_; }
+  void commit();
+
+ private:
+  std::string target_, path_;
+};
 
 }  // namespace bin_scenes

@@ -1,0 +1,167 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "output/png.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMillimetres = 1e3;
+
+std::string six_digits(std::size_t number) {
+  char text[24];
+  std::snprintf(text, sizeof(text), "%06zu", number);
+  return text;
+}
+
+Json row_major(const Mat3& m) {
+  return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
+}
+Json in_mm(const Vec3& v) {
+  return {kMillimetres * v.x(), kMillimetres * v.y(), kMillimetres * v.z()};
+}
+
+/// Inclusive pixel bounds; BOP writes them as x, y, width, height and -1 for nothing.
+struct Box {
+  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+  void extend(int x, int y) {
+    left = std::min(left, x), top = std::min(top, y), right = std::max(right, x), bottom = std::max(bottom, y);
+  }
+  Json json() const {
+    if (right < left) return {-1, -1, -1, -1};
+    return {left, top, right - left + 1, bottom - top + 1};
+  }
+};
+
+/// Of the whole silhouette, hidden or outside the image included: the projected vertices.
+Json projected_box(const Mesh& mesh, const Pose& model_in_camera, const std::vector<double>& k) {
+  Box box;
+  for (const Vec3& vertex : mesh.vertices) {
+    const Vec3 p = model_in_camera * vertex;
+    if (p.z() <= 1e-6) return Box().json();  // behind the camera: no box of the silhouette exists
+    box.extend(static_cast<int>(std::floor(k[0] * p.x() / p.z() + k[2] + 0.5)),
+               static_cast<int>(std::floor(k[4] * p.y() / p.z() + k[5] + 0.5)));
+  }
+  return box.json();
+}
+
+std::vector<Box> visible_boxes(const RangeImage& image, std::size_t parts) {
+  std::vector<Box> boxes(parts);
+  for (int y = 0; y < image.sensor.height; ++y) {
+    for (int x = 0; x < image.sensor.width; ++x) {
+      const std::uint16_t label = image.label[static_cast<std::size_t>(y) * image.sensor.width + x];
+      if (label > 0 && label <= parts) boxes[label - 1u].extend(x, y);
+    }
+  }
+  return boxes;
+}
+
+void write_mask(const std::string& path, const RangeImage& image, int id) {
+  std::vector<std::uint8_t> mask(image.label.size());
+  std::transform(image.label.begin(), image.label.end(), mask.begin(),
+                 [&](std::uint16_t label) { return label == id + 1 ? 255 : 0; });
+  write_png8(path, image.sensor.width, image.sensor.height, 1, mask);
+}
+
+void write_gray(const std::string& path, const RangeImage& image) {
+  std::vector<std::uint8_t> gray;
+  for (const float value : image.intensity) {
+    gray.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)))
+                                        : 0);
+  }
+  write_png8(path, image.sensor.width, image.sensor.height, 1, gray);
+}
+
+void make_directory(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions");
+}
+
+}  // namespace
+
+std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts) {
+  std::vector<int> ids;
+  std::vector<PartModelPtr> distinct;
+  for (const PartModelPtr& part : parts) {
+    auto known = std::find(distinct.begin(), distinct.end(), part);
+    if (known == distinct.end()) known = distinct.insert(distinct.end(), part);
+    ids.push_back(static_cast<int>(known - distinct.begin()) + 1);
+  }
+  return ids;
+}
+
+void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
+               const std::vector<RangeImage>& images) {
+  const fs::path root(directory);
+  for (const char* folder : {"depth", "gray", "mask_visib"}) make_directory(root / folder);
+  const std::vector<int> object_ids = bop_object_ids(parts);
+  Json camera = Json::object(), truth = Json::object(), info = Json::object();
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    const RangeImage& image = images[n];
+    const std::string key = std::to_string(n), file = six_digits(n);
+    const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+    camera[key] = {{"cam_K", image.sensor.k},
+                   {"depth_scale", 0.1},
+                   {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
+                   {"cam_t_w2c", in_mm(bin_in_camera.position)}};
+    write_png16((root / "depth" / (file + ".png")).string(), image.sensor.width, image.sensor.height,
+                depth_in_tenth_mm(image));
+    write_gray((root / "gray" / (file + ".png")).string(), image);
+    const std::vector<Box> boxes = visible_boxes(image, scene.parts.size());
+    truth[key] = Json::array();
+    info[key] = Json::array();
+    for (const ScenePart& part : scene.parts) {
+      if (!part.pose.finite()) continue;  // never poured: there is no pose to tell
+      const Pose pose = bin_in_camera * part.pose;
+      const std::size_t visible = image.visible.at(part.id), total = image.total.at(part.id);
+      write_mask((root / "mask_visib" / (file + "_" + six_digits(truth[key].size()) + ".png")).string(), image,
+                 part.id);
+      truth[key].push_back({{"cam_R_m2c", row_major(pose.orientation.toRotationMatrix())},
+                            {"cam_t_m2c", in_mm(pose.position)},
+                            {"obj_id", object_ids.at(part.line)},
+                            {"id", part.id}});
+      info[key].push_back({{"bbox_obj", projected_box(parts.at(part.line)->mesh(), pose, image.sensor.k)},
+                           {"bbox_visib", boxes[part.id].json()},
+                           {"px_count_all", total},
+                           {"px_count_valid", visible},
+                           {"px_count_visib", visible},
+                           {"visib_fract", total ? static_cast<double>(visible) / static_cast<double>(total) : 0.0}});
+    }
+  }
+  write_text((root / "scene_camera.json").string(), camera.dump(1) + "\n");
+  write_text((root / "scene_gt.json").string(), truth.dump(1) + "\n");
+  write_text((root / "scene_gt_info.json").string(), info.dump(1) + "\n");
+}
+
+void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts) {
+  const fs::path models = fs::path(directory) / "models";
+  make_directory(models);
+  const std::vector<int> ids = bop_object_ids(parts);
+  Json info = Json::object();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string id = std::to_string(ids[i]);
+    if (info.contains(id)) continue;
+    const Mesh& mesh = parts[i]->mesh();
+    const Aabb box = mesh.bounds();
+    const Vec3 lower = kMillimetres * box.lower, size = kMillimetres * box.size();
+    write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, kMillimetres);
+    // BOP's diameter is the largest distance of two vertices; the box's diagonal bounds it at no cost.
+    info[id] = {{"diameter", size.norm()}, {"min_x", lower.x()}, {"min_y", lower.y()}, {"min_z", lower.z()},
+                {"size_x", size.x()},      {"size_y", size.y()}, {"size_z", size.z()}};
+  }
+  write_text((models / "models_info.json").string(), info.dump(1) + "\n");
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,95 @@
+#include "output/png.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+using Colour = Eigen::Array3d;
+
+constexpr double kInk = 0.35;       ///< brightness left on the line between two parts
+constexpr double kHollow = 0.65;    ///< how much of its light a hollow may lose
+constexpr int kNeighbourhood = 10;  ///< pixels around one that tell whether it lies in a hollow
+
+/// Hues a golden angle apart: neighbours in id are far apart in colour, however many there are. Saturation and value
+/// take turns, so that equal hues still differ.
+Colour part_colour(std::size_t id) {
+  const double hue = 6.0 * std::fmod(0.08 + 0.6180339887498949 * static_cast<double>(id), 1.0);
+  const double saturation = 0.42 + 0.09 * static_cast<double>(id % 3);
+  const double value = 0.97 - 0.07 * static_cast<double>(id / 3 % 3);
+  const auto channel = [&](double shift) {
+    const double ramp = std::clamp(std::abs(std::fmod(hue + shift, 6.0) - 3.0) - 1.0, 0.0, 1.0);
+    return value * (1.0 - saturation * (1.0 - ramp));
+  };
+  return {channel(0.0), channel(4.0), channel(2.0)};
+}
+
+/// Mean depth around each pixel, by a summed-area table (Crow 1984); unseen pixels do not count.
+std::vector<double> mean_depth(const RangeImage& image) {
+  const int width = image.sensor.width, height = image.sensor.height;
+  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * (width + 1) + x; };
+  std::vector<double> sum(static_cast<std::size_t>(width + 1) * (height + 1)), count(sum.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float z = image.depth[static_cast<std::size_t>(y) * width + x];
+      const bool seen = std::isfinite(z);
+      sum[at(x + 1, y + 1)] = (seen ? z : 0.0) + sum[at(x, y + 1)] + sum[at(x + 1, y)] - sum[at(x, y)];
+      count[at(x + 1, y + 1)] = seen + count[at(x, y + 1)] + count[at(x + 1, y)] - count[at(x, y)];
+    }
+  }
+  std::vector<double> mean(image.depth.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int x0 = std::max(0, x - kNeighbourhood), x1 = std::min(width, x + kNeighbourhood + 1);
+      const int y0 = std::max(0, y - kNeighbourhood), y1 = std::min(height, y + kNeighbourhood + 1);
+      const auto box = [&](const std::vector<double>& t) {
+        return t[at(x1, y1)] - t[at(x0, y1)] - t[at(x1, y0)] + t[at(x0, y0)];
+      };
+      mean[static_cast<std::size_t>(y) * width + x] = box(sum) / std::max(1.0, box(count));
+    }
+  }
+  return mean;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
+  const int width = image.sensor.width, height = image.sensor.height;
+  const Colour sky(0.97, 0.97, 0.98), bin(0.80, 0.82, 0.85);
+  const Vec3 light = Vec3(-0.45, -0.65, -1.0).normalized();  // optical frame: left, up, towards the camera
+
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0.0f;
+  for (const float z : image.depth) {
+    if (std::isfinite(z)) nearest = std::min(nearest, z), farthest = std::max(farthest, z);
+  }
+  // Depth darkening (Luft, Colditz, Deussen 2006, "Image enhancement by unsharp masking the depth buffer").
+  const std::vector<double> mean = mean_depth(image);
+  const double hollow = std::max(1e-6, 0.12 * static_cast<double>(farthest - nearest));
+
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(3 * image.depth.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      Colour colour = sky;
+      if (std::isfinite(image.depth[i])) {
+        const auto& n = image.normal[i];
+        const double lit = std::max(0.0, Vec3(n[0], n[1], n[2]).dot(light));
+        const double below = std::clamp((image.depth[i] - mean[i]) / hollow, 0.0, 1.0);
+        colour = image.label[i] ? part_colour(image.label[i] - 1u) : bin;
+        colour *= (0.30 + 0.75 * (std::isfinite(lit) ? lit : 0.0)) * (1.0 - kHollow * below);
+      }
+      const bool right = x + 1 < width && image.label[i + 1] != image.label[i];
+      const bool down = y + 1 < height && image.label[i + width] != image.label[i];
+      if (right || down) colour *= kInk;
+      for (int c = 0; c < 3; ++c) {
+        rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0))));
+      }
+    }
+  }
+  return rgb;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,220 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <fstream>
+
+namespace bin_scenes {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "bin_scenes/1";
+
+Json json_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json json_of(const Pose& pose) {
+  const Quat& q = pose.orientation;
+  return {{"position", json_of(pose.position)}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json json_of(const Bin& bin) {
+  Json json;
+  switch (bin.kind) {
+    case Bin::Kind::box:
+      json["inner_size"] = json_of(bin.inner_size);
+      json["wall_thickness"] = bin.wall_thickness;
+      break;
+    case Bin::Kind::mesh:
+      json["mesh"] = bin.mesh;
+      json["pose"] = json_of(bin.pose);
+      break;
+    case Bin::Kind::floor:
+      json["floor"] = true;
+      break;
+    case Bin::Kind::none:
+      json["none"] = true;
+      break;
+  }
+  json["friction"] = bin.friction;
+  json["restitution"] = bin.restitution;
+  return json;
+}
+
+Json json_of(const Sensor& sensor) {
+  return {{"name", sensor.name},
+          {"frame", sensor.name + "_optical_frame"},
+          {"pose", json_of(sensor.pose.value_or(Pose()))},
+          {"width", sensor.width},
+          {"height", sensor.height},
+          {"K", sensor.k},
+          {"near", sensor.near},
+          {"far", sensor.far}};
+}
+
+Json json_of(const ScenePart& part) {
+  Json json = {{"id", part.id}, {"line", part.line}, {"model", part.model}, {"pose", json_of(part.pose)}};
+  json["state"] = name_of(part.state);
+  if (part.velocity.linear != Vec3::Zero() || part.velocity.angular != Vec3::Zero()) {
+    json["velocity"] = {{"linear", json_of(part.velocity.linear)}, {"angular", json_of(part.velocity.angular)}};
+  }
+  json["visible_fraction"] = Json::object();
+  for (const auto& [sensor, fraction] : part.visible_fraction) json["visible_fraction"][sensor] = fraction;
+  return json;
+}
+
+Json json_of(const Quantiles& q) {
+  return {{"median", q.median}, {"p95", q.p95}, {"max", q.max}};
+}
+
+Json json_of(const Report& report) {
+  Json json = {{"at_rest", report.at_rest},
+               {"accepted", report.accepted},
+               {"reasons", report.reasons},
+               {"solver", report.solver},
+               {"solver_reason", report.solver_reason},
+               {"device", report.device},
+               {"simulated_s", report.simulated_s},
+               {"wall_s", report.wall_s},
+               {"steps", report.steps},
+               {"stages_ms", report.profile.stages_ms},
+               {"counters", report.profile.counters}};
+  const PenetrationReport& p = report.penetration;
+  Json& penetration = json["penetration"] = json_of(static_cast<const Quantiles&>(p));
+  penetration["pair"] = p.pair;
+  penetration["pairs"] = p.pairs;
+  penetration["p95_relative"] = p.p95_relative;
+  penetration["max_relative"] = p.max_relative;
+  penetration["bin_max"] = p.bin_max;
+  penetration["bin_part"] = p.bin_part;
+  json["gap"] = json_of(report.gap);
+  if (report.drift.measured) {
+    json["drift"] = json_of(static_cast<const Quantiles&>(report.drift));
+    json["drift"]["turn_p95"] = report.drift.turn_p95;
+  }
+  json["escaped"] = report.escaped;
+  json["not_poured"] = report.not_poured;
+  char hash[17];  // as text: many readers of JSON keep only 53 bits of a number
+  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(report.state_hash));
+  json["state_hash"] = hash;
+  json["flags"] = Json::array();
+  for (const Flag& flag : report.flags) {
+    json["flags"].push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});
+  }
+  return json;
+}
+
+// Reading. nlohmann's exceptions name the key and the type; the file is added by read_scene_json.
+
+Vec3 vec3_of(const Json& json) {
+  Vec3 v;
+  if (json.size() != 3) throw std::runtime_error("a position needs three numbers");
+  for (int i = 0; i < 3; ++i) v[i] = json.at(i).is_null() ? std::nan("") : json.at(i).get<double>();
+  return v;
+}
+
+Pose pose_of(const Json& json) {
+  Pose pose;
+  pose.position = vec3_of(json.at("position"));
+  const Json& q = json.at("orientation_xyzw");
+  if (q.size() != 4) throw std::runtime_error("orientation_xyzw needs four numbers");
+  for (int i = 0; i < 4; ++i) pose.orientation.coeffs()[i] = q.at(i).is_null() ? std::nan("") : q.at(i).get<double>();
+  return pose;
+}
+
+PartState state_of(const std::string& name) {
+  for (const PartState state :
+       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured}) {
+    if (name == name_of(state)) return state;
+  }
+  throw std::runtime_error("'" + name + "' is no state of a part");
+}
+
+/// Files of others may lack `line`: then a line is a model, in order of first appearance.
+std::size_t line_of(const Json& json, const std::string& model, std::vector<std::string>& models) {
+  if (json.contains("line")) return json.at("line").get<std::size_t>();
+  const auto known = std::find(models.begin(), models.end(), model);
+  if (known != models.end()) return static_cast<std::size_t>(known - models.begin());
+  models.push_back(model);
+  return models.size() - 1;
+}
+
+Report report_of(const Json& json) {
+  Report report;
+  report.at_rest = json.value("at_rest", false);
+  report.accepted = json.value("accepted", false);
+  report.reasons = json.value("reasons", std::vector<std::string>());
+  report.solver = json.value("solver", "");
+  report.solver_reason = json.value("solver_reason", "");
+  report.device = json.value("device", "");
+  report.simulated_s = json.value("simulated_s", 0.0);
+  report.wall_s = json.value("wall_s", 0.0);
+  report.steps = json.value("steps", std::uint64_t{0});
+  report.escaped = json.value("escaped", std::vector<int>());
+  report.not_poured = json.value("not_poured", std::vector<int>());
+  report.state_hash = std::stoull(json.value("state_hash", "0"), nullptr, 16);
+  return report;
+}
+
+}  // namespace
+
+std::string scene_json(const Scene& scene, const Request& request) {
+  Json json = {{"format", kFormat}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
+  json["gravity"] = json_of(request.gravity);
+  json["request_sha256"] = request.text_sha256;
+  json["sensors"] = Json::array();
+  for (const Sensor& sensor : scene.sensors) json["sensors"].push_back(json_of(sensor));
+  json["parts"] = Json::array();
+  for (const ScenePart& part : scene.parts) json["parts"].push_back(json_of(part));
+  json["report"] = json_of(scene.report);
+  return json.dump(1) + "\n";
+}
+
+Scene read_scene_json(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw input_error("cannot be read", path, "name a scene.json that is there");
+  std::string where = "the file";
+  try {
+    const Json json = Json::parse(file);
+    where = "format";
+    if (json.at("format") != kFormat) throw std::runtime_error("is not " + std::string(kFormat));
+    Scene scene;
+    where = "seed and index";
+    scene.seed = json.at("seed").get<std::uint64_t>();
+    scene.index = json.at("index").get<std::size_t>();
+    std::vector<std::string> models;
+    for (const Json& item : json.at("parts")) {
+      where = "parts[" + std::to_string(scene.parts.size()) + "]";
+      ScenePart part;
+      part.id = item.at("id").get<int>();
+      part.model = item.at("model").get<std::string>();
+      part.line = line_of(item, part.model, models);
+      part.pose = pose_of(item.at("pose"));
+      part.state = state_of(item.at("state").get<std::string>());
+      if (item.contains("velocity")) {
+        part.velocity.linear = vec3_of(item.at("velocity").at("linear"));
+        part.velocity.angular = vec3_of(item.at("velocity").at("angular"));
+      }
+      if (item.contains("visible_fraction")) {
+        for (const auto& [sensor, fraction] : item.at("visible_fraction").items()) {
+          part.visible_fraction[sensor] = fraction.get<double>();
+        }
+      }
+      scene.parts.push_back(part);
+    }
+    where = "report";
+    if (json.contains("report")) scene.report = report_of(json.at("report"));
+    return scene;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw input_error(where + ": " + error.what(), path, "give a scene.json of format " + std::string(kFormat));
+  }
+}
+
+}  // namespace bin_scenes
