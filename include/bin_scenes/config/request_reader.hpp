@@ -12,14 +12,24 @@ namespace bin_scenes {
 /// Where model paths may lie; empty = anywhere (command line). The ROS node sets it.
 struct PathRules {
   std::vector<std::string> roots;
-  std::vector<std::pair<std::string, std::string>> packages;  ///< package:// name -> directory, besides ROS_PACKAGE_PATH
+  std::vector<std::pair<std::string, std::string>>
+      packages;  ///< package:// name -> directory, besides ROS_PACKAGE_PATH
 };
 
 /// `overrides`: "path.to.key=value" as given to --set. Throws an input Error with file, line and key.
-Request read_request(const std::string& path, const std::vector<std::string>& overrides = {}, const PathRules& rules = {});
+Request read_request(const std::string& path, const std::vector<std::string>& overrides = {},
+                     const PathRules& rules = {});
 Request read_request_text(const std::string& yaml, const std::string& base_directory,
                           const std::vector<std::string>& overrides = {}, const PathRules& rules = {});
+
 /// Every key with its value, readable back.
 std::string write_request(const Request& request);
+
+/// SHA-256 of what decides the scenes of a request: every key but `scenes` and `first`, and the bytes of its models.
+/// Two scenes with the same index and hash are the same scene.
+std::string request_hash(const Request& request);
+
+/// docs/request.md: every key with type, default, unit and consequence.
+std::string request_reference();
 
 }  // namespace bin_scenes

@@ -1,0 +1,101 @@
+/// The visitor that fills a struct from a YAML map and refuses what it does not know.
+#pragma once
+
+#include "bin_scenes/core/error.hpp"
+#include "config/values.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::config {
+
+/// Where the values of a request come from, for messages: a line of the file, or a --set.
+class Source {
+ public:
+  Source(std::string file, std::set<std::string> overrides)
+      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+
+  void remember(const std::string& path, const YAML::Node& node);
+  /// "file:12", "--set path", or the place of the nearest enclosing key if `path` itself is not in the file.
+  std::string where(std::string path) const;
+  bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
+
+ private:
+  std::string file_;
+  std::set<std::string> overrides_;
+  std::map<std::string, int> lines_;
+};
+
+class KeyReader {
+ public:
+  /// `path` of the map itself: "", "solver.bullet" or "parts[2]".
+  KeyReader(YAML::Node map, std::string path, Source& source);
+
+  template <class Value>
+  void field(const Key& key, Value& value) {
+    if (const YAML::Node node = take(key)) {
+      try {
+        read_value(node, value);
+      } catch (const Mismatch& mismatch) {
+        throw wrong_type(path_of(key.name), mismatch.expected, node);
+      }
+    }
+  }
+
+  template <class Value>
+  void field(const Key& key, std::optional<Value>& value) {
+    Value read{};
+    field(key, read);
+    if (has(key.name)) value = read;
+  }
+
+  template <class Struct>
+  void section(const Key& key, Struct& value) {
+    const YAML::Node node = take(key);
+    if (node && !node.IsNull()) read_map(node, path_of(key.name), value);
+  }
+
+  template <class Struct>
+  void list(const Key& key, std::vector<Struct>& values) {
+    const YAML::Node node = take(key);
+    if (!node || node.IsNull()) return;
+    if (!node.IsSequence()) throw wrong_type(path_of(key.name), "a list, each item starting with '-'", node);
+    values.clear();
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      values.emplace_back();
+      read_map(node[i], path_of(key.name) + "[" + std::to_string(i) + "]", values.back());
+    }
+  }
+
+  void bin_kind(Bin& bin, const BinKeys& keys);
+
+  bool has(const std::string& name) const { return found_.count(name) != 0; }
+  /// Throws for keys nobody took, naming the nearest known one.
+  void finish() const;
+
+ private:
+  YAML::Node take(const Key& key);
+  std::string path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
+  Error wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node) const;
+
+  template <class Struct>
+  void read_map(const YAML::Node& node, const std::string& path, Struct& value) {
+    source_.remember(path, node);
+    if (!node.IsMap()) throw wrong_type(path, "a map of keys", node);
+    KeyReader reader(node, path, source_);
+    visit(reader, value);
+    reader.finish();
+  }
+
+  YAML::Node map_;
+  std::string path_;
+  Source& source_;
+  std::vector<std::string> known_;
+  std::set<std::string> found_;
+};
+
+}  // namespace bin_scenes::config

@@ -1,0 +1,16 @@
+/// From a path as the user wrote it to a file that may be read.
+#pragma once
+
+#include "bin_scenes/config/request_reader.hpp"
+
+#include <string>
+
+namespace bin_scenes::config {
+
+/// Absolute path of `written`: relative to `base`, absolute, or package://name/path (PathRules::packages, then
+/// ROS_PACKAGE_PATH). The file must exist, be readable and, symbolic links resolved, lie in one of rules.roots.
+/// Throws an input Error with `where`.
+std::string resolve_file(const std::string& written, const std::string& base, const PathRules& rules,
+                         const std::string& where);
+
+}  // namespace bin_scenes::config

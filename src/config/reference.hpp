@@ -1,0 +1,19 @@
+/// The table of keys as rows: for docs/request.md and for suggestions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes::config {
+
+struct Entry {
+  std::string path;   ///< "parts[].count"; the path of a section or list itself for its heading
+  std::string kind;   ///< what a value looks like; "section" or "list" for a heading
+  std::string value;  ///< the default; "" if left out means none
+  std::string unit, text;
+};
+
+/// Every key in the order of the table, made once.
+const std::vector<Entry>& reference();
+
+}  // namespace bin_scenes::config

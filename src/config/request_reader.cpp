@@ -1,0 +1,220 @@
+#include "bin_scenes/config/request_reader.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/part/cache.hpp"
+#include "config/key_reader.hpp"
+#include "config/paths.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+namespace bin_scenes {
+
+namespace config {
+
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw input_error("cannot be read", path, "name a file that is there and readable");
+  return bytes;
+}
+
+/// parts[0].count or parts.0.count -> parts, 0, count.
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> words(1);
+  for (const char c : path) {
+    if (c == '.' || c == '[') {
+      if (!words.back().empty()) words.emplace_back();
+    } else if (c != ']') {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+/// parts.0.count -> parts[0].count, as messages spell it.
+std::string joined(const std::vector<std::string>& words) {
+  std::string path;
+  for (const std::string& word : words) {
+    const bool index = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    path += index ? "[" + word + "]" : (path.empty() ? "" : ".") + word;
+  }
+  return path;
+}
+
+/// Puts one "path=value" into the tree, and returns the path.
+std::string apply_override(YAML::Node root, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string where = "--set " + text;
+  if (equals == 0 || equals == std::string::npos) {
+    throw input_error("expected key=value", where, "for instance solver.type=bullet");
+  }
+  const std::vector<std::string> words = split(text.substr(0, equals));
+  YAML::Node value;
+  try {
+    value = YAML::Load(text.substr(equals + 1));
+  } catch (const YAML::Exception& error) {
+    throw input_error("the value is not YAML: " + error.msg, where, "quote it, or mend its brackets");
+  }
+  YAML::Node node;
+  node.reset(root);  // operator= would write into the tree instead of moving along it
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (node.IsSequence()) {
+      const bool index = words[i].size() < 9 && words[i].find_first_not_of("0123456789") == std::string::npos;
+      if (!index || words[i].empty() || std::stoul(words[i]) >= node.size()) {
+        throw input_error("'" + words[i] + "' is no item of a list of " + std::to_string(node.size()), where,
+                          "count from 0");
+      }
+      node.reset(node[std::stoul(words[i])]);
+    } else if (node.IsMap() || node.IsNull() || !node.IsDefined()) {
+      node.reset(node[words[i]]);
+    } else {
+      throw input_error("'" + words[i - 1] + "' is a value and has no key '" + words[i] + "'", where,
+                        "see docs/request.md");
+    }
+  }
+  node = value;
+  return joined(words);
+}
+
+YAML::Node parse(const std::string& text, const std::string& file) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    throw input_error("not YAML: " + error.msg, file + ":" + std::to_string(error.mark.line + 1),
+                      "mind indentation, brackets and colons");
+  }
+  if (documents.empty() || documents[0].IsNull()) {
+    throw input_error("the request is empty", file, "it needs at least `parts`; see docs/request.md");
+  }
+  if (documents.size() > 1) {
+    throw input_error("the file holds " + std::to_string(documents.size()) + " requests", file,
+                      "keep one YAML document a file");
+  }
+  return documents[0];
+}
+
+using Where = std::function<std::string(const std::string& path)>;
+
+/// Start poses of the part lines from an earlier scene. Its parts know the index of their line.
+void go_on_from_scene(Request& request, const Where& where, const std::function<bool(const std::string&)>& given) {
+  const Scene scene = read_scene_json(request.pour.scene);
+  std::vector<std::vector<Pose>> poses(request.parts.size());
+  std::vector<std::vector<Twist>> velocities(request.parts.size());
+  for (const ScenePart& part : scene.parts) {
+    if (part.line >= request.parts.size() || part.model != request.parts[part.line].model) {
+      throw input_error("part " + std::to_string(part.id) + " of '" + request.pour.scene + "' is a '" + part.model +
+                            "' of part line " + std::to_string(part.line) + ", which the request does not have",
+                        where("pour.scene"), "list the same models in the same order as for that scene");
+    }
+    if (part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+    poses[part.line].push_back(part.pose);
+    velocities[part.line].push_back(part.velocity);
+  }
+  for (std::size_t i = 0; i < request.parts.size(); ++i) {
+    PartLine& line = request.parts[i];
+    const std::string key = "parts[" + std::to_string(i) + "]";
+    if (!line.poses.empty()) {
+      throw input_error("'" + key + ".poses' and 'pour.scene' both give start poses", where(key + ".poses"),
+                        "remove one of them");
+    }
+    if (given(key + ".count") && line.count != poses[i].size()) {
+      throw input_error("'" + key + ".count' is " + std::to_string(line.count) + ", but the scene has " +
+                            std::to_string(poses[i].size()) + " of them",
+                        where(key + ".count"), "leave count out to take them all");
+    }
+    line.count = poses[i].size();
+    line.poses = std::move(poses[i]);
+    line.velocities = std::move(velocities[i]);
+  }
+}
+
+void complete(Request& request, const std::string& base, const PathRules& rules, const Where& where,
+              const std::function<bool(const std::string&)>& given) {
+  const auto judge = [&] {
+    try {
+      check(request);
+    } catch (const Error& error) {  // check() knows the key, the source its file and line
+      throw input_error("'" + error.where() + "': " + error.problem(), where(error.where()), error.remedy());
+    }
+  };
+  for (std::size_t i = 0; i < request.parts.size(); ++i) {
+    PartLine& line = request.parts[i];
+    const std::string key = "parts[" + std::to_string(i) + "].model";
+    if (line.model.empty()) throw input_error("'" + key + "' is missing", where(key), "name a mesh file");
+    line.path = resolve_file(line.model, base, rules, where(key));
+  }
+  if (!request.bin.mesh.empty()) request.bin.mesh = resolve_file(request.bin.mesh, base, rules, where("bin.mesh"));
+  if (!request.pour.scene.empty()) {
+    if (request.pour.pattern != Pour::Pattern::given) {
+      throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");
+    }
+    request.pour.scene = resolve_file(request.pour.scene, base, rules, where("pour.scene"));
+    go_on_from_scene(request, where, given);
+  }
+  judge();
+  request.text_sha256 = request_hash(request);
+}
+
+Request read(const std::string& text, const std::string& file, const std::string& base,
+             const std::vector<std::string>& overrides, const PathRules& rules) {
+  YAML::Node root = parse(text, file);
+  std::set<std::string> set_paths;
+  for (const std::string& item : overrides) {
+    if (root.IsMap()) set_paths.insert(apply_override(root, item));
+  }
+  Source source(file, set_paths);
+  if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
+  Request request;
+  KeyReader reader(root, "", source);
+  visit(reader, request);
+  reader.finish();
+  complete(
+      request, base, rules, [&](const std::string& path) { return source.where(path); },
+      [&](const std::string& path) { return source.knows(path); });
+  return request;
+}
+
+}  // namespace
+
+}  // namespace config
+
+Request read_request(const std::string& path, const std::vector<std::string>& overrides, const PathRules& rules) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  if (!std::filesystem::exists(absolute, error)) {
+    throw input_error("there is no such request file", path, "check the path");
+  }
+  if (!std::filesystem::is_regular_file(absolute, error)) {
+    throw input_error("the request is not a file", path, "name a YAML file");
+  }
+  return config::read(config::bytes_of(path), path, absolute.parent_path().string(), overrides, rules);
+}
+
+Request read_request_text(const std::string& yaml, const std::string& base_directory,
+                          const std::vector<std::string>& overrides, const PathRules& rules) {
+  return config::read(yaml, "request", base_directory, overrides, rules);
+}
+
+std::string request_hash(const Request& request) {
+  Request content = request;
+  content.scenes = 1;
+  content.first = 0;
+  std::string text;
+  if (!content.bin.mesh.empty()) {  // where a file lies does not matter, what is in it does
+    text += sha256_hex(config::bytes_of(content.bin.mesh)) + "\n";
+    content.bin.mesh = "mesh";
+  }
+  for (const PartLine& line : content.parts) {
+    if (!line.path.empty()) text += sha256_hex(config::bytes_of(line.path)) + "\n";
+  }
+  return sha256_hex(write_request(content) + text);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,104 @@
+/// Single values of a request in YAML: reading with a clear message, writing so that reading gives the same bits.
+#pragma once
+
+#include "config/keys.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::config {
+
+/// What a reader expected instead of what it found; the caller knows file, line and key.
+struct Mismatch {
+  std::string expected;
+};
+
+void read_value(const YAML::Node& node, bool& value);
+void read_value(const YAML::Node& node, int& value);
+void read_value(const YAML::Node& node, std::uint64_t& value);
+void read_value(const YAML::Node& node, double& value);
+void read_value(const YAML::Node& node, std::string& value);
+void read_value(const YAML::Node& node, Vec3& value);
+void read_value(const YAML::Node& node, Pose& value);  ///< [x,y,z,qx,qy,qz,qw], [x,y,z] or {position, orientation_xyzw}
+void read_value(const YAML::Node& node, Twist& value);  ///< [vx,vy,vz,wx,wy,wz]
+void read_value(const YAML::Node& node, std::vector<double>& value);
+void read_value(const YAML::Node& node, std::vector<Pose>& value);
+void read_value(const YAML::Node& node, std::vector<Twist>& value);
+
+/// Shortest decimal that reads back as the same number, with '.' whatever the locale.
+std::string text_of(double value);
+std::string text_of(bool value);
+std::string text_of(int value);
+std::string text_of(std::uint64_t value);
+std::string text_of(const std::string& value);
+std::string text_of(const Vec3& value);
+std::string text_of(const Pose& value);
+std::string text_of(const Twist& value);
+std::string text_of(const std::vector<double>& value);
+std::string text_of(const std::vector<Pose>& value);
+std::string text_of(const std::vector<Twist>& value);
+
+// What a value looks like, for messages and docs/request.md.
+inline std::string kind_of(bool) {
+  return "true or false";
+}
+inline std::string kind_of(int) {
+  return "whole number";
+}
+inline std::string kind_of(std::uint64_t) {
+  return "whole number, 0 or more";
+}
+inline std::string kind_of(double) {
+  return "number";
+}
+inline std::string kind_of(const std::string&) {
+  return "text";
+}
+inline std::string kind_of(const Vec3&) {
+  return "[x, y, z]";
+}
+inline std::string kind_of(const Pose&) {
+  return "[x, y, z, qx, qy, qz, qw]";
+}
+inline std::string kind_of(const std::vector<double>&) {
+  return "list of numbers";
+}
+inline std::string kind_of(const std::vector<Pose>&) {
+  return "list of [x, y, z, qx, qy, qz, qw]";
+}
+inline std::string kind_of(const std::vector<Twist>&) {
+  return "list of [vx, vy, vz, wx, wy, wz]";
+}
+template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+std::string kind_of(Enum) {
+  std::string text;
+  for (const auto& [name, value] : names(Enum{})) text += (text.empty() ? "" : " | ") + std::string(name);
+  return text;
+}
+
+template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+void read_value(const YAML::Node& node, Enum& value) {
+  std::string text;
+  read_value(node, text);
+  for (const auto& [name, meaning] : names(Enum{})) {
+    if (text == name) {
+      value = meaning;
+      return;
+    }
+  }
+  throw Mismatch{kind_of(Enum{})};
+}
+
+template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+std::string text_of(Enum value) {
+  for (const auto& [name, meaning] : names(Enum{})) {
+    if (meaning == value) return name;
+  }
+  return "?";
+}
+
+}  // namespace bin_scenes::config
