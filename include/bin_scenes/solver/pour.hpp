@@ -27,13 +27,29 @@ struct RunHooks {
   double trace_rate = 0.0;
 };
 
-/// World of one scene of the request (bodies in order of part lines, one id each).
-WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts);
+/// World of one scene of the request (bodies in order of part lines, one id each; walls up to the rim).
+/// `bin_model`: Bin::Kind::mesh only; loaded through the cache when not given.
+WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model = nullptr);
 
-/// Pours scene `index` of the request for each of the given indices, many worlds at a time, and returns the scenes
-/// in that order: poses, states, at_rest, escaped, not_poured, simulated_s, steps, flags and state_hash filled in.
-/// Quality and visibility are not (quality/, sensor/).
+/// Pours scene `index` of the request for each of the given indices, Solver::worlds_at_once() of them at a time (a
+/// world that is done leaves and the next index takes its place), and returns the scenes in that order: poses, states,
+/// at_rest, escaped, not_poured, simulated_s, steps, flags and state_hash filled in. Quality and visibility are not
+/// (quality/, sensor/). A scene depends on (request, seed, index) alone, not on what runs beside it.
+///
+/// While parts come in, the walls of a box reach above the rim far enough to hold what enters; when all are in and
+/// slow, they are cut back to the rim if the heap stands above it. A part whose centre of mass is then beside the inner
+/// floor area (at any height), below the floor, or not finite, has escaped: it is taken out of the world and keeps its
+/// last finite pose. A part that lies above the rim but within the floor area has not. With a mesh bin the bounds of
+/// the mesh stand for the inner box, with an endless floor only falling through it counts, with no bin only NaN.
+/// A part that finds no room below the rim while everything else has come to rest is not poured.
+///
+/// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
+/// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
 std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-                        const std::vector<std::size_t>& indices, const RunHooks& hooks = {});
+                        const std::vector<std::size_t>& indices, const RunHooks& hooks = {},
+                        PartModelPtr bin_model = nullptr);
+
+/// Of the poses of all parts, bit for bit.
+std::uint64_t state_hash(const std::vector<ScenePart>& parts);
 
 }  // namespace bin_scenes

@@ -69,6 +69,8 @@ class Solver {
   /// Bodies that the solver itself holds asleep, same order; a hint for progress and counters, not the verdict on rest.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
 
+  /// Worlds that are worth simulating side by side; one after the other is as fast beyond that.
+  virtual std::size_t worlds_at_once() const { return 1; }
   virtual double step_size() const = 0;  ///< s of one collision detection
   virtual std::uint64_t steps(WorldId world) const = 0;
   virtual const Profile& profile() const = 0;  ///< stage times and counters since construction

@@ -1,0 +1,36 @@
+/// The verdict on rest: poses over a window of simulated time, whatever the solver says of velocities or sleep.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// A body rests once it has stayed, at every look, within `move` and `turn` of one and the same pose for `window`
+/// seconds: a slow creep and a swing to and fro both count as moving, along and about every axis alike.
+class RestWatch {
+ public:
+  struct Limits {
+    double window = 0.25;  ///< s of simulated time
+    double move = 0.0;     ///< m, of the centre of mass
+    double turn = 0.0;     ///< rad
+  };
+
+  explicit RestWatch(std::size_t bodies) : bodies_(bodies) {}
+
+  /// Looks at a body at `time`. `center`: its centre of mass.
+  void look(std::size_t body, double time, const Vec3& center, const Quat& orientation, const Limits& limits);
+  bool resting(std::size_t body) const { return bodies_[body].resting; }
+
+ private:
+  struct Body {
+    bool seen = false, resting = false;
+    double since = 0.0;  ///< time at which the reference pose was taken
+    Vec3 center = Vec3::Zero();
+    Quat orientation = Quat::Identity();
+  };
+  std::vector<Body> bodies_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,60 @@
+/// Where parts start: above the growing heap, or on a grid, never overlapping anything.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Spheres that together enclose every triangle of a mesh, a few dozen whatever the mesh's size: cheap bounds of the
+/// posed mesh that, unlike its box, know of holes and arms.
+struct Cover {
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
+  std::vector<Ball> balls;     ///< model frame, m
+  Vec3 center = Vec3::Zero();  ///< of one sphere around all of them
+  double radius = 0.0;
+};
+/// `cells` along the longest side of the mesh; each ball bounds what lies in one cell.
+Cover cover(const Mesh& mesh, int cells = 5);
+
+/// Box in which parts may enter: x and y between walls, z from floor to rim.
+struct Opening {
+  Vec3 lower, upper;
+};
+
+/// Parts above the heap. A column search: the lowest height at which the part's balls clear those of everything below
+/// and beside it.
+class Rain {
+ public:
+  struct Obstacle {
+    const Cover* cover;
+    Pose pose;
+    bool settled;  ///< slow enough to count as heap; what still falls is only kept clear of
+  };
+
+  Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
+
+  /// Seeded pose of the model frame: uniform orientation and place between the walls, lowest point drop_height above
+  /// what lies below; none if no try ends low enough (below the rim, and not high above parts that still fall).
+  std::optional<Pose> place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
+                            Random& random, int tries) const;
+
+ private:
+  Opening opening_;
+  double drop_height_;
+};
+
+/// The thesis's start: a 3-D grid above the opening, cell edge = spacing * bounding diameter of the largest part, as
+/// many columns as fit between the walls (at least one), seeded orientations. Poses of the model frames in the order
+/// of `parts`.
+std::vector<Pose> grid_poses(const std::vector<const PartModel*>& parts, const Opening& opening, double spacing,
+                             Random& random);
+
+}  // namespace bin_scenes

@@ -1,0 +1,343 @@
+#include "pour_world.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
+constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
+
+double largest_diagonal(const WorldDef& world) {
+  double largest = 0.0;
+  for (const PartModelPtr& part : world.parts) largest = std::max(largest, part->diagonal());
+  return largest;
+}
+
+Opening opening_of(const WorldDef& world) {
+  const Vec3 half = 0.5 * world.bin.inner_size;
+  switch (world.bin.kind) {
+    case Bin::Kind::box:
+      return {Vec3(-half.x(), -half.y(), 0.0), Vec3(half.x(), half.y(), 2.0 * half.z())};
+    case Bin::Kind::mesh: {
+      // The walls' thickness is not known: stay clear of them by a tenth of the width on each side.
+      const Aabb box = transformed(world.bin_model->mesh(), world.bin.pose).bounds();
+      const Vec3 rim(0.1 * box.size().x(), 0.1 * box.size().y(), 0.0);
+      return {box.lower + rim, box.upper - rim};
+    }
+    case Bin::Kind::floor:
+    case Bin::Kind::none:
+      break;
+  }
+  // Without walls a heap as wide as two layers of its parts are, and as high as it gets.
+  const double part = largest_diagonal(world), side = part * std::max(2.0, std::sqrt(0.5 * world.bodies.size()));
+  return {Vec3(-0.5 * side, -0.5 * side, 0.0), Vec3(0.5 * side, 0.5 * side, 1e3 * side)};
+}
+
+}  // namespace
+
+PourPlan::PourPlan(const Request& r, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model)
+    : request(r), world(world_of(r, parts, std::move(bin_model))), opening(opening_of(world)) {
+  for (std::size_t l = 0; l < r.parts.size(); ++l) {
+    const PartLine& line = r.parts[l];
+    const std::string where = "parts[" + std::to_string(l) + "] (" + line.model + ")";
+    if (line.poses.empty() && line.fixed)
+      throw input_error("a fixed part needs a pose", where + ".poses", "give one pose [x,y,z,qx,qy,qz,qw] per copy");
+    if (line.poses.empty() && r.pour.pattern == Pour::Pattern::given)
+      throw input_error("pour.pattern given needs start poses", where + ".poses",
+                        "give one pose per copy, or pour.scene, or pattern: rain");
+    if (!line.poses.empty() && line.poses.size() != line.count)
+      throw input_error(std::to_string(line.poses.size()) + " poses for " + std::to_string(line.count) + " parts",
+                        where + ".poses", "give as many poses as count");
+    if (!line.velocities.empty() && line.velocities.size() != line.poses.size())
+      throw input_error(
+          std::to_string(line.velocities.size()) + " velocities for " + std::to_string(line.poses.size()) + " poses",
+          where + ".velocities", "give one velocity per pose, or none");
+    covers.push_back(cover(parts[l]->mesh()));
+    for (std::size_t copy = 0; copy < line.count; ++copy) {
+      line_of.push_back(l);
+      copy_of.push_back(copy);
+    }
+  }
+  if (world.bin_model) bin_cover = cover(transformed(world.bin_model->mesh(), world.bin.pose), 40);
+  entry_height = opening.upper.z() + 2.0 * r.pour.drop_height + 2.0 * largest_diagonal(world);
+}
+
+PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
+    : plan_(plan),
+      solver_(solver),
+      index_(index),
+      random_(plan.request.seed, index, Stream::pour),
+      states_(plan.world.bodies.size()),
+      place_(plan.world.bodies.size(), Place::waiting),
+      rest_(plan.world.bodies.size()) {
+  // Parts that never find room must have some finite pose in every output.
+  const Vec3 aside(plan.opening.lower.x(), plan.opening.lower.y(), plan.entry_height);
+  for (BodyState& state : states_) state.pose.position = aside;
+
+  WorldDef def = plan.world;
+  const bool entering = std::any_of(plan.request.parts.begin(), plan.request.parts.end(),
+                                    [](const PartLine& line) { return line.poses.empty() && line.count > 0; });
+  std::vector<Pose> grid;
+  if (entering && def.bin.kind == Bin::Kind::box) {
+    walls_cut_ = false;
+    def.wall_height = plan.entry_height;
+    if (plan.request.pour.pattern == Pour::Pattern::grid)  // one cell of a column each at worst
+      def.wall_height += plan.request.pour.grid_spacing * 2.0 * largest_diagonal(def) * def.bodies.size();
+  }
+  id_ = solver.add_world(def);
+  solver_.set_phase(id_, Phase::pour);
+  start_given();
+  if (plan.request.pour.pattern == Pour::Pattern::grid || def.bin.kind == Bin::Kind::none)
+    start_grid();
+  else
+    start_rain();
+  fresh_ = true;
+}
+
+PourWorld::~PourWorld() {
+  solver_.remove_world(id_);
+}
+
+void PourWorld::insert(std::size_t body, const BodyState& state) {
+  solver_.insert(id_, body, state);
+  states_[body] = state;
+  place_[body] = Place::in;
+}
+
+void PourWorld::start_given() {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    const PartLine& line = plan_.request.parts[plan_.line_of[b]];
+    if (line.poses.empty()) {
+      waiting_.push_back(b);
+      continue;
+    }
+    BodyState state{line.poses[plan_.copy_of[b]], {}};
+    if (!line.velocities.empty() && !line.fixed) state.velocity = line.velocities[plan_.copy_of[b]];
+    insert(b, state);
+  }
+}
+
+void PourWorld::start_grid() {
+  std::vector<const PartModel*> models;
+  for (const std::size_t b : waiting_) models.push_back(plan_.world.parts[plan_.line_of[b]].get());
+  if (models.empty()) return;
+  Opening opening = plan_.opening;
+  if (plan_.world.bin.kind == Bin::Kind::floor) opening.upper.z() = opening.lower.z();
+  if (plan_.world.bin.kind == Bin::Kind::none) opening.upper.z() = opening.lower.z();
+  opening.upper.z() = std::max(opening.upper.z(), top());
+  const std::vector<Pose> poses = grid_poses(models, opening, plan_.request.pour.grid_spacing, random_);
+  for (std::size_t i = 0; i < poses.size(); ++i) insert(waiting_[i], {poses[i], {}});
+  waiting_.clear();
+}
+
+void PourWorld::start_rain() {
+  for (std::size_t i = waiting_.size(); i > 1; --i)  // Fisher-Yates: part lines come mixed
+    std::swap(waiting_[i - 1], waiting_[random_.below(i)]);
+  let_in();
+}
+
+const std::vector<BodyState>& PourWorld::states() {
+  if (fresh_) return states_;
+  const std::vector<BodyState> now = solver_.states(id_);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && now[b].pose.finite()) states_[b] = now[b];
+  fresh_ = true;
+  return states_;
+}
+
+std::uint64_t PourWorld::steps_left(double step) const {
+  if (!plan_.request.seconds) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(std::max(0.0, std::round((*plan_.request.seconds - time_) / step)));
+}
+
+bool PourWorld::outside(const Vec3& center) const {
+  switch (plan_.world.bin.kind) {
+    case Bin::Kind::none:
+      return false;
+    case Bin::Kind::floor:
+      return center.z() < 0.0;
+    case Bin::Kind::box: {
+      const Vec3 half = 0.5 * plan_.world.bin.inner_size;
+      return std::abs(center.x()) > half.x() || std::abs(center.y()) > half.y() || center.z() < 0.0;
+    }
+    case Bin::Kind::mesh: {
+      const Aabb box = transformed(plan_.world.bin_model->mesh(), plan_.world.bin.pose).bounds();
+      return center.x() < box.lower.x() || center.x() > box.upper.x() || center.y() < box.lower.y() ||
+             center.y() > box.upper.y() || center.z() < box.lower.z();
+    }
+  }
+  return false;
+}
+
+void PourWorld::judge() {
+  const Pour& pour = plan_.request.pour;
+  const std::vector<BodyState> now = solver_.states(id_);
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (place_[b] != Place::in || plan_.world.bodies[b].fixed) continue;
+    const PartModel& part = *plan_.world.parts[plan_.line_of[b]];
+    const bool finite = now[b].pose.finite();
+    if (finite) states_[b] = now[b];
+    if (!finite || outside(states_[b].pose * part.mass().center)) {
+      solver_.remove(id_, b);
+      place_[b] = Place::escaped;
+      continue;
+    }
+    rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
+               {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
+  }
+  fresh_ = true;
+}
+
+bool PourWorld::slow(std::size_t body) const {
+  const PartModel& part = *plan_.world.parts[plan_.line_of[body]];
+  const double size = part.diagonal(), limit = 0.25 * std::sqrt(plan_.world.gravity.norm() * size);
+  const Twist& v = states_[body].velocity;
+  return v.linear.norm() + 0.5 * size * v.angular.norm() <= limit;
+}
+
+double PourWorld::top() const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (place_[b] != Place::in) continue;
+    for (const Cover::Ball& ball : plan_.covers[plan_.line_of[b]].balls)
+      highest = std::max(highest, (states_[b].pose * ball.center).z() + ball.radius);
+  }
+  return highest;
+}
+
+bool PourWorld::all_rest() const {
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !rest_.resting(b)) return false;
+  return true;
+}
+
+void PourWorld::let_in() {
+  if (waiting_.empty()) return;
+  std::vector<Rain::Obstacle> obstacles;
+  if (plan_.world.bin_model) obstacles.push_back({&plan_.bin_cover, Pose(), true});
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in)
+      obstacles.push_back({&plan_.covers[plan_.line_of[b]], states_[b].pose, time_ > 0.0 && slow(b)});
+  const Rain rain(plan_.opening, plan_.request.pour.drop_height);
+  int misses = 0;
+  std::vector<std::size_t> still;
+  for (const std::size_t b : waiting_) {
+    std::optional<Pose> pose;
+    const Cover& shape = plan_.covers[plan_.line_of[b]];
+    if (misses < misses_per_look)
+      pose = rain.place(*plan_.world.parts[plan_.line_of[b]], shape, obstacles, random_, tries_per_part);
+    if (!pose) {
+      ++misses;
+      still.push_back(b);
+      continue;
+    }
+    misses = 0;
+    insert(b, {*pose, {}});
+    obstacles.push_back({&shape, *pose, false});
+  }
+  // Nothing moves any more and still nobody finds a place: the bin is full.
+  if (still.size() == waiting_.size() && all_rest()) {
+    for (const std::size_t b : still) place_[b] = Place::no_room;
+    still.clear();
+  }
+  waiting_ = std::move(still);
+}
+
+void PourWorld::cut_walls() {
+  walls_cut_ = true;
+  if (top() <= plan_.world.wall_height) return;  // nothing leans on what is taken away
+  earlier_steps_ += solver_.steps(id_);
+  const WorldId lower = solver_.add_world(plan_.world);
+  solver_.remove_world(id_);
+  id_ = lower;
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
+  if (settling_) solver_.set_phase(id_, Phase::settle);
+}
+
+void PourWorld::look() {
+  judge();
+  let_in();
+  if (settling_ || !waiting_.empty()) return;
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return;
+  settling_ = true;
+  solver_.set_phase(id_, Phase::settle);
+  if (!walls_cut_) cut_walls();
+}
+
+bool PourWorld::over() const {
+  if (plan_.request.seconds) return false;  // steps_left() decides
+  return (waiting_.empty() && settling_ && all_rest()) || time_ >= plan_.request.pour.limit;
+}
+
+Progress PourWorld::progress() const {
+  Progress progress;
+  progress.phase = settling_ ? "settle" : "pour";
+  progress.scene = index_;
+  progress.parts = states_.size();
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    const bool moves = place_[b] == Place::in && !plan_.world.bodies[b].fixed;
+    progress.resting += place_[b] == Place::in && (!moves || rest_.resting(b));
+  }
+  progress.simulated_s = time_;
+  const double parts = std::max<double>(1.0, static_cast<double>(states_.size()));
+  const double entered = 1.0 - waiting_.size() / parts, still = progress.resting / parts;
+  progress.fraction =
+      plan_.request.seconds ? std::min(1.0, time_ / std::max(1e-9, *plan_.request.seconds)) : 0.5 * (entered + still);
+  return progress;
+}
+
+Scene PourWorld::scene() {
+  states();
+  Scene scene;
+  scene.seed = plan_.request.seed;
+  scene.index = index_;
+  scene.sensors = plan_.request.sensors;
+  Report& report = scene.report;
+  report.at_rest = true;
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    ScenePart part;
+    part.id = static_cast<int>(b);
+    part.line = plan_.line_of[b];
+    part.model = plan_.request.parts[part.line].model;
+    part.pose = states_[b].pose;
+    part.velocity = states_[b].velocity;
+    const bool fixed = plan_.world.bodies[b].fixed;
+    switch (place_[b]) {
+      case Place::in:
+        part.state = fixed ? PartState::fixed : rest_.resting(b) ? PartState::resting : PartState::moving;
+        break;
+      case Place::escaped:
+        part.state = PartState::escaped;
+        break;
+      case Place::waiting:
+      case Place::no_room:
+        part.state = PartState::not_poured;
+        break;
+    }
+    if (part.state == PartState::moving) report.at_rest = false;
+    if (part.state == PartState::escaped) report.escaped.push_back(part.id);
+    if (part.state == PartState::not_poured) report.not_poured.push_back(part.id);
+    scene.parts.push_back(std::move(part));
+  }
+  report.solver = solver_.name();
+  report.device = solver_.device();
+  report.simulated_s = time_;
+  report.steps = earlier_steps_ + solver_.steps(id_);
+  report.flags = solver_.flags(id_);
+  if (!report.not_poured.empty())
+    report.flags.push_back({"not_poured",
+                            std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +
+                                " parts found no room below the rim or no time to enter",
+                            "ask for fewer parts, a larger bin, or more simulated time"});
+  report.state_hash = state_hash(scene.parts);
+  return scene;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,76 @@
+/// One scene while it is poured: which parts are in, which wait, which rest, which escaped.
+#pragma once
+
+#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/solver/rest_watch.hpp"
+#include "bin_scenes/solver/spawn.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What all scenes of a request share.
+struct PourPlan {
+  PourPlan(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model);
+
+  const Request& request;
+  WorldDef world;                             ///< walls up to the rim
+  std::vector<Cover> covers;                  ///< by part line
+  Cover bin_cover;                            ///< mesh bin only
+  Opening opening;                            ///< where parts enter; upper.z is the rim
+  double entry_height = 0.0;                  ///< walls while parts enter (box bin)
+  std::vector<std::size_t> line_of, copy_of;  ///< by body: part line, number within the line
+};
+
+class PourWorld {
+ public:
+  PourWorld(const PourPlan& plan, Solver& solver, std::size_t index);
+  ~PourWorld();
+  PourWorld(const PourWorld&) = delete;
+  PourWorld& operator=(const PourWorld&) = delete;
+
+  std::size_t index() const { return index_; }
+  WorldId id() const { return id_; }
+  double time() const { return time_; }
+  const std::vector<BodyState>& states();
+  /// Whole steps of `step` s until the request's set time; very many without one.
+  std::uint64_t steps_left(double step) const;
+
+  void advanced(double seconds) { time_ += seconds, fresh_ = false; }
+  /// Judges rest and escape, lets parts in, cuts the walls back. Call on whole slices.
+  void look();
+  void judge();  ///< only judges, at the end of a set time
+  bool over() const;
+  Progress progress() const;
+  Scene scene();
+
+ private:
+  enum class Place { waiting, in, escaped, no_room };
+
+  void insert(std::size_t body, const BodyState& state);
+  void start_given();
+  void start_grid();
+  void start_rain();
+  void let_in();
+  void cut_walls();
+  bool outside(const Vec3& center) const;
+  bool slow(std::size_t body) const;
+  double top() const;
+  bool all_rest() const;
+
+  const PourPlan& plan_;
+  Solver& solver_;
+  std::size_t index_;
+  WorldId id_ = 0;
+  Random random_;
+  double time_ = 0.0;
+  std::uint64_t earlier_steps_ = 0;  ///< of a world left behind when the walls were cut
+  bool fresh_ = false, settling_ = false, walls_cut_ = true;
+  std::vector<BodyState> states_;
+  std::vector<Place> place_;
+  std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first
+  RestWatch rest_;
+};
+
+}  // namespace bin_scenes
