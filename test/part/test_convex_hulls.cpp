@@ -1,0 +1,118 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/part/convex_hulls.hpp"
+#include "bin_scenes/part/hull_geometry.hpp"
+#include "bin_scenes/part/mass_properties.hpp"
+#include "bin_scenes/part/mesh_query.hpp"
+#include "part/closed_forms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+namespace bin_scenes::test {
+namespace {
+
+void expect_closed_and_convex(const Mesh& hull) {
+  const HullPlanes planes(hull);
+  const double size = hull.bounds().diagonal();
+  for (const Vec3& v : hull.vertices) EXPECT_LT(planes.outside(v), 2e-4 * size);
+  EXPECT_EQ(hull.vertices.size() + hull.triangles.size(), hull.triangles.size() * 3 / 2 + 2);  // Euler
+  EXPECT_GT(mass_properties(hull).volume, 0);
+}
+
+TEST(ConvexHull, OfACubeWithPointsInsideIsTheCube) {
+  Mesh cube = box_mesh(Vec3::Constant(0.05));
+  cube.vertices.push_back(Vec3(0.01, 0, 0));
+  cube.vertices.push_back(Vec3(0.025, 0, 0));  // on a face
+  const Mesh hull = convex_hull(cube.vertices, 64);
+  expect_closed_and_convex(hull);
+  EXPECT_EQ(hull.vertices.size(), 8u);
+  EXPECT_NEAR(mass_properties(hull).volume, std::pow(0.05, 3), 1e-12);
+}
+
+TEST(ConvexHull, KeepsToTheVertexLimit) {
+  const Mesh sphere = sphere_mesh(0.05, 4);
+  const Mesh hull = convex_hull(sphere.vertices, 64);
+  expect_closed_and_convex(hull);
+  EXPECT_LE(hull.vertices.size(), 64u);
+  EXPECT_GT(mass_properties(hull).volume, 0.8 * mass_properties(sphere).volume);
+}
+
+TEST(ConvexHull, OfFlatPointsIsEmpty) {
+  EXPECT_TRUE(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.2, 0}}, 64).empty());
+  EXPECT_TRUE(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 64).empty());
+}
+
+TEST(ConvexHulls, ConvexPartIsOneHullWithoutError) {
+  for (const Mesh& mesh : {box_mesh(Vec3(0.06, 0.04, 0.02)), prism_mesh(0.02, 0.05, 24)}) {
+    const ConvexHulls hulls = convex_hulls(mesh);
+    EXPECT_EQ(hulls.hulls.size(), 1u);
+    EXPECT_TRUE(hulls.met);
+    EXPECT_LT(hulls.surface_error, 1e-3);
+    EXPECT_NEAR(hulls.volume_error, 0.0, 1e-6);
+  }
+}
+
+TEST(ConvexHulls, LIsTwoOrThreeHulls) {
+  const ConvexHulls hulls = convex_hulls(l_mesh(1.0));
+  EXPECT_TRUE(hulls.met) << hulls.surface_error;
+  EXPECT_GE(hulls.hulls.size(), 2u);
+  EXPECT_LE(hulls.hulls.size(), 4u);
+  EXPECT_NEAR(hulls.volume_error, 0.0, 0.03);
+  for (const Mesh& hull : hulls.hulls) expect_closed_and_convex(hull);
+}
+
+TEST(ConvexHulls, ThreeOverlappingBoxesAreThreeHulls) {
+  const Mesh u =
+      joined(joined(box_mesh(Vec3(0.06, 0.02, 0.01)), box_mesh(Vec3(0.01, 0.02, 0.05), Vec3(-0.025, 0, 0.02))),
+             box_mesh(Vec3(0.01, 0.02, 0.05), Vec3(0.025, 0, 0.02)));
+  const ConvexHulls hulls = convex_hulls(u);
+  EXPECT_TRUE(hulls.met) << hulls.surface_error;
+  EXPECT_EQ(hulls.hulls.size(), 3u);
+}
+
+TEST(ConvexHulls, TorusStaysOpenInTheMiddle) {
+  HullOptions options;
+  options.max_error = 0.03;
+  const ConvexHulls hulls = convex_hulls(torus_mesh(0.04, 0.012, 32, 12), options);
+  EXPECT_TRUE(hulls.met) << hulls.surface_error;
+  EXPECT_GE(hulls.hulls.size(), 5u);
+  EXPECT_LE(hulls.hulls.size(), 24u);
+  for (const Mesh& hull : hulls.hulls) EXPECT_GT(HullPlanes(hull).outside(Vec3::Zero()), 0.015);
+}
+
+TEST(ConvexHulls, UnreachableGoalIsSaid) {
+  HullOptions options;
+  options.max_hulls = 2;
+  options.max_error = 0.001;
+  const ConvexHulls hulls = convex_hulls(torus_mesh(0.04, 0.012, 24, 8), options);
+  EXPECT_FALSE(hulls.met);
+  EXPECT_LE(hulls.hulls.size(), 2u);
+  EXPECT_GT(hulls.surface_error, 0.001);
+}
+
+TEST(ConvexHulls, ObjHasAnObjectPerHull) {
+  ConvexHulls hulls;
+  hulls.hulls = {box_mesh(Vec3::Constant(0.05)), box_mesh(Vec3::Constant(0.02), Vec3(0.1, 0, 0))};
+  const std::string path = testing::TempDir() + "hulls.obj";
+  write_hulls_obj(hulls, path);
+  std::ifstream file(path);
+  std::string line;
+  int objects = 0, vertices = 0, faces = 0, highest = 0;
+  while (std::getline(file, line)) {
+    objects += line.rfind("o ", 0) == 0;
+    vertices += line.rfind("v ", 0) == 0;
+    int a, b, c;
+    if (std::sscanf(line.c_str(), "f %d %d %d", &a, &b, &c) == 3) ++faces, highest = std::max({highest, a, b, c});
+  }
+  EXPECT_EQ(objects, 2);
+  EXPECT_EQ(vertices, 16);
+  EXPECT_EQ(faces, 24);
+  EXPECT_EQ(highest, 16);
+  std::remove(path.c_str());
+  EXPECT_THROW(write_hulls_obj(hulls, "/nonexistent/hulls.obj"), Error);
+}
+
+}  // namespace
+}  // namespace bin_scenes::test
