@@ -1,6 +1,9 @@
 # Messages and package metadata for catkin, which wants them declared from the folder of package.xml. Sets
 # BIN_SCENES_CATKIN_* for src/ros and test/ros; no other target sees a ROS header.
 
+# What scripts/ and models/ hold is run in the source folder.
+#catkin_lint: ignore uninstalled_script
+
 # ROS 1 lives in the system's Python; another python3 first on the PATH knows neither empy nor genmsg.
 if(EXISTS /usr/bin/python3)
   foreach(variable PYTHON_EXECUTABLE Python3_EXECUTABLE)
