@@ -20,9 +20,7 @@ constexpr char tf[] = "/tf";
 constexpr char tf_static[] = "/tf_static";
 
 /// Topics of sensor number `index`: the first has the plain name, every further one its own below the sensor's name.
-inline std::string of_sensor(const char* name, std::size_t index, const std::string& sensor) {
-  return index == 0 ? name : sensor + "/" + name;
-}
+std::string of_sensor(const char* name, std::size_t index, const std::string& sensor);
 }  // namespace topic
 
 /// A scene as messages, all of one stamp; images are apart because they are made only if somebody looks.
@@ -33,10 +31,7 @@ struct SceneMessages {
   tf2_msgs::TFMessage statics;  ///< for /tf_static
 };
 
-inline SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                                    const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp) {
-  return {scene_message(scene, request, frames, stamp), scene_markers(scene, request, parts, bin_model, frames, stamp),
-          part_transforms(scene, frames, stamp), static_transforms(scene, frames, stamp)};
-}
+SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                             const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp);
 
 }  // namespace bin_scenes
