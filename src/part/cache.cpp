@@ -1,10 +1,8 @@
 #include "bin_scenes/part/cache.hpp"
 
-#include <openssl/evp.h>
 #include <pwd.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -17,38 +15,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Digest = std::array<std::uint8_t, 32>;
-
-Digest sha256(const void* data, std::size_t size) {
-  Digest digest{};
-  unsigned length = 0;
-  EVP_Digest(data, size, digest.data(), &length, EVP_sha256(), nullptr);
-  return digest;
-}
-
-std::string hex(const Digest& digest) {
-  const char* digits = "0123456789abcdef";
-  std::string text;
-  for (const std::uint8_t byte : digest) {
-    text += digits[byte >> 4];
-    text += digits[byte & 15];
-  }
-  return text;
-}
-
 /// What stands before the contents in a cache file. The name is hashed with the contents, so that a file copied to
 /// another key does not pass for it.
 struct Header {
   char magic[8] = {'B', 'S', 'c', 'a', 'c', 'h', 'e', '1'};
   std::uint64_t size = 0;
-  Digest digest{};
+  char digest[64] = {};  // SHA-256 in hex
 };
 
-Digest digest_of(const std::string& name, const Bytes& bytes) {
+std::string digest_of(const std::string& name, const Bytes& bytes) {
   Bytes all(name.begin(), name.end());
   all.push_back(0);
   all.insert(all.end(), bytes.begin(), bytes.end());
-  return sha256(all.data(), all.size());
+  return sha256_hex(all.data(), all.size());
 }
 
 std::string file_name(const std::string& kind, const std::string& key) {
@@ -56,13 +35,6 @@ std::string file_name(const std::string& kind, const std::string& key) {
 }
 
 }  // namespace
-
-std::string sha256_hex(const void* data, std::size_t size) {
-  return hex(sha256(data, size));
-}
-std::string sha256_hex(const std::string& text) {
-  return sha256_hex(text.data(), text.size());
-}
 
 Cache& Cache::global() {
   static Cache cache;
@@ -101,7 +73,7 @@ std::optional<Bytes> Cache::read(const std::string& kind, const std::string& key
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
     return std::nullopt;
   }
-  if (digest_of(name, bytes) != header.digest) return std::nullopt;
+  if (digest_of(name, bytes) != std::string(header.digest, sizeof header.digest)) return std::nullopt;
   return bytes;
 }
 
@@ -122,7 +94,7 @@ void Cache::write(const std::string& kind, const std::string& key, const Bytes& 
 
   Header header;
   header.size = bytes.size();
-  header.digest = digest_of(name, bytes);
+  digest_of(name, bytes).copy(header.digest, sizeof header.digest);
   std::ofstream file(temporary, std::ios::binary);
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

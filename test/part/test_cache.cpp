@@ -72,7 +72,7 @@ TEST_F(CacheTest, ADamagedFileIsNotTrusted) {
     stream.close();
     EXPECT_FALSE(cache_.read("field", "key")) << "byte " << offset;
   }
-  for (const std::uintmax_t size : {0u, 5u, 47u, 48u, 500u, 1047u, 2000u}) {
+  for (const std::uintmax_t size : {0u, 5u, 79u, 80u, 500u, 1079u, 2000u}) {
     cache_.write("field", "key", bytes);
     ASSERT_TRUE(cache_.read("field", "key"));
     fs::resize_file(file(), size);

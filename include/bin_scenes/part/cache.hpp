@@ -3,8 +3,9 @@
 /// checksummed and never trusted: a damaged file is rebuilt. Not writable is not an error: it works without.
 #pragma once
 
+#include "bin_scenes/core/sha256.hpp"
+
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,6 @@
 namespace bin_scenes {
 
 using Bytes = std::vector<std::uint8_t>;
-
-/// SHA-256 as lower-case hex.
-std::string sha256_hex(const void* data, std::size_t size);
-std::string sha256_hex(const std::string& text);
 
 class Cache {
  public:
