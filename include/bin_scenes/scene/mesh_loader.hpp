@@ -1,4 +1,6 @@
-/// From a model file to one closed, outward-oriented mesh in metres. The only file that sees assimp is its source.
+/// From a model file (STL, OBJ, PLY, DAE, OFF) to one closed, outward-oriented mesh in metres.
+/// Coordinates stay in the file's own axes, whatever axis a DAE calls up (RViz, MoveIt and Gazebo do the same), so
+/// that a pose of the part fits a marker of its file; a flag says so. A DAE's own unit is honoured unless one is given.
 #pragma once
 
 #include "bin_scenes/scene/mesh.hpp"
@@ -25,12 +27,15 @@ struct LoadReport {
   std::string format;
   std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;
   std::size_t welded_vertices = 0, degenerate_removed = 0, duplicate_removed = 0, holes_closed = 0;
+  std::size_t t_junctions_split = 0;  ///< vertices put into long edges that met several short ones
+  std::size_t turned = 0;            ///< triangles whose winding disagreed with their neighbours'
   std::size_t open_edges = 0;        ///< left after repair
   std::size_t shells = 0;            ///< connected components
   bool inverted = false;             ///< winding was inside out and has been turned
   bool closed = false;               ///< after repair
-  Unit unit = Unit::metre;           ///< the one used
-  std::vector<Flag> flags;           ///< one per repair
+  Unit unit = Unit::metre;           ///< the one used, where it has a name
+  double metres_per_unit = 1.0;      ///< the one used, scale not included
+  std::vector<Flag> flags;           ///< one per repair; plain welding of equal vertices is none
   std::string content_sha256;        ///< of the file's bytes
 };
 
@@ -41,13 +46,16 @@ struct LoadedMesh {
 
 /// Reads all meshes of a file with their node transforms applied, welds, checks and repairs.
 /// Throws an input Error (missing, unreadable, empty, NaN, zero volume, still open) with path, cause and remedy.
+/// Where assimp refuses a DAE, it is read once more without images, materials and animations: flag "file_mended".
+/// Closed shells may overlap; they are counted, and only their union is inside (winding number, part/mesh_query.hpp).
 LoadedMesh load_mesh(const std::string& path, const LoadOptions& options = {});
 
 /// The same checks and repairs on a mesh that is in memory already (metres).
 LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string& where);
 
-/// Throws an input Error that names the likely unit when a part of this diagonal (m) cannot be meant for the bin
-/// (larger than the bin, or below 1/2000 of its longest side) and no unit was given.
+/// Throws an input Error when a part does not fit the bin (diagonal above the bin's), or when no unit was given and it
+/// is below 1/2000 of the bin's longest side; without a unit the error names the likely one. An endless floor or free
+/// flight stands for a bin of 10 m. A bin that is a mesh sets no limit here.
 void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given);
 
 }  // namespace bin_scenes

@@ -1,0 +1,100 @@
+#include "contained.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+
+namespace bin_scenes {
+
+namespace {
+
+bool write_all(int file, const void* data, std::size_t size) {
+  const char* from = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = write(file, from, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    from += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+std::string read_to_end(int file) {
+  std::string all;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t n = read(file, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return all;
+    all.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+[[noreturn]] void child(const std::function<std::string()>& work, unsigned cpu_seconds, int out) {
+  // The limit counts processor time, so that a busy machine does not change what can be read.
+  const rlimit cpu{cpu_seconds, cpu_seconds + 1}, no_core{0, 0};
+  setrlimit(RLIMIT_CPU, &cpu);
+  setrlimit(RLIMIT_CORE, &no_core);
+  for (const int caught : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU}) signal(caught, SIG_DFL);
+  const std::string output = work();
+  const std::uint64_t size = output.size();
+  const bool sent = write_all(out, &size, sizeof size) && write_all(out, output.data(), output.size());
+  // No destructors, no exit handlers: they belong to the parent.
+  _exit(sent ? 0 : 1);
+}
+
+}  // namespace
+
+Contained run_contained(const std::function<std::string()>& work, unsigned cpu_seconds) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    throw environment_error(std::string("no pipe: ") + std::strerror(errno), "", "close other programs or files");
+  }
+  const pid_t pid = fork();
+  if (pid < 0) {
+    const std::string reason = std::strerror(errno);
+    close(ends[0]);
+    close(ends[1]);
+    throw environment_error("no process can be started: " + reason, "", "close other programs");
+  }
+  if (pid == 0) child(work, cpu_seconds, ends[1]);
+  close(ends[1]);
+  Contained result;
+  result.output = read_to_end(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  pid_t waited;
+  do waited = waitpid(pid, &status, 0);
+  while (waited < 0 && errno == EINTR);
+
+  // What arrived decides, not the status: a host that ignores SIGCHLD gets none.
+  std::uint64_t size = 0;
+  if (result.output.size() >= sizeof size) {
+    std::memcpy(&size, result.output.data(), sizeof size);
+    result.finished = result.output.size() == sizeof size + size;
+  }
+  if (result.finished) {
+    result.output.erase(0, sizeof size);
+    return result;
+  }
+  result.output.clear();
+  if (waited == pid && WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    result.failure = signal == SIGXCPU ? "did not finish within " + std::to_string(cpu_seconds) + " s"
+                                       : std::string("crashed (") + strsignal(signal) + ")";
+  } else {
+    result.failure = "ended early";
+  }
+  return result;
+}
+
+}  // namespace bin_scenes
