@@ -4,6 +4,7 @@
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
+#include "bin_scenes/part/shape_error.hpp"
 #include "hacd_partition.hpp"
 
 #include <algorithm>
@@ -34,27 +35,6 @@ double surface_error(const std::vector<Mesh>& hulls, const MeshQuery& query) {
     }
   }
   return worst / diagonal;
-}
-
-/// Volume of the union by counting the points of a quasi-random sequence (R3, Roberts 2018) that lie in any hull.
-double union_volume(const std::vector<Mesh>& hulls) {
-  if (hulls.size() == 1) return mass_properties(hulls[0]).volume;
-  Aabb box;
-  std::vector<HullPlanes> planes;
-  for (const Mesh& hull : hulls) {
-    box.extend(hull.bounds());
-    planes.emplace_back(hull);
-  }
-  constexpr int kPoints = 1 << 16;
-  const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  int inside = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    Vec3 place = Vec3::Constant(0.5) + i * step;
-    place -= place.array().floor().matrix();
-    const Vec3 p = box.lower + place.cwiseProduct(box.size());
-    inside += std::any_of(planes.begin(), planes.end(), [&](const HullPlanes& hull) { return hull.outside(p) <= 0; });
-  }
-  return box.size().prod() * inside / kPoints;
 }
 
 /// A piece of the part on its way to a hull.

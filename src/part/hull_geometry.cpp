@@ -111,20 +111,4 @@ bool HullPlanes::covers(const Vec3& p, const Vec3& normal, double tolerance) con
   return most < -tolerance || opposed;
 }
 
-std::vector<SurfacePoint> dense_surface_points(const Mesh& mesh, double step) {
-  std::vector<SurfacePoint> points;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 area = mesh.area_vector(t);
-    if (!(area.norm() > 0)) continue;
-    const Vec3 normal = area.normalized();
-    const auto& [ia, ib, ic] = mesh.triangles[t];
-    const Vec3 &a = mesh.vertices[ia], &b = mesh.vertices[ib], &c = mesh.vertices[ic];
-    const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    const int n = 1 + static_cast<int>(longest / step);
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; i + j <= n; ++j) points.push_back({a + (b - a) * i / n + (c - a) * j / n, normal});
-  }
-  return points;
-}
-
 }  // namespace bin_scenes

@@ -31,10 +31,4 @@ class HullPlanes {
   Aabb bounds_;
 };
 
-/// Points on the surface of a mesh, at most `step` apart, with the outward normal of their triangle: for measuring.
-struct SurfacePoint {
-  Vec3 point, normal;
-};
-std::vector<SurfacePoint> dense_surface_points(const Mesh& mesh, double step);
-
 }  // namespace bin_scenes

@@ -7,6 +7,7 @@
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "bin_scenes/part/samples.hpp"
+#include "bin_scenes/part/shape_error.hpp"
 #include "bin_scenes/part/spheres.hpp"
 #include "bin_scenes/scene/mesh_loader.hpp"
 
@@ -15,11 +16,10 @@
 
 namespace bin_scenes {
 
-/// Error of a proxy against the mesh, as fractions of the bounding diagonal (measures.md).
-struct ShapeError {
-  double to_mesh_mean = 0, to_mesh_max = 0;      ///< proxy surface -> mesh
-  double from_mesh_mean = 0, from_mesh_max = 0;  ///< mesh -> proxy surface
-  double volume = 0;                             ///< (proxy - mesh) / mesh
+/// What the process has done for its parts so far: the second start of a program should only read.
+struct PartWork {
+  std::size_t built = 0;  ///< meshes loaded and proxies computed
+  std::size_t read = 0;   ///< taken from the disk cache instead
 };
 
 class PartModel {
@@ -28,6 +28,7 @@ class PartModel {
   static std::shared_ptr<const PartModel> load(const std::string& path, const LoadOptions& options = {});
   /// From a mesh in memory (tests, generated shapes); `name` stands for the path.
   static std::shared_ptr<const PartModel> from_mesh(const Mesh& mesh, const std::string& name);
+  static PartWork work();
   ~PartModel();
 
   const std::string& path() const;
@@ -36,6 +37,8 @@ class PartModel {
   const MassProperties& mass() const;  ///< density 1
   double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
   double radius() const;               ///< largest vertex distance from the centre of mass (m)
+
+  struct State;  ///< defined in src/part
 
   // Proxies: thread-safe, lazy, cached on disk. References live as long as the model.
   const MeshQuery& query() const;
@@ -50,7 +53,7 @@ class PartModel {
 
  private:
   PartModel();
-  struct State;
+  static std::shared_ptr<const PartModel> make(LoadedMesh loaded, const std::string& path);
   std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,44 @@
+/// Read from the disk cache, else make and write: the one way every prepared thing of a part takes.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "part_bytes.hpp"
+
+#include <atomic>
+#include <cstdio>
+
+namespace bin_scenes {
+
+/// Counts for PartModel::work().
+struct PartWorkCounter {
+  static std::atomic<std::size_t> built, read;
+};
+
+/// Options as text for a cache key: every bit of a number counts.
+inline std::string key_text(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a ", value);
+  return text;
+}
+
+template <class T, class Make>
+T cached(const std::string& kind, const std::string& key, Make&& make) {
+  const std::string full_key = "format " + std::to_string(kPartFormat) + " " + key;
+  if (const auto bytes = Cache::global().read(kind, full_key)) {
+    ByteReader in(*bytes);
+    T value;
+    get(in, value);
+    if (in.complete()) {
+      ++PartWorkCounter::read;
+      return value;
+    }
+  }
+  T value = make();
+  ++PartWorkCounter::built;
+  ByteWriter out;
+  put(out, value);
+  Cache::global().write(kind, full_key, out.take());
+  return value;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,32 @@
+/// What a PartModel holds.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+
+#include <map>
+#include <mutex>
+
+namespace bin_scenes {
+
+struct PartModel::State {
+  std::string path, mesh_key;  // mesh_key: hash of the mesh, the key of everything made from it
+  LoadedMesh loaded;
+  MassProperties mass;
+  double diagonal = 0, radius = 0;
+
+  std::once_flag query_once;
+  std::unique_ptr<MeshQuery> query;
+
+  /// Proxies of one kind by their options; pointers, so that references stay good while more are added.
+  template <class T>
+  struct Made {
+    std::mutex mutex;
+    std::map<std::string, std::unique_ptr<T>> by_options;
+  };
+  Made<SphereSet> spheres;
+  Made<DistanceField> fields;
+  Made<ConvexHulls> hulls;
+  Made<SampleSet> samples;
+};
+
+}  // namespace bin_scenes

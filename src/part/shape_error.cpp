@@ -1,0 +1,234 @@
+#include "bin_scenes/part/shape_error.hpp"
+
+#include "bin_scenes/part/hull_geometry.hpp"
+#include "bin_scenes/part/mass_properties.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+namespace {
+
+constexpr double kStep = 0.005;  // / diagonal
+
+/// Mean and maximum of distances, weighted.
+struct Distances {
+  double sum = 0, weight = 0, max = 0;
+
+  void add(double distance, double w) {
+    sum += w * distance;
+    weight += w;
+    max = std::max(max, distance);
+  }
+  double mean() const { return weight > 0 ? sum / weight : 0.0; }
+};
+
+/// Fraction of a box that is inside, by the points of a quasi-random sequence (R3, Roberts 2018).
+template <class Inside>
+double volume_by_counting(const Aabb& box, int points, Inside&& inside) {
+  const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+  int count = 0;
+  for (int i = 0; i < points; ++i) {
+    Vec3 place = Vec3::Constant(0.5) + i * step;
+    place -= place.array().floor().matrix();
+    count += inside(Vec3(box.lower + place.cwiseProduct(box.size()))) ? 1 : 0;
+  }
+  return box.size().prod() * count / points;
+}
+
+/// `from_mesh` asks the proxy for its distance at points of the mesh; the rest is the same for every proxy.
+template <class ProxyDistance>
+ShapeError errors(const MeshQuery& query, const Distances& to_mesh, double proxy_volume, ProxyDistance&& distance) {
+  const double diagonal = query.mesh().bounds().diagonal();
+  Distances from_mesh;
+  for (const SurfacePoint& s : dense_surface_points(query.mesh(), kStep * diagonal)) {
+    from_mesh.add(std::abs(distance(s.point)), s.weight);
+  }
+  const double volume = mass_properties(query.mesh()).volume;
+  ShapeError error;
+  error.to_mesh_mean = to_mesh.mean() / diagonal;
+  error.to_mesh_max = to_mesh.max / diagonal;
+  error.from_mesh_mean = from_mesh.mean() / diagonal;
+  error.from_mesh_max = from_mesh.max / diagonal;
+  error.volume = volume > 0 ? proxy_volume / volume - 1 : 0.0;
+  return error;
+}
+
+/// Spheres by place: which of them are near a point.
+class SphereGrid {
+ public:
+  explicit SphereGrid(const std::vector<Sphere>& spheres) : spheres_(spheres) {
+    for (const Sphere& s : spheres) {
+      box_.extend(Vec3(s.center - Vec3::Constant(s.radius)));
+      box_.extend(Vec3(s.center + Vec3::Constant(s.radius)));
+    }
+    double largest = 0;
+    for (const Sphere& s : spheres) largest = std::max(largest, s.radius);
+    cell_ = std::max(2 * largest, box_.size().maxCoeff() / 64);
+    for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<int>(box_.size()[axis] / cell_) + 1;
+    cells_.resize(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+      visit_cells(spheres[i].center, spheres[i].radius, [&](std::size_t cell) { cells_[cell].push_back(i); });
+    }
+  }
+
+  const Aabb& box() const { return box_; }
+
+  bool inside(const Vec3& p) const {
+    bool found = false;
+    visit_cells(p, 0.0, [&](std::size_t cell) {
+      for (const std::uint32_t i : cells_[cell]) {
+        found = found || (spheres_[i].center - p).norm() < spheres_[i].radius * (1 - 1e-9);
+      }
+    });
+    return found;
+  }
+
+  /// Signed distance to the union; searches rings of cells until none can be nearer.
+  double distance(const Vec3& p) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (double reach = cell_;; reach *= 2) {
+      visit_cells(p, reach, [&](std::size_t cell) {
+        for (const std::uint32_t i : cells_[cell]) {
+          best = std::min(best, (spheres_[i].center - p).norm() - spheres_[i].radius);
+        }
+      });
+      if (best <= reach || reach > 4 * box_.diagonal()) return best;
+    }
+  }
+
+ private:
+  template <class Visit>
+  void visit_cells(const Vec3& p, double reach, Visit&& visit) const {
+    std::array<int, 3> lower, upper;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = p[axis] - box_.lower[axis];
+      lower[axis] = std::clamp(static_cast<int>((place - reach) / cell_), 0, count_[axis] - 1);
+      upper[axis] = std::clamp(static_cast<int>((place + reach) / cell_), 0, count_[axis] - 1);
+    }
+    for (int z = lower[2]; z <= upper[2]; ++z)
+      for (int y = lower[1]; y <= upper[1]; ++y)
+        for (int x = lower[0]; x <= upper[0]; ++x) visit(x + count_[0] * (y + static_cast<std::size_t>(count_[1]) * z));
+  }
+
+  const std::vector<Sphere>& spheres_;
+  Aabb box_;
+  double cell_;
+  std::array<int, 3> count_;
+  std::vector<std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace
+
+std::vector<SurfacePoint> dense_surface_points(const Mesh& mesh, double step) {
+  std::vector<SurfacePoint> points;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 area = mesh.area_vector(t);
+    if (!(area.norm() > 0)) continue;
+    // Rows parallel to the longest side, so that slivers get few points.
+    int apex = 0;
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 side = mesh.vertices[mesh.triangles[t][(k + 2) % 3]] - mesh.vertices[mesh.triangles[t][(k + 1) % 3]];
+      if (side.norm() > longest) longest = side.norm(), apex = k;
+    }
+    const Vec3& a = mesh.vertices[mesh.triangles[t][apex]];
+    const Vec3 ab = mesh.vertices[mesh.triangles[t][(apex + 1) % 3]] - a;
+    const Vec3 ac = mesh.vertices[mesh.triangles[t][(apex + 2) % 3]] - a;
+    const int rows = 1 + static_cast<int>(area.norm() / longest / step);
+    const std::size_t first = points.size();
+    for (int i = 0; i <= rows; ++i) {
+      const double down = static_cast<double>(i) / rows;
+      const int pieces = 1 + static_cast<int>(down * longest / step);
+      for (int j = 0; j <= pieces; ++j) {
+        const double across = static_cast<double>(j) / pieces;
+        points.push_back({a + down * ((1 - across) * ab + across * ac), area.normalized(), 0.0});
+      }
+    }
+    const double weight = 0.5 * area.norm() / static_cast<double>(points.size() - first);
+    for (std::size_t i = first; i < points.size(); ++i) points[i].weight = weight;
+  }
+  return points;
+}
+
+double union_volume(const std::vector<Mesh>& hulls) {
+  if (hulls.size() == 1) return mass_properties(hulls[0]).volume;
+  Aabb box;
+  std::vector<HullPlanes> planes;
+  for (const Mesh& hull : hulls) {
+    box.extend(hull.bounds());
+    planes.emplace_back(hull);
+  }
+  return volume_by_counting(box, 1 << 16, [&](const Vec3& p) {
+    return std::any_of(planes.begin(), planes.end(), [&](const HullPlanes& hull) { return hull.outside(p) <= 0; });
+  });
+}
+
+ShapeError shape_error(const SphereSet& spheres, const SphereSet& whole, const MeshQuery& query) {
+  // Of a sphere only the part that faces the surface within 60 degrees can touch anything: the rest is hidden by its
+  // neighbours, or looks at the spheres inside that were left out.
+  const SphereGrid grid(spheres.spheres), whole_grid(whole.spheres);
+  const int points = std::clamp(20000 / static_cast<int>(spheres.spheres.size() + 1), 60, 4000);
+  const double golden = M_PI * (3 - std::sqrt(5.0));
+  Distances to_mesh;
+  for (const Sphere& s : spheres.spheres) {
+    for (int k = 0; k < points; ++k) {
+      const double z = 1 - (2 * k + 1.0) / points, r = std::sqrt(1 - z * z);
+      const Vec3 direction(r * std::cos(golden * k), r * std::sin(golden * k), z), p = s.center + s.radius * direction;
+      if (grid.inside(p)) continue;
+      const NearestPoint nearest = query.nearest(p);
+      if (direction.dot(query.mesh().area_vector(nearest.triangle).normalized()) < 0.5) continue;
+      to_mesh.add(nearest.distance, s.radius * s.radius);
+    }
+  }
+  const double volume =
+      volume_by_counting(whole_grid.box(), 1 << 16, [&](const Vec3& p) { return whole_grid.inside(p); });
+  return errors(query, to_mesh, volume, [&](const Vec3& p) { return grid.distance(p); });
+}
+
+ShapeError shape_error(const DistanceField& field, const MeshQuery& query) {
+  // The zero level of the trilinear interpolant, where it crosses the edges of the grid; and the volume by the part of
+  // each node's cube that is inside if the surface there is flat.
+  Distances to_mesh;
+  double volume = 0;
+  const auto [nx, ny, nz] = field.nodes;
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        const double here = field.at(x, y, z);
+        volume += std::clamp(0.5 - here / field.cell, 0.0, 1.0);
+        for (int axis = 0; axis < 3; ++axis) {
+          const std::array<int, 3> next{x + (axis == 0), y + (axis == 1), z + (axis == 2)};
+          if (next[axis] >= field.nodes[axis]) continue;
+          const double there = field.at(next[0], next[1], next[2]);
+          if ((here < 0) == (there < 0)) continue;
+          const Vec3 node = Vec3(x, y, z) + here / (here - there) * Vec3::Unit(axis);
+          to_mesh.add(query.nearest(field.origin + field.cell * node).distance, 1.0);
+        }
+      }
+    }
+  }
+  return errors(query, to_mesh, volume * std::pow(field.cell, 3), [&](const Vec3& p) { return field.distance(p); });
+}
+
+ShapeError shape_error(const ConvexHulls& set, const MeshQuery& query) {
+  const double diagonal = query.mesh().bounds().diagonal();
+  std::vector<HullPlanes> planes;
+  for (const Mesh& hull : set.hulls) planes.emplace_back(hull);
+  Distances to_mesh;
+  for (std::size_t h = 0; h < set.hulls.size(); ++h) {
+    for (const SurfacePoint& s : dense_surface_points(set.hulls[h], kStep * diagonal)) {
+      bool covered = false;
+      for (std::size_t other = 0; other < planes.size() && !covered; ++other) {
+        covered = other != h && planes[other].covers(s.point, s.normal, 1e-4 * diagonal);
+      }
+      if (!covered) to_mesh.add(query.nearest(s.point).distance, s.weight);
+    }
+  }
+  return errors(query, to_mesh, union_volume(set.hulls), [&](const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const HullPlanes& hull : planes) least = std::min(least, hull.outside(p));
+    return least;
+  });
+}
+
+}  // namespace bin_scenes
