@@ -1,0 +1,198 @@
+#include "convex_cell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+namespace bin_scenes {
+
+ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
+  for (int i = 0; i < 8; ++i) {
+    vertices_.emplace_back((i & 1 ? box.upper : box.lower).x(), (i & 2 ? box.upper : box.lower).y(),
+                           (i & 4 ? box.upper : box.lower).z());
+  }
+  faces_ = {{{-Vec3::UnitX(), -box.lower.x()}, {0, 4, 6, 2}}, {{Vec3::UnitX(), box.upper.x()}, {1, 3, 7, 5}},
+            {{-Vec3::UnitY(), -box.lower.y()}, {0, 1, 5, 4}}, {{Vec3::UnitY(), box.upper.y()}, {2, 6, 7, 3}},
+            {{-Vec3::UnitZ(), -box.lower.z()}, {0, 2, 3, 1}}, {{Vec3::UnitZ(), box.upper.z()}, {4, 5, 7, 6}}};
+}
+
+void ConvexCell::clip(const Plane& plane) {
+  if (empty()) return;
+  std::vector<double> height(vertices_.size());
+  bool any_in = false, any_out = false;
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    height[v] = plane.above(vertices_[v]);
+    if (std::abs(height[v]) <= tolerance_) height[v] = 0.0;
+    any_in |= height[v] < 0.0;
+    any_out |= height[v] > 0.0;
+  }
+  if (!any_out) return;
+  if (!any_in) {
+    faces_.clear();
+    vertices_.clear();
+    return;
+  }
+
+  // Old vertices that stay get new indices as they are met; each cut edge gets one new vertex.
+  std::vector<Vec3> kept;
+  std::vector<int> renumbered(vertices_.size(), -1);
+  std::map<std::pair<int, int>, int> cuts;
+  std::vector<int> cap;
+  const auto keep = [&](int v) {
+    if (renumbered[v] < 0) {
+      renumbered[v] = static_cast<int>(kept.size());
+      kept.push_back(vertices_[v]);
+      if (height[v] == 0.0) cap.push_back(renumbered[v]);
+    }
+    return renumbered[v];
+  };
+  const auto cut = [&](int u, int v) {
+    const auto [found, added] = cuts.try_emplace(std::minmax(u, v), static_cast<int>(kept.size()));
+    if (added) {
+      const auto& [first, second] = found->first;
+      const double t = height[first] / (height[first] - height[second]);
+      kept.push_back(vertices_[first] + t * (vertices_[second] - vertices_[first]));
+      cap.push_back(found->second);
+    }
+    return found->second;
+  };
+  std::vector<Face> faces;
+  for (const Face& face : faces_) {
+    if (std::none_of(face.loop.begin(), face.loop.end(), [&](int v) { return height[v] < 0.0; })) continue;
+    Face part{face.plane, {}};
+    for (std::size_t i = 0; i < face.loop.size(); ++i) {
+      const int u = face.loop[i], v = face.loop[(i + 1) % face.loop.size()];
+      if (height[u] <= 0.0) part.loop.push_back(keep(u));
+      if (height[u] * height[v] < 0.0) part.loop.push_back(cut(u, v));
+    }
+    if (part.loop.size() >= 3) faces.push_back(std::move(part));
+  }
+
+  // The cap is convex: its corners in order of angle about their middle.
+  if (cap.size() >= 3) {
+    Vec3 middle = Vec3::Zero();
+    for (const int v : cap) middle += kept[v] / static_cast<double>(cap.size());
+    const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
+    std::vector<std::pair<double, int>> order;
+    for (const int v : cap) order.emplace_back(std::atan2(y.dot(kept[v] - middle), x.dot(kept[v] - middle)), v);
+    std::sort(order.begin(), order.end());
+    Face lid{plane, {}};
+    for (const auto& [angle, v] : order) lid.loop.push_back(v);
+    faces.push_back(std::move(lid));
+  }
+  faces_ = std::move(faces);
+  vertices_ = std::move(kept);
+}
+
+std::vector<ConvexCell::Edge> ConvexCell::edges() const {
+  struct Side {
+    int u, v, face;
+  };
+  std::vector<Side> sides;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const std::vector<int>& loop = faces_[f].loop;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto [u, v] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+      sides.push_back({u, v, static_cast<int>(f)});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::array{s.u, s.v, s.face} < std::array{t.u, t.v, t.face};
+  });
+  std::vector<Edge> edges;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const Side &s = sides[i - 1], &t = sides[i];
+    if (s.u != t.u || s.v != t.v) continue;
+    edges.push_back({s.u, {s.face, t.face}, faces_[s.face].plane.normal.cross(faces_[t.face].plane.normal)});
+  }
+  return edges;
+}
+
+const Vec3& ConvexCell::lowest(const Vec3& direction) const {
+  std::size_t best = 0;
+  double low = direction.dot(vertices_[0]);
+  for (std::size_t v = 1; v < vertices_.size(); ++v) {
+    const double d = direction.dot(vertices_[v]);
+    if (d < low) {
+      low = d;
+      best = v;
+    }
+  }
+  return vertices_[best];
+}
+
+namespace {
+
+/// An edge with the least depth that any pair it takes part in can have.
+struct BoundedEdge {
+  ConvexCell::Edge edge;
+  double bound;
+};
+
+std::vector<BoundedEdge> bounded_edges(const ConvexCell& cell, const std::vector<double>& beneath, double limit) {
+  std::vector<BoundedEdge> edges;
+  for (const ConvexCell::Edge& edge : cell.edges()) {
+    // A normal of the edge is a combination of its faces' normals with weights that sum to at least one.
+    const double bound = std::min(beneath[edge.face[0]], beneath[edge.face[1]]);
+    if (bound < limit) edges.push_back({edge, bound});
+  }
+  std::sort(edges.begin(), edges.end(), [](const BoundedEdge& s, const BoundedEdge& t) {
+    return s.bound != t.bound
+               ? s.bound < t.bound
+               : std::make_pair(s.edge.face[0], s.edge.face[1]) < std::make_pair(t.edge.face[0], t.edge.face[1]);
+  });
+  return edges;
+}
+
+}  // namespace
+
+Separation separation(const ConvexCell& a, const ConvexCell& b, const Vec3& common, double slack, double enough) {
+  if (a.empty() || b.empty()) return {};
+  Separation best;
+  best.depth = std::numeric_limits<double>::infinity();
+
+  // Faces of either against the lowest point of the other.
+  std::array<std::vector<double>, 2> beneath;  // how far `common` lies below each face, at least
+  for (int side = 0; side < 2; ++side) {
+    const ConvexCell &one = side ? b : a, &other = side ? a : b;
+    for (const ConvexCell::Face& face : one.faces()) {
+      const double bound = std::max(0.0, -face.plane.above(common) - slack);
+      beneath[side].push_back(bound);
+      if (bound >= best.depth) continue;
+      const Vec3& low = other.lowest(face.plane.normal);
+      const double depth = -face.plane.above(low);
+      if (depth >= best.depth) continue;
+      best = {depth, side ? Vec3(-face.plane.normal) : face.plane.normal, low};
+      if (depth <= enough) return best;
+    }
+  }
+
+  // Pairs of edges that make a face of the Minkowski difference.
+  const std::vector<BoundedEdge> of_a = bounded_edges(a, beneath[0], best.depth);
+  const std::vector<BoundedEdge> of_b = bounded_edges(b, beneath[1], best.depth);
+  for (const auto& [ea, bound_a] : of_a) {
+    if (bound_a >= best.depth) break;
+    const Vec3 &a1 = a.faces()[ea.face[0]].plane.normal, &a2 = a.faces()[ea.face[1]].plane.normal;
+    for (const auto& [eb, bound_b] : of_b) {
+      if (bound_a + bound_b >= best.depth) break;
+      const Vec3 &b1 = b.faces()[eb.face[0]].plane.normal, &b2 = b.faces()[eb.face[1]].plane.normal;
+      const double b1_side = -b1.dot(ea.fan), b2_side = -b2.dot(ea.fan);
+      if (b1_side * b2_side >= 0.0) continue;
+      const double a1_side = a1.dot(eb.fan), a2_side = a2.dot(eb.fan);
+      if (a1_side * a2_side >= 0.0 || b1_side * a2_side <= 0.0) continue;
+      Vec3 normal = ea.fan.cross(eb.fan);
+      const double length = normal.norm();
+      if (length <= 1e-9 * ea.fan.norm() * eb.fan.norm()) continue;  // parallel: the faces have judged it
+      normal *= (normal.dot(a1 + a2) < 0.0 ? -1.0 : 1.0) / length;
+      const Vec3 &pa = a.vertices()[ea.vertex], &pb = b.vertices()[eb.vertex];
+      const double depth = normal.dot(pa - pb);
+      if (depth >= best.depth) continue;
+      best = {depth, normal, pa};
+      if (depth <= enough) return best;
+    }
+  }
+  return best;
+}
+
+}  // namespace bin_scenes

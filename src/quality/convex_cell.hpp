@@ -1,0 +1,58 @@
+/// Small convex polyhedra made by cutting a box with half-spaces, and the exact depth of two of them.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Half-space normal . x <= offset; the normal points out of the solid.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();
+  double offset = 0.0;
+  double above(const Vec3& x) const { return normal.dot(x) - offset; }
+};
+
+class ConvexCell {
+ public:
+  explicit ConvexCell(const Aabb& box);
+
+  /// Keeps what lies in the half-space. Lengths below 1e-10 of the box's diagonal count as zero.
+  void clip(const Plane& plane);
+  bool empty() const { return faces_.empty(); }
+
+  struct Face {
+    Plane plane;
+    std::vector<int> loop;  ///< vertex indices, counter-clockwise seen from outside
+  };
+  struct Edge {
+    int vertex, face[2];
+    Vec3 fan;  ///< cross product of the two faces' normals, along the edge
+  };
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+  const std::vector<Face>& faces() const { return faces_; }
+  std::vector<Edge> edges() const;
+  /// Vertex with the smallest coordinate along `direction`.
+  const Vec3& lowest(const Vec3& direction) const;
+
+ private:
+  double tolerance_;
+  std::vector<Vec3> vertices_;
+  std::vector<Face> faces_;
+};
+
+/// How two convex bodies come apart along the shortest translation.
+struct Separation {
+  double depth = 0.0;             ///< m; <= 0: they are apart already
+  Vec3 direction = Vec3::Zero();  ///< unit; moves b away from a
+  Vec3 point = Vec3::Zero();      ///< where they touch last, b still unmoved
+};
+
+/// Penetration depth of two convex cells: the nearest face of their Minkowski difference, found among the faces of
+/// either and the pairs of edges whose normal arcs cross (Gregorius 2013, "The separating axis test between convex
+/// polyhedra"). `common` lies in both, up to `slack`: the distance of a feature's plane from it bounds the depth from
+/// below, which leaves most features out. Returns early with some depth <= `enough` as soon as it is known to be so.
+Separation separation(const ConvexCell& a, const ConvexCell& b, const Vec3& common, double slack, double enough);
+
+}  // namespace bin_scenes

@@ -1,0 +1,27 @@
+/// Where the surfaces of two placed meshes cut each other.
+#pragma once
+
+#include "tree_pair.hpp"
+
+#include <optional>
+
+namespace bin_scenes {
+
+/// The common segment of two triangles.
+struct Crossing {
+  Vec3 point;                                     ///< in the middle of it
+  Aabb box;                                       ///< around it
+  std::array<std::size_t, 2> triangles = {0, 0};  ///< of a and b
+};
+
+/// None if the triangles are apart, or coplanar (their neighbours then meet instead). Lengths up to `tolerance`
+/// count as zero: triangles that only touch cross in a point or a segment.
+std::optional<Crossing> crossing(const TrianglePoints& s, const TrianglePoints& t, double tolerance);
+
+/// Crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a` takes b's frame to a's.
+std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance);
+
+/// Groups of crossings whose boxes touch, each in order: one group per closed curve of intersection.
+std::vector<std::vector<std::size_t>> connected(const std::vector<Crossing>& crossings, double tolerance);
+
+}  // namespace bin_scenes

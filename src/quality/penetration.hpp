@@ -1,0 +1,17 @@
+/// Overlap of two placed meshes, one of which may be an open surface.
+#pragma once
+
+#include "bin_scenes/part/mesh_query.hpp"
+#include "bin_scenes/quality/quality.hpp"
+
+namespace bin_scenes {
+
+struct OverlapSide {
+  const MeshQuery& query;
+  bool closed = true;         ///< false: a sheet without an inside; it is solid behind the side that `front` sees
+  Vec3 front = Vec3::Zero();  ///< sheet only: a point before it, in its own frame
+};
+
+Penetration overlap(const OverlapSide& a, const Pose& pose_a, const OverlapSide& b, const Pose& pose_b);
+
+}  // namespace bin_scenes
