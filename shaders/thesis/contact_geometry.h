@@ -1,0 +1,128 @@
+// Lattice nodes of sheets, and the contact of a sphere with another sphere or a node.
+
+float sheet_height(ThesisSheet sheet, vec4 center) { return dot(center.xyz - sheet.origin.xyz, sheet.normal.xyz); }
+
+vec2 sheet_position(ThesisSheet sheet, vec4 center) {
+  vec3 p = center.xyz - sheet.origin.xyz;
+  return vec2(dot(p, sheet.u.xyz), dot(p, sheet.v.xyz));
+}
+
+bool sheet_in_reach(ThesisSheet sheet, vec4 center) {
+  float height = sheet_height(sheet, center);
+  return height < center.w + sheet.origin.w && height > -sheet.surface.z;
+}
+
+// So far in that a node's sphere would push sideways or out through the back: pushed back along the sheet's normal by
+// the nearest node alone. Sheets are one-sided; a stored layer of spheres would leak here.
+bool sheet_deep(ThesisSheet sheet, vec4 center) {
+  return sheet_height(sheet, center) < 0.5 * (center.w + sheet.origin.w);
+}
+
+// The node du, dv steps from the one nearest to the sphere.
+vec2 node_position(ThesisSheet sheet, vec4 center, int du, int dv) {
+  return (round(sheet_position(sheet, center) / sheet.normal.w) + vec2(du, dv)) * sheet.normal.w;
+}
+
+bool sheet_has_node(ThesisSheet sheet, vec4 center, int du, int dv) {
+  vec2 node = abs(node_position(sheet, center, du, dv));
+  return node.x <= sheet.u.w && node.y <= sheet.v.w;
+}
+
+vec3 node_center(ThesisSheet sheet, vec4 center, int du, int dv) {
+  vec2 node = node_position(sheet, center, du, dv);
+  return sheet.origin.xyz + node.x * sheet.u.xyz + node.y * sheet.v.xyz;
+}
+
+float node_depth(ThesisSheet sheet, vec4 center, int du, int dv) {
+  float way = sheet_deep(sheet, center) ? sheet_height(sheet, center)
+                                        : distance(center.xyz, node_center(sheet, center, du, dv));
+  return center.w + sheet.origin.w - way;
+}
+
+// Index of the sheet in its world and steps from the nearest node: the same in every batch.
+uint node_code(uint sheet, int du, int dv) { return THESIS_NODE | sheet << 16 | uint(du + 128) << 8 | uint(dv + 128); }
+
+// Direction of the push on this sphere: along the centres, or the true surface's normal where one of the two (or
+// their mean, where both) lies on a face. Antisymmetric in the two spheres, so that both bodies get opposite pushes.
+// A face's normal far from the line of centres belongs to another side of the part: not used.
+vec3 contact_normal(vec3 line, vec4 own, vec4 other) {
+  if (settings.modified_normals == 0u) return line;
+  vec3 n = other.w * other.xyz - own.w * own.xyz;
+  float size = length(n);
+  if (size < 0.5) return line;
+  n /= size;
+  return dot(n, line) >= 0.5 ? n : line;
+}
+
+vec4 face_normal(uint sphere) {
+  vec4 local = shapes[spheres[sphere].shape].normal;
+  return vec4(rotate(states[spheres[sphere].body].orientation, local.xyz), local.w);
+}
+
+vec3 velocity_at(uint body, vec3 point) {
+  return states[body].velocity.xyz + cross(states[body].spin.xyz, point - states[body].position.xyz);
+}
+
+// Speed at which the two are to part: the bounce of an approaching contact, or the bias out of a penetration (eq 2.29),
+// whichever is larger. `left`: depth that is left alone.
+// Guendelman et al. 2003: bodies collide with the velocities they had before this step's gravity, which then acts on
+// the bounce; a contact slower than the threshold rests. With gravity taken into the bounce, it would gain energy.
+float separation_speed(ThesisContact contact, uint body, float left, float restitution) {
+  vec3 point = states[body].position.xyz + contact.arm.xyz;
+  vec3 fall = settings.time_step * worlds[bodies[body].range.z].gravity.xyz;
+  vec3 v = velocity_at(body, point);
+  if ((contact.other.y & THESIS_NODE) == 0u) {
+    v -= velocity_at(contact.other.y, point);
+    if (bodies[contact.other.y].inverse_inertia.w > 0.0) fall = vec3(0.0);  // both fall alike
+  }
+  float approach = -dot(contact.normal.xyz, v - fall);
+  bool rests = approach <= worlds[bodies[body].range.z].gravity.w;
+  float bounce = rests ? 0.0 : restitution * approach + dot(contact.normal.xyz, fall);
+  return max(bounce, settings.bias * max(0.0, contact.normal.w - left));
+}
+
+ThesisContact contact_with(uint other, uint sphere, uint body, ThesisWorld world) {
+  vec4 center = centers[sphere];
+  vec3 line;
+  vec4 other_center, other_face;
+  vec2 surface;
+  float depth;
+  uint key;
+  bool deep = false;
+  if ((other & THESIS_NODE) != 0u) {
+    uint k = (other >> 16) & 0x7fffu;
+    ThesisSheet sheet = sheets[world.sheets.x + k];
+    int du = int((other >> 8) & 0xffu) - 128, dv = int(other & 0xffu) - 128;
+    other_center = vec4(node_center(sheet, center, du, dv), sheet.origin.w);
+    other_face = vec4(sheet.normal.xyz, 1.0);
+    surface = sheet.surface.xy;
+    depth = node_depth(sheet, center, du, dv);
+    deep = sheet_deep(sheet, center);
+    key = THESIS_NODE | k;
+  } else {
+    other_center = centers[other];
+    other_face = settings.modified_normals != 0u ? face_normal(other) : vec4(0.0);
+    key = spheres[other].body;
+    surface = bodies[key].surface.xy;
+    depth = center.w + other_center.w - distance(center.xyz, other_center.xyz);
+  }
+
+  vec3 apart = center.xyz - other_center.xyz;
+  float size = length(apart);
+  // Spheres in one place: any direction will do, if it is opposite for the two.
+  line = size > 0.0 ? apart / size : vec3(0.0, 0.0, sphere > other ? 1.0 : -1.0);
+  vec4 own_face = settings.modified_normals != 0u ? face_normal(sphere) : vec4(0.0);
+  vec3 n = deep ? other_face.xyz : contact_normal(line, own_face, other_face);
+
+  // In the middle of the overlap, on the line of centres: the same point seen from both spheres.
+  vec3 point = center.xyz - line * (center.w - 0.5 * depth);
+  if (deep) point = center.xyz - n * center.w;
+  ThesisContact contact;
+  contact.normal = vec4(n, depth);
+  contact.arm = vec4(point - states[body].position.xyz, sqrt(bodies[body].surface.x * surface.x));
+  contact.other = uvec4(other, key, 1u, 0u);
+  contact.impulse = vec4(0.0);
+  float left = settings.slop * min(center.w, other_center.w);
+  contact.total = vec4(0.0, 0.0, 0.0, separation_speed(contact, body, left, max(bodies[body].surface.y, surface.y)));
+  return contact;
+}

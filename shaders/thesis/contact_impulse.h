@@ -1,0 +1,45 @@
+// Impulse of one contact in one iteration: what the velocities, as they are, still ask for. In a contact alone it is
+// eq 2.30 over k (eq 3.5). Where the thesis's text and mechanics part:
+//  - Friction. Eq 2.30 applies mu j along the slip however small it is, and so turns a slow slip round in every
+//    iteration. Here the tangential impulse is the one that stops the slip, and the sum over the iterations is kept
+//    within Coulomb's cone: a sliding contact ends with mu j against the slip as in eq 2.30, a slow one sticks.
+//  - Iterations. The sum, not each part, has to push: an iteration may take back what an earlier one gave too much
+//    (accumulated impulses, Catto 2006, the paper the thesis takes its bias from).
+//  - Restitution and bias. Eq 2.30 adds them, so a bounce that starts a little deep leaves faster than it came. Here
+//    the larger of the two is the speed of separation to reach, set once before the iterations.
+//  - Several neighbours. Eq 3.5 divides by the contacts of one pair of bodies; a body held by three neighbours is still
+//    pushed three times over. Tonge et al. 2012, whom the thesis follows, split the mass over all that touches: with
+//    each body split over its neighbours too no iteration overshoots, and a pair alone keeps eq 3.5.
+
+struct Side {
+  vec3 position, velocity, spin;
+  float inverse_mass;
+  vec3 diagonal, mixed;  // inverse inertia xx yy zz, xy xz yz
+};
+const Side still = Side(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+
+// Change of the side's velocity at `arm` by the impulse `p` there: the bracket of eq 2.30's divisor.
+vec3 response(Side side, vec3 arm, vec3 p) {
+  return side.inverse_mass * p + cross(symmetric_times(side.diagonal, side.mixed, cross(arm, p)), arm);
+}
+
+vec3 contact_impulse(ThesisContact contact, Side own, Side other, vec3 other_arm) {
+  vec3 n = contact.normal.xyz, arm = contact.arm.xyz;
+  float friction = contact.arm.w, goal = contact.total.w, k = float(contact.other.z);
+  vec3 v = (own.velocity + cross(own.spin, arm)) - (other.velocity + cross(other.spin, other_arm));
+  float vn = dot(n, v);
+
+  float along_n = dot(n, response(own, arm, n) + response(other, other_arm, n));
+  float push = max(0.0, dot(n, contact.total.xyz) + (goal - vn) / (along_n * k));
+
+  vec3 tangent = contact.total.xyz - dot(n, contact.total.xyz) * n;
+  vec3 slip = v - vn * n;
+  float speed = length(slip);
+  if (speed > 1e-9) {
+    vec3 t = slip / speed;
+    tangent -= slip / (dot(t, response(own, arm, t) + response(other, other_arm, t)) * k);
+  }
+  float size = length(tangent);
+  if (size > friction * push) tangent *= friction * push / size;
+  return push * n + tangent - contact.total.xyz;
+}

@@ -1,0 +1,25 @@
+// Per touching sphere: linear and angular push of all its contacts together.
+#include "shared/thesis.h"
+#include "shared/dispatch.h"
+
+layout(local_size_x = THESIS_GROUP) in;
+
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { ThesisSettingsBlock settings; };
+layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { ThesisContact contacts[]; };
+layout(std430, binding = BIND_TOUCHING_SPHERES) readonly buffer TouchingSpheres { uint touching_spheres[]; };
+layout(std430, binding = BIND_PUSHES) writeonly buffer Pushes { ThesisPush pushes[]; };
+layout(std430, binding = BIND_STATUS) readonly buffer Status { ThesisStatus status; };
+
+void main() {
+  uint t = thread_index();
+  if (t >= status.touching_spheres) return;
+  uint s = touching_spheres[t];
+  vec3 linear = vec3(0.0), angular = vec3(0.0);
+  for (uint i = 0u; i < contact_counts[s]; ++i) {
+    uint c = s * settings.capacity + i;
+    linear += contacts[c].impulse.xyz;
+    angular += cross(contacts[c].arm.xyz, contacts[c].impulse.xyz);
+  }
+  pushes[s] = ThesisPush(vec4(linear, 0.0), vec4(angular, 0.0));
+}

@@ -1,0 +1,168 @@
+#include "memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::thesis {
+
+namespace {
+
+gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
+}
+gpu::uint word(std::size_t n) {
+  return static_cast<gpu::uint>(n);
+}
+
+double largest_radius(const World& world) {
+  double radius = 0.0;
+  for (const Shape& shape : world.shapes)
+    for (const Sphere& sphere : shape.spheres) radius = std::max(radius, sphere.radius);
+  for (const Sphere& sphere : world.bin_spheres) radius = std::max(radius, sphere.radius);
+  return radius;
+}
+
+/// Origin and cells of the grid: the part of the domain where bodies are or may come within `horizon`, at most
+/// grid_size cells along an axis, then about the middle one of the bodies. What lies outside goes to the outer cells.
+void lay_grid(const World& world, const ThesisSettings& settings, double horizon, gpu::ThesisWorld& out) {
+  const double cell = std::max(1.0, settings.cell_size) * 2.0 * std::max(largest_radius(world), 1e-6);
+  Aabb reach;
+  std::vector<double> along[3];
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    const gpu::ThesisState& state = world.states[b];
+    const Vec3 p(state.position.x, state.position.y, state.position.z);
+    const Vec3 v(state.velocity.x, state.velocity.y, state.velocity.z);
+    if (!world.present[b] || !p.allFinite() || !v.allFinite()) continue;
+    const double margin =
+        world.shapes[world.bodies[b].part].radius + v.norm() * horizon + 0.5 * world.gravity.norm() * horizon * horizon;
+    reach.extend(p - Vec3::Constant(margin));
+    reach.extend(p + Vec3::Constant(margin));
+    for (int a = 0; a < 3; ++a) along[a].push_back(p[a]);
+  }
+  if (reach.empty()) reach.extend(Vec3::Zero());
+  if (!world.domain.empty()) {
+    reach.lower = reach.lower.cwiseMax(world.domain.lower).cwiseMin(world.domain.upper);
+    reach.upper = reach.upper.cwiseMin(world.domain.upper).cwiseMax(reach.lower);
+  }
+  Vec3 origin = reach.lower;
+  std::size_t cells[3];
+  for (int a = 0; a < 3; ++a) {
+    const double wanted = std::floor((reach.upper[a] - reach.lower[a]) / cell) + 1.0;
+    cells[a] = static_cast<std::size_t>(std::min(wanted, static_cast<double>(settings.grid_size)));
+    if (wanted > settings.grid_size) {
+      std::nth_element(along[a].begin(), along[a].begin() + static_cast<long>(along[a].size() / 2), along[a].end());
+      const double half = 0.5 * cell * settings.grid_size;
+      origin[a] = std::clamp(along[a][along[a].size() / 2] - half, reach.lower[a], reach.upper[a] - 2.0 * half);
+    }
+  }
+  out.origin = vec4(origin, 1.0 / cell);
+  out.grid = {word(cells[0]), word(cells[1]), word(cells[2]), 0};
+}
+
+}  // namespace
+
+Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
+               double horizon, std::vector<BodyIndex>& index) {
+  Memory m;
+  index.clear();
+  const double dt = settings.time_step / settings.sub_steps;
+  std::vector<gpu::ThesisSphere> fixed_spheres;
+  std::size_t cells = 0;
+  for (std::size_t w = 0; w < worlds.size(); ++w) {
+    const World& world = *worlds[w];
+    gpu::ThesisWorld out{};
+    const double rest = settings.rest_velocity > 0.0 ? settings.rest_velocity : 2.0 * world.gravity.norm() * dt;
+    out.gravity = vec4(world.gravity, rest);
+    lay_grid(world, settings, horizon, out);
+    out.grid.w = word(cells);
+    cells += std::size_t{out.grid.x} * out.grid.y * out.grid.z;
+    out.sheets = {word(m.sheets.size()), word(world.sheets.size()), 0, 0};
+    m.sheets.insert(m.sheets.end(), world.sheets.begin(), world.sheets.end());
+    m.worlds.push_back(out);
+
+    std::vector<std::size_t> first_shape;
+    const auto add_shape = [&](const std::vector<Sphere>& spheres) {
+      for (const Sphere& s : spheres)
+        m.shapes.push_back({vec4(s.center, s.radius), vec4(s.normal, s.normal.squaredNorm() > 0.5 ? 1.0 : 0.0)});
+    };
+    for (const Shape& shape : world.shapes) {
+      first_shape.push_back(m.shapes.size());
+      add_shape(shape.spheres);
+    }
+    const auto add_body = [&](const gpu::ThesisState& state, gpu::ThesisBody body, std::size_t shape,
+                              std::size_t count) {
+      std::vector<gpu::ThesisSphere>& list = body.inverse_inertia.w > 0.0f ? m.spheres : fixed_spheres;
+      body.range = {word(list.size()), word(count), word(w), 0};
+      for (std::size_t s = 0; s < count; ++s) list.push_back({word(m.bodies.size()), word(shape + s)});
+      m.bodies.push_back(body);
+      m.states.push_back(state);
+    };
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+      if (!world.present[b]) continue;
+      const BodyDef& def = world.bodies[b];
+      const Shape& shape = world.shapes[def.part];
+      gpu::ThesisBody body{};
+      if (!def.fixed) body.inverse_inertia = vec4((def.mass * shape.gyration).cwiseInverse(), 1.0 / def.mass);
+      body.surface = {static_cast<float>(def.friction), static_cast<float>(def.restitution), 0, 0};
+      index.push_back({w, b});
+      add_body(world.states[b], body, first_shape[def.part], shape.spheres.size());
+    }
+    if (!world.bin_spheres.empty()) {
+      gpu::ThesisBody body{};
+      body.surface = {static_cast<float>(world.bin_friction), static_cast<float>(world.bin_restitution), 0, 0};
+      const std::size_t shape = m.shapes.size();
+      add_shape(world.bin_spheres);
+      index.push_back({w, world.bodies.size()});  // not a body of the caller's
+      add_body({{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}}, body, shape, world.bin_spheres.size());
+    }
+  }
+  const std::size_t moving = m.spheres.size();
+  m.spheres.insert(m.spheres.end(), fixed_spheres.begin(), fixed_spheres.end());
+  for (gpu::ThesisBody& body : m.bodies)
+    if (body.inverse_inertia.w == 0.0f) body.range.x += word(moving);
+
+  m.settings.time_step = static_cast<float>(dt);
+  m.settings.bias = static_cast<float>(settings.bias / dt);
+  m.settings.slop = static_cast<float>(settings.slop);
+  m.settings.modified_normals = settings.modified_normals ? 1 : 0;
+  m.settings.bodies = word(m.bodies.size());
+  m.settings.spheres = word(m.spheres.size());
+  m.settings.moving_spheres = word(moving);
+  m.settings.cells = word(cells);
+  m.settings.capacity = word(capacity.contacts);
+  m.settings.neighbour_slots = word(capacity.neighbours);
+  m.settings.iterations = word(static_cast<std::size_t>(settings.iterations));
+  m.needs.resize(worlds.size());
+  return m;
+}
+
+void size_scratch(Memory& m) {
+  const gpu::ThesisSettingsBlock& s = m.settings;
+  m.inertias.resize(s.bodies);
+  m.centers.resize(s.spheres);
+  m.sphere_cells.resize(s.spheres);
+  m.cell_counts.resize(s.cells);
+  m.cell_starts.resize(s.cells + 1);
+  m.members.resize(s.spheres);
+  m.sorted.resize(s.spheres);
+  m.contact_counts.resize(s.moving_spheres);
+  m.contacts.resize(std::size_t{s.moving_spheres} * s.capacity);
+  m.neighbours.resize(std::size_t{s.bodies} * s.neighbour_slots);
+  m.neighbour_counts.resize(s.bodies);
+  m.touching_spheres.resize(s.moving_spheres);
+  m.touching_bodies.resize(s.bodies);
+  m.pushes.resize(s.moving_spheres);
+}
+
+std::size_t largest_buffer(const World& world, const ThesisSettings& settings, const Capacity& capacity) {
+  std::size_t spheres = 0;
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    if (world.present[b]) spheres += world.shapes[world.bodies[b].part].spheres.size();
+  gpu::ThesisWorld grid{};
+  lay_grid(world, settings, 0.1, grid);
+  const std::size_t cells = std::size_t{grid.grid.x} * grid.grid.y * grid.grid.z;
+  return std::max({spheres * capacity.contacts * sizeof(gpu::ThesisContact), cells * sizeof(gpu::uint),
+                   world.bodies.size() * capacity.neighbours * sizeof(gpu::ThesisNeighbour)});
+}
+
+}  // namespace bin_scenes::thesis

@@ -1,0 +1,66 @@
+/// What the buffers of the device hold, on the host: filled from worlds before it is loaded, read back by tests, and
+/// worked on by the CPU twins of the passes.
+///
+///     bodies      | world 0 ............ | world 1 ...... |            states, inertias, neighbour counts alike
+///     spheres     | moving, world 0 | moving, world 1 | static, world 0 | static, world 1 |
+///     contacts    | sphere 0: capacity slots | sphere 1 | ...
+///     neighbours  | body 0: neighbour_slots slots | body 1 | ...         hash tables
+///     cells       | world 0: nx ny nz | world 1 | ...                    worlds never share a cell
+///
+/// Within a world the order is that of its bodies whatever else is loaded, so every choice by id and every sum comes
+/// out the same alone and in a batch. The grid follows the bodies: it decides who is looked at, never the result.
+#pragma once
+
+#include "world.hpp"
+
+#include <vector>
+
+namespace bin_scenes::thesis {
+
+struct Memory {
+  // What never changes during the steps.
+  gpu::ThesisSettingsBlock settings{};
+  std::vector<gpu::ThesisWorld> worlds;
+  std::vector<gpu::ThesisSheet> sheets;
+  std::vector<gpu::ThesisBody> bodies;
+  std::vector<gpu::ThesisShape> shapes;
+  std::vector<gpu::ThesisSphere> spheres;
+  // What the solver moves.
+  std::vector<gpu::ThesisState> states;
+  // What a step leaves behind.
+  std::vector<gpu::ThesisInertia> inertias;
+  std::vector<gpu::vec4> centers;  ///< w: radius
+  std::vector<gpu::uint> sphere_cells, cell_counts, cell_starts, members;
+  std::vector<gpu::ThesisSorted> sorted;
+  std::vector<gpu::uint> contact_counts;
+  std::vector<gpu::ThesisContact> contacts;
+  std::vector<gpu::ThesisNeighbour> neighbours;
+  std::vector<gpu::uint> neighbour_counts, touching_spheres, touching_bodies;
+  std::vector<gpu::ThesisPush> pushes;
+  gpu::ThesisStatus status{};
+  std::vector<gpu::ThesisNeed> needs;
+};
+
+/// Index of a body of a world in Memory, and back.
+struct BodyIndex {
+  std::size_t world = 0, body = 0;
+};
+
+/// Sizes of the buffers that grow; everything else follows from the worlds.
+struct Capacity {
+  std::size_t contacts = 4;     ///< per sphere
+  std::size_t neighbours = 32;  ///< per body, power of two
+};
+
+/// Lays out the present bodies of the worlds. `horizon`: simulated seconds until the next call (s), for the grid.
+/// @param index filled with where each body of Memory came from.
+Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
+               double horizon, std::vector<BodyIndex>& index);
+
+/// Gives the arrays that a step leaves behind their sizes, as the device's buffers have them.
+void size_scratch(Memory& memory);
+
+/// Bytes of the largest buffer that a world needs, for splitting a batch.
+std::size_t largest_buffer(const World& world, const ThesisSettings& settings, const Capacity& capacity);
+
+}  // namespace bin_scenes::thesis

@@ -1,0 +1,246 @@
+#include "passes.hpp"
+
+#include <cstddef>
+
+namespace bin_scenes::thesis {
+
+namespace {
+
+gl::Program pass(const std::string& name, const gl::Defines& defines = {}) {
+  return gl::Program::compute("thesis/" + name + ".comp", defines);
+}
+gl::Program detect_pass(std::size_t capacity) {
+  return pass("detect", {{"CAPACITY", std::to_string(capacity) + "u"}});
+}
+
+}  // namespace
+
+Passes::Passes()
+    : force_(pass("force")),
+      move_to_world_(pass("move_to_world")),
+      count_cells_(pass("count_cells")),
+      scatter_(pass("scatter")),
+      reorder_(pass("reorder")),
+      plan_(pass("plan")),
+      count_pairs_(pass("count_pairs")),
+      split_mass_(pass("split_mass")),
+      impulse_(pass("impulse")),
+      pre_velocity_(pass("pre_velocity")),
+      velocity_(pass("velocity")),
+      position_(pass("position")),
+      status_back_(sizeof(gpu::ThesisStatus)) {}
+
+void Passes::step() {
+  begin_step();
+  force();          // gravity, world inertia
+  move_to_world();  // sphere centres
+
+  count_cells();  // sorted grid
+  prefix_sum();
+  scatter();
+  reorder();
+
+  detect();  // contacts, and how many per body pair
+  plan();
+  count_pairs();
+  plan();
+  split_mass();
+
+  for (gpu::uint i = 0; i < sizes_.iterations; ++i) {
+    impulse();
+    pre_velocity();
+    velocity();
+  }
+  position();
+}
+
+void Passes::begin_step() {
+  bind();
+  status_.storage().fill(0, offsetof(gpu::ThesisStatus, touching_spheres), 2 * sizeof(gpu::uint));
+  neighbours_.fill(THESIS_NO_KEY, 0, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
+}
+
+void Passes::force() {
+  gl::Stage stage(timer_, "force");
+  gl::dispatch(force_, sizes_.bodies);
+}
+
+void Passes::move_to_world() {
+  gl::Stage stage(timer_, "move_to_world");
+  move_to_world_.set("first", 0u);
+  move_to_world_.set("count", sizes_.moving_spheres);
+  gl::dispatch(move_to_world_, sizes_.moving_spheres);
+}
+
+void Passes::count_cells() {
+  gl::Stage stage(timer_, "count_cells");
+  gl::dispatch(count_cells_, sizes_.spheres);
+}
+
+void Passes::prefix_sum() {
+  gl::Stage stage(timer_, "prefix_sum");
+  prefix_sum_.run(cell_counts_, cell_starts_, sizes_.cells);
+  bind();  // the sum has bindings of its own
+}
+
+void Passes::scatter() {
+  gl::Stage stage(timer_, "scatter");
+  gl::dispatch(scatter_, sizes_.spheres);
+}
+
+void Passes::reorder() {
+  gl::Stage stage(timer_, "reorder");
+  gl::dispatch(reorder_, sizes_.spheres);
+}
+
+void Passes::detect() {
+  gl::Stage stage(timer_, "detect");
+  gl::dispatch(detect_, sizes_.spheres);
+}
+
+void Passes::plan() {
+  gl::dispatch_groups(plan_, 1);
+}
+
+void Passes::count_pairs() {
+  gl::Stage stage(timer_, "count_pairs");
+  gl::dispatch_indirect(count_pairs_, status_.storage(), offsetof(gpu::ThesisStatus, sphere_groups));
+}
+
+void Passes::split_mass() {
+  gl::Stage stage(timer_, "split_mass");
+  gl::dispatch_indirect(split_mass_, status_.storage(), offsetof(gpu::ThesisStatus, sphere_groups));
+}
+
+void Passes::impulse() {
+  gl::Stage stage(timer_, "impulse");
+  gl::dispatch_indirect(impulse_, status_.storage(), offsetof(gpu::ThesisStatus, sphere_groups));
+}
+
+void Passes::pre_velocity() {
+  gl::Stage stage(timer_, "pre_velocity");
+  gl::dispatch_indirect(pre_velocity_, status_.storage(), offsetof(gpu::ThesisStatus, sphere_groups));
+}
+
+void Passes::velocity() {
+  gl::Stage stage(timer_, "velocity");
+  gl::dispatch_indirect(velocity_, status_.storage(), offsetof(gpu::ThesisStatus, body_groups));
+}
+
+void Passes::position() {
+  gl::Stage stage(timer_, "position");
+  gl::dispatch(position_, sizes_.bodies);
+}
+
+void Passes::load(const Memory& memory) {
+  const gpu::uint old_capacity = sizes_.capacity;
+  sizes_ = memory.settings;
+  if (sizes_.capacity != old_capacity) detect_ = detect_pass(sizes_.capacity);
+  settings_.upload({sizes_});
+  worlds_.upload(memory.worlds);
+  sheets_.upload(memory.sheets);
+  bodies_.upload(memory.bodies);
+  shapes_.upload(memory.shapes);
+  spheres_.upload(memory.spheres);
+  states_.upload(memory.states);
+  needs_.upload(memory.needs);
+  const auto at_least = [](auto& buffer, std::size_t count) {
+    if (buffer.size() < count || buffer.size() == 0) buffer.resize(count);
+  };
+  at_least(worlds_, 1);
+  at_least(sheets_, 1);
+  at_least(inertias_, sizes_.bodies);
+  at_least(centers_, sizes_.spheres);
+  at_least(sphere_cells_, sizes_.spheres);
+  at_least(cell_counts_, sizes_.cells);
+  at_least(cell_starts_, std::size_t{sizes_.cells} + 1);
+  at_least(members_, sizes_.spheres);
+  at_least(sorted_, sizes_.spheres);
+  at_least(contact_counts_, sizes_.moving_spheres);
+  at_least(neighbour_counts_, sizes_.bodies);
+  at_least(touching_spheres_, sizes_.moving_spheres);
+  at_least(touching_bodies_, sizes_.bodies);
+  at_least(pushes_, sizes_.moving_spheres);
+  at_least(status_, 1);
+  at_least(contacts_, std::size_t{sizes_.moving_spheres} * sizes_.capacity);
+  at_least(neighbours_, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
+  status_.clear();
+  cell_counts_.fill(0, 0, sizes_.cells);
+
+  // What never moves is placed once.
+  bind();
+  move_to_world_.set("first", sizes_.moving_spheres);
+  move_to_world_.set("count", sizes_.spheres - sizes_.moving_spheres);
+  gl::dispatch(move_to_world_, sizes_.spheres - sizes_.moving_spheres);
+}
+
+std::vector<gpu::ThesisState> Passes::states() const {
+  return states_.download(0, sizes_.bodies);
+}
+
+gpu::ThesisStatus Passes::status() {
+  status_back_.request(status_.storage(), 0, sizeof(gpu::ThesisStatus));
+  return status_back_.wait_as<gpu::ThesisStatus>();
+}
+
+std::vector<gpu::ThesisNeed> Passes::needs() const {
+  return needs_.download();
+}
+
+void Passes::bind() const {
+  settings_.bind(BIND_SETTINGS);
+  worlds_.bind(BIND_WORLDS);
+  sheets_.bind(BIND_SHEETS);
+  bodies_.bind(BIND_BODIES);
+  states_.bind(BIND_STATES);
+  inertias_.bind(BIND_INERTIAS);
+  shapes_.bind(BIND_SHAPES);
+  spheres_.bind(BIND_SPHERES);
+  centers_.bind(BIND_CENTERS);
+  sphere_cells_.bind(BIND_SPHERE_CELLS);
+  cell_counts_.bind(BIND_CELL_COUNTS);
+  cell_starts_.bind(BIND_CELL_STARTS);
+  members_.bind(BIND_MEMBERS);
+  sorted_.bind(BIND_SORTED);
+  contact_counts_.bind(BIND_CONTACT_COUNTS);
+  contacts_.bind(BIND_CONTACTS);
+  neighbours_.bind(BIND_NEIGHBOURS);
+  neighbour_counts_.bind(BIND_NEIGHBOUR_COUNTS);
+  touching_spheres_.bind(BIND_TOUCHING_SPHERES);
+  touching_bodies_.bind(BIND_TOUCHING_BODIES);
+  pushes_.bind(BIND_PUSHES);
+  status_.bind(BIND_STATUS);
+  needs_.bind(BIND_NEEDS);
+}
+
+Memory Passes::download() const {
+  Memory m;
+  m.settings = sizes_;
+  size_scratch(m);
+  const auto fetch = [](const auto& buffer, auto& values) { values = buffer.download(0, values.size()); };
+  m.worlds = worlds_.download();
+  m.sheets = sheets_.download();
+  m.bodies = bodies_.download(0, sizes_.bodies);
+  m.shapes = shapes_.download();
+  m.spheres = spheres_.download(0, sizes_.spheres);
+  m.states = states();
+  fetch(inertias_, m.inertias);
+  fetch(centers_, m.centers);
+  fetch(sphere_cells_, m.sphere_cells);
+  fetch(cell_counts_, m.cell_counts);
+  fetch(cell_starts_, m.cell_starts);
+  fetch(members_, m.members);
+  fetch(sorted_, m.sorted);
+  fetch(contact_counts_, m.contact_counts);
+  fetch(contacts_, m.contacts);
+  fetch(neighbours_, m.neighbours);
+  fetch(neighbour_counts_, m.neighbour_counts);
+  fetch(touching_spheres_, m.touching_spheres);
+  fetch(touching_bodies_, m.touching_bodies);
+  fetch(pushes_, m.pushes);
+  m.status = status_.download().front();
+  m.needs = needs();
+  return m;
+}
+
+}  // namespace bin_scenes::thesis
