@@ -1,0 +1,331 @@
+#include "twin.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace bin_scenes::thesis::twin {
+
+namespace {
+
+using V = Eigen::Vector3f;
+using Q = Eigen::Quaternionf;
+using M = Eigen::Matrix3f;
+
+V v(const gpu::vec4& a) {
+  return V(a.x, a.y, a.z);
+}
+Q q(const gpu::vec4& a) {
+  return Q(a.w, a.x, a.y, a.z);
+}
+gpu::vec4 pack(const V& a, float w = 0.0f) {
+  return {a.x(), a.y(), a.z(), w};
+}
+
+M matrix(const gpu::ThesisInertia& i) {
+  M m;
+  m << i.diagonal.x, i.mixed.x, i.mixed.y, i.mixed.x, i.diagonal.y, i.mixed.z, i.mixed.y, i.mixed.z, i.diagonal.z;
+  return m;
+}
+
+Q turn(const V& by) {
+  const float angle = by.norm();
+  return angle > 0.0f ? Q(Eigen::AngleAxisf(angle, by / angle)) : Q::Identity();
+}
+
+const gpu::ThesisWorld& world_of(const Memory& m, gpu::uint body) {
+  return m.worlds[m.bodies[body].range.z];
+}
+
+/// Both bodies of a contact; a node of a sheet is a body that never moves.
+struct Side {
+  V position = V::Zero(), velocity = V::Zero(), spin = V::Zero();
+  float inverse_mass = 0.0f;
+  M inverse_inertia = M::Zero();
+
+  V velocity_at(const V& arm) const { return velocity + spin.cross(arm); }
+  V response(const V& arm, const V& p) const { return inverse_mass * p + (inverse_inertia * arm.cross(p)).cross(arm); }
+};
+
+Side side_of(const Memory& m, gpu::uint body) {
+  const float split = static_cast<float>(std::max(m.neighbour_counts[body], 1u));
+  const gpu::ThesisState& s = m.states[body];
+  return {v(s.position), v(s.velocity), v(s.spin), split * m.bodies[body].inverse_inertia.w,
+          split * matrix(m.inertias[body])};
+}
+
+}  // namespace
+
+void begin_step(Memory& m) {
+  m.status.touching_spheres = m.status.touching_bodies = 0;
+  std::fill(m.neighbours.begin(), m.neighbours.end(), gpu::ThesisNeighbour{THESIS_NO_KEY, THESIS_NO_KEY});
+}
+
+void force(Memory& m) {
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    m.neighbour_counts[b] = 0;
+    const M r = q(m.states[b].orientation).toRotationMatrix();
+    const M i = r * v(m.bodies[b].inverse_inertia).asDiagonal() * r.transpose();
+    m.inertias[b] = {{i(0, 0), i(1, 1), i(2, 2), 0}, {i(0, 1), i(0, 2), i(1, 2), 0}};
+    if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
+    const V g = v(world_of(m, static_cast<gpu::uint>(b)).gravity);
+    m.states[b].velocity = pack(v(m.states[b].velocity) + m.settings.time_step * g);
+  }
+}
+
+void move_to_world(Memory& m) {
+  for (std::size_t s = 0; s < m.settings.moving_spheres; ++s) {
+    const gpu::vec4& local = m.shapes[m.spheres[s].shape].center;
+    const gpu::ThesisState& body = m.states[m.spheres[s].body];
+    m.centers[s] = pack(v(body.position) + q(body.orientation) * v(local), local.w);
+  }
+}
+
+void count_cells(Memory& m) {
+  for (std::size_t s = 0; s < m.spheres.size(); ++s) {
+    const gpu::ThesisWorld& world = world_of(m, m.spheres[s].body);
+    const gpu::uint n[3] = {world.grid.x, world.grid.y, world.grid.z};
+    gpu::uint cell[3];
+    for (int a = 0; a < 3; ++a) {
+      const float at = std::floor((v(m.centers[s])[a] - v(world.origin)[a]) * world.origin.w);
+      cell[a] = static_cast<gpu::uint>(std::clamp(at, 0.0f, static_cast<float>(n[a] - 1)));
+    }
+    m.sphere_cells[s] = world.grid.w + (cell[2] * n[1] + cell[1]) * n[0] + cell[0];
+    ++m.cell_counts[m.sphere_cells[s]];
+  }
+}
+
+void prefix_sum(Memory& m) {
+  gpu::uint running = 0;
+  for (std::size_t c = 0; c < m.cell_counts.size(); ++c) {
+    m.cell_starts[c] = running;
+    running += m.cell_counts[c];
+  }
+  m.cell_starts.back() = running;
+}
+
+void scatter(Memory& m) {
+  for (std::size_t s = 0; s < m.spheres.size(); ++s) {
+    const gpu::uint cell = m.sphere_cells[s];
+    m.members[m.cell_starts[cell] + --m.cell_counts[cell]] = static_cast<gpu::uint>(s);
+  }
+}
+
+void reorder(Memory& m) {
+  for (std::size_t c = 0; c + 1 < m.cell_starts.size(); ++c) {
+    std::vector<gpu::uint> cell(m.members.begin() + m.cell_starts[c], m.members.begin() + m.cell_starts[c + 1]);
+    std::sort(cell.begin(), cell.end());
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      m.sorted[m.cell_starts[c] + i] = {m.centers[cell[i]], {cell[i], m.spheres[cell[i]].body, 0, 0}};
+  }
+}
+
+void detect(Memory& m) {
+  // Every sphere against every other: what a grid may save, it must not change.
+  struct Found {
+    float depth;
+    gpu::uint other, key;
+    V center, normal;
+    bool face, deep;
+    float radius, friction, restitution;
+  };
+  const auto face_of = [&](gpu::uint s) {
+    const gpu::vec4& normal = m.shapes[m.spheres[s].shape].normal;
+    return std::make_pair(V(q(m.states[m.spheres[s].body].orientation) * v(normal)), normal.w > 0.5f);
+  };
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s) {
+    const gpu::uint body = m.spheres[s].body;
+    const gpu::ThesisWorld& world = world_of(m, body);
+    const V p = v(m.centers[s]);
+    const float r = m.centers[s].w;
+    std::vector<Found> found;
+    for (gpu::uint o = 0; o < m.spheres.size(); ++o) {
+      const gpu::uint other = m.spheres[o].body;
+      if (other == body || m.bodies[other].range.z != m.bodies[body].range.z) continue;
+      const float depth = r + m.centers[o].w - (p - v(m.centers[o])).norm();
+      const auto [normal, face] = face_of(o);
+      if (depth > 0.0f)
+        found.push_back({depth, o, other, v(m.centers[o]), normal, face, false, m.centers[o].w,
+                         m.bodies[other].surface.x, m.bodies[other].surface.y});
+    }
+    for (gpu::uint k = 0; k < world.sheets.y; ++k) {
+      const gpu::ThesisSheet& sheet = m.sheets[world.sheets.x + k];
+      const float radius = sheet.origin.w, pitch = sheet.normal.w;
+      const V from = p - v(sheet.origin), n = v(sheet.normal);
+      const float height = from.dot(n), at_u = from.dot(v(sheet.u)), at_v = from.dot(v(sheet.v));
+      if (height >= r + radius || height <= -sheet.surface.z) continue;
+      const bool deep = height < 0.5f * (r + radius);
+      const int reach = deep ? 0 : static_cast<int>(std::ceil((r + radius) / pitch));
+      for (int dv = -reach; dv <= reach; ++dv)
+        for (int du = -reach; du <= reach; ++du) {
+          const float node_u = (std::round(at_u / pitch) + static_cast<float>(du)) * pitch;
+          const float node_v = (std::round(at_v / pitch) + static_cast<float>(dv)) * pitch;
+          if (std::abs(node_u) > sheet.u.w || std::abs(node_v) > sheet.v.w) continue;
+          const V center = v(sheet.origin) + node_u * v(sheet.u) + node_v * v(sheet.v);
+          const float depth = r + radius - (deep ? height : (p - center).norm());
+          const gpu::uint code =
+              THESIS_NODE | k << 16 | static_cast<gpu::uint>(du + 128) << 8 | static_cast<gpu::uint>(dv + 128);
+          if (depth > 0.0f)
+            found.push_back(
+                {depth, code, THESIS_NODE | k, center, n, true, deep, radius, sheet.surface.x, sheet.surface.y});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+      return a.depth != b.depth ? a.depth > b.depth : a.other < b.other;
+    });
+
+    const std::size_t kept = std::min<std::size_t>(found.size(), m.settings.capacity);
+    m.contact_counts[s] = static_cast<gpu::uint>(kept);
+    if (kept == 0) continue;
+    m.touching_spheres[m.status.touching_spheres++] = s;
+    gpu::ThesisNeed& need = m.needs[m.bodies[body].range.z];
+    need.contacts = std::max(need.contacts, static_cast<gpu::uint>(found.size()));
+    if (found.size() > kept) m.status.overflow |= THESIS_CONTACT_OVERFLOW;
+
+    const auto [own_normal, own_face] = face_of(s);
+    for (std::size_t i = 0; i < kept; ++i) {
+      const Found& f = found[i];
+      const V line = (p - f.center).normalized();
+      V n = line;
+      if (m.settings.modified_normals) {
+        const V mean = (f.face ? f.normal : V::Zero().eval()) - (own_face ? own_normal : V::Zero().eval());
+        if (mean.norm() >= 0.5f && mean.normalized().dot(line) >= 0.5f) n = mean.normalized();
+      }
+      if (f.deep) n = f.normal;
+      const V point = f.deep ? V(p - n * r) : V(p - line * (r - 0.5f * f.depth));
+      const V arm = point - v(m.states[body].position);
+
+      const auto velocity_at = [&](gpu::uint b) {
+        return V(v(m.states[b].velocity) + v(m.states[b].spin).cross(point - v(m.states[b].position)));
+      };
+      V relative = velocity_at(body), fall = m.settings.time_step * v(world.gravity);
+      if (!(f.key & THESIS_NODE)) {
+        relative -= velocity_at(f.key);
+        if (m.bodies[f.key].inverse_inertia.w > 0.0f) fall.setZero();
+      }
+      const float approach = -n.dot(relative - fall);
+      const float restitution = std::max(m.bodies[body].surface.y, f.restitution);
+      const float bounce = approach <= world.gravity.w ? 0.0f : restitution * approach + n.dot(fall);
+      const float left = m.settings.slop * std::min(r, f.radius);
+      const float goal = std::max(bounce, m.settings.bias * std::max(0.0f, f.depth - left));
+      m.contacts[s * m.settings.capacity + i] = {pack(n, f.depth),
+                                                 pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
+                                                 {f.other, f.key, 1, 0},
+                                                 pack(V::Zero()),
+                                                 pack(V::Zero(), goal)};
+    }
+  }
+}
+
+void plan(Memory& m) {
+  // As many groups as there is work; folding over two axes starts at 65,536 groups, which no twin will see.
+  const gpu::uint groups = (m.status.touching_spheres + THESIS_GROUP - 1) / THESIS_GROUP;
+  m.status.sphere_groups = {groups, groups ? 1u : 0u, 1, 0};
+  m.status.body_groups = {m.status.touching_bodies, m.status.touching_bodies ? 1u : 0u, 1, 0};
+}
+
+namespace {
+/// Contacts by (body, neighbour).
+std::map<std::pair<gpu::uint, gpu::uint>, gpu::uint> pairs(const Memory& m) {
+  std::map<std::pair<gpu::uint, gpu::uint>, gpu::uint> count;
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
+    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i)
+      ++count[{m.spheres[s].body, m.contacts[s * m.settings.capacity + i].other.y}];
+  return count;
+}
+}  // namespace
+
+void count_pairs(Memory& m) {
+  for (const auto& [pair, count] : pairs(m)) {
+    const auto [body, key] = pair;
+    m.status.contacts += count;
+    gpu::uint& neighbours = m.neighbour_counts[body];
+    // Any free slot will do; the pass finds its slots by hashing.
+    if (neighbours < m.settings.neighbour_slots)
+      m.neighbours[body * m.settings.neighbour_slots + neighbours] = {key, count - 1};
+    if (neighbours++ == 0) m.touching_bodies[m.status.touching_bodies++] = body;
+    gpu::ThesisNeed& need = m.needs[m.bodies[body].range.z];
+    need.neighbours = std::max(need.neighbours, neighbours);
+  }
+}
+
+void split_mass(Memory& m) {
+  const auto count = pairs(m);
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
+    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
+      gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+      contact.other.z = count.at({m.spheres[s].body, contact.other.y});
+    }
+}
+
+void impulse(Memory& m) {
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
+    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
+      gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+      const Side own = side_of(m, m.spheres[s].body);
+      const Side other = contact.other.y & THESIS_NODE ? Side() : side_of(m, contact.other.y);
+      const V n = v(contact.normal), arm = v(contact.arm), total = v(contact.total);
+      const V other_arm = arm + own.position - other.position;
+      const V velocity = own.velocity_at(arm) - other.velocity_at(other_arm);
+      const float vn = n.dot(velocity), k = static_cast<float>(contact.other.z);
+      const auto stiffness = [&](const V& d) { return d.dot(own.response(arm, d) + other.response(other_arm, d)); };
+
+      const float push = std::max(0.0f, n.dot(total) + (contact.total.w - vn) / (stiffness(n) * k));
+      V tangent = total - n.dot(total) * n;
+      const V slip = velocity - vn * n;
+      if (slip.norm() > 1e-9f) tangent -= slip / (stiffness(slip.normalized()) * k);
+      const float limit = contact.arm.w * push;
+      if (tangent.norm() > limit) tangent *= limit / tangent.norm();
+      const V change = push * n + tangent - total;
+      contact.impulse = pack(change);
+      contact.total = pack(total + change, contact.total.w);
+    }
+}
+
+void pre_velocity(Memory& m) {
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s) {
+    V linear = V::Zero(), angular = V::Zero();
+    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
+      const gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+      linear += v(contact.impulse);
+      angular += v(contact.arm).cross(v(contact.impulse));
+    }
+    if (m.contact_counts[s]) m.pushes[s] = {pack(linear), pack(angular)};
+  }
+}
+
+void velocity(Memory& m) {
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
+    V linear = V::Zero(), angular = V::Zero();
+    for (gpu::uint s = m.bodies[b].range.x; s < m.bodies[b].range.x + m.bodies[b].range.y; ++s) {
+      if (m.contact_counts[s] == 0) continue;
+      linear += v(m.pushes[s].linear);
+      angular += v(m.pushes[s].angular);
+    }
+    m.states[b].velocity = pack(v(m.states[b].velocity) + m.bodies[b].inverse_inertia.w * linear);
+    m.states[b].spin = pack(v(m.states[b].spin) + matrix(m.inertias[b]) * angular);
+  }
+}
+
+void position(Memory& m) {
+  const float dt = m.settings.time_step;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
+    gpu::ThesisState& state = m.states[b];
+    V way = dt * v(state.velocity);
+    if (m.neighbour_counts[b] == 0) way -= 0.5f * dt * dt * v(world_of(m, static_cast<gpu::uint>(b)).gravity);
+    state.position = pack(v(state.position) + way);
+
+    const V inverse = v(m.bodies[b].inverse_inertia);
+    const Q old = q(state.orientation);
+    const V momentum = old * (old.conjugate() * v(state.spin)).cwiseQuotient(inverse);
+    const auto spin_of = [&](const Q& at) { return V(at * inverse.cwiseProduct(at.conjugate() * momentum)); };
+    V spin = v(state.spin);
+    for (int i = 0; i < 3; ++i) spin = spin_of(turn(0.5f * dt * spin) * old);
+    const Q now = (turn(dt * spin) * old).normalized();
+    state.orientation = pack(now.vec(), now.w());
+    state.spin = pack(spin_of(now));
+  }
+}
+
+}  // namespace bin_scenes::thesis::twin
