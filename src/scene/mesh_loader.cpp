@@ -246,6 +246,12 @@ class Repair {
       throw input_error("the enclosed volume is negative (" + number(volume) + " m3): cavities exceed the solid",
                         where_, "recompute normals in the modeller");
     }
+    const std::size_t overlaps = repair::overlapping_pairs(mesh_);
+    if (overlaps > 0) {
+      flag("shells_overlap",
+           count(overlaps, "pair") + " of closed shells overlap: the space they share counts twice in volume and mass",
+           "unite them in the modeller, or give the part's mass instead of its density");
+    }
   }
 
   Mesh& mesh_;

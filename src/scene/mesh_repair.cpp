@@ -563,6 +563,48 @@ std::size_t turn_outward(Mesh& mesh) {
   return count;
 }
 
+std::size_t overlapping_pairs(const Mesh& mesh) {
+  struct Solid {
+    std::vector<std::uint32_t> triangles;
+    Aabb box;
+    double volume6 = 0.0;
+  };
+  const Shells labels = shells(mesh);
+  if (labels.count < 2) return 0;
+  std::vector<Solid> solids(labels.count);
+  const Vec3 apex = mesh.bounds().center();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Solid& solid = solids[labels.of_triangle[t]];
+    solid.triangles.push_back(t);
+    const auto& [a, b, c] = mesh.triangles[t];
+    for (const std::uint32_t v : mesh.triangles[t]) solid.box.extend(mesh.vertices[v]);
+    solid.volume6 += (mesh.vertices[a] - apex).dot((mesh.vertices[b] - apex).cross(mesh.vertices[c] - apex));
+  }
+  const auto enters = [&](const Solid& one, const Solid& other) {
+    const std::size_t step = std::max<std::size_t>(1, one.triangles.size() / 50);
+    for (std::size_t i = 0; i < one.triangles.size(); i += step) {
+      const auto& [a, b, c] = mesh.triangles[one.triangles[i]];
+      const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+      for (const Vec3& probe :
+           {Vec3((p + q + r) / 3.0), Vec3((p + q) / 2.0), Vec3((q + r) / 2.0), Vec3((r + p) / 2.0)}) {
+        Aabb point;
+        point.extend(probe);
+        // On the other's surface it is one half; well above that is inside.
+        if (other.box.overlaps(point) && winding(mesh, other.triangles, probe) > 0.9) return true;
+      }
+    }
+    return false;
+  };
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = i + 1; j < solids.size(); ++j) {
+      if (solids[i].volume6 <= 0.0 || solids[j].volume6 <= 0.0 || !solids[i].box.overlaps(solids[j].box)) continue;
+      pairs += enters(solids[i], solids[j]) || enters(solids[j], solids[i]);
+    }
+  }
+  return pairs;
+}
+
 void thicken(Mesh& mesh, double thickness) {
   const std::size_t count = mesh.vertices.size();
   std::vector<Vec3> normal(count, Vec3::Zero());

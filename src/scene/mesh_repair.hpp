@@ -67,6 +67,10 @@ double area(const Mesh& mesh);
 /// stays a cavity. Returns the number of triangles turned.
 std::size_t turn_outward(Mesh& mesh);
 
+/// Pairs of solid shells of a closed mesh that overlap, found by points of one inside the other: at up to 200 triangle
+/// centres and edge middles of each. Shallow overlaps may escape it. Cavities are not solid and do not count.
+std::size_t overlapping_pairs(const Mesh& mesh);
+
 /// An open surface as a closed shell of `thickness`: both sides offset by half of it along the vertex normals, the
 /// rims joined. At folds the offset grows so that the faces keep their distance (at most twice the thickness).
 void thicken(Mesh& mesh, double thickness);

@@ -85,7 +85,7 @@ std::string ply(const Mesh& mesh) {
 std::string dae(const Mesh& mesh, const std::string& asset, const std::vector<std::string>& matrices = {""},
                 const std::string& extra = "", const std::string& material = "") {
   std::ostringstream out;
-  out << "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+  out << "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\">"
       << "<asset>" << asset << "</asset>" << extra << "<library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
       << "<float_array id=\"a\" count=\"" << 3 * mesh.vertices.size() << "\">";
   for (const Vec3& v : mesh.vertices) out << v.transpose() << " ";
@@ -324,6 +324,24 @@ TEST_F(MeshLoader, DefectsOfOneFileAreEachCountedAndFlagged) {
   }
   EXPECT_TRUE(loaded.report.closed);
   EXPECT_NEAR(volume(loaded.mesh), 1.0, 1e-12);
+}
+
+TEST_F(MeshLoader, OverlappingShellsAreSaidToCountTwiceCavitiesAreNot) {
+  Mesh crossed = box_mesh({3, 1, 1});
+  append(crossed, box_mesh({1, 3, 1.5}));
+  EXPECT_TRUE(has_flag(repair_mesh(crossed, {}, "part").report, "shells_overlap"));
+
+  Mesh within = box_mesh({3, 3, 3});
+  append(within, box_mesh({1, 1, 1}));
+  EXPECT_TRUE(has_flag(repair_mesh(within, {}, "part").report, "shells_overlap"));
+
+  Mesh hollow = box_mesh({3, 3, 3});
+  append(hollow, inverted(box_mesh({1, 1, 1})));
+  EXPECT_FALSE(has_flag(repair_mesh(hollow, {}, "part").report, "shells_overlap"));
+
+  Mesh apart = box_mesh({1, 1, 1});
+  append(apart, box_mesh({1, 1, 1}, {1.1, 0.2, 0.1}));
+  EXPECT_FALSE(has_flag(repair_mesh(apart, {}, "part").report, "shells_overlap"));
 }
 
 TEST_F(MeshLoader, NothingOfTheFileIsLostOnTheWay) {
