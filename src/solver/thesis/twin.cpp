@@ -47,10 +47,8 @@ struct Side {
 };
 
 Side side_of(const Memory& m, gpu::uint body) {
-  const float split = static_cast<float>(std::max(m.neighbour_counts[body], 1u));
   const gpu::ThesisState& s = m.states[body];
-  return {v(s.position), v(s.velocity), v(s.spin), split * m.bodies[body].inverse_inertia.w,
-          split * matrix(m.inertias[body])};
+  return {v(s.position), v(s.velocity), v(s.spin), m.bodies[body].inverse_inertia.w, matrix(m.inertias[body])};
 }
 
 }  // namespace
