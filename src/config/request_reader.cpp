@@ -1,8 +1,8 @@
 #include "bin_scenes/config/request_reader.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/part/cache.hpp"
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
 

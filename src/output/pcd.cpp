@@ -3,6 +3,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 
 #ifdef BIN_SCENES_HAS_PCL
+#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
 #include <cstring>
@@ -62,6 +63,7 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   Eigen::Vector4f origin(0, 0, 0, 1);
   origin.head<3>() = pose.position.cast<float>();
   Temporary file(path);
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what goes wrong is told once, by the Error below
   std::string problem;
   try {
     pcl::PCDWriter writer;

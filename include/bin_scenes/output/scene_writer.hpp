@@ -45,8 +45,9 @@ std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
 void write_ply(const std::string& path, const Mesh& mesh, double scale = 1.0);
 
 /// Writes a scene into a bag with the topics and types of the live node. Set by the ROS rim when it is built in.
-using BagWriter = std::function<void(const std::string& path, const Scene&, const Request&,
-                                     const std::vector<PartModelPtr>& parts, const std::vector<RangeImage>& images)>;
+using BagWriter =
+    std::function<void(const std::string& path, const Scene&, const Request&, const std::vector<RangeImage>& images,
+                       const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model)>;
 void register_bag_writer(BagWriter writer);
 /// Empty without ROS.
 const BagWriter& bag_writer();

@@ -1,0 +1,105 @@
+#include "output/output_fixture.hpp"
+#include "output/read_png.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace bin_scenes {
+namespace {
+
+using Json = nlohmann::json;
+
+class Bop : public OutputTest {
+ protected:
+  static PartModelPtr box(double edge) {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i) {
+      mesh.vertices.push_back(edge * (Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1) - Vec3::Constant(0.5)));
+    }
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return PartModel::from_mesh(mesh, "box");
+  }
+  Json json(const std::string& name) const { return Json::parse(text(name)); }
+
+  const PartModelPtr bolt = box(0.02), nut = box(0.01);
+};
+
+TEST_F(Bop, PosesAreThoseOfTheCameraInMillimetres) {
+  Scene scene = small_scene();
+  scene.parts[2].pose.position = Vec3(0.1, -0.2, 0.4);  // right below the camera
+  scene.parts[2].pose.orientation = Quat::Identity();
+  write_bop(dir.string(), scene, {bolt, nut}, {small_image()});
+  const Json part = json("scene_gt.json").at("0").at(2);
+  EXPECT_EQ(part.at("obj_id"), 1);
+  EXPECT_EQ(part.at("id"), 2);
+  const double expected_t[3] = {0, 0, 500};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(part.at("cam_t_m2c").at(i).get<double>(), expected_t[i], 1e-9);
+  const double expected_r[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};  // camera turned by 180 degrees about x
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(part.at("cam_R_m2c").at(i).get<double>(), expected_r[i], 1e-12);
+}
+
+TEST_F(Bop, RotationsAreRowMajorAndMapModelPointsIntoTheCamera) {
+  const Scene scene = small_scene();
+  const RangeImage image = small_image();
+  write_bop(dir.string(), scene, {bolt, nut}, {image});
+  const Json gt = json("scene_gt.json").at("0");
+  ASSERT_EQ(gt.size(), 3u);
+  const Vec3 point(0.01, 0.02, 0.03);
+  for (int id = 0; id < 3; ++id) {
+    const Vec3 expected = 1e3 * (image.sensor.pose->inverse() * (scene.parts[id].pose * point));
+    for (int row = 0; row < 3; ++row) {
+      double value = gt.at(id).at("cam_t_m2c").at(row).get<double>();
+      for (int column = 0; column < 3; ++column) {
+        value += gt.at(id).at("cam_R_m2c").at(3 * row + column).get<double>() * 1e3 * point[column];
+      }
+      EXPECT_NEAR(value, expected[row], 1e-9);
+    }
+  }
+}
+
+TEST_F(Bop, CameraInfoMasksAndCountsBelongTogether) {
+  const RangeImage image = small_image();
+  write_bop(dir.string(), small_scene(), {bolt, nut}, {image});
+  const Json camera = json("scene_camera.json").at("0");
+  EXPECT_EQ(camera.at("cam_K").get<std::vector<double>>(), image.sensor.k);
+  const Png depth = read_png(path("depth/000000.png"));
+  EXPECT_NEAR(depth.at(3, 0) * camera.at("depth_scale").get<double>(), 1e3 * image.depth[3], 0.05);
+  EXPECT_EQ(read_png(path("gray/000000.png")).at(0, 0), 128);
+
+  const Json info = json("scene_gt_info.json").at("0");
+  EXPECT_EQ(info.at(0).at("visib_fract"), 0.5);
+  EXPECT_EQ(info.at(0).at("px_count_all"), 24);
+  EXPECT_EQ(info.at(0).at("bbox_visib"), Json({1, 0, 2, 6}));
+  EXPECT_EQ(info.at(1).at("visib_fract"), 0.0);
+  EXPECT_EQ(info.at(1).at("bbox_visib"), Json({-1, -1, -1, -1}));
+  EXPECT_EQ(info.at(2).at("bbox_visib"), Json({5, 0, 1, 6}));
+  for (int id = 0; id < 3; ++id) {
+    const Png mask = read_png(path("mask_visib/000000_00000" + std::to_string(id) + ".png"));
+    EXPECT_EQ(mask.depth, 8);
+    for (std::size_t i = 0; i < image.label.size(); ++i) {
+      EXPECT_EQ(mask.samples[i], image.label[i] == id + 1 ? 255 : 0) << id << " " << i;
+    }
+  }
+}
+
+TEST_F(Bop, APartThatWasNeverPouredIsLeftOutAndIdsStay) {
+  Scene scene = small_scene();
+  scene.parts[1].pose.position.setConstant(std::nan(""));
+  write_bop(dir.string(), scene, {bolt, nut}, {small_image()});
+  const Json gt = json("scene_gt.json").at("0");
+  ASSERT_EQ(gt.size(), 2u);
+  EXPECT_EQ(gt.at(1).at("id"), 2);
+}
+
+TEST_F(Bop, LinesOfOneModelShareAnObject) {
+  EXPECT_EQ(bop_object_ids({bolt, nut, bolt}), (std::vector<int>{1, 2, 1}));
+  write_bop_models(dir.string(), {bolt, nut, bolt});
+  const Json info = json("models/models_info.json");
+  EXPECT_EQ(info.size(), 2u);
+  EXPECT_NEAR(info.at("1").at("size_x").get<double>(), 20.0, 1e-9);
+  EXPECT_NEAR(info.at("1").at("diameter").get<double>(), 20.0 * std::sqrt(3.0), 1e-9);
+  EXPECT_TRUE(std::filesystem::exists(dir / "models/obj_000002.ply"));
+}
+
+}  // namespace
+}  // namespace bin_scenes

@@ -1,0 +1,56 @@
+#include "output/output_fixture.hpp"
+#include "output/read_png.hpp"
+
+namespace bin_scenes {
+namespace {
+
+using Images = OutputTest;
+
+TEST_F(Images, DepthIsInTenthsOfAMillimetreAndZeroWhereNothingWasSeen) {
+  RangeImage image = small_image();
+  image.depth[0] = 7.0f;      // beyond what 16 bits hold
+  image.depth[8] = 0.00001f;  // nearer than a step, but seen
+  write_pngs(dir.string(), image);
+  const Png depth = read_png(path("left_depth.png"));
+  EXPECT_EQ(depth.width, 8);
+  EXPECT_EQ(depth.height, 6);
+  EXPECT_EQ(depth.depth, 16);
+  EXPECT_EQ(depth.channels, 1);
+  EXPECT_EQ(depth.at(0, 0), 65535);
+  EXPECT_EQ(depth.at(0, 1), 1);
+  EXPECT_EQ(depth.at(3, 0), 8300);
+  EXPECT_EQ(depth.at(3, 5), 8305);
+  EXPECT_EQ(depth.at(7, 2), 0);
+}
+
+TEST_F(Images, LabelsAreThoseOfTheImage) {
+  const RangeImage image = small_image();
+  write_pngs(dir.string(), image);
+  const Png labels = read_png(path("left_labels.png"));
+  EXPECT_EQ(labels.depth, 16);
+  EXPECT_EQ(labels.samples, image.label);
+}
+
+TEST_F(Images, ThePictureTellsPartsBinAndNothingApart) {
+  write_pngs(dir.string(), small_image());
+  const Png picture = read_png(path("left.png"));
+  EXPECT_EQ(picture.channels, 3);
+  EXPECT_EQ(picture.depth, 8);
+  const auto rgb = [&](int x, int y) {
+    return std::array<int, 3>{picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2)};
+  };
+  EXPECT_NE(rgb(1, 2), rgb(6, 2));
+  const auto nothing = rgb(7, 2);
+  EXPECT_GT(nothing[0] + nothing[1] + nothing[2], 3 * 230);
+  // Two parts side by side differ in hue, not only in brightness.
+  RangeImage two = small_image();
+  for (std::size_t i = 0; i < two.label.size(); ++i) two.label[i] = 1 + (i % 8) / 4;
+  write_pngs(dir.string(), two);
+  const Png pair = read_png(path("left.png"));
+  const auto red_per_blue = [&](int x) { return static_cast<double>(pair.at(x, 2, 0)) / pair.at(x, 2, 2); };
+  EXPECT_GT(std::abs(red_per_blue(1) - red_per_blue(5)), 0.5);
+  EXPECT_LT(pair.at(3, 2, 1), pair.at(1, 2, 1)) << "a dark line between them";
+}
+
+}  // namespace
+}  // namespace bin_scenes

@@ -1,0 +1,98 @@
+#include "output/output_fixture.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace bin_scenes {
+namespace {
+
+using SceneJson = OutputTest;
+
+Request request() {
+  Request r;
+  r.text_sha256 = "abc";
+  return r;
+}
+
+TEST_F(SceneJson, ReadsBackBitForBit) {
+  const Scene scene = small_scene();
+  write_text(path("scene.json"), scene_json(scene, request()));
+  const Scene back = read_scene_json(path("scene.json"));
+  EXPECT_EQ(back.seed, scene.seed);
+  EXPECT_EQ(back.index, scene.index);
+  ASSERT_EQ(back.parts.size(), scene.parts.size());
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const ScenePart &a = scene.parts[i], &b = back.parts[i];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.line, b.line);
+    EXPECT_EQ(a.model, b.model);
+    EXPECT_EQ(a.pose.position, b.pose.position);
+    EXPECT_EQ(a.pose.orientation.coeffs(), b.pose.orientation.coeffs());
+    EXPECT_EQ(a.velocity.linear, b.velocity.linear);
+    EXPECT_EQ(a.state, b.state);
+    EXPECT_EQ(a.visible_fraction, b.visible_fraction);
+  }
+  EXPECT_EQ(back.report.reasons, scene.report.reasons);
+  EXPECT_EQ(back.report.escaped, scene.report.escaped);
+  EXPECT_EQ(back.report.state_hash, scene.report.state_hash);
+  EXPECT_TRUE(back.report.at_rest);
+  EXPECT_FALSE(back.report.accepted);
+}
+
+TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
+  const auto json = nlohmann::json::parse(scene_json(small_scene(), request()));
+  EXPECT_EQ(json.at("format"), "bin_scenes/1");
+  EXPECT_EQ(json.at("request_sha256"), "abc");
+  EXPECT_EQ(json.at("bin").at("inner_size").size(), 3u);
+  const auto& sensor = json.at("sensors").at(0);
+  EXPECT_EQ(sensor.at("frame"), "left_optical_frame");
+  EXPECT_EQ(sensor.at("K").size(), 9u);
+  EXPECT_EQ(sensor.at("pose").at("position").at(2), 0.9);
+  const auto& part = json.at("parts").at(1);
+  EXPECT_EQ(part.at("id"), 1);
+  EXPECT_EQ(part.at("state"), "escaped");
+  EXPECT_EQ(part.at("pose").at("orientation_xyzw").size(), 4u);
+  EXPECT_TRUE(part.at("visible_fraction").is_object());
+  const auto& report = json.at("report");
+  for (const char* key : {"at_rest", "accepted", "reasons", "solver", "device", "simulated_s", "wall_s", "steps",
+                          "stages_ms", "gap", "escaped", "flags"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report.at("penetration").at("pair"), nlohmann::json({0, 2}));
+}
+
+TEST_F(SceneJson, APartWithoutAPoseStaysWithoutOne) {
+  Scene scene = small_scene();
+  scene.parts[1].pose.position.setConstant(std::nan(""));
+  scene.parts[1].state = PartState::not_poured;
+  write_text(path("scene.json"), scene_json(scene, request()));
+  const Scene back = read_scene_json(path("scene.json"));
+  EXPECT_TRUE(std::isnan(back.parts[1].pose.position.x()));
+  EXPECT_EQ(back.parts[1].state, PartState::not_poured);
+}
+
+TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
+  const auto expect = [&](const std::string& content, const std::string& word) {
+    write_text(path("scene.json"), content);
+    try {
+      read_scene_json(path("scene.json"));
+      ADD_FAILURE() << content;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(std::string(error.what()).find("scene.json"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  expect("{", "the file");
+  expect("[]", "format");
+  expect(R"({"format": "bin_scenes/9"})", "bin_scenes/1");
+  const std::string head = R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [{"id": 0, "model": "a")";
+  expect(head + "}]}", "parts[0]");
+  expect(head + R"(, "pose": {"position": [0, 0], "orientation_xyzw": [0, 0, 0, 1]}, "state": "resting"}]})",
+         "parts[0]");
+  expect(head + R"(, "pose": {"position": [0, 0, 0], "orientation_xyzw": [0, 0, 0, 1]}, "state": "asleep"}]})",
+         "asleep");
+  EXPECT_THROW(read_scene_json(path("nowhere.json")), Error);
+}
+
+}  // namespace
+}  // namespace bin_scenes
