@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Keeps what is expensive between requests: GL device, solvers' programs, loaded parts, the camera.
+/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, the camera.
 /// One thread at a time (the GL context belongs to the thread that made it).
 class Generator {
  public:
@@ -39,7 +39,8 @@ class Generator {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget.
+/// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget. Without
+/// parts (not loaded yet) only what follows from the counts and settings of the request.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
 
 }  // namespace bin_scenes

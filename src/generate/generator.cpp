@@ -1,0 +1,182 @@
+#include "bin_scenes/generate/generator.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "generate/model_store.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double kDriftSeconds = 0.5;  ///< simulated time of the drift check
+
+// Shares of a scene in the progress bar: pouring takes nearly all of the time.
+constexpr double kLoadShare = 0.02, kPourShare = 0.90;
+
+/// Passes progress on with one fraction for the whole request, which never falls, and asks whether to go on.
+class Reporter {
+ public:
+  Reporter(const RunHooks& hooks, std::size_t scenes) : hooks_(hooks), scenes_(static_cast<double>(scenes)) {}
+
+  void phase(const std::string& name, std::size_t scene, std::size_t parts, double fraction) {
+    if (hooks_.cancel && hooks_.cancel->load()) {
+      throw Error(ErrorKind::cancelled, "cancelled", "", "");
+    }
+    Progress progress;
+    progress.phase = name;
+    progress.scene = scene;
+    progress.parts = parts;
+    tell(progress, fraction);
+  }
+  void tell(Progress progress, double fraction) {
+    fraction_ = std::max(fraction_, std::min(fraction, 1.0));
+    progress.fraction = fraction_;
+    if (hooks_.progress) hooks_.progress(progress);
+  }
+  /// Hooks for pouring `count` scenes after `before` of them are done.
+  RunHooks pouring(std::size_t before, std::size_t count) {
+    RunHooks hooks = hooks_;
+    hooks.progress = [this, before, count](const Progress& progress) {
+      const double within = kLoadShare + kPourShare * progress.fraction;
+      tell(progress, (static_cast<double>(before) + within * static_cast<double>(count)) / scenes_);
+    };
+    return hooks;
+  }
+
+ private:
+  const RunHooks& hooks_;
+  double scenes_, fraction_ = 0.0;
+};
+
+/// The request that goes on from a finished scene for `seconds`; `kept` are the scene's parts that take part, in the
+/// order of the new request. Parts that escaped or were never poured have nothing to drift from.
+Request going_on(const Request& request, const Scene& scene, double seconds, std::vector<std::size_t>& kept) {
+  Request next = request;
+  next.pour.pattern = Pour::Pattern::given;
+  next.seconds = seconds;
+  for (std::size_t line = 0; line < next.parts.size(); ++line) {
+    PartLine& part_line = next.parts[line];
+    part_line.poses.clear();
+    part_line.velocities.clear();
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+      const ScenePart& part = scene.parts[i];
+      if (part.line != line || part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+      part_line.poses.push_back(part.pose);  // from rest, as the drift of a finished scene is defined
+      kept.push_back(i);
+    }
+    part_line.count = part_line.poses.size();
+  }
+  return next;
+}
+
+}  // namespace
+
+struct Generator::State {
+  ModelStore models;
+  std::unique_ptr<RangeCamera> camera;
+
+  void load(const Request& request, Reporter& reporter) {
+    reporter.phase("load", request.first, request.part_count(), 0.0);
+    estimate_memory(request, {});
+    models.load(request);
+    estimate_memory(request, models.parts());
+  }
+
+  void measure_drift(Scene& scene, const Request& request, Solver& solver, const RunHooks& hooks) {
+    std::vector<std::size_t> kept;
+    const Request next = going_on(request, scene, kDriftSeconds, kept);
+    if (kept.empty()) return;
+    RunHooks quiet;
+    quiet.cancel = hooks.cancel;
+    const Scene moved = pour(next, models.parts(), solver, {scene.index}, quiet, models.bin()).at(0);
+    Scene before;
+    for (const std::size_t i : kept) before.parts.push_back(scene.parts[i]);
+    scene.report.drift = drift(before, moved, models.parts());
+  }
+
+  void see(Result& result, const Request& request) {
+    Scene& scene = result.scene;
+    if (!camera) camera = std::make_unique<RangeCamera>();
+    result.images = camera->render(scene, request, models.parts(), models.bin());
+    for (const RangeImage& image : result.images) {
+      for (ScenePart& part : scene.parts) {
+        const double seen = static_cast<double>(image.visible.at(part.id));
+        const double alone = static_cast<double>(image.total.at(part.id));
+        part.visible_fraction[image.sensor.name] = alone > 0 ? seen / alone : 0.0;
+      }
+    }
+  }
+};
+
+Generator::Generator() : state_(std::make_unique<State>()) {}
+Generator::~Generator() = default;
+
+const std::vector<PartModelPtr>& Generator::parts() const {
+  return state_->models.parts();
+}
+const PartModelPtr& Generator::bin_model() const {
+  return state_->models.bin();
+}
+
+void Generator::generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done) {
+  check(request);
+  Reporter reporter(options.hooks, request.scenes);
+  Profile loading;
+  {
+    StageTimer timer(loading, "load");
+    state_->load(request, reporter);
+  }
+  const std::vector<PartModelPtr>& parts = state_->models.parts();
+  std::string solver_reason;
+  std::unique_ptr<Solver> solver;
+  {
+    StageTimer timer(loading, "prepare");
+    reporter.phase("prepare", request.first, request.part_count(), 0.0);
+    solver = make_solver(request, parts, solver_reason);
+  }
+
+  const std::size_t at_once = std::max<std::size_t>(1, solver->worlds_at_once());
+  const double scenes = static_cast<double>(request.scenes);
+  for (std::size_t begin = 0; begin < request.scenes; begin += at_once) {
+    const std::size_t count = std::min(at_once, request.scenes - begin);
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < count; ++i) indices.push_back(request.first + begin + i);
+    std::vector<Scene> poured =
+        pour(request, parts, *solver, indices, reporter.pouring(begin, count), state_->models.bin());
+
+    for (std::size_t i = 0; i < count; ++i) {
+      const double fraction = (static_cast<double>(begin) + (kLoadShare + kPourShare) * static_cast<double>(count) +
+                               (1.0 - kLoadShare - kPourShare) * static_cast<double>(i)) /
+                              scenes;
+      Result result;
+      result.scene = std::move(poured[i]);
+      Scene& scene = result.scene;
+      Report& report = scene.report;
+      report.solver_reason = solver_reason;
+      if (begin == 0 && i == 0) report.profile.merge(loading);
+      for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
+        if (std::find(parts.begin(), part, *part) != part) continue;
+        for (const Flag& flag : (*part)->load_report().flags) report.flags.push_back(flag);
+      }
+      Profile after;
+      {
+        StageTimer timer(after, "quality");
+        reporter.phase("quality", scene.index, scene.parts.size(), fraction);
+        if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
+        judge(scene, request, parts, state_->models.bin());
+      }
+      scene.sensors.clear();
+      for (const Sensor& sensor : request.sensors) scene.sensors.push_back(resolved(sensor, request.bin));
+      if (options.render && !request.sensors.empty()) {
+        StageTimer timer(after, "render");
+        reporter.phase("render", scene.index, scene.parts.size(), fraction);
+        state_->see(result, request);
+      }
+      report.profile.merge(after);
+      done(std::move(result));
+    }
+  }
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,180 @@
+#include "bin_scenes/generate/generator.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "box_mesh.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace bin_scenes {
+namespace {
+
+class GeneratorTest : public ::testing::Test {
+ protected:
+  GeneratorTest() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    dir = std::filesystem::temp_directory_path() / ("bin_scenes_generate_" + std::to_string(::getpid()) + info->name());
+    std::filesystem::create_directories(dir);
+    std::ofstream(dir / "box.stl") << box_stl(0.04);
+  }
+  ~GeneratorTest() override { std::filesystem::remove_all(dir); }
+
+  Request boxes(std::size_t count) const {
+    Request r;
+    r.seed = 3;
+    r.solver.type = SolverType::bullet;
+    r.bin.inner_size = Vec3(0.2, 0.2, 0.2);
+    r.parts.emplace_back();
+    r.parts[0].model = "box.stl";
+    r.parts[0].path = (dir / "box.stl").string();
+    r.parts[0].count = count;
+    return r;
+  }
+
+  std::vector<Generator::Result> run(const Request& request, Generator::Options options = {}) {
+    std::vector<Generator::Result> results;
+    generator.generate(request, options, [&](Generator::Result&& result) { results.push_back(std::move(result)); });
+    return results;
+  }
+
+  ErrorKind failure(const Request& request) {
+    try {
+      run(request);
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    ADD_FAILURE() << "did not fail";
+    return ErrorKind::cancelled;
+  }
+
+  std::filesystem::path dir;
+  Generator generator;
+};
+
+TEST_F(GeneratorTest, PoursJudgesAndHandsOverInOrder) {
+  Request request = boxes(4);
+  request.scenes = 2;
+  request.first = 5;
+  const auto results = run(request);
+  ASSERT_EQ(results.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Scene& scene = results[i].scene;
+    EXPECT_EQ(scene.index, 5 + i);
+    EXPECT_EQ(scene.seed, 3u);
+    ASSERT_EQ(scene.parts.size(), 4u);
+    EXPECT_TRUE(scene.report.accepted) << (scene.report.reasons.empty() ? "" : scene.report.reasons[0]);
+    EXPECT_EQ(scene.report.solver, "bullet");
+    EXPECT_FALSE(scene.report.solver_reason.empty());
+    EXPECT_TRUE(results[i].images.empty()) << "no sensors, no images";
+    for (const ScenePart& part : scene.parts) EXPECT_EQ(part.state, PartState::resting);
+  }
+  EXPECT_NE(results[0].scene.report.state_hash, results[1].scene.report.state_hash);
+}
+
+TEST_F(GeneratorTest, TheSameRequestGivesTheSameBitsAndASceneDoesNotDependOnItsNeighbours) {
+  Request request = boxes(4);
+  request.scenes = 2;
+  const auto first = run(request);
+  Generator other;
+  std::vector<Scene> again;
+  request.first = 1;
+  request.scenes = 1;
+  other.generate(request, {}, [&](Generator::Result&& result) { again.push_back(std::move(result.scene)); });
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].report.state_hash, first[1].scene.report.state_hash);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(again[0].parts[i].pose.position, first[1].scene.parts[i].pose.position);
+    EXPECT_EQ(again[0].parts[i].pose.orientation.coeffs(), first[1].scene.parts[i].pose.orientation.coeffs());
+  }
+}
+
+TEST_F(GeneratorTest, KeepsAModelUntilItsFileChanges) {
+  run(boxes(1));
+  const PartModelPtr once = generator.parts().at(0);
+  run(boxes(1));
+  EXPECT_EQ(generator.parts().at(0), once);
+  std::ofstream(dir / "box.stl") << box_stl(0.0401);
+  run(boxes(1));
+  EXPECT_NE(generator.parts().at(0), once);
+}
+
+TEST_F(GeneratorTest, ProgressNeverFallsAndNamesKnownPhases) {
+  Request request = boxes(3);
+  request.scenes = 2;
+  std::vector<Progress> seen;
+  Generator::Options options;
+  options.hooks.progress = [&](const Progress& progress) { seen.push_back(progress); };
+  run(request, options);
+  ASSERT_GT(seen.size(), 5u);
+  EXPECT_EQ(seen.front().phase, "load");
+  for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_GE(seen[i].fraction, seen[i - 1].fraction);
+  EXPECT_GT(seen.back().fraction, 0.9);
+  EXPECT_LE(seen.back().fraction, 1.0);
+}
+
+TEST_F(GeneratorTest, CanBeCancelledAndUsedAgain) {
+  std::atomic<bool> cancel{true};
+  Generator::Options options;
+  options.hooks.cancel = &cancel;
+  try {
+    run(boxes(3), options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+  cancel = false;
+  EXPECT_EQ(run(boxes(1), options).size(), 1u);
+}
+
+TEST_F(GeneratorTest, RendersOnlyWhenSomebodyLooks) {
+  Request request = boxes(2);
+  request.sensors.emplace_back();
+  request.sensors[0].width = 64;
+  request.sensors[0].height = 48;
+  Generator::Options blind;
+  blind.render = false;
+  const auto unseen = run(request, blind);
+  EXPECT_TRUE(unseen.at(0).images.empty());
+  EXPECT_EQ(unseen[0].scene.report.profile.stages_ms.count("render"), 0u);
+  ASSERT_EQ(unseen[0].scene.sensors.size(), 1u);
+  EXPECT_EQ(unseen[0].scene.sensors[0].k.size(), 9u) << "where the camera would be is known all the same";
+
+  const auto seen = run(request);
+  ASSERT_EQ(seen.at(0).images.size(), 1u);
+  EXPECT_EQ(seen[0].images[0].depth.size(), 64u * 48u);
+  EXPECT_EQ(seen[0].scene.report.state_hash, unseen[0].scene.report.state_hash);
+  for (const ScenePart& part : seen[0].scene.parts) {
+    EXPECT_GT(part.visible_fraction.at("camera"), 0.0);
+    EXPECT_LE(part.visible_fraction.at("camera"), 1.0);
+  }
+}
+
+TEST_F(GeneratorTest, DriftIsMeasuredOnlyWhenAskedFor) {
+  Request request = boxes(2);
+  EXPECT_FALSE(run(request).at(0).scene.report.drift.measured);
+  request.drift_check = true;
+  const auto results = run(request);
+  EXPECT_TRUE(results.at(0).scene.report.drift.measured);
+  EXPECT_LT(results[0].scene.report.drift.max, 0.001);
+}
+
+TEST_F(GeneratorTest, BadInputIsAnInputErrorBeforeAnythingIsSimulated) {
+  Request absent = boxes(1);
+  absent.parts[0].path = (dir / "nowhere.stl").string();
+  EXPECT_EQ(failure(absent), ErrorKind::input);
+  Request huge = boxes(1000000);
+  huge.memory_budget = 1e6;
+  EXPECT_EQ(failure(huge), ErrorKind::input);
+  Request negative = boxes(1);
+  negative.parts[0].friction = -1;
+  EXPECT_EQ(failure(negative), ErrorKind::input);
+  Request unit = boxes(1);
+  unit.parts[0].scale = 1000;  // a box of 40 m
+  EXPECT_EQ(failure(unit), ErrorKind::input);
+}
+
+}  // namespace
+}  // namespace bin_scenes
