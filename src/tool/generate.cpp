@@ -1,0 +1,142 @@
+#include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/error.hpp"
+#include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/scene_store.hpp"
+#include "tool/trace_file.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace bin_scenes {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+/// The options that stand for keys of the request, in the words of --set.
+std::vector<std::string> overrides_of(const GenerateOptions& options) {
+  for (const std::string& item : options.set) {
+    if (item.find('=') == std::string::npos) {
+      throw input_error("expected key=value, found '" + item + "'", "--set", "put the request before the options");
+    }
+  }
+  std::vector<std::string> overrides = options.set;
+  const auto add = [&](const char* key, const std::optional<std::string>& value) {
+    if (value) overrides.push_back(std::string(key) + "=" + *value);
+  };
+  add("seed", options.seed);
+  add("scenes", options.scenes);
+  add("first", options.first);
+  add("solver.type", options.solver);
+  add("seconds", options.seconds);
+  return overrides;
+}
+
+/// Runs of consecutive indices that have to be made: [first, count].
+std::vector<std::pair<std::size_t, std::size_t>> missing_runs(const Request& request, const std::vector<bool>& there) {
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (there[i]) continue;
+    if (i == 0 || there[i - 1]) runs.emplace_back(request.first + i, 0);
+    ++runs.back().second;
+  }
+  return runs;
+}
+
+void print_details(const Scene& scene) {
+  const Report& r = scene.report;
+  std::printf("scene %zu: %s, %zu parts, %.3f s simulated in %.3f s (%llu steps), %s on %s\n", scene.index,
+              r.accepted ? "accepted" : "set apart", scene.parts.size(), r.simulated_s, r.wall_s,
+              static_cast<unsigned long long>(r.steps), r.solver.c_str(), r.device.c_str());
+  std::printf("  %s\n", r.solver_reason.c_str());
+  std::printf("  penetration p95 %.4f %%, max %.4f %% of a part; gap p95 %.4f mm\n", 100 * r.penetration.p95_relative,
+              100 * r.penetration.max_relative, 1e3 * r.gap.p95);
+  for (const auto& [stage, ms] : r.profile.stages_ms) std::printf("  %-32s %12.2f ms\n", stage.c_str(), ms);
+  for (const auto& [counter, n] : r.profile.counters) {
+    std::printf("  %-32s %12llu\n", counter.c_str(), static_cast<unsigned long long>(n));
+  }
+  for (const Flag& flag : r.flags) {
+    std::printf("  flag %s: %s (%s)\n", flag.code.c_str(), flag.text.c_str(), flag.remedy.c_str());
+  }
+  std::fflush(stdout);
+}
+
+std::string joined(const std::vector<std::string>& reasons) {
+  std::string text;
+  for (const std::string& reason : reasons) text += (text.empty() ? "" : "; ") + reason;
+  return text.empty() ? "no reason given" : text;
+}
+
+}  // namespace
+
+int generate(const GenerateOptions& options) {
+  Request request = read_request(options.request, overrides_of(options));
+  SceneStore store(options.out, options.formats);
+  if (store.needs_images() && request.sensors.empty()) {
+    throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
+                      "add `sensors: [{name: camera}]`, or ask for --formats json alone");
+  }
+  if (!options.trace.empty() && request.scenes != 1) {
+    throw input_error("a trace holds one scene, but " + std::to_string(request.scenes) + " are asked for", "--trace",
+                      "add --scenes 1, and --first to choose which");
+  }
+
+  std::vector<bool> there(request.scenes, false);
+  std::vector<std::pair<std::size_t, std::string>> apart;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < request.scenes && !options.overwrite && options.trace.empty(); ++i) {
+    const SceneStore::Found found = store.find(request.first + i, request);
+    there[i] = found != SceneStore::Found::nothing;
+    kept += there[i];
+    if (found == SceneStore::Found::set_apart) {
+      apart.emplace_back(request.first + i, joined(store.reasons(request.first + i)));
+    }
+  }
+  if (kept > 0) {
+    std::fprintf(stderr, "bin_scenes: %zu of %zu scenes are there already and are kept\n", kept, request.scenes);
+  }
+
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  Generator generator;
+  ProgressBar bar;
+  std::unique_ptr<TraceFile> trace;
+  Generator::Options run;
+  run.render = store.needs_images();
+  run.hooks.cancel = &interrupted;
+  run.hooks.progress = [&](const Progress& progress) { bar.show(progress); };
+  if (!options.trace.empty()) {
+    run.hooks.trace_rate = options.trace_rate;
+    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+      if (!trace) trace = std::make_unique<TraceFile>(options.trace);
+      trace->add(time, states);
+    };
+  }
+  for (const auto& [first, count] : missing_runs(request, there)) {
+    request.first = first;
+    request.scenes = count;
+    generator.generate(request, run, [&](Generator::Result&& result) {
+      store.write(result, request, generator);
+      const Report& report = result.scene.report;
+      if (!report.accepted) apart.emplace_back(result.scene.index, joined(report.reasons));
+      bar.clear();
+      if (options.verbose) print_details(result.scene);
+    });
+  }
+  if (trace) trace->finish();
+  bar.clear();
+
+  if (apart.empty()) return kDone;
+  std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), there.size(),
+               options.out.c_str());
+  for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
+  return kSetApart;
+}
+
+}  // namespace bin_scenes

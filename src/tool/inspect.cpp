@@ -1,0 +1,183 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/part/part_model.hpp"
+#include "tool/commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+namespace bin_scenes {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json json_of(const ShapeError& e) {
+  return {{"to_mesh_mean", e.to_mesh_mean},
+          {"to_mesh_max", e.to_mesh_max},
+          {"from_mesh_mean", e.from_mesh_mean},
+          {"from_mesh_max", e.from_mesh_max},
+          {"volume", e.volume}};
+}
+
+std::size_t files_below(const std::string& directory) {
+  std::size_t count = 0;
+  std::error_code error;
+  if (directory.empty()) return 0;
+  for (auto it = std::filesystem::recursive_directory_iterator(directory, error);
+       !error && it != std::filesystem::recursive_directory_iterator(); it.increment(error)) {
+    ++count;
+  }
+  return count;
+}
+
+Json file_json(const LoadReport& report) {
+  Json json = {
+      {"format", report.format},          {"unit", name_of(report.unit)},       {"meshes", report.meshes},
+      {"vertices", report.file_vertices}, {"triangles", report.file_triangles}, {"sha256", report.content_sha256}};
+  Json& repairs = json["repairs"] = Json::array();
+  for (const Flag& flag : report.flags) {
+    repairs.push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});
+  }
+  return json;
+}
+
+Json mass_json(const MassProperties& mass) {
+  Json inertia = Json::array();
+  for (int i = 0; i < 3; ++i) inertia.push_back({mass.inertia(i, 0), mass.inertia(i, 1), mass.inertia(i, 2)});
+  return {{"volume", mass.volume},
+          {"area", mass.area},
+          {"center_of_mass", json_of(mass.center)},
+          {"inertia_at_1_kg_m3", inertia},
+          {"principal_moments_at_1_kg_m3", json_of(mass.principal)}};
+}
+
+/// What each solver makes of the part with its default settings. Errors are fractions of the diagonal.
+Json proxies_json(const PartModel& part) {
+  const SolverSettings defaults;
+  VoxelOptions voxels;
+  voxels.voxels = defaults.thesis.voxels;
+  voxels.tightness = defaults.thesis.tightness;
+  FieldOptions field;
+  field.cell = defaults.sphere.field_cell;
+  SampleOptions samples;
+  samples.count = defaults.sphere.fine_samples;
+  HullOptions hulls;
+  hulls.max_error = defaults.bullet.hull_error;
+  hulls.max_hulls = defaults.bullet.max_hulls;
+
+  const auto& nodes = part.field(field).nodes;
+  const ConvexHulls& decomposition = part.hulls(hulls);
+  return {{"spheres", {{"count", part.spheres(voxels).spheres.size()}, {"error", json_of(part.sphere_error(voxels))}}},
+          {"samples", {{"count", part.samples(samples).samples.size()}}},
+          {"field", {{"nodes", nodes}, {"error", json_of(part.field_error(field))}}},
+          {"hulls",
+           {{"count", decomposition.hulls.size()},
+            {"met", decomposition.met},
+            {"surface_error", decomposition.surface_error},
+            {"volume_error", decomposition.volume_error},
+            {"error", json_of(part.hull_error(hulls))}}}};
+}
+
+Json inspection(const InspectOptions& options) {
+  LoadOptions load;
+  load.require_closed = false;
+  if (!options.unit.empty()) {
+    for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch}) {
+      if (options.unit == name_of(unit)) load.unit = unit;
+    }
+    if (!load.unit) throw input_error("unknown unit '" + options.unit + "'", "--unit", "m, cm, mm or inch");
+  }
+  const std::string cache = Cache::global().directory();
+  const std::size_t before = files_below(cache);
+  const PartModelPtr part = PartModel::load(options.model, load);
+  const LoadReport& report = part->load_report();
+  const Aabb box = part->mesh().bounds();
+  Json json = {{"model", options.model}, {"file", file_json(report)}};
+  json["size"] = json_of(box.size());
+  json["lower"] = json_of(box.lower);
+  json["diagonal"] = part->diagonal();
+  json["vertices"] = part->mesh().vertices.size();
+  json["triangles"] = part->mesh().triangles.size();
+  json["shells"] = report.shells;
+  json["watertight"] = report.closed;
+  json["open_edges"] = report.open_edges;
+  if (report.closed) {  // an open surface has no volume, and nothing can be made of it
+    json["mass_properties"] = mass_json(part->mass());
+    json["proxies"] = proxies_json(*part);
+  }
+  const std::size_t made = files_below(cache) - before;
+  json["cache"] = {{"directory", cache},
+                   {"state", cache.empty() ? "off"
+                             : made == 0   ? "warm"
+                                           : "cold"},
+                   {"files_made", made}};
+  return json;
+}
+
+void print_error(const char* name, const std::string& count, const Json& error) {
+  std::printf("  %-8s %-18s proxy to mesh max %.3f %% mean %.3f %%, mesh to proxy max %.3f %%, volume %+.2f %%\n", name,
+              count.c_str(), 100 * error["to_mesh_max"].get<double>(), 100 * error["to_mesh_mean"].get<double>(),
+              100 * error["from_mesh_max"].get<double>(), 100 * error["volume"].get<double>());
+}
+
+void print_text(const Json& j) {
+  const auto number = [](const Json& value) { return value.get<double>(); };
+  const Json& size = j["size"];
+  std::printf("%s\n", j["model"].get<std::string>().c_str());
+  std::printf("size        %.4g x %.4g x %.4g m (unit %s)\n", number(size[0]), number(size[1]), number(size[2]),
+              j["file"]["unit"].get<std::string>().c_str());
+  std::printf("mesh        %zu vertices, %zu triangles, %zu shells\n", j["vertices"].get<std::size_t>(),
+              j["triangles"].get<std::size_t>(), j["shells"].get<std::size_t>());
+  for (const Json& flag : j["file"]["repairs"]) {
+    std::printf("repaired    %s (%s)\n", flag["text"].get<std::string>().c_str(),
+                flag["remedy"].get<std::string>().c_str());
+  }
+  if (!j["watertight"].get<bool>()) {
+    std::printf("watertight  no: %zu open edges; close them, or give the part a `thickness` in the request\n",
+                j["open_edges"].get<std::size_t>());
+  } else {
+    const Json& m = j["mass_properties"];
+    const Json &c = m["center_of_mass"], &p = m["principal_moments_at_1_kg_m3"];
+    std::printf("watertight  yes\n");
+    std::printf("volume      %.6g m3, surface %.6g m2, %.6g kg at 1000 kg/m3\n", number(m["volume"]), number(m["area"]),
+                1000 * number(m["volume"]));
+    std::printf("centre      %.6g %.6g %.6g m\n", number(c[0]), number(c[1]), number(c[2]));
+    std::printf("moments     %.4g %.4g %.4g kg m2 at 1000 kg/m3\n", 1000 * number(p[0]), 1000 * number(p[1]),
+                1000 * number(p[2]));
+    const Json& x = j["proxies"];
+    std::printf("proxies     errors in %% of the diagonal (%.4g m)\n", number(j["diagonal"]));
+    print_error("spheres", std::to_string(x["spheres"]["count"].get<std::size_t>()), x["spheres"]["error"]);
+    const Json& n = x["field"]["nodes"];
+    print_error("field",
+                std::to_string(n[0].get<int>()) + " x " + std::to_string(n[1].get<int>()) + " x " +
+                    std::to_string(n[2].get<int>()),
+                x["field"]["error"]);
+    print_error("hulls", std::to_string(x["hulls"]["count"].get<std::size_t>()), x["hulls"]["error"]);
+    std::printf("  %-8s %zu\n", "samples", x["samples"]["count"].get<std::size_t>());
+  }
+  const Json& cache = j["cache"];
+  std::printf("cache       %s %s (%zu files made now)\n", cache["state"].get<std::string>().c_str(),
+              cache["directory"].get<std::string>().c_str(), cache["files_made"].get<std::size_t>());
+}
+
+}  // namespace
+
+int inspect(const InspectOptions& options) {
+  const Json json = inspection(options);
+  if (options.json) {
+    std::cout << json.dump(1) << "\n";
+  } else {
+    print_text(json);
+  }
+  return kDone;
+}
+
+}  // namespace bin_scenes

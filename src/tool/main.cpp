@@ -1,0 +1,94 @@
+/// bin_scenes: the command line.
+#include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/error.hpp"
+#include "tool/commands.hpp"
+
+#ifdef BIN_SCENES_HAS_BAG
+#include "ros/bag_hook.hpp"
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+namespace {
+
+using namespace bin_scenes;
+
+constexpr int kInterrupted = 130;  // what a shell says of a command ended by Ctrl-C
+
+int complain(const std::string& message, int code) {
+  std::cerr << "bin_scenes: " << message << std::endl;
+  return code;
+}
+
+void add_generate(CLI::App& app, GenerateOptions& o) {
+  app.add_option("REQUEST", o.request, "request file (docs/request.md)")->required();
+  app.add_option("--out", o.out, "directory for the scenes: DIR/scene_000000/scene.json and so on")->required();
+  app.add_option("--seed", o.seed, "seed of all scenes; scene i comes from (seed, i) alone");
+  app.add_option("--scenes", o.scenes, "number of scenes");
+  app.add_option("--first", o.first, "index of the first scene, to split a job");
+  app.add_option("--solver", o.solver, "auto, sphere or bullet");
+  app.add_option("--formats", o.formats, "of json, pcd, png, bop, bag; scene.json is always written")->delimiter(',');
+  app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
+  app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
+  app.add_option("--trace", o.trace, "CSV file with pose and velocity of each part over simulated time");
+  app.add_option("--trace-rate", o.trace_rate, "rows a second and part")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
+  app.add_flag("--verbose", o.verbose, "stage times and counters of each scene");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Scenes of parts lying in a bin: poured, at rest, judged on their true meshes, seen by range cameras.");
+  app.set_version_flag("--version", BIN_SCENES_VERSION);
+  app.require_subcommand(1);
+
+  GenerateOptions generate_options;
+  CLI::App* generate_app = app.add_subcommand("generate", "make scenes from a request");
+  add_generate(*generate_app, generate_options);
+
+  InspectOptions inspect_options;
+  CLI::App* inspect_app = app.add_subcommand("inspect", "what a model is, and how well its proxies fit it");
+  inspect_app->add_option("MODEL", inspect_options.model, "mesh file")->required();
+  inspect_app->add_option("--unit", inspect_options.unit, "unit of the file: m, cm, mm or inch");
+  inspect_app->add_flag("--json", inspect_options.json, "as JSON");
+
+  CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
+  CLI::App* reference_app = app.add_subcommand("reference", "docs/request.md")->group("");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string(error.what()) + " (see bin_scenes --help)", static_cast<int>(ErrorKind::input));
+  }
+  if (generate_app->parsed()) return generate(generate_options);
+  if (inspect_app->parsed()) return inspect(inspect_options);
+  if (doctor_app->parsed()) return doctor();
+  if (reference_app->parsed()) std::cout << request_reference();
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+#ifdef BIN_SCENES_HAS_BAG
+    install_bag_writer();
+#endif
+    return run(argc, argv);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", kInterrupted);
+    return complain(error.what(), static_cast<int>(error.kind()));
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory (ask for less, or lower memory_budget to be told before)",
+                    static_cast<int>(ErrorKind::environment));
+  } catch (const std::exception& error) {
+    return complain(std::string("unexpected: ") + error.what(), static_cast<int>(ErrorKind::environment));
+  }
+}

@@ -1,0 +1,37 @@
+#include "tool/progress_bar.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+constexpr int kWidth = 30;
+constexpr std::chrono::milliseconds kPause(100);  ///< between two updates: a terminal is slow
+}  // namespace
+
+ProgressBar::ProgressBar() : terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressBar::~ProgressBar() {
+  clear();
+}
+
+void ProgressBar::show(const Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || (shown_ && now - last_ < kPause)) return;
+  last_ = now;
+  shown_ = true;
+  const int full = static_cast<int>(progress.fraction * kWidth);
+  const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
+  std::fprintf(stderr, "\r\033[K[%s] scene %zu %s: %zu of %zu parts at rest, %.2f s simulated", bar.c_str(),
+               progress.scene, progress.phase.c_str(), progress.resting, progress.parts, progress.simulated_s);
+  std::fflush(stderr);
+}
+
+void ProgressBar::clear() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+}  // namespace bin_scenes

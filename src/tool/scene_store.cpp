@@ -1,0 +1,148 @@
+#include "tool/scene_store.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string six_digits(std::size_t index) {
+  char text[24];
+  std::snprintf(text, sizeof(text), "%06zu", index);
+  return text;
+}
+
+void make_directory(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions and space");
+}
+
+void check_formats(const std::set<std::string>& formats) {
+  for (const std::string& format : formats) {
+    if (format != "json" && format != "pcd" && format != "png" && format != "bop" && format != "bag") {
+      throw input_error("unknown format '" + format + "'", "--formats", "json, pcd, png, bop or bag");
+    }
+  }
+  if (formats.count("pcd") && !pcd_supported()) {
+    throw environment_error("this build has no PCL and writes no PCD", "--formats", "build with -DBIN_SCENES_PCL=ON");
+  }
+  if (formats.count("bag") && !bag_writer()) {
+    throw environment_error("this build has no ROS and writes no bags", "--formats", "build with -DBIN_SCENES_ROS=ON");
+  }
+}
+
+/// Before hours of simulation, not after them. The nearest directory that exists has to take new files.
+void check_writable(const fs::path& directory) {
+  fs::path place = fs::absolute(directory).lexically_normal();
+  std::error_code error;
+  while (!fs::exists(place, error) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place, error)) {
+    throw environment_error("'" + place.string() + "' is not a directory", directory.string(),
+                            "name a directory for --out");
+  }
+  if (::access(place.c_str(), W_OK | X_OK) != 0) {
+    throw environment_error("'" + place.string() + "' cannot be written", directory.string(),
+                            "check permissions, or name another directory for --out");
+  }
+}
+
+}  // namespace
+
+SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats)
+    : directory_(directory), formats_(formats.begin(), formats.end()) {
+  check_formats(formats_);
+  check_writable(directory);
+}
+
+bool SceneStore::needs_images() const {
+  return formats_.size() > formats_.count("json");
+}
+
+std::string SceneStore::folder(std::size_t index, bool accepted) const {
+  const fs::path base = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
+  return (base / ("scene_" + six_digits(index))).string();
+}
+
+bool SceneStore::complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const {
+  const auto there = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+  };
+  const fs::path base(folder);
+  if (wants("bag") && !there(base / "scene.bag")) return false;
+  for (const Sensor& sensor : request.sensors) {
+    if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
+    if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
+  }
+  const fs::path root = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
+  return !wants("bop") || there(root / "bop" / "train" / six_digits(index) / "scene_gt.json");
+}
+
+SceneStore::Found SceneStore::find(std::size_t index, const Request& request) const {
+  for (const bool accepted : {true, false}) {
+    const std::string path = folder(index, accepted);
+    std::ifstream file(fs::path(path) / "scene.json");
+    if (!file) continue;
+    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+    const std::string hash = json.is_object() ? json.value("request_sha256", "") : "";
+    if (hash != request.text_sha256) {
+      throw input_error("there is a scene of another request already", path,
+                        "name another --out, or replace it with --overwrite");
+    }
+    if (complete(path, index, request, accepted)) return accepted ? Found::accepted : Found::set_apart;
+  }
+  return Found::nothing;
+}
+
+std::vector<std::string> SceneStore::reasons(std::size_t index) const {
+  return read_scene_json((fs::path(folder(index, false)) / "scene.json").string()).report.reasons;
+}
+
+void SceneStore::write(const Generator::Result& result, const Request& request, const Generator& generator) {
+  const Scene& scene = result.scene;
+  const bool accepted = scene.report.accepted;
+  const std::string target = folder(scene.index, accepted);
+  const fs::path root = fs::path(target).parent_path();
+  make_directory(root);
+
+  if (wants("bop")) {
+    make_directory(root / "bop" / "train");
+    if (models_written_.insert(accepted).second) write_bop_models((root / "bop").string(), generator.parts());
+    Temporary bop((root / "bop" / "train" / six_digits(scene.index)).string());
+    write_bop(bop.path(), scene, generator.parts(), result.images);
+    bop.commit();
+  }
+
+  Temporary whole(target);
+  make_directory(whole.path());
+  const fs::path base(whole.path());
+  for (const RangeImage& image : result.images) {
+    if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
+    if (wants("png")) write_pngs(base.string(), image);
+  }
+  if (wants("bag")) {
+    bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
+                 generator.bin_model());
+  }
+  write_text((base / "scene.json").string(), scene_json(scene, request));
+  whole.commit();
+
+  // With --overwrite the scene may have been on the other side before.
+  std::error_code ignored;
+  fs::remove_all(folder(scene.index, !accepted), ignored);
+}
+
+}  // namespace bin_scenes

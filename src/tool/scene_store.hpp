@@ -1,0 +1,45 @@
+/// The directory of a job: one folder a scene, which appears under its name only when it is whole.
+///
+///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>*.png, scene.bag
+///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
+///     DIR/set_apart/...            the same for scenes that were not accepted
+///
+/// A job is resumable: a folder whose scene.json carries the hash of the request is done and is not made again.
+#pragma once
+
+#include "bin_scenes/generate/generator.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+class SceneStore {
+ public:
+  /// Checks the formats and that `directory` can be written, and makes nothing yet.
+  SceneStore(const std::string& directory, const std::vector<std::string>& formats);
+
+  /// True if a format shows what a sensor sees.
+  bool needs_images() const;
+
+  enum class Found { nothing, accepted, set_apart };
+  /// What is there of scene `index`. A scene of another request is an input Error; a folder that lacks one of the
+  /// formats counts as nothing, because making it again gives the same scene.
+  Found find(std::size_t index, const Request& request) const;
+  /// Reasons of a scene that is there, set apart.
+  std::vector<std::string> reasons(std::size_t index) const;
+
+  void write(const Generator::Result& result, const Request& request, const Generator& generator);
+
+ private:
+  bool wants(const char* format) const { return formats_.count(format) != 0; }
+  std::string folder(std::size_t index, bool accepted) const;
+  bool complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const;
+
+  std::string directory_;
+  std::set<std::string> formats_;
+  std::set<bool> models_written_;  ///< BOP models of accepted and set-apart scenes
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,50 @@
+#include "tool/trace_file.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+namespace bin_scenes {
+
+namespace {
+Error failed(const std::string& path) {
+  return environment_error(std::string("the trace cannot be written: ") + std::strerror(errno), path,
+                           "check permissions and free space");
+}
+}  // namespace
+
+TraceFile::TraceFile(const std::string& path) : path_(path), temporary_(path) {
+  file_ = std::fopen(temporary_.path().c_str(), "w");
+  if (!file_) throw failed(path_);
+  std::fputs("time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n", file_);
+}
+
+TraceFile::~TraceFile() {
+  if (file_) std::fclose(file_);
+}
+
+void TraceFile::add(double time, const std::vector<BodyState>& states) {
+  for (std::size_t id = 0; id < states.size(); ++id) {
+    const auto& [pose, velocity] = states[id];
+    if (!pose.finite()) continue;
+    const Vec3 &p = pose.position, &v = velocity.linear, &w = velocity.angular;
+    const Quat& q = pose.orientation;
+    std::fprintf(file_, "%.17g,%zu", time, id);
+    for (const double value :
+         {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}) {
+      std::fprintf(file_, ",%.17g", value);
+    }
+    std::fputc('\n', file_);
+  }
+  if (std::ferror(file_)) throw failed(path_);
+}
+
+void TraceFile::finish() {
+  const int result = std::fclose(file_);
+  file_ = nullptr;
+  if (result != 0) throw failed(path_);
+  temporary_.commit();
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,240 @@
+/// The real binary, as a user calls it: exit code, messages, and what it leaves in files.
+#include "box_mesh.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace bin_scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  CommandLine() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    dir = fs::temp_directory_path() / ("bin_scenes_tool_" + std::to_string(::getpid()) + info->name());
+    fs::create_directories(dir);
+    put("box.stl", box_stl(0.04));
+    put("request.yaml",
+        "seed: 3\nbin: {inner_size: [0.2, 0.2, 0.2]}\nsolver: {type: bullet}\nparts:\n"
+        "  - {model: box.stl, count: 3}\n");
+  }
+  ~CommandLine() override { fs::remove_all(dir); }
+
+  void put(const std::string& name, const std::string& content) { std::ofstream(dir / name) << content; }
+  std::string text(const fs::path& name) const {
+    std::ifstream file(dir / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  Json json(const fs::path& name) const { return Json::parse(text(name)); }
+
+  struct Outcome {
+    int code;
+    std::string out, err;
+  };
+  /// `before`: shell words in front of the command.
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + dir.string() + "' && " + before + " '" BIN_SCENES_TOOL "' " + arguments +
+                                " >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(("bash -c \"" + command + "\"").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
+  }
+
+  /// Fails with the code, one line on standard error that holds the words, and no output directory.
+  void expect_failure(const std::string& arguments, int code, const std::vector<std::string>& words,
+                      const std::string& before = "") {
+    const Outcome outcome = run(arguments, before);
+    EXPECT_EQ(outcome.code, code) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.compare(0, 12, "bin_scenes: "), 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
+    }
+    EXPECT_FALSE(fs::exists(dir / "out")) << arguments;
+  }
+
+  /// scene.json without what wall time decides.
+  Json lasting(const fs::path& name) const {
+    Json scene = json(name);
+    for (const char* key : {"wall_s", "stages_ms", "counters"}) scene["report"].erase(key);
+    return scene;
+  }
+
+  fs::path dir;
+};
+
+TEST_F(CommandLine, BadRequestsEndWithCodeTwoAndNothingWritten) {
+  expect_failure("", 2, {"--help"});
+  expect_failure("generate request.yaml", 2, {"--out"});
+  expect_failure("generate request.yaml --out out --colour red", 2, {"--colour"});
+  expect_failure("generate nowhere.yaml --out out", 2, {"nowhere.yaml"});
+  expect_failure("generate request.yaml --out out --formats json,exr", 2, {"exr", "json, pcd"});
+  expect_failure("generate request.yaml --out out --formats png", 2, {"sensors"});
+  expect_failure("generate request.yaml --out out --set solver.typ=bullet", 2, {"solver.typ", "'type'"});
+  expect_failure("generate request.yaml --out out --solver fast", 2, {"auto | sphere | bullet", "fast"});
+  expect_failure("generate request.yaml --out out --seed -1", 2, {"seed"});
+  expect_failure("generate request.yaml --out out --scenes 0", 2, {"scenes"});
+  expect_failure("generate request.yaml --out out --scenes 2 --trace t.csv", 2, {"--trace", "--scenes 1"});
+  expect_failure("generate request.yaml --out out --set parts[0].count=100000000000", 2, {"count"});
+  expect_failure("generate request.yaml --out out --set memory_budget=1000", 2, {"MB", "memory_budget"});
+  expect_failure("generate request.yaml --out out --set parts[0].unit=inch --set parts[0].scale=1e5", 2, {"box.stl"});
+  put("bad.yaml", "parts:\n  - model: box.stl\n    cuont: 4\n");
+  expect_failure("generate bad.yaml --out out", 2, {"bad.yaml:3", "did you mean 'count'"});
+  put("bad.yaml", "parts: [{model: empty.stl}]\n");
+  put("empty.stl", "");
+  expect_failure("generate bad.yaml --out out", 2, {"empty.stl"});
+  put("open.stl", box_stl(0.04, 10));
+  expect_failure("generate request.yaml --out out --set parts[0].model=open.stl", 2, {"open.stl", "open edges"});
+  expect_failure("inspect nowhere.stl", 2, {"nowhere.stl"});
+  expect_failure("inspect box.stl --unit parsec", 2, {"parsec"});
+}
+
+TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
+  put("file", "");
+  expect_failure("generate request.yaml --out file/deeper", 3, {"not a directory"});
+  // Files that may not grow stand for a disk that is full.
+  const Outcome full = run("generate request.yaml --out out", "trap '' XFSZ; ulimit -f 0;");
+  EXPECT_EQ(full.code, 3);
+  EXPECT_FALSE(fs::exists(dir / "out/scene_000000"));
+  std::size_t left = 0;
+  if (fs::exists(dir / "out")) left = static_cast<std::size_t>(std::distance(fs::directory_iterator(dir / "out"), {}));
+  EXPECT_EQ(left, 0u);
+}
+
+TEST_F(CommandLine, MakesScenesQuietlyAndTheSameAgain) {
+  const Outcome outcome = run("generate request.yaml --out out --scenes 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+  const Json scene = json("out/scene_000001/scene.json");
+  EXPECT_EQ(scene.at("index"), 1);
+  EXPECT_EQ(scene.at("parts").size(), 3u);
+  EXPECT_EQ(scene.at("report").at("accepted"), true);
+  EXPECT_EQ(std::distance(fs::directory_iterator(dir / "out"), {}), 2);
+
+  // The same scene alone, in another place: byte for byte, apart from wall time.
+  EXPECT_EQ(run("generate request.yaml --out alone --first 1").code, 0);
+  EXPECT_FALSE(fs::exists(dir / "alone/scene_000000"));
+  EXPECT_EQ(lasting("alone/scene_000001/scene.json").dump(), lasting("out/scene_000001/scene.json").dump());
+  EXPECT_EQ(run("generate request.yaml --out other --first 1 --seed 4").code, 0);
+  EXPECT_NE(json("other/scene_000001/scene.json")["report"]["state_hash"], scene["report"]["state_hash"]);
+}
+
+TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
+  EXPECT_EQ(run("generate request.yaml --out out --first 1").code, 0);
+  const auto time = fs::last_write_time(dir / "out/scene_000001/scene.json");
+  const Outcome resumed = run("generate request.yaml --out out --scenes 3");
+  EXPECT_EQ(resumed.code, 0);
+  EXPECT_NE(resumed.err.find("1 of 3 scenes are there already"), std::string::npos) << resumed.err;
+  EXPECT_EQ(fs::last_write_time(dir / "out/scene_000001/scene.json"), time);
+  EXPECT_TRUE(fs::exists(dir / "out/scene_000000/scene.json"));
+  EXPECT_TRUE(fs::exists(dir / "out/scene_000002/scene.json"));
+
+  const Outcome mixed = run("generate request.yaml --out out --first 1 --seed 4");
+  EXPECT_EQ(mixed.code, 2);
+  EXPECT_NE(mixed.err.find("another request"), std::string::npos) << mixed.err;
+  EXPECT_EQ(run("generate request.yaml --out out --first 1 --seed 4 --overwrite").code, 0);
+  EXPECT_EQ(json("out/scene_000001/scene.json").at("seed"), 4);
+}
+
+TEST_F(CommandLine, ScenesThatAreNotAcceptedAreSetApartWithTheirReasons) {
+  const Outcome outcome = run("generate request.yaml --out out --set pour.limit=0.26");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("1 of 1 scenes set apart"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("scene_000000: "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(dir / "out/scene_000000"));
+  const Json report = json("out/set_apart/scene_000000/scene.json").at("report");
+  EXPECT_EQ(report.at("accepted"), false);
+  EXPECT_FALSE(report.at("reasons").empty());
+  EXPECT_EQ(run("generate request.yaml --out out --set pour.limit=0.26").code, 1) << "still set apart when resumed";
+}
+
+TEST_F(CommandLine, ATraceFollowsFreeFall) {
+  put("fall.yaml",
+      "bin: {none: true}\nsolver: {type: bullet}\npour: {pattern: given}\nparts:\n"
+      "  - {model: box.stl, poses: [[0, 0, 2]], velocities: [[1, 0, 0, 0, 0, 0]]}\n");
+  const Outcome outcome = run("generate fall.yaml --out out --seconds 0.5 --trace fall.csv --trace-rate 20");
+  EXPECT_LE(outcome.code, 1) << outcome.err;
+  std::istringstream lines(text("fall.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz");
+  int rows = 0;
+  double time = 0;
+  while (std::getline(lines, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream in(line);
+    double v[15];
+    for (double& value : v) ASSERT_TRUE(in >> value) << line;
+    time = v[0];
+    EXPECT_EQ(v[1], 0.0);
+    EXPECT_NEAR(v[2], time, 1e-6);
+    EXPECT_NEAR(v[4], 2.0 - 0.5 * 9.81 * time * time, 9.81 * time / 240.0) << "within one step of semi-implicit Euler";
+    EXPECT_NEAR(v[11], -9.81 * time, 1e-5);
+    ++rows;
+  }
+  EXPECT_NEAR(time, 0.5, 1e-9);
+  EXPECT_GE(rows, 10);
+  EXPECT_LE(rows, 12);
+}
+
+TEST_F(CommandLine, VerboseTellsStagesAndCounters) {
+  const Outcome outcome = run("generate request.yaml --out out --verbose");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("scene 0: accepted, 3 parts"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("quality"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {
+  const std::string sensor = " --set 'sensors=[{name: top, width: 64, height: 48}]'";
+  const Outcome outcome = run("generate request.yaml --out out --formats json,png,bop" + sensor);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* file : {"out/scene_000000/top.png", "out/scene_000000/top_depth.png",
+                           "out/scene_000000/top_labels.png", "out/bop/train/000000/scene_gt.json",
+                           "out/bop/train/000000/mask_visib/000000_000002.png", "out/bop/models/obj_000001.ply"}) {
+    EXPECT_TRUE(fs::exists(dir / file)) << file;
+  }
+  EXPECT_EQ(json("out/scene_000000/scene.json").at("sensors").at(0).at("K").size(), 9u);
+}
+
+TEST_F(CommandLine, InspectMeasuresAModel) {
+  const Outcome outcome = run("inspect box.stl --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report.at("watertight"), true);
+  EXPECT_NEAR(report.at("mass_properties").at("volume").get<double>(), 0.04 * 0.04 * 0.04, 1e-9);
+  EXPECT_EQ(report.at("proxies").at("hulls").at("count"), 1);
+  EXPECT_GT(report.at("proxies").at("spheres").at("count").get<int>(), 100);
+  EXPECT_NEAR(Json::parse(run("inspect box.stl --json --unit mm").out).at("size").at(0).get<double>(), 4e-5, 1e-9);
+  EXPECT_NE(run("inspect box.stl").out.find("watertight  yes"), std::string::npos);
+  put("open.stl", box_stl(0.04, 10));
+  const Outcome open = run("inspect open.stl --json");
+  EXPECT_EQ(open.code, 0) << open.err;
+  EXPECT_EQ(Json::parse(open.out).at("watertight"), false);
+  EXPECT_EQ(Json::parse(open.out).at("open_edges"), 4);
+}
+
+TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {
+  const Outcome outcome = run("doctor");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("solver    ok   bullet: box at rest"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("ros "), std::string::npos) << outcome.out;
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/request.md");
+  EXPECT_EQ(run("reference").out, std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+}  // namespace
+}  // namespace bin_scenes
