@@ -1,0 +1,122 @@
+#include "solver/sphere/world.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+struct Bounds {
+  Vec3f lower, upper;
+  float margin;
+  std::uint32_t body;
+};
+
+/// Way the surface of a body may move in one step, and the distance at which contacts are kept.
+float reach(const World& world, const Body& b) {
+  const float base = 0.5f * world.settings.margin * world.shapes[b.shape]->diagonal;
+  if (!b.moves()) return base;
+  return base +
+         (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius + world.gravity.norm() * world.settings.time_step) *
+             world.settings.time_step;
+}
+
+Bounds bounds_of(const World& world, std::uint32_t i) {
+  const Body& b = world.bodies[i];
+  const Shape& s = *world.shapes[b.shape];
+  const float margin = reach(world, b);
+  const Vec3f center = b.x + b.rotation * s.box_center;
+  const Vec3f half = b.rotation.cwiseAbs() * s.box_half + Vec3f::Constant(margin);
+  return {center - half, center + half, margin, i};
+}
+
+/// Separating axis test on the six face normals of both oriented boxes: rejects most pairs whose upright boxes meet.
+bool boxes_apart(const World& world, const Body& a, const Body& b, float margin) {
+  const Shape &sa = *world.shapes[a.shape], &sb = *world.shapes[b.shape];
+  const Vec3f d = (b.x + b.rotation * sb.box_center) - (a.x + a.rotation * sa.box_center);
+  const Mat3f relative = (a.rotation.transpose() * b.rotation);
+  const Mat3f size = relative.cwiseAbs();
+  const Vec3f da = (a.rotation.transpose() * d).cwiseAbs(), db = (b.rotation.transpose() * d).cwiseAbs();
+  return ((da - sa.box_half - size * sb.box_half).array() > margin).any() ||
+         ((db - sb.box_half - size.transpose() * sa.box_half).array() > margin).any();
+}
+
+/// Whether the body's upright box comes near any wall or the floor.
+bool near_ground(const World& world, const Bounds& box) {
+  for (const Plane& p : world.planes) {
+    const Vec3f nearest = (p.normal.array() > 0).select(box.lower, box.upper);
+    if (p.normal.dot(nearest) < p.offset) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// Sort and sweep along x over upright boxes, then oriented boxes. Pairs of bodies that do not move are left out,
+/// unless they were in contact already (their manifold waits, untouched, until one of them wakes).
+void find_pairs(World& world) {
+  static thread_local std::vector<Bounds> boxes;
+  static thread_local std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+  boxes.clear();
+  found.clear();
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    Body& b = world.bodies[i];
+    if (!b.present) continue;
+    b.rotation = b.q.toRotationMatrix();
+    b.world_inverse_inertia =
+        b.inverse_mass > 0 ? Mat3f(b.rotation * b.inverse_inertia * b.rotation.transpose()) : Mat3f(Mat3f::Zero());
+    boxes.push_back(bounds_of(world, i));
+  }
+  std::sort(boxes.begin(), boxes.end(), [](const Bounds& a, const Bounds& b) {
+    return std::make_pair(a.lower.x(), a.body) < std::make_pair(b.lower.x(), b.body);
+  });
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Bounds& p = boxes[i];
+    const bool p_moves = world.bodies[p.body].moves();
+    if (p_moves && near_ground(world, p)) found.emplace_back(p.body, ground);
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower.x() <= p.upper.x(); ++j) {
+      const Bounds& r = boxes[j];
+      if (r.lower.y() > p.upper.y() || p.lower.y() > r.upper.y() || r.lower.z() > p.upper.z() ||
+          p.lower.z() > r.upper.z())
+        continue;
+      if (!p_moves && !world.bodies[r.body].moves()) continue;
+      if (boxes_apart(world, world.bodies[p.body], world.bodies[r.body], p.margin + r.margin)) continue;
+      found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
+    }
+  }
+  std::sort(found.begin(), found.end());
+
+  // Merge with the manifolds of the last step: impulses and recyclable contacts live on under the same key.
+  world.previous.swap(world.manifolds);
+  world.manifolds.clear();
+  std::size_t old = 0;
+  const auto keep_sleeping = [&](const Manifold& m) {
+    const bool a_waits = world.bodies[m.a].present && !world.bodies[m.a].moves();
+    const bool b_waits = m.b == ground || (world.bodies[m.b].present && !world.bodies[m.b].moves());
+    if (a_waits && b_waits) {
+      world.manifolds.push_back(m);
+      ++world.counters.pairs_asleep;
+    }
+  };
+  for (const auto& [a, b] : found) {
+    while (old < world.previous.size() &&
+           std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
+      keep_sleeping(world.previous[old++]);
+    if (old < world.previous.size() && world.previous[old].a == a && world.previous[old].b == b) {
+      world.manifolds.push_back(world.previous[old++]);
+      continue;
+    }
+    Manifold m;
+    m.a = a;
+    m.b = b;
+    const Body& body = world.bodies[a];
+    const float friction = b == ground ? world.ground_friction : world.bodies[b].friction;
+    const float restitution = b == ground ? world.ground_restitution : world.bodies[b].restitution;
+    m.friction = std::sqrt(body.friction * friction);
+    m.restitution = std::max(body.restitution, restitution);
+    world.manifolds.push_back(m);
+  }
+  while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,335 @@
+#include "solver/sphere/world.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// A point where two surfaces are close, before reduction. Everything in the frame of `a`.
+struct Candidate {
+  Vec3f on_a, on_b;  ///< nearest points
+  Vec3f normal;      ///< a -> b
+  float separation;
+  std::uint32_t feature;
+};
+using Candidates = std::vector<Candidate>;
+
+constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;
+
+/// How the samples of one body are carried into the frame of the field's body.
+struct Carry {
+  Mat3f rotation;
+  Vec3f offset;
+  Vec3f operator()(const Vec3f& p) const { return rotation * p + offset; }
+};
+
+/// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope
+/// along the edge, which is monotonic where the other surface is convex.
+bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gradient_p, const Vec3f& gradient_q,
+             float lowest_end, Vec3f& point, Vec3f& gradient, float& distance) {
+  const Vec3f along = q - p;
+  float s0 = gradient_p.dot(along), s1 = gradient_q.dot(along);
+  if (s0 >= 0 || s1 <= 0) return false;
+  float t0 = 0, t1 = 1;
+  for (int i = 0; i < 6; ++i) {
+    // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
+    const float t = i % 2 ? 0.5f * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
+    point = p + t * along;
+    distance = field.sample(point, gradient);
+    const float slope = gradient.dot(along);
+    if (slope < 0) {
+      t0 = t;
+      s0 = slope;
+    } else {
+      t1 = t;
+      s1 = slope;
+    }
+    if ((t1 - t0) < 0.02f) break;
+  }
+  return distance < lowest_end;
+}
+
+/// Where two sharp edges cross, the grid rounds the edge off and its inner distance is that to a face, not to the edge.
+/// The nearest edge of the field's body, if there is one that crosses, gives depth and direction exactly: along the
+/// common normal of both edges. `point`, `gradient`, `distance` are the field's answer and are replaced.
+bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f& q, Vec3f& point, Vec3f& gradient,
+                 float& distance) {
+  const Vec3f u = q - p;
+  const float uu = u.squaredNorm();
+  float nearest = reach;
+  bool found = false;
+  Vec3f best_point = point, best_normal = gradient;
+  float best_distance = 0;
+  for (std::size_t c = 0; c < other.clusters.size(); ++c) {
+    const float far = other.clusters[c].radius + nearest;
+    if ((other.clusters[c].center - point).squaredNorm() > far * far) continue;
+    for (std::uint32_t e = other.first_edge[c]; e < other.first_edge[c + 1]; ++e) {
+      const Vec3f r = other.nodes[other.edges[e].a], v = other.nodes[other.edges[e].b] - r, w = p - r;
+      const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
+      if (det < 0.03f * uu * vv) continue;  // within 10 degrees of parallel: nodes stand for these
+      const float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
+      if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+      const Vec3f on_u = p + s * u, between = on_u - (r + t * v);
+      const float way = between.norm();
+      if (way >= nearest) continue;
+      Vec3f normal = u.cross(v).normalized();
+      if (normal.dot(gradient) < 0) normal = -normal;
+      if (normal.dot(gradient) < 0.7f) continue;  // not the way out here
+      nearest = way;
+      best_point = on_u;
+      best_normal = normal;
+      best_distance = between.dot(normal);
+      found = true;
+    }
+  }
+  if (!found) return false;
+  point = best_point;
+  gradient = best_normal;
+  distance = best_distance;
+  return true;
+}
+
+/// Samples against a field, bounding spheres first. `emit(point, gradient, distance, feature)` in the field's frame.
+template <class Emit>
+void test_samples(const Samples& samples, const Field& field, const Samples& other, const Carry& carry, float margin,
+                  Counters& counters, Emit&& emit) {
+  const float slack = margin + 0.5f * field.cell;
+  Vec3f point[cluster_size], gradient[cluster_size];
+  float distance[cluster_size];
+  counters.nodes_possible += samples.nodes.size();
+  for (std::size_t g = 0; g < samples.groups.size(); ++g) {
+    ++counters.groups_tested;
+    if (field.sample(carry(samples.groups[g].center)) > samples.groups[g].radius + slack) continue;
+    const std::size_t last_cluster = std::min(samples.clusters.size(), (g + 1) * group_size);
+    for (std::size_t c = g * group_size; c < last_cluster; ++c) {
+      ++counters.clusters_tested;
+      if (field.sample(carry(samples.clusters[c].center)) > samples.clusters[c].radius + slack) continue;
+      const std::size_t first = c * cluster_size, n = std::min(samples.nodes.size() - first, std::size_t{cluster_size});
+      counters.nodes_tested += n;
+      for (std::size_t i = 0; i < n; ++i) {
+        point[i] = carry(samples.nodes[first + i]);
+        distance[i] = field.sample(point[i], gradient[i]);
+        if (distance[i] < margin) emit(point[i], gradient[i], distance[i], static_cast<std::uint32_t>(first + i));
+      }
+      for (std::uint32_t e = samples.first_edge[c]; e < samples.first_edge[c + 1]; ++e) {
+        const Edge& edge = samples.edges[e];
+        const std::size_t ia = edge.a - first, ib = edge.b - first;
+        Vec3f q, gradient_q;
+        float distance_q;
+        if (ib < n) {
+          q = point[ib];
+          gradient_q = gradient[ib];
+          distance_q = distance[ib];
+        } else {
+          q = carry(samples.nodes[edge.b]);
+          distance_q = field.sample(q, gradient_q);
+        }
+        const float length = (q - point[ia]).norm();
+        if (0.5f * (distance[ia] + distance_q - length) > margin) continue;  // a distance falls by no more than the way
+        Vec3f deepest, normal;
+        float depth;
+        if (!descend(field, point[ia], q, gradient[ia], gradient_q, std::min(distance[ia], distance_q), deepest, normal,
+                     depth))
+          continue;
+        cross_edges(other, 2.0f * field.cell + std::abs(depth), point[ia], q, deepest, normal, depth);
+        if (depth < margin) emit(deepest, normal, depth, e | edge_bit);
+      }
+    }
+  }
+}
+
+/// Samples of both bodies against the other's field.
+void candidates_of_pair(World& world, const Manifold& m, float margin, Candidates& out) {
+  const Body &a = world.bodies[m.a], &b = world.bodies[m.b];
+  const Shape &sa = *world.shapes[a.shape], &sb = *world.shapes[b.shape];
+  const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
+  const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
+  test_samples(world.samples(a), sb.field, world.samples(b), a_to_b, margin, world.counters,
+               [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
+                 out.push_back({b_to_a(p), b_to_a(p - d * g), -(b_to_a.rotation * g), d, feature});
+               });
+  test_samples(world.samples(b), sa.field, world.samples(a), b_to_a, margin, world.counters,
+               [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
+                 out.push_back({p - d * g, p, g, d, feature | side_b});
+               });
+}
+
+/// Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
+/// between its inner face and the rim's level, as thick as it takes.
+float plane_distance(const World& world, const Plane& plane, const Vec3f& p, Vec3f& out) {
+  const float face = plane.normal.dot(p) - plane.offset;
+  out = plane.normal;
+  if (!plane.wall) return face;
+  const float above = p.z() - world.wall_top;
+  if (above <= 0 && face >= 0) return face;
+  if (above <= 0) {
+    if (face >= above) return face;
+    out = Vec3f::UnitZ();
+    return above;
+  }
+  if (face <= 0) {
+    out = Vec3f::UnitZ();
+    return above;
+  }
+  const float d = std::sqrt(above * above + face * face);
+  out = (above * Vec3f::UnitZ() + face * plane.normal) / d;
+  return d;
+}
+
+void candidates_of_ground(World& world, const Manifold& m, float margin, Candidates& out) {
+  const Body& a = world.bodies[m.a];
+  const Samples& samples = world.samples(a);
+  const Mat3f back = a.rotation.transpose();
+  world.counters.nodes_possible += samples.nodes.size();
+  for (std::size_t k = 0; k < world.planes.size(); ++k) {
+    const Plane& plane = world.planes[k];
+    for (std::size_t c = 0; c < samples.clusters.size(); ++c) {
+      ++world.counters.clusters_tested;
+      const Vec3f center = a.x + a.rotation * samples.clusters[c].center;
+      if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + margin) continue;
+      const std::size_t last = std::min(samples.nodes.size(), (c + 1) * cluster_size);
+      world.counters.nodes_tested += last - c * cluster_size;
+      for (std::size_t i = c * cluster_size; i < last; ++i) {
+        const Vec3f p = a.x + a.rotation * samples.nodes[i];
+        Vec3f up;
+        const float d = plane_distance(world, plane, p, up);
+        if (d > margin) continue;
+        out.push_back({samples.nodes[i], back * (p - d * up - a.x), -(back * up), d,
+                       static_cast<std::uint32_t>(i + k * 0x1000000u)});
+      }
+    }
+  }
+}
+
+/// The few contacts that stand for all: the deepest, then again and again the one farthest from those chosen, in
+/// position and normal alike, deep ones preferred; contacts of the last step have a small advantage, so that the
+/// choice does not flicker.
+void reduce(const Candidates& candidates, const Manifold& old, float size, std::vector<int>& chosen) {
+  chosen.clear();
+  if (candidates.empty()) return;
+  static thread_local std::vector<float> apart;
+  apart.assign(candidates.size(), std::numeric_limits<float>::max());
+  int next = 0;
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
+  const float least = 1e-3f * size;
+  while (static_cast<int>(chosen.size()) < max_contacts) {
+    chosen.push_back(next);
+    const Candidate& c = candidates[next];
+    apart[next] = -1;
+    float best = 0;
+    int best_i = -1;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (apart[i] < 0) continue;
+      const Candidate& p = candidates[i];
+      const float way = (p.on_a - c.on_a).norm() + 0.3f * size * (p.normal - c.normal).norm();
+      apart[i] = std::min(apart[i], way);
+      if (apart[i] < least) {
+        apart[i] = -1;  // a twin of a chosen one
+        continue;
+      }
+      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
+      float score = apart[i] + 8.0f * std::max(0.0f, -p.separation) - 2.0f * std::max(0.0f, p.separation);
+      for (int k = 0; k < old.count; ++k)
+        if (old.contacts[k].feature == p.feature) score += 0.05f * size;
+      if (score > best) {
+        best = score;
+        best_i = static_cast<int>(i);
+      }
+    }
+    if (best_i < 0) return;
+    next = best_i;
+  }
+}
+
+/// Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
+void carry_impulses(const Manifold& old, Manifold& fresh, float near) {
+  std::array<bool, max_contacts> taken{}, warm{};
+  const auto take = [&](int i, int k) {
+    fresh.contacts[i].normal_impulse = old.contacts[k].normal_impulse;
+    fresh.contacts[i].friction_impulse = old.contacts[k].friction_impulse;
+    taken[k] = warm[i] = true;
+  };
+  for (int i = 0; i < fresh.count; ++i)
+    for (int k = 0; k < old.count; ++k)
+      if (!taken[k] && !warm[i] && old.contacts[k].feature == fresh.contacts[i].feature) take(i, k);
+  for (int i = 0; i < fresh.count; ++i) {
+    if (warm[i]) continue;
+    int best = -1;
+    float best_way = near;
+    for (int k = 0; k < old.count; ++k) {
+      const float way = (old.contacts[k].anchor_a - fresh.contacts[i].anchor_a).norm();
+      if (taken[k] || way > best_way || old.contacts[k].normal.dot(fresh.contacts[i].normal) < 0.9f) continue;
+      best = k;
+      best_way = way;
+    }
+    if (best >= 0) take(i, best);
+  }
+}
+
+/// Whether the pair has hardly moved since its contacts were found.
+bool recyclable(const World& world, const Manifold& m, const Vec3f& x, const Quatf& q, float size) {
+  if (!m.found) return false;
+  const float limit = world.settings.recycle * size;
+  if ((x - m.found_x).squaredNorm() > limit * limit) return false;
+  const float half_turn = (m.found_q.conjugate() * q).vec().norm();
+  return 2.0f * half_turn * 0.5f * size < limit;
+}
+
+}  // namespace
+
+void find_contacts(World& world) {
+  static thread_local Candidates candidates;
+  static thread_local std::vector<int> chosen;
+  for (Manifold& m : world.manifolds) {
+    const Body& a = world.bodies[m.a];
+    const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
+    if (!a.moves() && !(b && b->moves())) continue;
+    ++world.counters.pairs;
+    const Shape& sa = *world.shapes[a.shape];
+    const float size = b ? std::min(sa.diagonal, world.shapes[b->shape]->diagonal) : sa.diagonal;
+    const Vec3f relative = b ? Vec3f(a.rotation.transpose() * (b->x - a.x)) : Vec3f(a.rotation.transpose() * -a.x);
+    const Quatf turned = b ? a.q.conjugate() * b->q : a.q.conjugate();
+    if (recyclable(world, m, relative, turned, size)) {
+      ++world.counters.pairs_recycled;
+    } else {
+      const float dt = world.settings.time_step;
+      const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
+      const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
+      const float margin = world.settings.margin * size + (v.norm() + spin + world.gravity.norm() * dt) * dt;
+      candidates.clear();
+      if (b)
+        candidates_of_pair(world, m, margin, candidates);
+      else
+        candidates_of_ground(world, m, margin, candidates);
+      reduce(candidates, m, size, chosen);
+      world.counters.dropped += candidates.size() - chosen.size();
+      Manifold fresh = m;
+      fresh.count = static_cast<int>(chosen.size());
+      for (int i = 0; i < fresh.count; ++i) {
+        const Candidate& c = candidates[chosen[i]];
+        Contact& contact = fresh.contacts[i];
+        contact = Contact{};
+        contact.anchor_a = c.on_a;
+        contact.feature = c.feature;
+        contact.normal = a.rotation * c.normal;
+        const Vec3f on_b = a.x + a.rotation * c.on_b;
+        contact.anchor_b = b ? Vec3f(b->rotation.transpose() * (on_b - b->x)) : on_b;
+        // The normal turns with the body whose field it comes from.
+        const bool field_of_a = c.feature & side_b;
+        contact.local_normal = field_of_a ? c.normal
+                               : b        ? Vec3f(b->rotation.transpose() * contact.normal)
+                                          : contact.normal;
+      }
+      carry_impulses(m, fresh, world.samples(a).spacing);
+      fresh.found = true;
+      fresh.found_x = relative;
+      fresh.found_q = turned;
+      m = fresh;
+    }
+    world.counters.contacts += m.count;
+  }
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,69 @@
+/// The collision shape of a part for the default sphere solver: contact samples to be tested against other parts'
+/// distance fields, and its own distance field. All in the body frame: origin at the centre of mass, model axes.
+///
+///   nodes   points on the surface: corners, points along sharp convex edges, points of curved or flat faces
+///   edges   straight pieces between two nodes of a sharp edge: where two parts cross edge on edge the deepest point
+///           lies between nodes and is found by a local descent of the other part's field along the edge
+///           (Macklin et al. 2020, "Local optimization for robust signed distance field collision")
+///   clusters, groups   bounding spheres over 16 nodes, and over 8 clusters: one field sample rejects all of them
+///
+/// Two faces touch at corners and edges of one of them, two curved surfaces at a point that some face node is near:
+/// no contact needs more than these.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "solver/sphere/math.hpp"
+
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// Distance field in the body frame, trilinear.
+struct Field {
+  Vec3f origin = Vec3f::Zero();
+  float cell = 1, inverse_cell = 1, padding = 0;
+  int nx = 0, ny = 0, nz = 0;
+  const float* values = nullptr;  ///< owned by the PartModel
+
+  /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
+  float sample(const Vec3f& point, Vec3f& gradient) const;
+  float sample(const Vec3f& point) const;
+};
+
+struct Edge {
+  std::uint32_t a, b;  ///< nodes
+};
+
+struct Ball {
+  Vec3f center = Vec3f::Zero();
+  float radius = 0;
+};
+
+/// Nodes at one resolution.
+struct Samples {
+  std::vector<Vec3f> nodes;               ///< in cluster order
+  std::vector<Edge> edges;                ///< in order of their first node's cluster
+  std::vector<Ball> clusters;             ///< nodes [16 c, 16 c + 16) and the edges that start there
+  std::vector<std::uint32_t> first_edge;  ///< clusters + 1
+  std::vector<Ball> groups;               ///< clusters [8 g, 8 g + 8)
+  float spacing = 0;                      ///< longest edge piece (m)
+};
+
+constexpr int cluster_size = 16, group_size = 8;
+
+struct Shape {
+  Samples coarse, fine;
+  Field field;
+  Vec3f center = Vec3f::Zero();      ///< centre of mass in the model frame
+  Vec3f box_center = Vec3f::Zero();  ///< of the bounding box, body frame
+  Vec3f box_half = Vec3f::Zero();
+  float radius = 0;  ///< largest node distance from the centre of mass
+  float diagonal = 0;
+  float volume = 0;
+  Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
+};
+
+/// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at.
+Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell);
+
+}  // namespace bin_scenes::sphere

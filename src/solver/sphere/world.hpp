@@ -1,0 +1,126 @@
+/// One world of the default sphere solver: what never changes, what the passes touch, and bookkeeping. No pass
+/// allocates in the steady state, and every list is ordered by keys, so the same world gives the same bits whatever
+/// runs beside it.
+///
+///   bodies ──find_pairs──► pairs ──find_contacts──► manifolds ──color──► solve ──► bodies
+///                            └ kept over steps: impulses (warm start), contacts of pairs that hardly move (recycled)
+///
+/// Poses are of the centre of mass, in single precision, relative to the world's origin.
+#pragma once
+
+#include "solver/sphere/shape.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// Settings as the passes use them (m, s); lengths follow from the smallest part's diagonal d.
+struct Settings {
+  float time_step = 1.0f / 400;       ///< one collision detection
+  int sub_steps = 4;                  ///< contact solves per time step; stiffness of contacts grows with its square
+  float contact_hertz_share = 0.25f;  ///< contact frequency / sub-step rate; lower = piles sag, higher = jitter
+  float damping_ratio = 10.0f;        ///< of soft contacts; below 1 they ring
+  float push_speed = 4.0f;            ///< d per second at which overlap is pushed out; higher = popping
+  float slop = 2e-4f;                 ///< d left overlapping, so that contacts persist
+  float margin = 4e-3f;               ///< d: contacts are kept while closer than this, plus the way of one step
+  float recycle = 2e-4f;              ///< d: contacts of a pair are reused until it moved this far
+  float restitution_speed = 0.05f;    ///< m/s: slower approaches do not bounce
+  float rest_window = 0.1f;           ///< s over which a sleeping body must have stayed
+  float rest_move = 1e-4f;            ///< d within which it must have stayed
+};
+
+struct Body {
+  // What never changes.
+  std::uint32_t shape = 0;
+  float inverse_mass = 0;                                              ///< 0: fixed
+  Mat3f inertia = Mat3f::Identity(), inverse_inertia = Mat3f::Zero();  ///< body frame (kg m2)
+  float friction = 0.5f, restitution = 0;
+  // What the solver touches.
+  Vec3f x = Vec3f::Zero(), v = Vec3f::Zero(), w = Vec3f::Zero();
+  Quatf q = Quatf::Identity();
+  Vec3f dx = Vec3f::Zero();            ///< moved since contacts were found
+  Mat3f rotation = Mat3f::Identity();  ///< of q when contacts were found
+  Mat3f turn = Mat3f::Identity();      ///< turned since then
+  Mat3f world_inverse_inertia = Mat3f::Zero();
+  // Bookkeeping.
+  bool present = false, asleep = false;
+  bool free = false;  ///< nothing near it in this step
+  float still = 0;    ///< s within rest_move of the reference pose
+  Vec3f still_x = Vec3f::Zero();
+  Quatf still_q = Quatf::Identity();
+
+  bool moves() const { return present && !asleep && inverse_mass > 0; }
+};
+
+constexpr int max_contacts = 16;               ///< per pair, after reduction
+constexpr std::uint32_t ground = 0xffffffffu;  ///< body index of the bin's walls and floor
+
+/// One point of a manifold. Anchors are in body frames, so that a recycled contact follows both bodies.
+struct Contact {
+  Vec3f anchor_a = Vec3f::Zero(), anchor_b = Vec3f::Zero();  ///< on the surfaces of a and b (body frames)
+  Vec3f local_normal = Vec3f::Zero();  ///< from a to b, in the frame of the body whose field gave it
+  std::uint32_t feature = 0;  ///< bit 31: sample of b against field of a; bit 30: edge; rest: node, edge or plane
+  float normal_impulse = 0;
+  Vec3f friction_impulse = Vec3f::Zero();  ///< on b, world frame
+  // Of the current step.
+  Vec3f normal = Vec3f::Zero(), ra = normal, rb = normal, t1 = normal, t2 = normal;
+  float separation = 0, normal_mass = 0, t1_mass = 0, t2_mass = 0, approach = 0, max_impulse = 0, f1 = 0, f2 = 0;
+};
+
+struct Manifold {
+  std::uint32_t a = 0, b = 0;  ///< a < b; b may be ground
+  int count = 0;
+  int color = 0;
+  float friction = 0, restitution = 0;
+  // Relative pose at which the contacts were found, for recycling.
+  Vec3f found_x = Vec3f::Zero();
+  Quatf found_q = Quatf::Identity();
+  bool found = false;
+  std::array<Contact, max_contacts> contacts;
+};
+
+/// Half space that solids may not enter, up to `top` along +z of the bin (walls) or unbounded (floor).
+struct Plane {
+  Vec3f normal = Vec3f::UnitZ();
+  float offset = 0;  ///< normal . p >= offset outside
+  bool wall = false;
+};
+
+struct Counters {
+  std::uint64_t steps = 0, free_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0, groups_tested = 0,
+                clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0, dropped = 0;
+};
+
+struct World {
+  Settings settings;
+  std::vector<const Shape*> shapes;
+  std::vector<Body> bodies;
+  std::vector<Plane> planes;
+  float wall_top = 0;
+  float ground_friction = 0.5f, ground_restitution = 0;
+  Vec3f gravity = Vec3f(0, 0, -9.81f);
+  bool fine = false;
+  float smallest_diagonal = 0;
+
+  std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
+  std::vector<std::uint32_t> order;           ///< manifolds by color
+  std::vector<std::uint32_t> color_start;
+  Counters counters;
+
+  const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
+};
+
+// The passes, in order of a step.
+void find_pairs(World& world);                ///< broad_phase.cpp: candidates, manifolds carried over by key
+void find_contacts(World& world);             ///< narrow_phase.cpp: samples against fields, reduced, impulses matched
+void color_manifolds(World& world);           ///< contact_solver.cpp: no two manifolds of a color share a moving body
+void solve(World& world);                     ///< contact_solver.cpp: sub-steps, moves the bodies
+void update_sleep(World& world);              ///< islands.cpp
+void wake(World& world, std::uint32_t body);  ///< and the bodies it rests with
+
+/// One time step.
+void step(World& world);
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,255 @@
+/// The passes of the sphere solver, each by itself against a closed form or a slow and obvious twin.
+#include "bin_scenes/core/random.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace bin_scenes::sphere {
+namespace {
+
+Mesh box_mesh(const Vec3& size) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.push_back(0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+Shape box_shape(PartModelPtr& part, const Vec3& size, double cell = 0.01) {
+  part = PartModel::from_mesh(box_mesh(size), "box");
+  return make_shape(*part, 64, 400, cell);
+}
+
+World world_of_boxes(const Shape& shape, std::size_t count) {
+  World world;
+  world.shapes = {&shape};
+  world.smallest_diagonal = shape.diagonal;
+  for (std::size_t i = 0; i < count; ++i) {
+    Body b;
+    b.inverse_mass = 1.0f;
+    b.inertia = shape.unit_inertia;
+    b.inverse_inertia = b.inertia.inverse();
+    b.present = true;
+    world.bodies.push_back(b);
+  }
+  return world;
+}
+
+TEST(Shape, FieldOfABoxIsItsDistanceAwayFromKinks) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02});
+  Vec3f gradient;
+  EXPECT_NEAR(shape.field.sample({0, 0, 0.008f}, gradient), -0.002f, 1e-6f);
+  EXPECT_NEAR((gradient - Vec3f::UnitZ()).norm(), 0, 1e-4f);
+  EXPECT_NEAR(shape.field.sample({0.031f, 0.001f, 0.002f}, gradient), 0.001f, 1e-6f);
+  EXPECT_NEAR((gradient - Vec3f::UnitX()).norm(), 0, 1e-4f);
+}
+
+TEST(Shape, FieldFarOutsideIsALowerBoundThatGrows) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02});
+  float last = 0;
+  for (const float x : {0.05f, 0.1f, 0.5f, 5.0f}) {
+    const float d = shape.field.sample({x, 0.03f, -0.02f});
+    const float exact = Vec3f(x - 0.03f, 0.01f, 0.01f).norm();
+    EXPECT_LE(d, exact * 1.001f);
+    EXPECT_GT(d, 0.7f * exact);
+    EXPECT_GT(d, last);
+    last = d;
+  }
+}
+
+TEST(Shape, EveryCornerAndEdgeOfABoxIsSampled) {
+  PartModelPtr part;
+  const Vec3 size(0.06, 0.04, 0.02);
+  const Shape shape = box_shape(part, size);
+  for (const Samples* s : {&shape.coarse, &shape.fine}) {
+    int corners = 0;
+    for (const Vec3f& n : s->nodes) {
+      const Vec3f q = n.cwiseAbs().cwiseQuotient(0.5f * size.cast<float>());
+      EXPECT_NEAR(q.maxCoeff(), 1.0f, 1e-4f);  // on the surface
+      corners += (q - Vec3f::Ones()).norm() < 1e-4f;
+    }
+    EXPECT_EQ(corners, 8);
+    float length = 0;
+    for (const Edge& e : s->edges) length += (s->nodes[e.a] - s->nodes[e.b]).norm();
+    EXPECT_NEAR(length, 4 * 0.12f, 1e-5f);  // all twelve edges, once, the diagonals of the faces not
+  }
+}
+
+TEST(Shape, ClustersHoldTheirNodesAndEdges) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02});
+  const Samples& s = shape.fine;
+  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+    const Ball& c = s.clusters[i / cluster_size];
+    EXPECT_LE((s.nodes[i] - c.center).norm(), c.radius * 1.0001f);
+    const Ball& g = s.groups[i / (cluster_size * group_size)];
+    EXPECT_LE((s.nodes[i] - g.center).norm(), g.radius * 1.0001f);
+  }
+  for (std::size_t c = 0; c < s.clusters.size(); ++c)
+    for (std::uint32_t e = s.first_edge[c]; e < s.first_edge[c + 1]; ++e) {
+      EXPECT_EQ(s.edges[e].a / cluster_size, c);
+      EXPECT_LE((s.nodes[s.edges[e].b] - s.clusters[c].center).norm(), s.clusters[c].radius * 1.0001f);
+    }
+}
+
+TEST(BroadPhase, FindsEveryPairWhoseSurfacesAreNear) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02}, 0.02);
+  World world = world_of_boxes(shape, 60);
+  Random random(3, 0, Stream::probe);
+  for (Body& b : world.bodies) {
+    b.q = random.orientation().cast<float>();
+    b.x = Vec3f(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+  }
+  find_pairs(world);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+  for (const Manifold& m : world.manifolds) {
+    EXPECT_LT(m.a, m.b);
+    EXPECT_TRUE(found.emplace(m.a, m.b).second) << "a pair twice";
+  }
+  std::size_t near = 0;
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+    for (std::uint32_t j = i + 1; j < world.bodies.size(); ++j) {
+      const Body &a = world.bodies[i], &b = world.bodies[j];
+      float distance = 1;  // twin: every node of one in the field of the other
+      for (const Vec3f& n : shape.fine.nodes) {
+        distance = std::min(distance, shape.field.sample(b.q.conjugate() * (a.x + a.q * n - b.x)));
+        distance = std::min(distance, shape.field.sample(a.q.conjugate() * (b.x + b.q * n - a.x)));
+      }
+      if (distance > 0) continue;
+      ++near;
+      EXPECT_TRUE(found.count({i, j})) << i << " and " << j << " overlap by " << -distance;
+    }
+  EXPECT_GT(near, 20u);
+  EXPECT_LT(found.size(), 60u * 59u / 4u);
+}
+
+TEST(NarrowPhase, CornerInAFaceGivesDepthAndNormal) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.06}, 0.005);
+  World world = world_of_boxes(shape, 2);
+  world.fine = true;
+  // b stands on a corner above the middle of a's top face, 1 mm deep.
+  Body& b = world.bodies[1];
+  b.q = Quatf::FromTwoVectors(Vec3f(1, 1, 1).normalized(), -Vec3f::UnitZ());
+  b.x = Vec3f(0, 0, 0.03f + 0.03f * std::sqrt(3.0f) - 0.001f);
+  find_pairs(world);
+  find_contacts(world);
+  ASSERT_EQ(world.manifolds.size(), 1u);
+  const Manifold& m = world.manifolds[0];
+  ASSERT_GE(m.count, 1);
+  EXPECT_NEAR((m.contacts[0].normal - Vec3f::UnitZ()).norm(), 0, 1e-3f);
+  const Vec3f on_b = b.x + b.q * m.contacts[0].anchor_b, on_a = m.contacts[0].anchor_a;
+  EXPECT_NEAR((on_b - on_a).z(), -0.001f, 1e-5f);
+}
+
+TEST(NarrowPhase, CrossedEdgesMeetBetweenNodes) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.2, 0.02, 0.02}, 0.004);
+  World world = world_of_boxes(shape, 2);
+  world.fine = true;
+  // Two bars on their edges, one across the other, off the middle so that no node lies at the crossing.
+  const float half_diagonal = 0.01f * std::sqrt(2.0f), depth = 0.0005f;
+  const Quatf on_edge(Eigen::AngleAxisf(static_cast<float>(M_PI) / 4, Vec3f::UnitX()));
+  world.bodies[0].q = on_edge;
+  world.bodies[1].q = Quatf(Eigen::AngleAxisf(static_cast<float>(M_PI) / 2, Vec3f::UnitZ())) * on_edge;
+  world.bodies[1].x = Vec3f(0.0137f, 0.0071f, 2 * half_diagonal - depth);
+  find_pairs(world);
+  find_contacts(world);
+  ASSERT_EQ(world.manifolds.size(), 1u);
+  const Manifold& m = world.manifolds[0];
+  ASSERT_GE(m.count, 1);
+  const Contact& c = m.contacts[0];
+  EXPECT_NEAR((c.normal - Vec3f::UnitZ()).norm(), 0, 1e-4f);
+  const Vec3f on_a = world.bodies[0].q * c.anchor_a;
+  EXPECT_NEAR(on_a.x(), 0.0137f, 1e-5f);
+  const Vec3f on_b = world.bodies[1].x + world.bodies[1].q * c.anchor_b;
+  EXPECT_NEAR((on_b - on_a).z(), -depth, 1e-6f);
+}
+
+TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.02});
+  World world = world_of_boxes(shape, 2);
+  world.fine = true;
+  world.bodies[1].x = Vec3f(0.01f, 0.005f, 0.02f);
+  find_pairs(world);
+  find_contacts(world);
+  ASSERT_EQ(world.manifolds.size(), 1u);
+  Aabb span;
+  const Manifold& m = world.manifolds[0];
+  for (int i = 0; i < m.count; ++i) {
+    // Within a cell of an edge of the other part the grid's normal leans over it.
+    const Vec3f in_a = m.contacts[i].anchor_a.cwiseAbs(), in_b = m.contacts[i].anchor_b.cwiseAbs();
+    const float edge = 0.03f - 2 * shape.field.cell;
+    const bool inner =
+        m.contacts[i].feature >> 31 ? in_a.head<2>().maxCoeff() < edge : in_b.head<2>().maxCoeff() < edge;
+    if (inner) {
+      EXPECT_NEAR((m.contacts[i].normal - Vec3f::UnitZ()).norm(), 0, 1e-3f) << i;
+    }
+    span.extend(m.contacts[i].anchor_a.cast<double>());
+  }
+  EXPECT_NEAR(span.lower.x(), -0.02, 0.001);
+  EXPECT_NEAR(span.upper.x(), 0.03, 0.001);
+  EXPECT_NEAR(span.lower.y(), -0.025, 0.001);
+  EXPECT_NEAR(span.upper.y(), 0.03, 0.001);
+}
+
+TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02}, 0.02);
+  World world = world_of_boxes(shape, 80);
+  Random random(5, 0, Stream::probe);
+  for (Body& b : world.bodies) {
+    b.q = random.orientation().cast<float>();
+    b.x = Vec3f(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+  }
+  world.bodies[7].inverse_mass = 0;
+  find_pairs(world);
+  find_contacts(world);
+  color_manifolds(world);
+  std::size_t ordered = 0;
+  for (std::size_t c = 0; c + 1 < world.color_start.size(); ++c) {
+    std::set<std::uint32_t> seen;
+    for (std::uint32_t i = world.color_start[c]; i < world.color_start[c + 1]; ++i, ++ordered)
+      for (const std::uint32_t b : {world.manifolds[world.order[i]].a, world.manifolds[world.order[i]].b})
+        if (b != ground && world.bodies[b].moves()) {
+          EXPECT_TRUE(seen.insert(b).second);
+        }
+  }
+  std::size_t with_contacts = 0;
+  for (const Manifold& m : world.manifolds) with_contacts += m.count > 0;
+  EXPECT_EQ(ordered, with_contacts);
+}
+
+TEST(Sleep, AnIslandSleepsAsOneAndATouchWakesIt) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.05, 0.05, 0.05});
+  World world = world_of_boxes(shape, 3);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  world.bodies[0].x = Vec3f(0, 0, 0.025f);
+  world.bodies[1].x = Vec3f(0, 0, 0.075f);
+  world.bodies[2].present = false;
+  const auto run = [&](float seconds) {
+    for (int k = 0; k < std::lround(seconds / world.settings.time_step); ++k) step(world);
+  };
+  run(1.0f);
+  EXPECT_TRUE(world.bodies[0].asleep);
+  EXPECT_TRUE(world.bodies[1].asleep);
+  const std::uint64_t tested = world.counters.clusters_tested;
+  run(0.5f);
+  EXPECT_EQ(world.counters.clusters_tested, tested);  // sleep costs no contact work
+  world.bodies[2].present = true;
+  world.bodies[2].x = Vec3f(0.01f, 0, 0.16f);
+  run(0.15f);
+  EXPECT_FALSE(world.bodies[0].asleep);
+  EXPECT_FALSE(world.bodies[1].asleep);
+}
+
+}  // namespace
+}  // namespace bin_scenes::sphere
