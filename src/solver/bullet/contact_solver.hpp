@@ -1,38 +1,74 @@
-/// Bullet's sequential impulses with three laws put right that the closed forms of docs/measures check:
-///   - friction is a cone, not a box: the two tangential impulses of a contact are limited together, so that stick and
-///     slip do not depend on how the tangents happen to lie;
-///   - friction impulses are warm-started like normal ones, so that a heap does not creep;
-///   - a rebound starts at e times the speed of approach, whatever gap was left at that moment, and gravity goes on
-///     acting through the step of the impact.
+/// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection a step) and lays out their
+/// rows; this class replaces its sweeps and the integration of what touches.
+///
+///   for each sub-step h:  gravity -> warm start -> sweep with soft push-out -> move -> sweep without (relaxation)
+///   at the end of the step: rebound
+///
+/// Separations follow the bodies between detections through the rows' own Jacobians. Small steps beat many sweeps of
+/// one large step: load runs through a stack of ten in a few steps (Macklin et al. 2019, "Small steps in physics
+/// simulation"); soft push-out with relaxation lets overlap out without leaving speed behind (Catto 2024, "Solver2D").
+/// Bullet's own sweeps, tried first with 20 to 200 iterations at 240 to 1000 Hz, let a stack of ten boxes sway and
+/// fall.
+///
+/// Friction is a cone: both tangential impulses of a contact are limited together. A rebound starts at e times the
+/// speed of approach just before the contact first pushed.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace bin_scenes::bullet {
+
+/// What a step did to a body that touches something; hung on btRigidBody's user pointer by the world.
+struct Motion;
 
 ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
-  /// Flags of btContactSolverInfo::m_solverMode this solver is written for.
-  static constexpr int mode =
-      SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
+  /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
+  static void configure(btContactSolverInfo & info);
 
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
 
  protected:
   void convertContacts(btPersistentManifold * *manifolds, int count, const btContactSolverInfo& info) override;
-  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** joints,
-                                int joint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override;
+  btScalar solveGroupCacheFriendlyIterations(
+      btCollisionObject * *bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
+      btTypedConstraint** joints, int joint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override;
 
  private:
-  void warm_start_friction(const btSolverConstraint& contact, btScalar factor);
-  void set_rebound(btSolverConstraint & contact, const btContactSolverInfo& info);
-  btScalar solve_friction(const btSolverConstraint& contact);
+  struct Contact {
+    btScalar distance;  ///< at detection
+    btScalar approach;  ///< normal velocity before its first push, negative
+    bool pushed;
+  };
+  /// Way and turn of a solver body since detection.
+  struct Way {
+    btVector3 moved{0, 0, 0}, turned{0, 0, 0};
+    bool touches = false;
+  };
+
+  /// Push-out of a sub-step: share of the overlap turned into speed (1/s), and of mass and impulse that act.
+  struct Soft {
+    btScalar rate, mass_share, impulse_share;
+  };
+
+  void begin();
+  void warm_start();
+  void sweep(btScalar h, bool push_out);
+  void solve_normal(int contact, btScalar h, const Soft* soft);
+  void solve_friction(const btSolverConstraint& contact);
+  void move(btScalar h);
+  void rebound(const btContactSolverInfo& info);
+  void hand_over();
+
+  std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
+  std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
+  std::vector<Way> ways_;          ///< parallel to m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

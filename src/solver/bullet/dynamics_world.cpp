@@ -2,8 +2,6 @@
 
 #include "convert.hpp"
 
-#include <initializer_list>
-
 namespace bin_scenes::bullet {
 
 namespace {
@@ -42,7 +40,7 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
     if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
     Motion& motion = *static_cast<Motion*>(body.getUserPointer());
     motion.linear = body.getLinearVelocity();
-    motion.touch = Motion::Touch::nothing;
+    motion.touches = false;
     const btMatrix3x3& axes = body.getWorldTransform().getBasis();
     const Vec3 start = from_bt(axes.transpose() * body.getAngularVelocity());
     const Vec3 end = torque_free_step(motion.inertia, start, dt);
@@ -52,49 +50,19 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
   }
 }
 
-void DynamicsWorld::find_touches() {
-  constexpr btScalar parallel = 1e-4;
-  for (int m = 0; m < getDispatcher()->getNumManifolds(); ++m) {
-    const btPersistentManifold& manifold = *getDispatcher()->getManifoldByIndexInternal(m);
-    for (int p = 0; p < manifold.getNumContacts(); ++p) {
-      if (manifold.getContactPoint(p).m_appliedImpulse <= 0) continue;
-      const btVector3& normal = manifold.getContactPoint(p).m_normalWorldOnB;
-      for (const btCollisionObject* object : {manifold.getBody0(), manifold.getBody1()}) {
-        Motion* motion = static_cast<Motion*>(object->getUserPointer());
-        if (!motion) continue;
-        if (motion->touch == Motion::Touch::nothing) {
-          motion->touch = Motion::Touch::plane;
-          motion->normal = normal;
-        } else if (motion->normal.cross(normal).length2() > parallel) {
-          motion->touch = Motion::Touch::more;
-        }
-      }
-    }
-  }
-}
-
 void DynamicsWorld::integrateTransforms(btScalar dt) {
-  // Smooth forces act through the step, so the mean of the velocities before and after carries the body (trapezoidal
-  // rule): gravity in free flight, friction and gravity along the plane a body slides or rolls on. Everything else
-  // follows the velocity after the step: what a contact forbids must hold at its end, or heaps rock without end, and a
-  // change beyond what gravity and friction can do in one step is an impact at its start.
-  find_touches();
-  const btScalar smooth = 3 * getGravity().length() * dt;
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
     if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
     const Motion& motion = *static_cast<const Motion*>(body.getUserPointer());
-    btVector3 gained(0, 0, 0);
-    if (motion.touch != Motion::Touch::more) gained = body.getLinearVelocity() - motion.linear;
-    if (motion.touch == Motion::Touch::plane) {
-      gained -= motion.normal * motion.normal.dot(gained);
-      if (gained.length() > smooth) gained.setZero();
-    }
-    const btVector3 turn = motion.middle + body.getAngularVelocity() - motion.free;
+    // Gravity alone acts through the whole step, so the mean of the velocities carries a free body (exact parabola).
+    const btVector3 way =
+        motion.touches ? motion.moved : (motion.linear + body.getLinearVelocity()) * (btScalar(0.5) * dt);
+    const btVector3 turn = motion.touches ? motion.turned : motion.middle * dt;
     const btTransform& now = body.getWorldTransform();
     btTransform next;
-    next.setOrigin(now.getOrigin() + (body.getLinearVelocity() - gained * btScalar(0.5)) * dt);
-    next.setRotation((rotation(turn * dt) * now.getRotation()).normalized());
+    next.setOrigin(now.getOrigin() + way);
+    next.setRotation((rotation(turn) * now.getRotation()).normalized());
     body.proceedToTransform(next);
   }
 }

@@ -11,12 +11,12 @@ namespace bin_scenes::bullet {
 
 /// What the integrator remembers of a body between the start and the end of a step; hung on btRigidBody's user pointer.
 struct Motion {
-  Vec3 inertia = Vec3::Ones();  ///< principal moments (Bullet's body frame is the principal frame)
-  btVector3 linear{0, 0, 0};    ///< velocity at the start of the step
-  btVector3 middle{0, 0, 0};    ///< angular velocity of torque-free motion in the middle of the step
-  btVector3 free{0, 0, 0};      ///< and at its end
-  enum class Touch { nothing, plane, more } touch = Touch::nothing;  ///< what pushed it in this step
-  btVector3 normal{0, 0, 0};  ///< Touch::plane: the one direction of all its contacts
+  Vec3 inertia = Vec3::Ones();                ///< principal moments (Bullet's body frame is the principal frame)
+  btVector3 linear{0, 0, 0};                  ///< velocity at the start of the step
+  btVector3 middle{0, 0, 0};                  ///< angular velocity of torque-free motion in the middle of the step
+  btVector3 free{0, 0, 0};                    ///< and at its end
+  bool touches = false;                       ///< the contact solver moved it in this step:
+  btVector3 moved{0, 0, 0}, turned{0, 0, 0};  ///< by way and turn
 };
 
 /// One step of Euler's equations without torque, I dw/dt = (I w) x w in the body frame, by the implicit midpoint rule,
@@ -31,9 +31,6 @@ ATTRIBUTE_ALIGNED16(class) DynamicsWorld : public btDiscreteDynamicsWorld {
  protected:
   void predictUnconstraintMotion(btScalar dt) override;
   void integrateTransforms(btScalar dt) override;
-
- private:
-  void find_touches();
 };
 
 }  // namespace bin_scenes::bullet

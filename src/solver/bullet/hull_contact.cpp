@@ -7,6 +7,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <new>
 
@@ -27,6 +28,20 @@ struct NearestPoints : public btDiscreteCollisionDetectorInterface::Result {
     point = point_on_b - normal_on_b * margin_b;
     distance = depth + margin_a + margin_b;
     found = true;
+  }
+};
+
+/// Passes contact points on and remembers the deepest.
+struct Patch : public btDiscreteCollisionDetectorInterface::Result {
+  explicit Patch(btManifoldResult& result) : out(result) {}
+  btManifoldResult& out;
+  btScalar deepest = BT_LARGE_FLOAT;
+
+  void setShapeIdentifiersA(int, int) override {}
+  void setShapeIdentifiersB(int, int) override {}
+  void addContactPoint(const btVector3& normal, const btVector3& point, btScalar depth) override {
+    out.addContactPoint(normal, point, depth);
+    deepest = std::min(deepest, depth);
   }
 };
 
@@ -73,11 +88,15 @@ void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCo
   gjk.getClosestPoints(input, nearest, nullptr);
 
   if (nearest.found && nearest.distance <= reach) {
-    result->addContactPoint(nearest.normal, nearest.point, nearest.distance);
+    Patch patch(*result);
     if (const auto* faces_a = faces(shape_a), *faces_b = faces(shape_b); faces_a && faces_b)
       btPolyhedralContactClipping::clipHullAgainstHull(nearest.normal, *faces_a, *faces_b, input.m_transformA,
                                                        input.m_transformB, nearest.distance, reach, clipped_a_,
-                                                       clipped_b_, *result);
+                                                       clipped_b_, patch);
+    // GJK's own point lies anywhere in a patch and would push a corner out of the four a manifold keeps, another one
+    // every step; it is needed only where the patch misses it (an edge on an edge).
+    if (patch.deepest > nearest.distance + 0.1 * reach)
+      result->addContactPoint(nearest.normal, nearest.point, nearest.distance);
   }
   if (own_manifold_) result->refreshContactPoints();
 }

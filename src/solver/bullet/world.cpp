@@ -24,8 +24,6 @@ constexpr double endless = 1e4;       ///< half the edge of an endless floor
 constexpr double sleep_speed = 1e-3;  ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;   ///< rad/s, likewise of Pour::rest_turn
 constexpr double sleep_time = 0.5;    ///< s an island must stay below both
-constexpr double release_rate = 6.0;  ///< 1/s at which overlap is let out
-constexpr double converged = 1e-5;    ///< units/s: iterations stop when no contact asks for more
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
   return std::sqrt(a->getFriction() * b->getFriction());
@@ -80,12 +78,7 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
   world_.setForceUpdateAllAabbs(false);              // walls and sleepers do not move
 
   btContactSolverInfo& info = world_.getSolverInfo();
-  info.m_numIterations = settings.iterations;
-  info.m_solverMode = ContactSolver::mode;
-  info.m_leastSquaresResidualThreshold = converged * converged;
-  info.m_warmstartingFactor = 1.0;
-  info.m_splitImpulse = true;  // overlap moves poses, never velocities
-  info.m_splitImpulsePenetrationThreshold = 0.0;
+  ContactSolver::configure(info);
   info.m_restitutionVelocityThreshold = 2.0 * def.gravity.norm() * scale_ * settings.time_step;
 
   Vec3 unset = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -211,7 +204,8 @@ void World::advance(int steps) {
   for (int s = 0; s < steps; ++s) {
     const int n = world_.getDispatcher()->getNumManifolds() > 0 ? cuts() : 1;
     const double dt = settings_.time_step / n;
-    world_.getSolverInfo().m_erp2 = 1.0 - std::exp(-release_rate * dt);
+    // A sub-step takes two sweeps; cutting a step does not make sub-steps any shorter than they are.
+    world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
     for (int k = 0; k < n; ++k) world_.stepSimulation(dt, 0);
     steps_ += static_cast<std::uint64_t>(n);
   }

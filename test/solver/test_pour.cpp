@@ -1,0 +1,206 @@
+#include "bin_scenes/solver/pour.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/solver/bullet_solver.hpp"
+#include "bin_scenes/solver/rest_watch.hpp"
+#include "bin_scenes/solver/spawn.hpp"
+#include "solver/fixture.hpp"
+
+namespace bin_scenes::testing {
+
+namespace {
+
+PartModelPtr small_box() {
+  static const PartModelPtr part = PartModel::from_mesh(box_mesh({0.05, 0.03, 0.02}), "box");
+  return part;
+}
+
+Request request_of(std::size_t count) {
+  Request request;
+  request.seed = 0;
+  request.bin.inner_size = Vec3(0.2, 0.15, 0.12);
+  PartLine line;
+  line.model = "box";
+  line.count = count;
+  request.parts.push_back(line);
+  return request;
+}
+
+std::vector<Scene> poured(const Request& request, const std::vector<std::size_t>& indices, const RunHooks& hooks = {}) {
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const std::vector<PartModelPtr> parts(request.parts.size(), small_box());
+  return pour(request, parts, *solver, indices, hooks);
+}
+
+}  // namespace
+
+TEST(Pour, PartsComeToRestInsideTheBin) {
+  const Scene scene = poured(request_of(12), {0})[0];
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+  EXPECT_TRUE(scene.report.not_poured.empty());
+  for (const ScenePart& part : scene.parts) {
+    EXPECT_EQ(part.state, PartState::resting);
+    for (const Vec3& v : small_box()->mesh().vertices) {
+      const Vec3 x = part.pose * v;
+      EXPECT_GT(x.z(), -2e-4);
+      EXPECT_LT(std::abs(x.x()), 0.1 + 2e-4);
+      EXPECT_LT(std::abs(x.y()), 0.075 + 2e-4);
+    }
+  }
+}
+
+TEST(Pour, RestMeansRest) {
+  Request request = request_of(10);
+  const Scene scene = poured(request, {3})[0];
+  ASSERT_TRUE(scene.report.at_rest);
+  Request again = request;
+  again.pour.pattern = Pour::Pattern::given;
+  again.seconds = 0.5;
+  again.parts[0].poses.clear();
+  for (const ScenePart& part : scene.parts) again.parts[0].poses.push_back(part.pose);
+  const Scene later = poured(again, {3})[0];
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const Vec3 center = small_box()->mass().center;
+    const double way = (later.parts[i].pose * center - scene.parts[i].pose * center).norm();
+    EXPECT_LT(way, 0.01 * small_box()->diagonal()) << i;
+  }
+}
+
+TEST(Pour, SceneDependsOnSeedAndIndexAlone) {
+  const Request request = request_of(8);
+  const std::vector<Scene> batch = poured(request, {0, 1, 2});
+  const Scene alone = poured(request, {1})[0];
+  EXPECT_EQ(batch[1].report.state_hash, alone.report.state_hash);
+  EXPECT_EQ(batch[1].report.steps, alone.report.steps);
+  EXPECT_NE(batch[0].report.state_hash, batch[1].report.state_hash);
+  Request other = request;
+  other.seed = 1;
+  EXPECT_NE(poured(other, {1})[0].report.state_hash, alone.report.state_hash);
+}
+
+TEST(Pour, TracingChangesNothingButTells) {
+  Request request = request_of(3);
+  request.seconds = 0.2;
+  std::vector<double> times;
+  RunHooks hooks;
+  hooks.trace_rate = 100.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+    times.push_back(time);
+    EXPECT_EQ(states.size(), 3u);
+  };
+  const Scene traced = poured(request, {0}, hooks)[0];
+  EXPECT_EQ(traced.report.state_hash, poured(request, {0})[0].report.state_hash);
+  ASSERT_GE(times.size(), 20u);
+  EXPECT_EQ(times.front(), 0.0);
+  EXPECT_GT(times.back(), 0.18);
+}
+
+TEST(Pour, SetTimeIsKeptExactly) {
+  Request request = request_of(2);
+  request.seconds = 0.25;
+  EXPECT_NEAR(poured(request, {0})[0].report.simulated_s, 0.25, 1e-9);
+}
+
+TEST(Pour, WhatFindsNoRoomIsReported) {
+  Request request = request_of(60);
+  request.bin.inner_size = Vec3(0.07, 0.06, 0.05);
+  const Scene scene = poured(request, {0})[0];
+  EXPECT_FALSE(scene.report.not_poured.empty());
+  EXPECT_LT(scene.report.not_poured.size(), 60u);
+  for (const int id : scene.report.not_poured)
+    EXPECT_EQ(scene.parts[static_cast<std::size_t>(id)].state, PartState::not_poured);
+  for (const ScenePart& part : scene.parts) EXPECT_TRUE(part.pose.finite());
+  ASSERT_FALSE(scene.report.flags.empty());
+  EXPECT_EQ(scene.report.flags.back().code, "not_poured");
+}
+
+TEST(Pour, FixedPartsNeverMoveAndStrangersAreFound) {
+  Request request = request_of(1);
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts.push_back(request.parts[0]);
+  request.parts[0].fixed = true;
+  request.parts[0].poses = {Pose{Vec3(0.0, 0.0, 0.06), Quat::Identity()}};
+  request.parts[1].poses = {Pose{Vec3(0.3, 0.0, 0.05), Quat::Identity()}};  // beside the bin
+  const Scene scene = poured(request, {0})[0];
+  EXPECT_EQ(scene.parts[0].state, PartState::fixed);
+  EXPECT_EQ(scene.parts[0].pose.position, Vec3(0.0, 0.0, 0.06));
+  EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
+}
+
+TEST(Pour, FixedPartWithoutPoseIsRefused) {
+  Request request = request_of(1);
+  request.parts[0].fixed = true;
+  EXPECT_THROW(poured(request, {0}), Error);
+}
+
+TEST(Pour, CancelsAndReportsProgressThatNeverFalls) {
+  const std::atomic<bool> cancel{true};
+  RunHooks hooks;
+  hooks.cancel = &cancel;
+  try {
+    poured(request_of(2), {0}, hooks);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+  double last = 0.0;
+  hooks.cancel = nullptr;
+  hooks.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, last);
+    last = progress.fraction;
+  };
+  poured(request_of(3), {0}, hooks);
+  EXPECT_GT(last, 0.9);
+}
+
+TEST(Rain, StartsClearOfEverything) {
+  const Cover shape = cover(small_box()->mesh());
+  const Rain rain({Vec3(-0.1, -0.075, 0), Vec3(0.1, 0.075, 0.12)}, 0.02);
+  Random random(5, 0, Stream::pour);
+  std::vector<Rain::Obstacle> present;
+  std::vector<Pose> poses;
+  for (int i = 0; i < 12; ++i)
+    if (const auto pose = rain.place(*small_box(), shape, present, random, 20)) {
+      poses.push_back(*pose);
+      present.push_back({&shape, *pose, true});
+    }
+  ASSERT_GE(poses.size(), 6u);
+  for (std::size_t a = 0; a < poses.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (const Cover::Ball& p : shape.balls)
+        for (const Cover::Ball& q : shape.balls)
+          EXPECT_GE((poses[a] * p.center - poses[b] * q.center).norm(), p.radius + q.radius - 1e-12);
+}
+
+TEST(Cover, EnclosesEveryTriangle) {
+  const Mesh mesh = ring_mesh(24, 0.018, 0.0275, 0.012);
+  const Cover shape = cover(mesh);
+  Random random(1, 0, Stream::probe);
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (int k = 0; k < 20; ++k) {
+      double u = random.uniform(), v = random.uniform();
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      const Vec3 x =
+          mesh.vertices[a] + u * (mesh.vertices[b] - mesh.vertices[a]) + v * (mesh.vertices[c] - mesh.vertices[a]);
+      bool inside = false;
+      for (const Cover::Ball& ball : shape.balls) inside = inside || (x - ball.center).norm() <= ball.radius + 1e-12;
+      EXPECT_TRUE(inside);
+    }
+}
+
+TEST(RestWatch, CountsCreepAndSwingAsMoving) {
+  const RestWatch::Limits limits{0.25, 1e-3, 1e-2};
+  RestWatch watch(3);
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0;
+    watch.look(0, t, Vec3(0, 0, -0.01 * t), Quat::Identity(), limits);                   // creeps down
+    watch.look(1, t, Vec3(0.002 * std::sin(40.0 * t), 0, 0), Quat::Identity(), limits);  // swings
+    watch.look(2, t, Vec3(0, 1e-4 * std::sin(40.0 * t), 0), Quat::Identity(), limits);   // still
+  }
+  EXPECT_FALSE(watch.resting(0));
+  EXPECT_FALSE(watch.resting(1));
+  EXPECT_TRUE(watch.resting(2));
+}
+
+}  // namespace bin_scenes::testing
