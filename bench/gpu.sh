@@ -49,9 +49,10 @@ step doctor 120 "$bundle/run" bin_scenes doctor
 cat "$out/doctor.log"
 
 # Shaders first: what builds on them means nothing if they are wrong.
-for test in "$bundle"/tests/gl_test "$bundle"/tests/*; do
-  name=$(basename "$test")
-  [[ -e $out/$name.log && $name == gl_test ]] || step "$name" 600 "$bundle/run" "$test"
+for layer in gl solver sensor generate; do
+  for test in $(find "$bundle/tests/$layer" -type f 2>/dev/null | sort); do
+    step "$(basename "$test")" 600 "$bundle/run" "$test"
+  done
 done
 
 # The thesis's tables: parts and iterations; the device's own time stamps go into scene.json.
