@@ -1,0 +1,142 @@
+#include "image_messages.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace bin_scenes {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+const ros::Time kStamp(12, 34);
+
+/// 4 x 3 pixels, every value its own; pixel (2, 1) saw nothing, pixel (0, 0) saw the bin.
+RangeImage some_image() {
+  RangeImage image;
+  image.sensor = testing::some_sensor("camera", 0.0);
+  for (int i = 0; i < 12; ++i) {
+    image.depth.push_back(0.5f + 0.01f * i);
+    image.label.push_back(static_cast<std::uint16_t>(i * 5000));
+    image.normal.push_back({0.01f * i, 0.02f * i, -1.0f});
+    image.intensity.push_back(0.05f * i);
+  }
+  image.depth[6] = kNan;
+  image.label[6] = 0;
+  image.normal[6] = {kNan, kNan, kNan};
+  image.intensity[6] = 0.0f;
+  return image;
+}
+
+float float_at(const sensor_msgs::PointCloud2& cloud, int column, int row, const std::string& field) {
+  for (const auto& f : cloud.fields) {
+    if (f.name != field) continue;
+    EXPECT_EQ(f.datatype, sensor_msgs::PointField::FLOAT32);
+    float value;
+    std::memcpy(&value, &cloud.data[row * cloud.row_step + column * cloud.point_step + f.offset], sizeof value);
+    return value;
+  }
+  ADD_FAILURE() << "no field " << field;
+  return 0;
+}
+
+std::uint32_t label_at(const sensor_msgs::PointCloud2& cloud, int column, int row) {
+  const auto& f = cloud.fields.back();
+  EXPECT_EQ(f.name, "label");
+  EXPECT_EQ(f.datatype, sensor_msgs::PointField::UINT32);
+  std::uint32_t value;
+  std::memcpy(&value, &cloud.data[row * cloud.row_step + column * cloud.point_step + f.offset], sizeof value);
+  return value;
+}
+
+TEST(ImageMessages, CloudIsOrganised) {
+  const auto cloud = image_messages(some_image(), kStamp).points;
+  EXPECT_EQ(cloud.width, 4u);
+  EXPECT_EQ(cloud.height, 3u);
+  EXPECT_EQ(cloud.row_step, cloud.width * cloud.point_step);
+  EXPECT_EQ(cloud.data.size(), std::size_t(cloud.row_step) * cloud.height);
+  EXPECT_FALSE(cloud.is_dense);
+  EXPECT_FALSE(cloud.is_bigendian);
+  std::string names;
+  for (const auto& f : cloud.fields) names += f.name + " ";
+  EXPECT_EQ(names, "x y z normal_x normal_y normal_z intensity label ");
+}
+
+TEST(ImageMessages, CloudPointsLieOnTheRaysOfTheirPixels) {
+  const RangeImage image = some_image();
+  const auto cloud = image_messages(image, kStamp).points;
+  const auto& k = image.sensor.k;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const int i = row * 4 + column;
+      if (i == 6) continue;
+      const float z = image.depth[i];
+      EXPECT_FLOAT_EQ(float_at(cloud, column, row, "z"), z);
+      // The pinhole model, with pixel centres at whole coordinates.
+      EXPECT_NEAR(float_at(cloud, column, row, "x"), (column - k[2]) / k[0] * z, 1e-6);
+      EXPECT_NEAR(float_at(cloud, column, row, "y"), (row - k[5]) / k[4] * z, 1e-6);
+      EXPECT_EQ(float_at(cloud, column, row, "normal_x"), image.normal[i][0]);
+      EXPECT_EQ(float_at(cloud, column, row, "normal_y"), image.normal[i][1]);
+      EXPECT_EQ(float_at(cloud, column, row, "normal_z"), image.normal[i][2]);
+      EXPECT_EQ(float_at(cloud, column, row, "intensity"), image.intensity[i]);
+      EXPECT_EQ(label_at(cloud, column, row), image.label[i]);
+    }
+  }
+}
+
+TEST(ImageMessages, WhatSawNothingIsNanEverywhere) {
+  const auto messages = image_messages(some_image(), kStamp);
+  for (const char* field : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {
+    EXPECT_TRUE(std::isnan(float_at(messages.points, 2, 1, field))) << field;
+  }
+  EXPECT_EQ(label_at(messages.points, 2, 1), 0u);
+  float depth;
+  std::memcpy(&depth, &messages.depth.data[messages.depth.step + 2 * sizeof depth], sizeof depth);
+  EXPECT_TRUE(std::isnan(depth));
+}
+
+TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
+  const RangeImage image = some_image();
+  const auto messages = image_messages(image, kStamp);
+  EXPECT_EQ(messages.depth.encoding, "32FC1");
+  EXPECT_EQ(messages.depth.step, 16u);
+  EXPECT_EQ(messages.labels.encoding, "16UC1");
+  EXPECT_EQ(messages.labels.step, 8u);
+  ASSERT_EQ(messages.depth.data.size(), 48u);
+  ASSERT_EQ(messages.labels.data.size(), 24u);
+  EXPECT_EQ(std::memcmp(messages.depth.data.data(), image.depth.data(), 48), 0);
+  EXPECT_EQ(std::memcmp(messages.labels.data.data(), image.label.data(), 24), 0);
+}
+
+TEST(ImageMessages, OneStampOneFrame) {
+  const auto m = image_messages(some_image(), kStamp);
+  for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header}) {
+    EXPECT_EQ(header->stamp, kStamp);
+    EXPECT_EQ(header->frame_id, "camera_optical_frame");
+  }
+}
+
+TEST(ImageMessages, CameraInfoIsAnIdealPinhole) {
+  const auto info = image_messages(some_image(), kStamp).camera_info;
+  EXPECT_EQ(info.width, 4u);
+  EXPECT_EQ(info.height, 3u);
+  EXPECT_EQ(info.distortion_model, "plumb_bob");
+  EXPECT_EQ(info.D, std::vector<double>(5, 0.0));
+  const boost::array<double, 9> k = {{5, 0, 1.5, 0, 5, 1, 0, 0, 1}}, r = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  const boost::array<double, 12> p = {{5, 0, 1.5, 0, 0, 5, 1, 0, 0, 0, 1, 0}};
+  EXPECT_EQ(info.K, k);
+  EXPECT_EQ(info.R, r);
+  EXPECT_EQ(info.P, p);
+}
+
+TEST(ImageMessages, AnIncompleteMatrixIsRefused) {
+  RangeImage image = some_image();
+  image.sensor.k.pop_back();
+  EXPECT_THROW(image_messages(image, kStamp), Error);
+}
+
+}  // namespace
+}  // namespace bin_scenes

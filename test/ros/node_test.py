@@ -1,0 +1,375 @@
+#!/usr/bin/python3
+"""The live node against what its topics promise: one scene, one stamp, one truth."""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xmlrpc.client
+
+import numpy as np
+import rosbag
+import rospy
+import rostest
+import std_srvs.srv
+import tf2_ros
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scene_data as data  # noqa: E402
+from bin_scenes.msg import ErrorCode, PartLine, Scene, SceneRequest, Sensor  # noqa: E402
+from bin_scenes.srv import GenerateScene  # noqa: E402
+
+REQUEST = """
+seed: 7
+bin: {inner_size: [0.16, 0.14, 0.08]}
+parts:
+  - {model: bracket_l.stl, unit: mm, count: 3, density: 7850}
+  - {model: gear_spur.stl, unit: mm, count: 2, density: 7850}
+solver: {type: bullet}
+sensors: [{name: camera, width: 240, height: 200}]
+"""
+MODELS = ["bracket_l.stl", "gear_spur.stl"]
+TOPICS = {
+    "scene": Scene, "markers": MarkerArray, "points": PointCloud2, "depth/image_rect": Image,
+    "depth/camera_info": CameraInfo, "labels/image_raw": Image,
+}
+TOLERANCE = 0.3e-3  # m: points on their part's mesh
+
+
+class Listener:
+    """The last message of every topic of the node."""
+
+    def __init__(self, topics=TOPICS):
+        self.seen = {}
+        self.subscribers = [rospy.Subscriber(name, kind, self.remember(name))
+                            for name, kind in topics.items()]
+
+    def remember(self, name):
+        return lambda message: self.seen.__setitem__(name, message)
+
+    def wait(self, stamp, names=TOPICS, seconds=20):
+        """Messages with that stamp."""
+        end = time.time() + seconds
+        while time.time() < end:
+            if all(n in self.seen and self.stamp(self.seen[n]) == stamp for n in names):
+                return {n: self.seen[n] for n in names}
+            time.sleep(0.02)
+        raise AssertionError("not all topics have stamp %s: %s" % (
+            stamp, {n: str(self.stamp(m)) for n, m in self.seen.items()}))
+
+    @staticmethod
+    def stamp(message):
+        return message.markers[0].header.stamp if hasattr(message, "markers") else message.header.stamp
+
+    def close(self):
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+
+def counter(scene, name):
+    return {c.name: c.value for c in scene.report.counters}.get(name, 0)
+
+
+class NodeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_service("generate_scene", 60)
+        cls.service = rospy.ServiceProxy("generate_scene", GenerateScene)
+        cls.clear = rospy.ServiceProxy("clear_scene", std_srvs.srv.Trigger)
+        cls.tf = tf2_ros.Buffer(rospy.Duration(60))
+        cls.tf_listener = tf2_ros.TransformListener(cls.tf)
+
+    def generate(self, **fields):
+        fields.setdefault("yaml", REQUEST)
+        return self.service(SceneRequest(**fields))
+
+    def scene(self, **fields):
+        response = self.generate(**fields)
+        self.assertEqual((response.success, response.error_code.value, response.message), (True, ErrorCode.NONE, ""))
+        return response.scene
+
+    def scene_on_topics(self, **fields):
+        listener = Listener()
+        try:
+            time.sleep(0.3)  # let the node see its subscribers, so that it renders at once
+            scene = self.scene(**fields)
+            return scene, listener.wait(scene.header.stamp)
+        finally:
+            listener.close()
+
+    def lookup(self, frame, stamp, parent="bin"):
+        t = self.tf.lookup_transform(parent, frame, stamp, rospy.Duration(5)).transform
+        return data.matrix(t.translation, t.rotation)
+
+    # One stamp, one truth
+
+    def test_topics_agree(self):
+        scene, topics = self.scene_on_topics()
+        topics["scene"].header.seq = scene.header.seq  # counted by the publisher
+        self.assertEqual(topics["scene"], scene)
+        self.assertEqual(counter(scene, "rendered_images"), 1)
+        self.assertEqual([p.id for p in scene.parts], list(range(5)))
+        self.check_frames(scene, topics["points"])
+        self.check_images(scene, topics)
+        self.check_points_on_meshes(scene, topics)
+        self.check_markers(scene, topics["markers"])
+
+    def check_frames(self, scene, cloud):
+        for part in scene.parts:
+            truth = data.matrix(part.pose.position, part.pose.orientation)
+            np.testing.assert_allclose(self.lookup("part_%04d" % part.id, scene.header.stamp), truth, atol=1e-12)
+            self.assertEqual(part.frame_id, "part_%04d" % part.id)
+        camera = data.matrix(scene.sensors[0].pose.position, scene.sensors[0].pose.orientation)
+        np.testing.assert_allclose(self.lookup(cloud.header.frame_id, scene.header.stamp), camera, atol=1e-12)
+        np.testing.assert_allclose(self.lookup("bin", scene.header.stamp, "world"), np.eye(4), atol=1e-12)
+
+    def check_images(self, scene, topics):
+        cloud, info = topics["points"], topics["depth/camera_info"]
+        for name in ("points", "depth/image_rect", "depth/camera_info", "labels/image_raw"):
+            self.assertEqual(topics[name].header.frame_id, "camera_optical_frame", name)
+            self.assertEqual((topics[name].width, topics[name].height), (240, 200), name)
+        self.assertEqual([f.name for f in cloud.fields],
+                         ["x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label"])
+        self.assertFalse(cloud.is_dense)
+        self.assertEqual(cloud.row_step, cloud.width * cloud.point_step)
+        points = data.cloud_array(cloud)
+        depth = data.image_array(topics["depth/image_rect"])
+        labels = data.image_array(topics["labels/image_raw"])
+        np.testing.assert_array_equal(points["z"], depth)
+        np.testing.assert_array_equal(points["label"], labels)
+        valid = np.isfinite(depth)
+        self.assertGreater(valid.mean(), 0.3)
+        self.assertTrue(np.isnan(points["x"][~valid]).all() and (labels[~valid] == 0).all())
+        self.assertLessEqual(set(np.unique(labels)), {0} | {p.id + 1 for p in scene.parts})
+        k = np.array(info.K).reshape(3, 3)
+        rows, columns = np.nonzero(valid)
+        pixels = (data.xyz(points[valid]) @ k.T) / depth[valid][:, None].astype(float)
+        np.testing.assert_allclose(pixels[:, 0], columns, atol=1e-3)
+        np.testing.assert_allclose(pixels[:, 1], rows, atol=1e-3)
+        np.testing.assert_array_equal(np.array(info.P).reshape(3, 4)[:, :3], k)
+        normals = np.stack([points["normal_x"], points["normal_y"], points["normal_z"]], -1)[valid].astype(float)
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-4)
+        self.assertTrue((np.einsum("nk,nk->n", normals, data.xyz(points[valid])) < 1e-6).all(), "towards the camera")
+
+    def check_points_on_meshes(self, scene, topics):
+        """Through TF alone: cloud -> camera frame -> bin -> part."""
+        cloud = topics["points"]
+        stamp, points = cloud.header.stamp, data.cloud_array(cloud)
+        random = np.random.RandomState(1)
+        looked_at = 0
+        for part in scene.parts:
+            of_part = data.xyz(points[points["label"] == part.id + 1])
+            self.assertEqual(len(of_part) > 0, part.visible_fraction[0] > 0.0, "part %d" % part.id)
+            if len(of_part) < 50:
+                continue
+            looked_at += 1
+            some = of_part[random.choice(len(of_part), min(len(of_part), 150), replace=False)]
+            to_camera = self.lookup("part_%04d" % part.id, stamp, cloud.header.frame_id)
+            mesh = data.model(MODELS[part.line])
+            local = data.moved(np.linalg.inv(to_camera), some)
+            foot, _ = data.nearest_on_mesh(local, mesh)
+            self.assertLess(np.linalg.norm(local - foot, axis=1).max(), TOLERANCE, "part %d" % part.id)
+            if part.line == 0 and part.visible_fraction[0] > 0.5:
+                self.check_icp(some, mesh, to_camera)
+        self.assertGreaterEqual(looked_at, 3)
+
+    def check_icp(self, points, mesh, truth):
+        """From 1 mm and 1 degree beside the truth back to it."""
+        start = truth.copy()
+        start[:3, 3] += [0.6e-3, -0.6e-3, 0.5e-3]
+        angle = math.radians(1)
+        start[:3, :3] = truth[:3, :3] @ np.array([[1, 0, 0], [0, math.cos(angle), -math.sin(angle)],
+                                                  [0, math.sin(angle), math.cos(angle)]])
+        found = data.icp(points, mesh, start, rounds=12)
+        corners = mesh.reshape(-1, 3)
+        error = np.linalg.norm(data.moved(found, corners) - data.moved(truth, corners), axis=1).max()
+        self.assertLess(error, TOLERANCE)
+
+    def check_markers(self, scene, array):
+        self.assertEqual(array.markers[0].action, Marker.DELETEALL)
+        parts = {m.id: m for m in array.markers if m.ns == "parts"}
+        self.assertEqual(sorted(parts), [p.id for p in scene.parts])
+        for part in scene.parts:
+            marker = parts[part.id]
+            self.assertEqual(marker.pose, part.pose)
+            self.assertEqual(marker.type, Marker.MESH_RESOURCE)
+            self.assertEqual(marker.scale.x, 1e-3)
+            self.assertTrue(marker.mesh_resource.startswith("file:///"))
+            self.assertTrue(os.path.exists(marker.mesh_resource[len("file://"):]))
+        self.assertEqual(sum(m.ns == "bin" for m in array.markers), 5)
+
+    # Lazy images
+
+    def test_images_are_made_only_when_somebody_looks(self):
+        scene = self.scene()
+        self.assertEqual(counter(scene, "rendered_images"), 0)
+        self.assertTrue(all(math.isnan(p.visible_fraction[0]) for p in scene.parts))
+        late = Listener({"points": PointCloud2})
+        try:
+            late.wait(scene.header.stamp, ["points"])
+        finally:
+            late.close()
+        asked = self.scene(render=True)
+        self.assertEqual(counter(asked, "rendered_images"), 1)
+        self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in asked.parts))
+
+    def test_a_late_subscriber_never_sees_an_older_scene(self):
+        self.scene_on_topics(seed=[1])
+        scene = self.scene(seed=[2])
+        received = []
+        subscriber = rospy.Subscriber("points", PointCloud2, lambda m: received.append(m.header.stamp))
+        time.sleep(2.0)
+        subscriber.unregister()
+        self.assertEqual(received, [scene.header.stamp])
+
+    # The same request, the same scene
+
+    def test_typed_request_says_the_same_as_yaml(self):
+        lines = [PartLine(model=m, unit="mm", count=n, density=7850) for m, n in zip(MODELS, (3, 2))]
+        request = SceneRequest(seed=[7], parts=lines, solver="bullet",
+                               sensors=[Sensor(name="camera", width=240, height=200)])
+        request.bin.inner_size.x, request.bin.inner_size.y, request.bin.inner_size.z = 0.16, 0.14, 0.08
+        typed, yaml = self.service(request).scene, self.scene()
+        self.assertEqual(typed.request_sha256, yaml.request_sha256)
+        self.assertEqual(typed.report.state_hash, yaml.report.state_hash)
+        self.assertEqual([p.pose for p in typed.parts], [p.pose for p in yaml.parts])
+        self.assertNotEqual(self.scene(seed=[8]).report.state_hash, yaml.report.state_hash)
+
+    # Bad input
+
+    def test_a_bad_request_is_an_error_and_the_node_lives(self):
+        before = self.scene()
+        for fields, text in (
+                ({"yaml": "parts: []\nsolvr: {type: bullet}"}, "solver"),
+                ({"yaml": "parts: [{model: nowhere.stl}]"}, "nowhere.stl"),
+                ({"yaml": "parts: [{model: /etc/passwd}]"}, "/etc/passwd"),
+                ({"file": "/etc/passwd", "yaml": ""}, "roots"),
+                ({"set": ["parts[0].count=-3"]}, "count"),
+                ({"yaml": REQUEST.replace(", unit: mm", "")}, "mm"),  # an implausible size: names the likely unit
+        ):
+            response = self.generate(**fields)
+            self.assertFalse(response.success, fields)
+            self.assertEqual(response.error_code.value, ErrorCode.INPUT, fields)
+            self.assertIn(text, response.message)
+            self.assertEqual(len(response.scene.parts), 0)
+        latched = rospy.wait_for_message("scene", Scene, 5)
+        self.assertEqual(latched.header.stamp, before.header.stamp)  # a failed call leaves the scene alone
+        self.scene()
+
+    def test_a_scene_that_fails_is_set_apart_with_its_reason(self):
+        response = self.generate(set=["pour.limit=0.3"])
+        self.assertFalse(response.scene.report.at_rest)
+        self.assertFalse(response.success)
+        self.assertEqual(response.error_code.value, ErrorCode.SET_APART)
+        self.assertEqual(len(response.scene.parts), 5)
+        self.assertTrue(response.scene.report.reasons)
+        self.assertIn(response.scene.report.reasons[0], response.message)
+
+    # Stale scenes
+
+    def test_frames_of_an_older_scene_die(self):
+        self.scene()
+        self.lookup("part_0004", rospy.Time.now())
+        smaller = self.scene(set=["parts[1].count=1"])
+        self.assertEqual(len(smaller.parts), 4)
+        self.lookup("part_0003", rospy.Time.now())
+        with self.assertRaises(tf2_ros.ExtrapolationException):
+            self.tf.lookup_transform("bin", "part_0004", rospy.Time.now(), rospy.Duration(0.5))
+
+    def test_clear_empties_the_bin(self):
+        before, topics = self.scene_on_topics()
+        listener = Listener()
+        time.sleep(0.3)
+        self.assertTrue(self.clear().success)
+        end = time.time() + 10
+        while time.time() < end and listener.seen["scene"].header.stamp == before.header.stamp:
+            time.sleep(0.02)
+        stamp = listener.seen["scene"].header.stamp
+        empty = listener.wait(stamp)
+        listener.close()
+        self.assertEqual(empty["scene"].parts, [])
+        self.assertFalse(any(m.ns == "parts" for m in empty["markers"].markers))
+        self.assertFalse(data.image_array(empty["labels/image_raw"]).any())
+        self.assertTrue(np.isfinite(data.image_array(empty["depth/image_rect"])).any(), "the bin itself is still there")
+        sent = []
+        subscriber = rospy.Subscriber("/tf", TFMessage, sent.append)
+        time.sleep(0.5)
+        subscriber.unregister()
+        self.assertEqual(sent, [])
+
+    # Bags
+
+    def test_the_tools_bag_is_a_recording_of_the_node(self):
+        with tempfile.TemporaryDirectory() as folder:
+            live = self.recording(os.path.join(folder, "live.bag"))
+            request = os.path.join(folder, "request.yaml")
+            models = os.environ["BIN_SCENES_MODELS"]
+            with open(request, "w") as file:
+                file.write(REQUEST.replace("model: ", "model: " + models + "/"))
+            subprocess.run([rospy.get_param("/tool"), "generate", request, "--out", os.path.join(folder, "out"),
+                            "--formats", "json,bag"], check=True, timeout=120)
+            path = os.path.join(folder, "out", "scene_000000", "scene.bag")
+            written = {}
+            stamps = set()
+            with rosbag.Bag(path) as bag:
+                for name, message, time_written, header in bag.read_messages(return_connection_header=True):
+                    written[name] = (message, header)
+                    stamps.add(time_written)
+                    if hasattr(message, "header"):
+                        stamps.add(message.header.stamp)
+            self.assertEqual({n: m._type for n, (m, _) in written.items()},
+                             {n: m._type for n, (m, _) in live.items()})
+            for name, (_, header) in written.items():
+                for key in ("type", "md5sum", "message_definition", "latching"):
+                    self.assertEqual(header.get(key, b"0"), live[name][1].get(key, b"0"), (name, key))
+            self.assertEqual(len(stamps), 1)
+            poses = [[p.pose for p in m["/scene"][0].parts] for m in (written, live)]
+            self.assertEqual(poses[0], poses[1])
+            np.testing.assert_array_equal(data.image_array(written["/labels/image_raw"][0]),
+                                          data.image_array(live["/labels/image_raw"][0]))
+            info = subprocess.run(["rosbag", "info", path], check=True, capture_output=True, text=True, timeout=60)
+            self.assertIn("sensor_msgs/PointCloud2", info.stdout)
+
+    def recording(self, path):
+        """{topic: (last message, connection header)} of a `rosbag record` while the node makes one scene."""
+        topics = ["/tf", "/tf_static"] + ["/" + name for name in TOPICS]
+        recorder = subprocess.Popen(["rosbag", "record", "-q", "-O", path] + topics, start_new_session=True)
+        try:
+            self.wait_until(lambda: set(topics) <= self.connected_to("record"))
+            scene = self.scene()
+            time.sleep(1.0)
+        finally:
+            os.killpg(recorder.pid, signal.SIGINT)
+            recorder.wait(20)
+        self.wait_until(lambda: os.path.exists(path))  # the recorder renames it when all is written
+        messages = {}
+        with rosbag.Bag(path) as bag:
+            for name, message, _, header in bag.read_messages(return_connection_header=True):
+                messages[name] = (message, header)
+        self.assertEqual(messages["/points"][0].header.stamp, scene.header.stamp)
+        return messages
+
+    def wait_until(self, condition, seconds=20):
+        end = time.time() + seconds
+        while not condition():
+            self.assertLess(time.time(), end, "waited too long")
+            time.sleep(0.05)
+
+    @staticmethod
+    def connected_to(node):
+        """Topics that the node sends to another node with that in its name."""
+        api = rospy.get_master().lookupNode("/bin_scenes")[2]
+        connections = xmlrpc.client.ServerProxy(api).getBusInfo("/node_test")[2]
+        return {c[4] for c in connections if c[2] == "o" and node in c[1]}
+
+
+if __name__ == "__main__":
+    rospy.init_node("node_test", anonymous=True)
+    rostest.rosrun("bin_scenes", "node", NodeTest)
