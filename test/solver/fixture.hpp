@@ -76,6 +76,7 @@ inline Mesh ring_mesh(int count, double inner, double outer, double height) {
 struct SolverCase {
   std::string name;
   std::function<std::unique_ptr<Solver>()> make;
+  double rounding = 1e-5;  ///< of energies: of double precision settings, or 1e-4 for bodies in single precision
 };
 inline std::ostream& operator<<(std::ostream& out, const SolverCase& solver) {
   return out << solver.name;

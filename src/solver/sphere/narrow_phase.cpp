@@ -94,7 +94,7 @@ bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f&
 template <class Emit>
 void test_samples(const Samples& samples, const Field& field, const Samples& other, const Carry& carry, float margin,
                   Counters& counters, Emit&& emit) {
-  const float slack = margin + 0.5f * field.cell;
+  const float slack = margin + samples.radius + (field.ball > 0 ? 0.0f : 0.5f * field.cell);
   Vec3f point[cluster_size], gradient[cluster_size];
   float distance[cluster_size];
   counters.nodes_possible += samples.nodes.size();
@@ -109,7 +109,7 @@ void test_samples(const Samples& samples, const Field& field, const Samples& oth
       counters.nodes_tested += n;
       for (std::size_t i = 0; i < n; ++i) {
         point[i] = carry(samples.nodes[first + i]);
-        distance[i] = field.sample(point[i], gradient[i]);
+        distance[i] = field.sample(point[i], gradient[i]) - samples.radius;
         if (distance[i] < margin) emit(point[i], gradient[i], distance[i], static_cast<std::uint32_t>(first + i));
       }
       for (std::uint32_t e = samples.first_edge[c]; e < samples.first_edge[c + 1]; ++e) {
@@ -147,11 +147,13 @@ void candidates_of_pair(World& world, const Manifold& m, float margin, Candidate
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
   test_samples(world.samples(a), sb.field, world.samples(b), a_to_b, margin, world.counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
-                 out.push_back({b_to_a(p), b_to_a(p - d * g), -(b_to_a.rotation * g), d, feature});
+                 const Vec3f surface = p - world.samples(a).radius * g;
+                 out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature});
                });
   test_samples(world.samples(b), sa.field, world.samples(a), b_to_a, margin, world.counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
-                 out.push_back({p - d * g, p, g, d, feature | side_b});
+                 const Vec3f surface = p - world.samples(b).radius * g;
+                 out.push_back({surface - d * g, surface, g, d, feature | side_b});
                });
 }
 
@@ -187,15 +189,16 @@ void candidates_of_ground(World& world, const Manifold& m, float margin, Candida
     for (std::size_t c = 0; c < samples.clusters.size(); ++c) {
       ++world.counters.clusters_tested;
       const Vec3f center = a.x + a.rotation * samples.clusters[c].center;
-      if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + margin) continue;
+      if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + samples.radius + margin) continue;
       const std::size_t last = std::min(samples.nodes.size(), (c + 1) * cluster_size);
       world.counters.nodes_tested += last - c * cluster_size;
       for (std::size_t i = c * cluster_size; i < last; ++i) {
         const Vec3f p = a.x + a.rotation * samples.nodes[i];
         Vec3f up;
-        const float d = plane_distance(world, plane, p, up);
+        const float d = plane_distance(world, plane, p, up) - samples.radius;
         if (d > margin) continue;
-        out.push_back({samples.nodes[i], back * (p - d * up - a.x), -(back * up), d,
+        const Vec3f surface = p - samples.radius * up;
+        out.push_back({back * (surface - a.x), back * (surface - d * up - a.x), -(back * up), d,
                        static_cast<std::uint32_t>(i + k * 0x1000000u)});
       }
     }

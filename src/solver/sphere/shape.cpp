@@ -56,11 +56,17 @@ inline float value(const Cell& c) {
 }  // namespace
 
 float Field::sample(const Vec3f& point) const {
+  if (ball > 0) return point.norm() - ball;
   const Cell c = locate(*this, point);
   return c.outside > 0 ? std::max(value(c), c.outside + padding) : value(c);
 }
 
 float Field::sample(const Vec3f& point, Vec3f& gradient) const {
+  if (ball > 0) {
+    const float distance = point.norm();
+    gradient = distance > 0 ? Vec3f(point / distance) : Vec3f(Vec3f::UnitZ());
+    return distance - ball;
+  }
   const Cell c = locate(*this, point);
   const float x0 = mix(c.c[0], c.c[1], c.u), x1 = mix(c.c[2], c.c[3], c.u);
   const float x2 = mix(c.c[4], c.c[5], c.u), x3 = mix(c.c[6], c.c[7], c.u);
@@ -220,6 +226,29 @@ double total_length(const Mesh& mesh, const std::vector<SharpEdge>& sharp) {
   return length;
 }
 
+/// Radius of the ball a tessellated ball stands for: all its vertices lie on it and no face cuts deep below; else 0.
+float ball_radius(const PartModel& part) {
+  const Mesh& mesh = part.mesh();
+  const Vec3& center = part.mass().center;
+  const double radius = part.radius();
+  for (const Vec3& v : mesh.vertices)
+    if ((v - center).norm() < 0.999 * radius) return 0;
+  for (const Triangle& t : mesh.triangles)
+    if (((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3 - center).norm() < 0.97 * radius)
+      return 0;
+  return static_cast<float>(radius);
+}
+
+/// A ball needs one node, its centre.
+Samples ball_samples(float radius) {
+  Samples samples;
+  samples.nodes = {Vec3f::Zero()};
+  samples.clusters = samples.groups = {{Vec3f::Zero(), 0}};
+  samples.first_edge = {0, 0};
+  samples.radius = samples.spacing = radius;
+  return samples;
+}
+
 /// About `count` nodes: two thirds of them on sharp edges where there are such, the others on faces.
 Samples make_samples(const PartModel& part, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
@@ -253,6 +282,11 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   shape.box_center = (box.center() - mass.center).cast<float>();
   shape.box_half = (0.5 * box.size()).cast<float>();
 
+  shape.field.ball = ball_radius(part);
+  if (shape.field.ball > 0) {
+    shape.coarse = shape.fine = ball_samples(shape.field.ball);
+    return shape;
+  }
   const DistanceField& field = part.field({field_cell});
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);

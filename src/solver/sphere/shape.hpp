@@ -18,8 +18,9 @@
 
 namespace bin_scenes::sphere {
 
-/// Distance field in the body frame, trilinear.
+/// Distance field in the body frame: trilinear on a grid, or the closed form of a ball.
 struct Field {
+  float ball = 0;  ///< radius if the part is a ball: then there is no grid
   Vec3f origin = Vec3f::Zero();
   float cell = 1, inverse_cell = 1, padding = 0;
   int nx = 0, ny = 0, nz = 0;
@@ -47,6 +48,7 @@ struct Samples {
   std::vector<std::uint32_t> first_edge;  ///< clusters + 1
   std::vector<Ball> groups;               ///< clusters [8 g, 8 g + 8)
   float spacing = 0;                      ///< longest edge piece (m)
+  float radius = 0;                       ///< of the nodes: 0 = points; a ball is one node of its own radius
 };
 
 constexpr int cluster_size = 16, group_size = 8;
