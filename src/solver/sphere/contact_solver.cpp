@@ -47,6 +47,7 @@ void prepare(Manifold& m, Body& a, Body& b) {
     c.f1 = c.friction_impulse.dot(c.t1);
     c.f2 = c.friction_impulse.dot(c.t2);
     c.approach = (b.v + b.w.cross(c.rb) - a.v - a.w.cross(c.ra)).dot(c.normal);
+    c.prepared_approach = c.approach;
     c.max_impulse = 0;
   }
 }
@@ -62,9 +63,14 @@ inline Vec3f relative_velocity(const Body& a, const Body& b, const Contact& c) {
   return b.v + b.w.cross(c.rb) - a.v - a.w.cross(c.ra);
 }
 
-void warm_start(Manifold& m, Body& a, Body& b) {
+void warm_start(const Settings& s, float speed_gain, Manifold& m, Body& a, Body& b) {
   for (int i = 0; i < m.count; ++i) {
-    const Contact& c = m.contacts[i];
+    Contact& c = m.contacts[i];
+    // What is about to strike gains speed until it does, but no more than gravity gives in a step.
+    if (c.approach < -s.restitution_speed && c.max_impulse == 0) {
+      const float vn = relative_velocity(a, b, c).dot(c.normal);
+      c.approach = std::min(c.approach, std::max(vn, c.prepared_approach - speed_gain));
+    }
     apply(a, b, c, c.normal_impulse * c.normal + c.f1 * c.t1 + c.f2 * c.t2);
   }
 }
@@ -91,7 +97,6 @@ void solve_manifold(const Settings& s, const Softness& soft, Manifold& m, Body& 
     const float impulse = -c.normal_mass * mass_scale * (vn + velocity_bias) - impulse_scale * c.normal_impulse;
     const float total = std::max(c.normal_impulse + impulse, 0.0f);
     const float change = total - c.normal_impulse;
-    if (c.normal_impulse == 0 && total > 0) c.approach = std::min(c.approach, vn);  // the moment it strikes
     c.normal_impulse = total;
     c.max_impulse = std::max(c.max_impulse, total);
     apply(a, b, c, change * c.normal);
@@ -246,7 +251,7 @@ void solve(World& world) {
   each_body([&](Body& b) { world.counters.free_steps += b.free; });
   for (int k = 0; k < s.sub_steps; ++k) {
     each_body([&](Body& b) { integrate_velocity(b, world.gravity, h); });
-    each([&](Manifold& m, Body& a, Body& b) { warm_start(m, a, b); });
+    each([&](Manifold& m, Body& a, Body& b) { warm_start(s, world.gravity.norm() * s.time_step, m, a, b); });
     each([&](Manifold& m, Body& a, Body& b) { solve_manifold(s, soft, m, a, b, h, true, d); });
     each_body([&](Body& b) { integrate_position(b, world.gravity, h); });
     each([&](Manifold& m, Body& a, Body& b) { solve_manifold(s, soft, m, a, b, h, false, d); });

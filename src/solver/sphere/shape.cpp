@@ -74,7 +74,11 @@ float Field::sample(const Vec3f& point, Vec3f& gradient) const {
   const float dx0 = mix(c.c[1] - c.c[0], c.c[3] - c.c[2], c.v), dx1 = mix(c.c[5] - c.c[4], c.c[7] - c.c[6], c.v);
   gradient = Vec3f(mix(dx0, dx1, c.w), mix(x1 - x0, x3 - x2, c.w), y1 - y0);
   const float length = gradient.norm();
-  if (length > 1e-12f) gradient /= length;
+  // On the medial axis the slopes of both sides cancel: out is then away from the centre of mass.
+  if (length > 1e-3f * cell)  // differences of neighbours: a slope of 1 is one cell
+    gradient /= length;
+  else
+    gradient = point.squaredNorm() > 0 ? Vec3f(point.normalized()) : Vec3f(Vec3f::UnitZ());
   const float distance = mix(y0, y1, c.w);
   return c.outside > 0 ? std::max(distance, c.outside + padding) : distance;
 }

@@ -66,7 +66,8 @@ struct Contact {
   Vec3f friction_impulse = Vec3f::Zero();  ///< on b, world frame
   // Of the current step.
   Vec3f normal = Vec3f::Zero(), ra = normal, rb = normal, t1 = normal, t2 = normal;
-  float separation = 0, normal_mass = 0, tangent_mass = 0, approach = 0, max_impulse = 0, gap = 0, f1 = 0, f2 = 0;
+  float separation = 0, normal_mass = 0, tangent_mass = 0, approach = 0, prepared_approach = 0, max_impulse = 0,
+        gap = 0, f1 = 0, f2 = 0;
 };
 
 struct Manifold {
