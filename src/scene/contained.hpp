@@ -1,5 +1,5 @@
 /// Runs a function in a forked child, so that a crash or an endless loop inside a third-party reader costs an error
-/// message instead of the process. Measured on assimp 5.2.5: damaged COLLADA files crash it, damaged PLY hang it.
+/// message instead of the process. Seen with assimp 5.2.5: a damaged COLLADA file crashed it.
 #pragma once
 
 #include <functional>

@@ -79,7 +79,7 @@ struct BulletSettings {
   int max_hulls = 64;              ///< cap on hulls per part; cost per touching pair grows with its square
 };
 
-/// The sphere solver as the thesis describes it (docs/thesis.md); preset `thesis`.
+/// The sphere solver as the thesis describes it; preset `thesis`.
 struct ThesisSettings {
   double time_step = 0.01;       ///< s
   int sub_steps = 1;             ///< whole steps of time_step / sub_steps each
@@ -95,7 +95,7 @@ struct ThesisSettings {
   int contacts_per_sphere = 4;   ///< capacity; grown and reported when it does not do
 };
 
-/// The default sphere solver (docs/solver.md): surface samples of one part against the distance field of the other.
+/// The default sphere solver: surface samples of one part against the distance field of the other.
 struct SphereSettings {
   double time_step = 1.0 / 800.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost

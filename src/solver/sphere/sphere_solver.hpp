@@ -1,5 +1,5 @@
 /// The default solver behind the common interface: surface samples of one part against the distance field of the
-/// other, sub-stepped soft contacts (docs/solver.md).
+/// other, sub-stepped soft contacts.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
