@@ -1,0 +1,119 @@
+#include "framework/benchmark.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "config/suggest.hpp"
+#include "framework/host.hpp"
+
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+
+namespace bin_scenes::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Benchmark>& registry() {
+  static std::vector<Benchmark> all;  // here, so that it is there before the first registration of any file
+  return all;
+}
+
+std::string models() {
+  const char* given = std::getenv("BIN_SCENES_MODELS");
+  return given ? given : BIN_SCENES_BENCH_MODELS;
+}
+
+}  // namespace
+
+Registration::Registration(const std::string& name, const std::string& about, std::function<void(Run&)> run) {
+  registry().push_back({name, about, std::move(run)});
+}
+
+std::vector<Benchmark> benchmarks() {
+  std::vector<Benchmark> all = registry();
+  std::sort(all.begin(), all.end(), [](const Benchmark& a, const Benchmark& b) { return a.name < b.name; });
+  return all;
+}
+
+std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return all;
+  std::vector<bool> wanted(all.size(), false);
+  std::vector<std::string> names;
+  for (const Benchmark& benchmark : all) names.push_back(benchmark.name);
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
+      wanted[i] = any = true;
+    }
+    if (any) continue;
+    const std::string near = config::nearest(pattern, names);
+    throw input_error("no benchmark is called '" + pattern + "'", "--filter",
+                      near.empty() ? "bin_scenes_bench --list shows all" : "did you mean '" + near + "'?");
+  }
+  std::vector<Benchmark> chosen;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (wanted[i]) chosen.push_back(all[i]);
+  return chosen;
+}
+
+Run::Run(const std::string& name, const Options& options, Table& table)
+    : name_(name),
+      scratch_(fs::temp_directory_path() / ("bin_scenes_bench_" + std::to_string(::getpid()) + "_" + name)),
+      options_(options),
+      table_(table) {
+  fs::create_directories(scratch_);
+}
+
+Run::~Run() {
+  std::error_code ignored;
+  fs::remove_all(scratch_, ignored);
+}
+
+std::string Run::part(const std::string& name) {
+  return models() + "/" + name + ".stl";
+}
+std::string Run::pieces(const std::string& name) {
+  return models() + "/pieces/" + name;
+}
+
+void Run::row(const Row& row) {
+  table_.add(row);
+  if (options_.csv) write_text(options_.out + "/" + name_ + ".csv", to_csv(table_));
+  if (options_.json) write_text(options_.out + "/" + name_ + ".json", to_json(table_));
+
+  std::string line;
+  for (const auto& [column, value] : row.cells()) {
+    if (value.empty()) continue;
+    if (column.role == Role::spread)
+      line += " [" + value + "]";
+    else
+      line += "  " + (column.role == Role::key ? value : column.name + " " + value);
+  }
+  std::printf("%s:%s\n", name_.c_str(), line.c_str());
+  std::fflush(stdout);
+}
+
+bool run(const Benchmark& benchmark, const Run::Options& options, const std::string& command) {
+  Table table;
+  table.header = {{"benchmark", benchmark.name}, {"about", benchmark.about}, {"command", command}};
+  for (const auto& line : host()) table.header.push_back(line);
+  table.header.emplace_back("quick", options.quick ? "yes" : "no");
+  Run run(benchmark.name, options, table);
+  try {
+    benchmark.run(run);
+    return true;
+  } catch (const std::exception& error) {
+    run.row(Row().status(std::string("failed: ") + error.what()));
+    return false;
+  }
+}
+
+}  // namespace bin_scenes::bench

@@ -1,0 +1,72 @@
+/// A benchmark is one file of bench/ with one registration at its end:
+///
+///     namespace bin_scenes::bench {
+///     namespace {
+///     void run(Run& out) {
+///       for (const double dt : out.quick() ? coarse : all) {
+///         out.row(Row().key("solver", "sphere").key("time_step_s", dt).measure("error_rel", samples));
+///       }
+///     }
+///     const Registration registration{"bounce", "height after a bounce over time steps, both solvers", run};
+///     }  // namespace
+///     }  // namespace bin_scenes::bench
+///
+/// The file goes into bench/CMakeLists.txt, its plot (if any) into bench/plots/<name>.gp.
+#pragma once
+
+#include "framework/table.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::bench {
+
+/// What a running benchmark is given.
+class Run {
+ public:
+  struct Options {
+    std::string out;  ///< folder of the results
+    bool quick = false, csv = true, json = false;
+  };
+  Run(const std::string& name, const Options& options, Table& table);
+
+  bool quick() const { return options_.quick; }
+  /// Adds a row to `<out>/<name>.csv`, which is whole after each row, and prints it.
+  void row(const Row& row);
+  /// Path of a file of models/: part("ring_24") is its mesh, part("ring_24", "pieces") the folder of its exact pieces.
+  static std::string part(const std::string& name);
+  static std::string pieces(const std::string& name);
+  /// A folder for this run alone, removed afterwards.
+  const std::string& scratch() const { return scratch_; }
+  ~Run();
+
+ private:
+  std::string name_, scratch_;
+  const Options& options_;
+  Table& table_;
+  std::vector<std::string> shown_columns_;
+};
+
+struct Benchmark {
+  std::string name;   ///< snake_case: file, CSV, plot
+  std::string about;  ///< one line
+  std::function<void(Run&)> run;
+};
+
+/// Puts a benchmark on the list; lives in an anonymous namespace of the benchmark's file.
+struct Registration {
+  Registration(const std::string& name, const std::string& about, std::function<void(Run&)> run);
+};
+
+/// All benchmarks by name.
+std::vector<Benchmark> benchmarks();
+
+/// Those whose name matches one of the glob patterns (all without patterns). Throws an input Error, with the nearest
+/// name, for a pattern that matches none.
+std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns);
+
+/// Runs one; a bin_scenes Error in it becomes a last row with its text as status. False then.
+bool run(const Benchmark& benchmark, const Run::Options& options, const std::string& command);
+
+}  // namespace bin_scenes::bench

@@ -1,0 +1,116 @@
+#include "framework/isolated.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <sstream>
+
+namespace bin_scenes::bench {
+
+namespace {
+
+// A row on its way through the pipe: role, name, value, one cell a line.
+std::string packed(const Row& row) {
+  std::string out;
+  for (const auto& [column, value] : row.cells()) {
+    std::string flat = value;
+    for (char& c : flat)
+      if (c == '\n' || c == '\t') c = ' ';
+    out += std::to_string(static_cast<int>(column.role)) + "\t" + column.name + "\t" + flat + "\n";
+  }
+  return out + "end\n";  // a row cut short by a crash has no end
+}
+
+bool unpack(const std::string& text, Row& row) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "end") return true;
+    const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
+    if (first == std::string::npos || second == std::string::npos) return false;
+    row.add({line.substr(first + 1, second - first - 1), static_cast<Role>(std::stoi(line.substr(0, first)))},
+            line.substr(second + 1));
+  }
+  return false;
+}
+
+[[noreturn]] void child(const std::function<Row()>& work, int pipe) {
+  std::string answer;
+  int code = 0;
+  try {
+    answer = packed(work());
+  } catch (const std::exception& error) {
+    answer = packed(Row().status(std::string("failed: ") + error.what()));
+    code = 1;
+  }
+  for (std::size_t sent = 0; sent < answer.size();) {
+    const ssize_t n = ::write(pipe, answer.data() + sent, answer.size() - sent);
+    if (n <= 0) break;
+    sent += static_cast<std::size_t>(n);
+  }
+  std::_Exit(code);  // no destructors of what the parent shares: files, folders, streams
+}
+
+/// What the child writes until it closes the pipe or the time is over (false).
+bool receive(int pipe, double limit_s, std::string& text) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    pollfd wait{pipe, POLLIN, 0};
+    if (left.count() <= 0 || ::poll(&wait, 1, static_cast<int>(left.count())) == 0) return false;
+    char buffer[4096];
+    const ssize_t n = ::read(pipe, buffer, sizeof buffer);
+    if (n <= 0) return true;
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+double seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+}  // namespace
+
+Isolated isolated(const std::function<Row()>& work, double limit_s) {
+  std::fflush(nullptr);  // or the child would print it again
+  int ends[2];
+  if (::pipe(ends) != 0) throw environment_error(std::strerror(errno), "pipe", "close some files");
+  const auto begin = std::chrono::steady_clock::now();
+  const pid_t pid = ::fork();
+  if (pid < 0) throw environment_error(std::strerror(errno), "fork", "free some memory");
+  if (pid == 0) {
+    ::close(ends[0]);
+    child(work, ends[1]);
+  }
+  ::close(ends[1]);
+  Isolated result;
+  std::string text;
+  const bool in_time = receive(ends[0], limit_s, text);
+  ::close(ends[0]);
+  if (!in_time) ::kill(pid, SIGKILL);
+  int status = 0;
+  rusage usage{};
+  ::wait4(pid, &status, 0, &usage);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.peak_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
+  result.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  const bool whole = unpack(text, result.row);
+  result.good = whole && in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (!in_time)
+    result.row = Row().status("stopped after " + Row::text(limit_s) + " s");
+  else if (WIFSIGNALED(status))
+    result.row = Row().status(std::string("crashed: ") + ::strsignal(WTERMSIG(status)));
+  else if (!whole)
+    result.row = Row().status("ended without a result");
+  return result;
+}
+
+}  // namespace bin_scenes::bench

@@ -1,0 +1,23 @@
+/// Work in a process of its own: its peak memory and CPU time are its own, and neither a crash nor a hang of a peer
+/// library takes the other rows along.
+#pragma once
+
+#include "framework/table.hpp"
+
+#include <functional>
+
+namespace bin_scenes::bench {
+
+struct Isolated {
+  Row row;  ///< what the function returned; only a status if it failed
+  bool good = false;
+  double peak_mb = 0.0;  ///< largest resident set (MB = 1e6 byte)
+  double cpu_s = 0.0;    ///< user and system time of all threads
+  double wall_s = 0.0;
+};
+
+/// Forks and runs `work` there. An exception, a crash or more than `limit_s` seconds of wall time become the row's
+/// status. The caller must not have made a GL context yet: contexts do not survive a fork.
+Isolated isolated(const std::function<Row()>& work, double limit_s = 600.0);
+
+}  // namespace bin_scenes::bench

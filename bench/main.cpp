@@ -1,0 +1,95 @@
+/// bin_scenes_bench: run time against error. Needs no ROS.
+#include "bin_scenes/core/error.hpp"
+#include "framework/benchmark.hpp"
+#include "framework/compare.hpp"
+#include "framework/host.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+namespace {
+
+using namespace bin_scenes;
+using namespace bin_scenes::bench;
+
+constexpr int kDone = 0, kSomethingToSay = 1;  // rows moved; a benchmark failed
+
+int complain(const std::string& message, ErrorKind kind) {
+  std::cerr << "bin_scenes_bench: " << message << std::endl;
+  return static_cast<int>(kind);
+}
+
+void list(const std::vector<Benchmark>& all) {
+  for (const Benchmark& benchmark : all) std::printf("%-18s %s\n", benchmark.name.c_str(), benchmark.about.c_str());
+}
+
+int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const std::string& arguments) {
+  if (options.out.empty()) options.out = "bench_results/" + device_slug();
+  if (!options.json) options.csv = true;
+  std::error_code failed;
+  std::filesystem::create_directories(options.out, failed);
+  if (failed) throw environment_error(failed.message(), options.out, "give a folder that can be written with --out");
+  bool good = true;
+  for (const Benchmark& benchmark : chosen) {
+    const std::string command = "bin_scenes_bench --filter " + benchmark.name + arguments;
+    good &= run(benchmark, options, command);
+  }
+  std::printf("results: %s\n", options.out.c_str());
+  return good ? kDone : kSomethingToSay;
+}
+
+int main_of(int argc, char** argv) {
+  CLI::App app("Run time against error, measured. Results are CSV files; bench/plot draws them.");
+  bool list_only = false;
+  std::vector<std::string> filter;
+  Run::Options options;
+  options.csv = false;
+  app.add_flag("--list", list_only, "the benchmarks that there are, or that --filter chooses");
+  app.add_option("--filter", filter, "names or glob patterns of benchmarks; default: all")->delimiter(',');
+  app.add_option("--out", options.out, "folder of the results; default: bench_results/<device>");
+  app.add_flag("--quick", options.quick, "small forms of all: minutes instead of hours, figures to look at only");
+  app.add_flag("--csv", options.csv, "write <benchmark>.csv (default)");
+  app.add_flag("--json", options.json, "write <benchmark>.json");
+
+  std::string before, after;
+  double floor = 0.03;
+  CLI::App* compare_app =
+      app.add_subcommand("compare", "which rows of two results moved beyond noise; exit 1 if any did");
+  compare_app->add_option("BEFORE", before, "CSV file, or folder of them")->required();
+  compare_app->add_option("AFTER", after, "the same of another run")->required();
+  compare_app->add_option("--floor", floor, "changes below this share of a value are noise")->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string(error.what()) + " (see bin_scenes_bench --help)", ErrorKind::input);
+  }
+  if (compare_app->parsed()) {
+    const Comparison comparison = compare_paths(before, after, floor);
+    std::fputs(to_text(comparison).c_str(), stdout);
+    return comparison.moved.empty() ? kDone : kSomethingToSay;
+  }
+  const std::vector<Benchmark> chosen = selected(benchmarks(), filter);
+  if (list_only) {
+    list(chosen);
+    return kDone;
+  }
+  return run_all(chosen, options, options.quick ? " --quick" : "");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return main_of(argc, argv);
+  } catch (const Error& error) {
+    return complain(error.what(), error.kind());
+  } catch (const std::exception& error) {
+    return complain(std::string("unexpected: ") + error.what(), ErrorKind::environment);
+  }
+}

@@ -1,0 +1,86 @@
+/// What a part costs before the first step: loading, mass, and the shapes that a solver asks for; from nothing (cold)
+/// and from the disk cache (warm). Each run is a process of its own, as a user's is.
+#include "bin_scenes/part/cache.hpp"
+#include "bin_scenes/solver/pour.hpp"
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "requests.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+namespace bin_scenes::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+Row prepare(const std::string& part, const std::string& solver_name) {
+  Request request = bin_of(part, 1);
+  choose_solver(request, solver_name);
+  LoadOptions load;
+  load.unit = request.parts[0].unit;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<PartModelPtr> parts = {PartModel::load(request.parts[0].path, load)};
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  solver->add_world(world_of(request, parts));
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  return Row()
+      .info("seconds", spent.count())
+      .info("triangles", parts[0]->mesh().triangles.size())
+      .info("built", PartModel::work().built);
+}
+
+double megabytes_in(const std::string& folder) {
+  double bytes = 0.0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+  return 1e-6 * bytes;
+}
+
+Row measured(const std::string& part, const std::string& solver, const std::string& scratch, int repeats) {
+  Row row;
+  row.key("part", part).key("solver", solver);
+  std::vector<double> cold, warm, peak;
+  double cache_mb = 0.0;
+  std::size_t triangles = 0, built_warm = 0;
+  for (int k = 0; k < repeats; ++k) {
+    const std::string cache = scratch + "/" + std::to_string(k);
+    fs::create_directories(cache);
+    ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    for (std::vector<double>* times : {&cold, &warm}) {
+      const Isolated one = isolated([&] { return prepare(part, solver); });
+      if (!one.good) return row.append(one.row);
+      times->push_back(one.row.number("seconds"));
+      triangles = static_cast<std::size_t>(one.row.number("triangles"));
+      if (times == &cold) peak.push_back(one.peak_mb);
+      if (times == &warm) built_warm = static_cast<std::size_t>(one.row.number("built"));
+    }
+    cache_mb = megabytes_in(cache + "/bin_scenes");
+    fs::remove_all(cache);
+  }
+  return row.exact("triangles", triangles)
+      .measure("cold_s", cold)
+      .measure("warm_s", warm)
+      .exact("built_warm", built_warm)
+      .measure("peak_mb", peak)
+      .measure("cache_mb", {cache_mb, cache_mb});
+}
+
+void run(Run& out) {
+  std::vector<std::string> parts;
+  for (const auto& entry : fs::directory_iterator(fs::path(Run::part("x")).parent_path()))
+    if (entry.path().extension() == ".stl") parts.push_back(entry.path().stem());
+  std::sort(parts.begin(), parts.end());
+  if (out.quick()) parts = {"channel_u", "conrod"};
+  for (const std::string& part : parts)
+    for (const char* solver : {"sphere", "bullet", "sphere/thesis"})
+      out.row(measured(part, solver, out.scratch(), out.quick() ? 1 : 3));
+}
+
+const Registration registration{"preparation", "seconds and memory to make each sample part ready, cold and warm", run};
+
+}  // namespace
+}  // namespace bin_scenes::bench

@@ -1,0 +1,31 @@
+#include "requests.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "framework/benchmark.hpp"
+
+namespace bin_scenes::bench {
+
+Request bin_of(const std::string& part, std::size_t count) {
+  Request request;
+  PartLine line;
+  line.model = part + ".stl";
+  line.path = Run::part(part);
+  line.unit = Unit::millimetre;
+  line.count = count;
+  line.density = 7850.0;
+  request.parts.push_back(line);
+  return request;
+}
+
+void choose_solver(Request& request, const std::string& name) {
+  if (name == "bullet") {
+    request.solver.type = SolverType::bullet;
+  } else if (name == "sphere" || name == "sphere/thesis") {
+    request.solver.type = SolverType::sphere;
+    request.solver.preset = name == "sphere" ? SolverSettings::Preset::standard : SolverSettings::Preset::thesis;
+  } else {
+    throw input_error("no solver is called '" + name + "'", "benchmark", "sphere, bullet or sphere/thesis");
+  }
+}
+
+}  // namespace bin_scenes::bench
