@@ -1,7 +1,7 @@
 #include "solver/sphere/sphere_solver.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "solver/sphere/world.hpp"
+#include "solver/sphere/make_world.hpp"
 
 #include <algorithm>
 #include <map>
@@ -21,29 +21,6 @@ struct Slot {
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
 };
 
-Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
-  Body body;
-  body.shape = index;
-  body.friction = static_cast<float>(def.friction);
-  body.restitution = static_cast<float>(def.restitution);
-  body.inverse_mass = def.fixed ? 0.0f : static_cast<float>(1.0 / def.mass);
-  body.inertia = shape.unit_inertia * static_cast<float>(def.mass);
-  body.inverse_inertia = def.fixed ? Mat3f(Mat3f::Zero()) : Mat3f(body.inertia.inverse());
-  return body;
-}
-
-std::vector<Plane> planes_of(const Bin& bin) {
-  if (bin.kind == Bin::Kind::none || bin.kind == Bin::Kind::mesh) return {};
-  std::vector<Plane> planes = {{Vec3f::UnitZ(), 0.0f, false}};
-  if (bin.kind == Bin::Kind::floor) return planes;
-  const float x = static_cast<float>(0.5 * bin.inner_size.x()), y = static_cast<float>(0.5 * bin.inner_size.y());
-  planes.push_back({Vec3f::UnitX(), -x, true});
-  planes.push_back({-Vec3f::UnitX(), -x, true});
-  planes.push_back({Vec3f::UnitY(), -y, true});
-  planes.push_back({-Vec3f::UnitY(), -y, true});
-  return planes;
-}
-
 class SphereSolver final : public Solver {
  public:
   explicit SphereSolver(const SphereSettings& settings) : settings_(settings) {}
@@ -56,20 +33,8 @@ class SphereSolver final : public Solver {
     slot = Slot{};
     slot.used = true;
     slot.bodies = def.bodies.size();
-    World& w = slot.world;
-    w.settings.time_step = static_cast<float>(settings_.time_step);
-    w.settings.sub_steps = settings_.sub_steps;
-    w.gravity = def.gravity.cast<float>();
-    w.wall_top = static_cast<float>(def.wall_height);
-    w.ground_friction = static_cast<float>(def.bin.friction);
-    w.ground_restitution = static_cast<float>(def.bin.restitution);
-    w.planes = planes_of(def.bin);
-    for (const PartModelPtr& part : def.parts) w.shapes.push_back(&shape_of(part));
-    for (const BodyDef& body : def.bodies)
-      w.bodies.push_back(make_body(*w.shapes[body.part], static_cast<std::uint32_t>(body.part), body));
-    if (def.bin.kind == Bin::Kind::mesh) add_mesh_bin(slot, def);
-    w.smallest_diagonal = std::numeric_limits<float>::max();
-    for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->diagonal);
+    slot.world =
+        make_world(def, settings_, [this](const PartModelPtr& part) -> const Shape& { return shape_of(part); });
     return id;
   }
 
@@ -78,19 +43,7 @@ class SphereSolver final : public Solver {
     *slots_[id] = Slot{};
   }
 
-  void insert(WorldId id, std::size_t body, const BodyState& state) override {
-    World& w = slots_[id]->world;
-    Body& b = w.bodies[body];
-    b.q = state.pose.orientation.cast<float>().normalized();
-    b.x = state.pose.position.cast<float>() + b.q * w.shapes[b.shape]->center;
-    b.v = b.inverse_mass > 0 ? Vec3f(state.velocity.linear.cast<float>()) : Vec3f(Vec3f::Zero());
-    b.w = b.inverse_mass > 0 ? Vec3f(state.velocity.angular.cast<float>()) : Vec3f(Vec3f::Zero());
-    b.present = true;
-    b.asleep = false;
-    b.still = 0;
-    b.still_x = b.x;
-    b.still_q = b.q;
-  }
+  void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slots_[id]->world, body, state); }
 
   void remove(WorldId id, std::size_t body) override {
     World& w = slots_[id]->world;
@@ -129,17 +82,7 @@ class SphereSolver final : public Solver {
   std::vector<BodyState> states(WorldId id) const override {
     const Slot& slot = *slots_[id];
     std::vector<BodyState> out(slot.bodies);
-    for (std::size_t i = 0; i < slot.bodies; ++i) {
-      const Body& b = slot.world.bodies[i];
-      if (!b.present && b.still_x.isZero()) {
-        out[i].pose.position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-        continue;
-      }
-      out[i].pose.orientation = b.q.cast<double>().normalized();
-      out[i].pose.position =
-          b.x.cast<double>() - out[i].pose.orientation * slot.world.shapes[b.shape]->center.cast<double>();
-      out[i].velocity = {b.v.cast<double>(), b.w.cast<double>()};
-    }
+    for (std::size_t i = 0; i < slot.bodies; ++i) out[i] = state_of(slot.world, i);
     return out;
   }
 
@@ -174,25 +117,6 @@ class SphereSolver final : public Solver {
           make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
     }
     return *entry.shape;
-  }
-
-  /// A bin given as a mesh is one more fixed body.
-  void add_mesh_bin(Slot& slot, const WorldDef& def) {
-    World& w = slot.world;
-    const auto index = static_cast<std::uint32_t>(w.shapes.size());
-    w.shapes.push_back(&shape_of(def.bin_model));
-    BodyDef bin;
-    bin.fixed = true;
-    bin.friction = def.bin.friction;
-    bin.restitution = def.bin.restitution;
-    w.bodies.push_back(make_body(*w.shapes[index], index, bin));
-    insert_fixed(w, w.bodies.back(), def.bin.pose);
-  }
-
-  static void insert_fixed(World& w, Body& b, const Pose& pose) {
-    b.q = pose.orientation.cast<float>().normalized();
-    b.x = pose.position.cast<float>() + b.q * w.shapes[b.shape]->center;
-    b.present = true;
   }
 
   static void add(Profile& p, const Counters& c) {

@@ -1,0 +1,89 @@
+#include "solver/sphere/make_world.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
+  Body body;
+  body.shape = index;
+  body.friction = static_cast<float>(def.friction);
+  body.restitution = static_cast<float>(def.restitution);
+  body.inverse_mass = def.fixed ? 0.0f : static_cast<float>(1.0 / def.mass);
+  body.inertia = shape.unit_inertia * static_cast<float>(def.mass);
+  body.inverse_inertia = def.fixed ? Mat3f(Mat3f::Zero()) : Mat3f(body.inertia.inverse());
+  return body;
+}
+
+std::vector<Plane> planes_of(const Bin& bin) {
+  if (bin.kind == Bin::Kind::none || bin.kind == Bin::Kind::mesh) return {};
+  std::vector<Plane> planes = {{Vec3f::UnitZ(), 0.0f, false}};
+  if (bin.kind == Bin::Kind::floor) return planes;
+  const float x = static_cast<float>(0.5 * bin.inner_size.x()), y = static_cast<float>(0.5 * bin.inner_size.y());
+  planes.push_back({Vec3f::UnitX(), -x, true});
+  planes.push_back({-Vec3f::UnitX(), -x, true});
+  planes.push_back({Vec3f::UnitY(), -y, true});
+  planes.push_back({-Vec3f::UnitY(), -y, true});
+  return planes;
+}
+
+}  // namespace
+
+World make_world(const WorldDef& def, const SphereSettings& settings,
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of) {
+  World w;
+  w.settings.time_step = static_cast<float>(settings.time_step);
+  w.settings.sub_steps = settings.sub_steps;
+  w.gravity = def.gravity.cast<float>();
+  w.wall_top = static_cast<float>(def.wall_height);
+  w.ground_friction = static_cast<float>(def.bin.friction);
+  w.ground_restitution = static_cast<float>(def.bin.restitution);
+  w.planes = planes_of(def.bin);
+  for (const PartModelPtr& part : def.parts) w.shapes.push_back(&shape_of(part));
+  for (const BodyDef& body : def.bodies)
+    w.bodies.push_back(make_body(*w.shapes[body.part], static_cast<std::uint32_t>(body.part), body));
+  if (def.bin.kind == Bin::Kind::mesh) {
+    const auto index = static_cast<std::uint32_t>(w.shapes.size());
+    w.shapes.push_back(&shape_of(def.bin_model));
+    BodyDef bin;
+    bin.fixed = true;
+    bin.friction = def.bin.friction;
+    bin.restitution = def.bin.restitution;
+    w.bodies.push_back(make_body(*w.shapes[index], index, bin));
+    place(w, w.bodies.size() - 1, {def.bin.pose, {}});
+  }
+  w.smallest_diagonal = std::numeric_limits<float>::max();
+  for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->diagonal);
+  return w;
+}
+
+void place(World& world, std::size_t body, const BodyState& state) {
+  Body& b = world.bodies[body];
+  b.q = state.pose.orientation.cast<float>().normalized();
+  b.x = state.pose.position.cast<float>() + b.q * world.shapes[b.shape]->center;
+  b.v = b.inverse_mass > 0 ? Vec3f(state.velocity.linear.cast<float>()) : Vec3f(Vec3f::Zero());
+  b.w = b.inverse_mass > 0 ? Vec3f(state.velocity.angular.cast<float>()) : Vec3f(Vec3f::Zero());
+  b.present = true;
+  b.asleep = false;
+  b.still = 0;
+  b.still_x = b.x;
+  b.still_q = b.q;
+}
+
+BodyState state_of(const World& world, std::size_t body) {
+  const Body& b = world.bodies[body];
+  BodyState state;
+  if (!b.present && b.still_x.isZero()) {
+    state.pose.position = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    return state;
+  }
+  state.pose.orientation = b.q.cast<double>().normalized();
+  state.pose.position = b.x.cast<double>() - state.pose.orientation * world.shapes[b.shape]->center.cast<double>();
+  state.velocity = {b.v.cast<double>(), b.w.cast<double>()};
+  return state;
+}
+
+}  // namespace bin_scenes::sphere

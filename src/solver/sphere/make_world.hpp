@@ -1,0 +1,23 @@
+/// Between the common interface's terms and a world of the sphere solver: what both forms of it, the passes on the CPU
+/// and those on the GPU, build and answer alike.
+#pragma once
+
+#include "bin_scenes/solver/solver.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <functional>
+
+namespace bin_scenes::sphere {
+
+/// All bodies absent. A bin given as a mesh is one more, fixed body behind those of the definition.
+/// `shape_of`: the collision shape of a part; it must outlive the world.
+World make_world(const WorldDef& def, const SphereSettings& settings,
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of);
+
+/// Puts a body where the state says, awake.
+void place(World& world, std::size_t body, const BodyState& state);
+
+/// Pose of the model frame and velocity; NaN position for a body that was never placed.
+BodyState state_of(const World& world, std::size_t body);
+
+}  // namespace bin_scenes::sphere
