@@ -12,6 +12,7 @@ layout(std430, binding = BIND_INERTIAS) readonly buffer Inertias { ThesisInertia
 layout(std430, binding = BIND_SPHERES) readonly buffer Spheres { ThesisSphere spheres[]; };
 layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { ThesisContact contacts[]; };
+layout(std430, binding = BIND_NEIGHBOUR_COUNTS) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430, binding = BIND_TOUCHING_SPHERES) readonly buffer TouchingSpheres { uint touching_spheres[]; };
 layout(std430, binding = BIND_STATUS) readonly buffer Status { ThesisStatus status; };
 
@@ -19,13 +20,14 @@ layout(std430, binding = BIND_STATUS) readonly buffer Status { ThesisStatus stat
 
 // One side of a contact. A sheet of the bin is a body that never moves.
 Side side_of(uint body) {
+  float split = lighter(neighbour_counts[body]);
   Side side;
   side.velocity = states[body].velocity.xyz;
   side.spin = states[body].spin.xyz;
   side.position = states[body].position.xyz;
-  side.inverse_mass = bodies[body].inverse_inertia.w;
-  side.diagonal = inertias[body].diagonal.xyz;
-  side.mixed = inertias[body].mixed.xyz;
+  side.inverse_mass = split * bodies[body].inverse_inertia.w;
+  side.diagonal = split * inertias[body].diagonal.xyz;
+  side.mixed = split * inertias[body].mixed.xyz;
   return side;
 }
 

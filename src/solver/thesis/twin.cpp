@@ -46,9 +46,12 @@ struct Side {
   V response(const V& arm, const V& p) const { return inverse_mass * p + (inverse_inertia * arm.cross(p)).cross(arm); }
 };
 
+/// Split among its neighbours (contact_impulse.h).
 Side side_of(const Memory& m, gpu::uint body) {
   const gpu::ThesisState& s = m.states[body];
-  return {v(s.position), v(s.velocity), v(s.spin), m.bodies[body].inverse_inertia.w, matrix(m.inertias[body])};
+  const float lighter = std::max(1.0f, static_cast<float>(m.neighbour_counts[body]) / 1.9f);
+  return {v(s.position), v(s.velocity), v(s.spin), lighter * m.bodies[body].inverse_inertia.w,
+          lighter * matrix(m.inertias[body])};
 }
 
 }  // namespace

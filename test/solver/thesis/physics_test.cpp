@@ -250,5 +250,34 @@ TEST(ThesisPhysics, AStackComesToRest) {
   }
 }
 
+// Bodies in a pile have many neighbours; were each given the whole of a body's mass, iterations would add up to more
+// than is needed and throw the pile apart.
+TEST(ThesisPhysics, MoreIterationsNeverThrowAPileApart) {
+  for (const int iterations : {10, 40}) {
+    ThesisSettings settings;
+    settings.iterations = iterations;
+    ThesisSolver solver(settings);
+    WorldBuilder world;
+    world.def.bin.inner_size = Vec3(0.08, 0.08, 0.3);
+    const std::size_t shape = world.shape(cube(3, 0.005));
+    for (int i = 0; i < 12; ++i) {
+      world.body(shape, Vec3((i % 2 - 0.5) * 0.04, (i / 2 % 2 - 0.5) * 0.04, 0.02 + i / 4 * 0.04), Vec3::Zero(), 0.1);
+      world.starts.back().pose.orientation = Quat(Eigen::AngleAxisd(0.3 + 0.2 * i, Vec3(1, i % 3, 2).normalized()));
+    }
+    const WorldId id = world.add(solver, settings);
+    solver.advance({id}, 1.0);
+    double fastest = 0.0, highest = 0.0;
+    for (int look = 0; look < 10; ++look) {
+      solver.advance({id}, 0.05);
+      for (const BodyState& state : solver.states(id)) {
+        fastest = std::max(fastest, state.velocity.linear.norm());
+        highest = std::max(highest, state.pose.position.z());
+      }
+    }
+    EXPECT_LT(fastest, 0.1) << iterations;  // a step of gravity, m/s
+    EXPECT_LT(highest, 0.12) << iterations;
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes::thesis::test
