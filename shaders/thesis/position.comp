@@ -31,8 +31,9 @@ void main() {
   vec4 q = states[b].orientation;
   vec3 w = states[b].spin.xyz, inverse = bodies[b].inverse_inertia.xyz;
   vec3 momentum = rotate(q, rotate(quat_conjugate(q), w) / inverse);
-  for (int i = 0; i < 3; ++i) w = spin_of(quat_multiply(quat_of_turn(0.5 * dt * w), q), momentum, inverse);
+  for (int i = 0; i < 6; ++i) w = spin_of(quat_multiply(quat_of_turn(0.5 * dt * w), q), momentum, inverse);
   q = normalize(quat_multiply(quat_of_turn(dt * w), q));
+  q *= 1.5 - 0.5 * dot(q, q);  // built-in normalize may be off by 1e-7 to one side, and ten thousand steps add that up
   states[b].orientation = q;
   states[b].spin.xyz = spin_of(q, momentum, inverse);
 }

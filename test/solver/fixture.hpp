@@ -1,77 +1,15 @@
-/// Vocabulary of the solver tests: "drop this part, simulate two seconds". Every solver runs the same tests: a test
-/// file lists its factories and instantiates the suites of closed_forms.hpp and contract.hpp with them.
+/// Every solver runs the same tests: a test file lists its factories and instantiates the suites of closed_forms.hpp
+/// with them.
 #pragma once
 
-#include "bin_scenes/solver/solver.hpp"
+#include "solver/lab.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <map>
-#include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace bin_scenes::testing {
-
-inline Mesh merged(Mesh a, const Mesh& b) {
-  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  return a;
-}
-
-inline Mesh box_mesh(const Vec3& size, const Vec3& center = Vec3::Zero()) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(center + 0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-/// Icosahedron, each triangle split into four `subdivisions` times, on the sphere.
-inline Mesh sphere_mesh(double radius, int subdivisions = 3) {
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  Mesh mesh;
-  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  for (int s = 0; s < subdivisions; ++s) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [it, fresh] = middles.try_emplace(std::minmax(a, b), mesh.vertices.size());
-      if (fresh) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-      return it->second;
-    };
-    std::vector<Triangle> finer;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    mesh.triangles = finer;
-    for (Vec3& v : mesh.vertices) v.normalize();
-  }
-  for (Vec3& v : mesh.vertices) v = radius * v.normalized();
-  return mesh;
-}
-
-/// A part made of `count` boxes along a circle: concave, a union of convex pieces known exactly.
-inline Mesh ring_mesh(int count, double inner, double outer, double height) {
-  Mesh mesh;
-  for (int k = 0; k < count; ++k) {
-    Mesh piece = box_mesh(Vec3(1, 1, height));
-    for (std::size_t i = 0; i < 8; ++i) {
-      const double angle = 2.0 * M_PI * (k + (i & 2 ? 1 : 0)) / count, radius = i & 1 ? outer : inner;
-      piece.vertices[i].head<2>() = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    }
-    mesh = merged(mesh, piece);
-  }
-  return mesh;
-}
 
 struct SolverCase {
   std::string name;
@@ -82,79 +20,9 @@ inline std::ostream& operator<<(std::ostream& out, const SolverCase& solver) {
   return out << solver.name;
 }
 
-/// One world of one solver, with its bodies' properties in reach.
-class Lab {
- public:
-  explicit Lab(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) { def_.bin.kind = Bin::Kind::floor; }
-
-  WorldDef& def() { return def_; }
-  Solver& solver() { return *solver_; }
-  WorldId world() const { return world_; }
-
-  /// Adds a body at rest with its centre of mass at `center`; returns its index.
-  std::size_t place(const PartModelPtr& part, const Vec3& center, const Quat& orientation = Quat::Identity(),
-                    BodyDef body = {}) {
-    std::size_t p = 0;
-    while (p < def_.parts.size() && def_.parts[p] != part) ++p;
-    if (p == def_.parts.size()) def_.parts.push_back(part);
-    body.part = p;
-    def_.bodies.push_back(body);
-    starts_.push_back({{center - orientation * part->mass().center, orientation}, {}});
-    return starts_.size() - 1;
-  }
-  BodyState& start(std::size_t body) { return starts_[body]; }
-
-  void simulate(double seconds) {
-    if (!begun_) {
-      world_ = solver_->add_world(def_);
-      for (std::size_t b = 0; b < starts_.size(); ++b) solver_->insert(world_, b, starts_[b]);
-      begun_ = true;
-    }
-    time_ += solver_->advance({world_}, seconds);
-  }
-  double time() const { return time_; }
-
-  BodyState state(std::size_t body) const { return solver_->states(world_)[body]; }
-  const PartModel& part(std::size_t body) const { return *def_.parts[def_.bodies[body].part]; }
-  Vec3 center(std::size_t body) const { return state(body).pose * part(body).mass().center; }
-  Vec3 momentum(std::size_t body) const { return def_.bodies[body].mass * state(body).velocity.linear; }
-  /// About the centre of mass, bin frame.
-  Vec3 spin(std::size_t body) const {
-    const Mat3 R = state(body).pose.orientation.toRotationMatrix();
-    const MassProperties& mass = part(body).mass();
-    return R * mass.inertia * R.transpose() * state(body).velocity.angular * (def_.bodies[body].mass / mass.volume);
-  }
-  double kinetic_energy(std::size_t body) const {
-    const Twist v = state(body).velocity;
-    return 0.5 * def_.bodies[body].mass * v.linear.squaredNorm() + 0.5 * v.angular.dot(spin(body));
-  }
-
- private:
-  std::unique_ptr<Solver> solver_;
-  WorldDef def_;
-  std::vector<BodyState> starts_;
-  WorldId world_ = 0;
-  bool begun_ = false;
-  double time_ = 0.0;
-};
-
 class SolverTest : public ::testing::TestWithParam<SolverCase> {
  protected:
   Lab lab() { return Lab(GetParam().make()); }
-  static PartModelPtr box(const Vec3& size) { return PartModel::from_mesh(box_mesh(size), "box"); }
-  static PartModelPtr sphere(double radius) { return PartModel::from_mesh(sphere_mesh(radius, 4), "sphere"); }
 };
-
-inline BodyDef material(double friction, double restitution = 0.0, double mass = 1.0) {
-  BodyDef body;
-  body.friction = friction;
-  body.restitution = restitution;
-  body.mass = mass;
-  return body;
-}
-
-inline Quat about_y(double angle) {
-  return Quat(Eigen::AngleAxisd(angle, Vec3::UnitY()));
-}
 
 }  // namespace bin_scenes::testing

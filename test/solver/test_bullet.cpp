@@ -7,7 +7,5 @@ const SolverCase bullet_default{"bullet", [] { return make_bullet_solver({}); }}
 
 INSTANTIATE_TEST_SUITE_P(Bullet, ClosedForms, ::testing::Values(bullet_default),
                          [](const auto& info) { return info.param.name; });
-INSTANTIATE_TEST_SUITE_P(Bullet, AlignedFaces, ::testing::Values(bullet_default),
-                         [](const auto& info) { return info.param.name; });
 
 }  // namespace bin_scenes::testing

@@ -322,7 +322,7 @@ void position(Memory& m) {
     const V momentum = old * (old.conjugate() * v(state.spin)).cwiseQuotient(inverse);
     const auto spin_of = [&](const Q& at) { return V(at * inverse.cwiseProduct(at.conjugate() * momentum)); };
     V spin = v(state.spin);
-    for (int i = 0; i < 3; ++i) spin = spin_of(turn(0.5f * dt * spin) * old);
+    for (int i = 0; i < 6; ++i) spin = spin_of(turn(0.5f * dt * spin) * old);
     const Q now = (turn(dt * spin) * old).normalized();
     state.orientation = pack(now.vec(), now.w());
     state.spin = pack(spin_of(now));

@@ -1,0 +1,171 @@
+/// Scenes with an answer in closed form, as numbers: tests hold them to a tolerance, the benchmark closed_forms prints
+/// them over time steps. SI units; what is relative says so.
+#pragma once
+
+#include "solver/lab.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::testing {
+
+constexpr double g = 9.81;
+
+struct Fall {
+  double way, speed;  ///< errors / exact value
+};
+/// A box thrown up and along, for one second.
+inline Fall free_fall(Lab lab) {
+  lab.def().bin.kind = Bin::Kind::none;
+  const Vec3 from(0.1, 0.2, 0.3);
+  const auto body = lab.place(box({0.05, 0.03, 0.02}), from);
+  lab.start(body).velocity.linear = Vec3(0.5, 0.0, 1.0);
+  lab.simulate(1.0);
+  const double t = lab.time(), speed = 1.0 - g * t;
+  const Vec3 expected(0.5 * t, 0.0, t - 0.5 * g * t * t);
+  return {(lab.center(body) - from - expected).norm() / expected.norm(),
+          std::abs((lab.state(body).velocity.linear.z() - speed) / speed)};
+}
+
+/// Height that a ball reaches after its first bounce / height it was let go from; restitution squared.
+inline double bounce(Lab lab, double drop, double restitution) {
+  const double radius = 0.025;
+  const auto ball = lab.place(sphere(radius), Vec3(0, 0, radius + drop), Quat::Identity(), material(0.5, restitution));
+  double peak = 0.0;
+  while (lab.time() < 3.0 * std::sqrt(2.0 * drop / g)) {
+    lab.simulate(lab.solver().step_size());
+    const double speed = lab.state(ball).velocity.linear.z();
+    if (speed < 0.0 && peak > 0.0) break;
+    if (speed > 0.0) peak = std::max(peak, lab.center(ball).z() - radius);
+  }
+  return peak / drop;
+}
+
+struct Slide {
+  double way;    ///< error / exact way
+  double aside;  ///< of the direction, rad
+  double speed;  ///< left over, m/s
+};
+/// A flat box that friction stops: v0^2 / (2 mu g), straight on.
+inline Slide slide(Lab lab) {
+  lab.def().bin.friction = 0.45;
+  const auto body = lab.place(box({0.05, 0.04, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(0.2));
+  lab.start(body).velocity.linear = Vec3(0.8, 0.6, 0.0);
+  lab.simulate(1.0);
+  const double mu = 0.3, expected = 1.0 / (2.0 * mu * g);  // sqrt(0.45 * 0.2)
+  const Vec3 way = lab.center(body);
+  return {std::abs(way.head<2>().norm() / expected - 1.0),
+          std::abs(std::atan2(way.y(), way.x()) - std::atan2(0.6, 0.8)), lab.state(body).velocity.linear.norm()};
+}
+
+/// Way in one second of a flat box with mu = 0.5 on a slope, m. A tilted gravity stands for it; `heading` is the
+/// direction down it, which must not matter.
+inline double slip(Lab lab, double angle, double heading) {
+  lab.def().gravity =
+      g * Vec3(std::sin(angle) * std::cos(heading), std::sin(angle) * std::sin(heading), -std::cos(angle));
+  const auto body = lab.place(box({0.05, 0.05, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(0.5));
+  lab.simulate(1.0);
+  return lab.center(body).head<2>().norm();
+}
+
+/// A ball that rolls down 15 degrees for one second: error / way, from the tessellated body's own moment of inertia
+/// (5/7 g sin(angle) for an ideal ball).
+inline double roll(Lab lab) {
+  const double angle = 15.0 * M_PI / 180.0, radius = 0.025;
+  lab.def().gravity = g * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+  const PartModelPtr ball = sphere(radius);
+  const auto body = lab.place(ball, Vec3(0, 0, radius), Quat::Identity(), material(0.5));
+  lab.simulate(1.0);
+  const double k = ball->mass().principal.mean() / (ball->mass().volume * radius * radius);
+  const double expected = 0.5 * g * std::sin(angle) / (1.0 + k) * lab.time() * lab.time();
+  return std::abs(lab.center(body).x() / expected - 1.0);
+}
+
+struct Collision {
+  double momentum;  ///< largest change / sum of the two
+  double spin;      ///< change of the angular momentum / (momentum times a box edge)
+  double energy;    ///< highest / at the start; above 1 = gained
+  double push;      ///< change of the first body's velocity, m/s: 0 = they did not meet
+};
+/// Two boxes that meet off centre, with friction 0.4.
+inline Collision collide(Lab lab, double restitution) {
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const auto a = lab.place(box({0.05, 0.03, 0.02}), Vec3(-0.06, 0.004, 0.002),
+                           Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())), material(0.4, restitution, 0.3));
+  const auto b = lab.place(box({0.04, 0.04, 0.04}), Vec3(0.06, 0, 0), Quat::Identity(), material(0.4, 0.0, 0.2));
+  lab.start(a).velocity.linear = Vec3(0.8, 0.0, 0.0);
+  lab.start(b).velocity.linear = Vec3(-0.5, 0.0, 0.0);
+  lab.start(b).velocity.angular = Vec3(0, 3, 5);
+  const auto energy = [&] { return lab.kinetic_energy(a) + lab.kinetic_energy(b); };
+  const auto momentum = [&] { return Vec3(lab.momentum(a) + lab.momentum(b)); };
+  const auto spin = [&] {
+    return Vec3(lab.spin(a) + lab.spin(b) + lab.center(a).cross(lab.momentum(a)) +
+                lab.center(b).cross(lab.momentum(b)));
+  };
+  lab.simulate(lab.solver().step_size());
+  const Vec3 momentum_before = momentum(), spin_before = spin();
+  const double energy_before = energy(), speed = lab.state(a).velocity.linear.x();
+  double highest = energy_before;
+  while (lab.time() < 0.3) {
+    lab.simulate(lab.solver().step_size());
+    highest = std::max(highest, energy());
+  }
+  return {(momentum() - momentum_before).norm() / (0.3 * 0.8 + 0.2 * 0.5),
+          (spin() - spin_before).norm() / (0.24 * 0.05), highest / energy_before,
+          std::abs(lab.state(a).velocity.linear.x() - speed)};
+}
+
+struct Tumble {
+  double lowest, highest;  ///< kinetic energy / that of the first step
+  double spin;             ///< largest change of |L| / |L|
+  double turned;           ///< lowest cosine between the middle axis and where it pointed: near -1 = it turned over
+};
+/// Dzhanibekov: a body that turns about its middle axis tumbles for ten seconds.
+inline Tumble tumble(Lab lab) {
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const auto body = lab.place(box({0.06, 0.03, 0.01}), Vec3::Zero());
+  lab.start(body).velocity.angular = Vec3(0.01, 8.0, 0.01);
+  lab.simulate(lab.solver().step_size());
+  const double energy = lab.kinetic_energy(body), spin = lab.spin(body).norm();
+  Tumble result{1.0, 1.0, 0.0, 1.0};
+  while (lab.time() < 10.0) {
+    lab.simulate(0.02);
+    result.lowest = std::min(result.lowest, lab.kinetic_energy(body) / energy);
+    result.highest = std::max(result.highest, lab.kinetic_energy(body) / energy);
+    result.spin = std::max(result.spin, std::abs(lab.spin(body).norm() / spin - 1.0));
+    result.turned = std::min(result.turned, (lab.state(body).pose.orientation * Vec3::UnitY()).y());
+  }
+  return result;
+}
+
+/// Ten boxes on each other for `seconds`: largest displacement of any / edge.
+inline double stack_drift(Lab lab, double seconds) {
+  const double edge = 0.04;
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  const auto start = [&](int i) { return Vec3(0, 0, (i + 0.5) * edge); };
+  for (int i = 0; i < 10; ++i) lab.place(cube, start(i), Quat::Identity(), material(0.5));
+  lab.simulate(seconds);
+  double most = 0.0;
+  for (int i = 0; i < 10; ++i)
+    most = std::max(most, (lab.center(static_cast<std::size_t>(i)) - start(i)).norm() / edge);
+  return most;
+}
+
+struct Rods {
+  double first, second;  ///< speeds along the blow afterwards / speed of the first before: 0 and 1
+};
+/// The thesis's figures 3.2 to 3.4: a rod that meets another with many contacts at once exchanges no more than one.
+inline Rods meet_along_rods(Lab lab) {
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const double speed = 0.4;
+  const PartModelPtr rod = box({0.06, 0.01, 0.01});
+  const auto a = lab.place(rod, Vec3(0, 0, -0.02), Quat::Identity(), material(0.0, 1.0));
+  const auto b = lab.place(rod, Vec3(0, 0, 0.02), Quat::Identity(), material(0.0, 1.0));
+  lab.start(a).velocity.linear = Vec3(0, 0, speed);
+  lab.simulate(0.2);
+  return {lab.state(a).velocity.linear.z() / speed, lab.state(b).velocity.linear.z() / speed};
+}
+
+}  // namespace bin_scenes::testing
