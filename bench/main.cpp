@@ -49,6 +49,10 @@ int main_of(int argc, char** argv) {
   options.csv = false;
   app.add_flag("--list", list_only, "the benchmarks that there are, or that --filter chooses");
   app.add_option("--filter", filter, "names or glob patterns of benchmarks; default: all")->delimiter(',');
+  app.add_option("--rows", options.rows, "key=glob: only rows like this (solver=sphere); the file's other rows stay")
+      ->check([](const std::string& filter) {
+        return filter.find('=') == std::string::npos ? "expected key=glob, found '" + filter + "'" : std::string();
+      });
   app.add_option("--out", options.out, "folder of the results; default: bench_results/<device>");
   app.add_flag("--quick", options.quick, "small forms of all: minutes instead of hours, figures to look at only");
   app.add_flag("--csv", options.csv, "write <benchmark>.csv (default)");

@@ -4,7 +4,7 @@
 #include "bin_scenes/solver/pour.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "requests.hpp"
+#include "runs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -40,19 +40,22 @@ double megabytes_in(const std::string& folder) {
   return 1e-6 * bytes;
 }
 
-Row measured(const std::string& part, const std::string& solver, const std::string& scratch, int repeats) {
+void measure(Run& out, const std::string& part, const std::string& solver, int repeats) {
   Row row;
   row.key("part", part).key("solver", solver);
+  if (!out.wanted(row)) return;
   std::vector<double> cold, warm, peak;
   double cache_mb = 0.0;
   std::size_t triangles = 0, built_warm = 0;
   for (int k = 0; k < repeats; ++k) {
-    const std::string cache = scratch + "/" + std::to_string(k);
+    const std::string cache = out.scratch() + "/" + std::to_string(k);
     fs::create_directories(cache);
-    ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
     for (std::vector<double>* times : {&cold, &warm}) {
-      const Isolated one = isolated([&] { return prepare(part, solver); });
-      if (!one.good) return row.append(one.row);
+      const Isolated one = isolated([&] {
+        ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+        return prepare(part, solver);
+      });
+      if (!one.good) return out.row(row.append(one.row));
       times->push_back(one.row.number("seconds"));
       triangles = static_cast<std::size_t>(one.row.number("triangles"));
       if (times == &cold) peak.push_back(one.peak_mb);
@@ -61,12 +64,12 @@ Row measured(const std::string& part, const std::string& solver, const std::stri
     cache_mb = megabytes_in(cache + "/bin_scenes");
     fs::remove_all(cache);
   }
-  return row.exact("triangles", triangles)
-      .measure("cold_s", cold)
-      .measure("warm_s", warm)
-      .exact("built_warm", built_warm)
-      .measure("peak_mb", peak)
-      .measure("cache_mb", {cache_mb, cache_mb});
+  out.row(row.exact("triangles", triangles)
+              .measure("cold_s", cold)
+              .measure("warm_s", warm)
+              .exact("built_warm", built_warm)
+              .measure("peak_mb", peak)
+              .measure("cache_mb", {cache_mb, cache_mb}));
 }
 
 void run(Run& out) {
@@ -76,8 +79,7 @@ void run(Run& out) {
   std::sort(parts.begin(), parts.end());
   if (out.quick()) parts = {"channel_u", "conrod"};
   for (const std::string& part : parts)
-    for (const char* solver : {"sphere", "bullet", "sphere/thesis"})
-      out.row(measured(part, solver, out.scratch(), out.quick() ? 1 : 3));
+    for (const char* solver : {"sphere", "bullet", "sphere/thesis"}) measure(out, part, solver, out.quick() ? 1 : 3);
 }
 
 const Registration registration{"preparation", "seconds and memory to make each sample part ready, cold and warm", run};

@@ -3,6 +3,8 @@
 #include "bin_scenes/core/error.hpp"
 #include "framework/benchmark.hpp"
 
+#include <cmath>
+
 namespace bin_scenes::bench {
 
 Request bin_of(const std::string& part, std::size_t count) {
@@ -14,6 +16,9 @@ Request bin_of(const std::string& part, std::size_t count) {
   line.count = count;
   line.density = 7850.0;
   request.parts.push_back(line);
+  const double side = std::sqrt(static_cast<double>(count) / 150.0);
+  request.bin.inner_size = Vec3(0.40 * side, 0.30 * side, 0.20);
+  request.seed = 1;
   return request;
 }
 

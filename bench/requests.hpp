@@ -7,7 +7,8 @@
 
 namespace bin_scenes::bench {
 
-/// `count` copies of a part of models/ (millimetres, steel) in a box of 0.40 x 0.30 m, friction 0.5 everywhere.
+/// `count` copies of a part of models/ (steel) in a box, friction 0.5 everywhere. The floor grows with the count from
+/// 0.40 x 0.30 m for 150 parts, so that heaps are equally deep.
 Request bin_of(const std::string& part, std::size_t count);
 
 /// The solvers as figures name them: "sphere", "bullet", "sphere/thesis".

@@ -84,11 +84,23 @@ std::string Run::pieces(const std::string& name) {
   return models() + "/pieces/" + name;
 }
 
-void Run::row(const Row& row) {
-  table_.add(row);
+bool Run::wanted(const Row& keys) const {
+  for (const std::string& filter : options_.rows) {
+    const std::size_t equals = filter.find('=');
+    const std::string value = keys.at(filter.substr(0, equals));
+    if (!value.empty() && fnmatch(filter.substr(equals + 1).c_str(), value.c_str(), 0) != 0) return false;
+  }
+  return true;
+}
+
+void Run::amend(const Row& row) {
+  table_.add(row.at("commit").empty() ? Row(row).info("commit", commit()) : row);
   if (options_.csv) write_text(options_.out + "/" + name_ + ".csv", to_csv(table_));
   if (options_.json) write_text(options_.out + "/" + name_ + ".json", to_json(table_));
+}
 
+void Run::row(const Row& row) {
+  amend(row);
   std::string line;
   for (const auto& [column, value] : row.cells()) {
     if (value.empty()) continue;
@@ -103,6 +115,8 @@ void Run::row(const Row& row) {
 
 bool run(const Benchmark& benchmark, const Run::Options& options, const std::string& command) {
   Table table;
+  const std::string before = options.out + "/" + benchmark.name + ".csv";
+  if (!options.rows.empty() && fs::exists(before)) table = read_csv(before);
   table.header = {{"benchmark", benchmark.name}, {"about", benchmark.about}, {"command", command}};
   for (const auto& line : host()) table.header.push_back(line);
   table.header.emplace_back("quick", options.quick ? "yes" : "no");

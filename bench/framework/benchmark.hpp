@@ -28,13 +28,21 @@ class Run {
   struct Options {
     std::string out;  ///< folder of the results
     bool quick = false, csv = true, json = false;
+    std::vector<std::string> rows;  ///< "key=glob": only rows whose keys match; the file's other rows stay
   };
   Run(const std::string& name, const Options& options, Table& table);
 
   bool quick() const { return options_.quick; }
-  /// Adds a row to `<out>/<name>.csv`, which is whole after each row, and prints it.
+  /// Whether rows with these keys were asked for; ask before the work is done.
+  bool wanted(const Row& keys) const;
+  /// Adds a row to `<out>/<name>.csv`, which is whole after each row, and prints it. A row with the keys of an earlier
+  /// one takes its place.
   void row(const Row& row);
-  /// Path of a file of models/: part("ring_24") is its mesh, part("ring_24", "pieces") the folder of its exact pieces.
+  /// The same without printing it: for what can only be told when all rows are there.
+  void amend(const Row& row);
+  /// All rows so far, those kept from an earlier run included.
+  const Table& table() const { return table_; }
+  /// Paths in models/: a part's mesh, and the folder of its exact convex pieces (channel_u and ring_24 have them).
   static std::string part(const std::string& name);
   static std::string pieces(const std::string& name);
   /// A folder for this run alone, removed afterwards.
@@ -45,7 +53,6 @@ class Run {
   std::string name_, scratch_;
   const Options& options_;
   Table& table_;
-  std::vector<std::string> shown_columns_;
 };
 
 struct Benchmark {

@@ -57,8 +57,12 @@ std::vector<std::pair<std::string, std::string>> host() {
           {"gl", gl().renderer},
           {"driver", gl().driver},
           {"version", BIN_SCENES_BENCH_VERSION},
-          {"commit", BIN_SCENES_BENCH_COMMIT},
+          {"commit", commit()},
           {"date", date}};
+}
+
+std::string commit() {
+  return BIN_SCENES_BENCH_COMMIT;
 }
 
 std::string device_slug() {

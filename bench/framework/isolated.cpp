@@ -7,7 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +20,8 @@
 namespace bin_scenes::bench {
 
 namespace {
+
+constexpr double wall_per_cpu = 10.0;  ///< a process that waits longer than this for its CPU time hangs
 
 // A row on its way through the pipe: role, name, value, one cell a line.
 std::string packed(const Row& row) {
@@ -42,7 +47,10 @@ bool unpack(const std::string& text, Row& row) {
   return false;
 }
 
-[[noreturn]] void child(const std::function<Row()>& work, int pipe) {
+[[noreturn]] void child(const std::function<Row()>& work, int pipe, double limit_cpu_s) {
+  const auto limit = static_cast<rlim_t>(std::max(1.0, std::ceil(limit_cpu_s)));
+  const rlimit cpu{limit, limit + 1};
+  ::setrlimit(RLIMIT_CPU, &cpu);  // SIGXCPU when it is spent
   std::string answer;
   int code = 0;
   try {
@@ -79,7 +87,7 @@ double seconds(const timeval& t) {
 
 }  // namespace
 
-Isolated isolated(const std::function<Row()>& work, double limit_s) {
+Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   std::fflush(nullptr);  // or the child would print it again
   int ends[2];
   if (::pipe(ends) != 0) throw environment_error(std::strerror(errno), "pipe", "close some files");
@@ -88,12 +96,12 @@ Isolated isolated(const std::function<Row()>& work, double limit_s) {
   if (pid < 0) throw environment_error(std::strerror(errno), "fork", "free some memory");
   if (pid == 0) {
     ::close(ends[0]);
-    child(work, ends[1]);
+    child(work, ends[1], limit_cpu_s);
   }
   ::close(ends[1]);
   Isolated result;
   std::string text;
-  const bool in_time = receive(ends[0], limit_s, text);
+  const bool in_time = receive(ends[0], wall_per_cpu * limit_cpu_s, text);
   ::close(ends[0]);
   if (!in_time) ::kill(pid, SIGKILL);
   int status = 0;
@@ -104,8 +112,8 @@ Isolated isolated(const std::function<Row()>& work, double limit_s) {
   result.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   const bool whole = unpack(text, result.row);
   result.good = whole && in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!in_time)
-    result.row = Row().status("stopped after " + Row::text(limit_s) + " s");
+  if (!in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
+    result.row = Row().status("stopped after " + Row::text(result.cpu_s) + " s of CPU time");
   else if (WIFSIGNALED(status))
     result.row = Row().status(std::string("crashed: ") + ::strsignal(WTERMSIG(status)));
   else if (!whole)

@@ -16,8 +16,9 @@ struct Isolated {
   double wall_s = 0.0;
 };
 
-/// Forks and runs `work` there. An exception, a crash or more than `limit_s` seconds of wall time become the row's
-/// status. The caller must not have made a GL context yet: contexts do not survive a fork.
-Isolated isolated(const std::function<Row()>& work, double limit_s = 600.0);
+/// Forks and runs `work` there. An exception, a crash, or more than `limit_cpu_s` seconds of CPU time (or ten times
+/// that on the wall) become the row's status: on a busy machine too, the same rows fit into the limit. The caller must
+/// not have made a GL context yet: contexts do not survive a fork.
+Isolated isolated(const std::function<Row()>& work, double limit_cpu_s = 600.0);
 
 }  // namespace bin_scenes::bench

@@ -111,6 +111,22 @@ void Table::add(const Row& row) {
     if (known == columns.end()) columns.push_back(column);
     rows.back()[column.name] = value;
   }
+  const std::string key = key_of(rows.size() - 1);
+  for (std::size_t r = 0; r + 1 < rows.size() && !key.empty(); ++r) {
+    if (key_of(r) != key) continue;
+    rows[r] = std::move(rows.back());
+    rows.pop_back();
+    return;
+  }
+}
+
+Row Table::row(std::size_t index) const {
+  Row out;
+  for (const Column& column : columns) {
+    const auto value = rows[index].find(column.name);
+    if (value != rows[index].end()) out.add(column, value->second);
+  }
+  return out;
 }
 
 std::string Table::header_value(const std::string& key) const {

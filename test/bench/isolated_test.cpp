@@ -45,9 +45,16 @@ TEST(Isolated, CrashHangAndExceptionBecomeStatus) {
         ::pause();
         return {};
       },
-      0.2);
+      0.02);
   EXPECT_FALSE(hang.good);
-  EXPECT_NE(hang.row.at("status").find("stopped after 0.2 s"), std::string::npos);
+  EXPECT_NE(hang.row.at("status").find("stopped after"), std::string::npos);
+  const Isolated busy = isolated(
+      []() -> Row {
+        for (volatile int i = 0;;) i = i + 1;
+      },
+      1.0);
+  EXPECT_FALSE(busy.good);
+  EXPECT_NE(busy.row.at("status").find("s of CPU time"), std::string::npos);
   const Isolated thrown = isolated([]() -> Row { throw std::runtime_error("no such part"); });
   EXPECT_FALSE(thrown.good);
   EXPECT_EQ(thrown.row.at("status"), "failed: no such part");

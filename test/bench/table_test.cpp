@@ -40,6 +40,14 @@ TEST(Table, RolesSurviveTheFile) {
   EXPECT_EQ(roles, "key key measure spread exact info ");
 }
 
+TEST(Table, ARowTakesThePlaceOfOneWithItsKeys) {
+  Table table = sample();
+  table.add(Row().key("part", "tee").info("note", "now built"));
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[2].at("note"), "now built");
+  EXPECT_EQ(table.rows[2].count("status"), 0u);
+}
+
 TEST(Table, NotANumberIsNotMeasured) {
   EXPECT_EQ(Row().info("x", std::numeric_limits<double>::quiet_NaN()).at("x"), "");
   EXPECT_TRUE(std::isnan(Row().measure("x", std::vector<double>{}).number("x")));

@@ -1,0 +1,131 @@
+/// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part.
+/// Heaps at rest on an endless floor, every part awake.
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "framework/statistics.hpp"
+#include "heaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::bench {
+namespace {
+
+constexpr const char* part = "channel_u";
+
+/// A few steps to build contacts, then the samples; parts do not fall asleep that soon.
+Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
+  Heaps heaps(heap, settings, per_world, worlds);
+  const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
+  heaps.seconds_per_step(steps);
+  std::vector<double> step_ms, part_us;
+  for (int k = 0; k < 3; ++k) {
+    step_ms.push_back(1e3 * heaps.seconds_per_step(steps));
+    part_us.push_back(1e3 * step_ms.back() / static_cast<double>(heaps.bodies()));
+  }
+  return Row()
+      .measure("step_ms", step_ms)
+      .measure("step_per_part_us", part_us)
+      .exact("asleep_share", heaps.asleep())
+      .info("device", heaps.solver().device());
+}
+
+/// Emits the rows of one curve and, at the end, the exponent of its cost over x.
+class Curve {
+ public:
+  Curve(Run& out, const std::string& solver, const std::string& over) : out_(out), solver_(solver), over_(over) {}
+  ~Curve() {
+    if (x_.size() < 2) return;
+    // The largest sizes tell how it scales; small ones are dominated by what every step costs.
+    const std::size_t skip = x_.size() > 4 ? x_.size() - 4 : 0;
+    Row row = key("exponent");
+    row.measure("exponent_of_step", fitted_exponent({x_.begin() + skip, x_.end()}, {y_.begin() + skip, y_.end()}));
+    row.measure("exponent_of_memory", fitted_exponent({x_.begin() + skip, x_.end()}, {mb_.begin() + skip, mb_.end()}));
+    out_.row(row);
+  }
+  /// False where the limit was reached: larger ones would not fit either.
+  bool point(std::size_t bodies, std::size_t worlds, double x, const std::function<Row()>& work, double limit_cpu_s) {
+    if (!out_.wanted(key(Row::text(x)))) return true;
+    const Isolated one = isolated(work, limit_cpu_s);
+    Row row = key(Row::text(x)).info("bodies", bodies).info("worlds", worlds).append(one.row);
+    if (one.good) {
+      row.measure("peak_mb", one.peak_mb);
+      x_.push_back(x);
+      y_.push_back(one.row.number("step_ms"));
+      mb_.push_back(one.peak_mb);
+    }
+    out_.row(row);
+    return one.good;
+  }
+
+ private:
+  Row key(const std::string& x) const { return Row().key("solver", solver_).key("over", over_).key("x", x); }
+
+  Run& out_;
+  std::string solver_, over_;
+  std::vector<double> x_, y_, mb_;
+};
+
+void run(Run& out) {
+  const double limit_cpu_s = out.quick() ? 10.0 : 150.0;
+  const std::string path = out.scratch() + "/heap_";
+  const auto heap_of = [&](std::size_t count) {
+    const std::string file = path + std::to_string(count) + ".json";
+    isolated([&] { return heap_at_rest(part, count, file), Row(); });
+    return heap_at_rest(part, count, file);
+  };
+  const std::vector<std::string> solvers =
+      out.quick() ? std::vector<std::string>{"sphere"} : std::vector<std::string>{"sphere", "bullet", "sphere/thesis"};
+
+  const Heap large = heap_of(out.quick() ? 16 : 64), small = heap_of(16);
+  for (const std::string& solver : solvers) {
+    Request settings = large.request;
+    choose_solver(settings, solver);
+    {
+      Curve curve(out, solver, "parts of one world");
+      for (std::size_t heaps = 1; heaps <= (out.quick() ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4) {
+        const std::size_t bodies = heaps * large.rest.size();
+        if (!curve.point(
+                bodies, 1, static_cast<double>(bodies), [&] { return step_row(large, settings, heaps, 1); },
+                limit_cpu_s))
+          break;
+      }
+    }
+    {
+      Curve curve(out, solver, "worlds of 16 parts");
+      for (std::size_t worlds = 1; worlds <= (out.quick() ? 4u : 1024u); worlds *= 4) {
+        const std::size_t bodies = worlds * small.rest.size();
+        if (!curve.point(
+                bodies, worlds, static_cast<double>(worlds), [&] { return step_row(small, settings, 1, worlds); },
+                limit_cpu_s))
+          break;
+      }
+    }
+  }
+  Curve curve(out, "sphere", "samples of a part");
+  for (const int samples :
+       out.quick() ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
+    Request settings = large.request;
+    settings.solver.sphere.fine_samples = samples;
+    settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
+    if (!curve.point(
+            large.rest.size(), 1, samples, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
+      break;
+  }
+  if (out.quick()) return;
+  Curve voxels(out, "sphere/thesis", "voxels along a part");
+  for (const int along : {5, 7, 10, 14, 20}) {
+    Request settings = large.request;
+    choose_solver(settings, "sphere/thesis");
+    settings.solver.thesis.voxels = along;
+    if (!voxels.point(
+            large.rest.size(), 1, along, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
+      break;
+  }
+}
+
+const Registration registration{"growth",
+                                "cost of a step and memory over parts, worlds and samples, with fitted exponents", run};
+
+}  // namespace
+}  // namespace bin_scenes::bench

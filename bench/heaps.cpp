@@ -1,0 +1,80 @@
+#include "heaps.hpp"
+
+#include "bin_scenes/output/scene_writer.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace bin_scenes::bench {
+
+Heap heap_at_rest(const std::string& part, std::size_t count, const std::string& path) {
+  Heap heap;
+  heap.request = bin_of(part, count);
+  heap.request.bin = Bin();
+  heap.request.bin.kind = Bin::Kind::floor;
+  choose_solver(heap.request, "sphere");
+  if (!std::filesystem::exists(path)) {
+    const std::vector<PartModelPtr> parts = load_parts(heap.request);
+    std::string reason;
+    const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
+    write_text(path, scene_json(pour(heap.request, parts, *solver, {0}).front(), heap.request));
+  }
+  Aabb box;
+  for (const ScenePart& p : read_scene_json(path).parts) {
+    heap.rest.push_back({p.pose, {}});
+    box.extend(p.pose.position);
+  }
+  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * load_parts(heap.request).front()->diagonal();
+  return heap;
+}
+
+Heaps::Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
+  Request request = heap.request;
+  request.solver = settings.solver;
+  request.parts[0].count = heap.rest.size() * per_world;
+  parts_ = load_parts(request);
+  std::string reason;
+  solver_ = make_solver(request, parts_, reason);
+  const WorldDef def = world_of(request, parts_);
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
+  for (std::size_t w = 0; w < worlds; ++w) {
+    const WorldId id = solver_->add_world(def);
+    solver_->set_phase(id, Phase::settle);
+    for (std::size_t h = 0, body = 0; h < per_world; ++h) {
+      const Vec3 corner(heap.width * static_cast<double>(h % columns), heap.width * static_cast<double>(h / columns),
+                        0.0);
+      for (BodyState state : heap.rest) {
+        state.pose.position += corner;
+        solver_->insert(id, body++, state);
+      }
+    }
+    worlds_.push_back(id);
+  }
+  bodies_ = request.parts[0].count * worlds;
+}
+
+double Heaps::seconds_per_step(int steps) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::uint64_t before = solver_->steps(worlds_.front());
+  solver_->advance(worlds_, steps * solver_->step_size());
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  return spent.count() / static_cast<double>(solver_->steps(worlds_.front()) - before);
+}
+
+void Heaps::wake(double share) {
+  for (const WorldId id : worlds_) {
+    const std::vector<BodyState> states = solver_->states(id);
+    const auto count = static_cast<std::size_t>(share * static_cast<double>(states.size()));
+    for (std::size_t b = 0; b < count; ++b) solver_->insert(id, b, {states[b].pose, {}});
+  }
+}
+
+double Heaps::asleep() const {
+  std::size_t count = 0;
+  for (const WorldId id : worlds_)
+    for (const bool sleeps : solver_->asleep(id)) count += sleeps ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(bodies_);
+}
+
+}  // namespace bin_scenes::bench

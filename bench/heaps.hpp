@@ -1,0 +1,42 @@
+/// Worlds that are piled from the first step on: one heap is poured once and set up as often as needed, so that the
+/// cost of a step can be measured without pouring 65,536 parts.
+#pragma once
+
+#include "runs.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::bench {
+
+/// A heap of `count` parts at rest on an endless floor, poured by the solver named; kept in `path`, made if missing.
+struct Heap {
+  Request request;  ///< of one heap
+  std::vector<BodyState> rest;
+  double width = 0.0;  ///< edge of a square that holds the heap and some room (m)
+};
+Heap heap_at_rest(const std::string& part, std::size_t count, const std::string& path);
+
+/// A solver with worlds of heaps in it.
+class Heaps {
+ public:
+  /// `per_world` heaps side by side in each of `worlds` worlds.
+  Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds);
+
+  /// Wall seconds per step over `steps` steps of every world.
+  double seconds_per_step(int steps);
+  /// Puts the first `share` of the bodies of each world where they are, at rest and awake.
+  void wake(double share);
+  std::size_t bodies() const { return bodies_; }
+  double asleep() const;  ///< share of all bodies
+  Solver& solver() { return *solver_; }
+
+ private:
+  std::vector<PartModelPtr> parts_;
+  std::unique_ptr<Solver> solver_;
+  std::vector<WorldId> worlds_;
+  std::size_t bodies_ = 0;
+};
+
+}  // namespace bin_scenes::bench

@@ -1,0 +1,183 @@
+#include "referee.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+extern btScalar gContactBreakingThreshold;  // NOLINT: a name of Bullet's
+
+namespace bin_scenes::bench {
+
+namespace {
+
+// Lengths in units of the scaled world, in which a part's diagonal is 1: Bullet's constants are made for that.
+constexpr double breaking_threshold = 0.001;  ///< the default of 0.02 keeps contacts that are none and rattles the pile
+constexpr double wall = 4.0;                  ///< thickness of floor and walls
+constexpr double time_step = 0.00025;         ///< s
+constexpr int iterations = 100;
+constexpr double push_out = 0.0015;  ///< share of an overlap let out in a step: a tenth in 1/60 s
+
+btVector3 to_bt(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+btQuaternion to_bt(const Quat& q) {
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+/// A part's collision shape about its centre of mass, in its principal axes.
+struct Shape {
+  std::vector<std::unique_ptr<btConvexHullShape>> hulls;
+  btCompoundShape compound;
+  btTransform principal;  ///< principal frame in the model frame
+  btVector3 inertia;      ///< at mass 1
+
+  Shape(const PartModel& part, const Pieces& pieces, double scale) {
+    const MassProperties& mass = part.mass();
+    principal = btTransform(to_bt(mass.principal_axes), to_bt(Vec3(mass.center * scale)));
+    inertia = to_bt(Vec3(mass.principal * (scale * scale / mass.volume)));
+    for (const std::vector<Vec3>& piece : pieces) {
+      auto hull = std::make_unique<btConvexHullShape>();
+      for (const Vec3& vertex : piece) hull->addPoint(to_bt(Vec3(vertex * scale)), false);
+      hull->setMargin(0.0);
+      hull->recalcLocalAabb();
+      hull->initializePolyhedralFeatures();
+      compound.addChildShape(principal.inverse(), hull.get());
+      hulls.push_back(std::move(hull));
+    }
+    compound.setMargin(0.0);
+  }
+};
+
+btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
+  return std::sqrt(a->getFriction() * b->getFriction());
+}
+
+class World {
+ public:
+  World(const Request& request, double scale)
+      : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    gContactBreakingThreshold = breaking_threshold;
+    gCalculateCombinedFrictionCallback = geometric_mean;
+    world_.setGravity(to_bt(Vec3(request.gravity * scale)));
+    btContactSolverInfo& info = world_.getSolverInfo();
+    info.m_numIterations = iterations;
+    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;  // one direction alone lets a pile creep
+    info.m_splitImpulse = 1;                                // overlap is let out without leaving speed behind
+    info.m_splitImpulsePenetrationThreshold = 0.0;
+    info.m_erp = info.m_erp2 = push_out;
+    const Vec3 half = 0.5 * scale * request.bin.inner_size;
+    const double height = half.z();
+    add_wall(Vec3(half.x() + 2 * wall, half.y() + 2 * wall, wall), Vec3(0, 0, -wall), request.bin.friction);
+    for (const double side : {-1.0, 1.0}) {
+      add_wall(Vec3(wall, half.y() + 2 * wall, height), Vec3(side * (half.x() + wall), 0, height),
+               request.bin.friction);
+      add_wall(Vec3(half.x() + 2 * wall, wall, height), Vec3(0, side * (half.y() + wall), height),
+               request.bin.friction);
+    }
+  }
+  ~World() {
+    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+  }
+
+  btRigidBody& add(Shape& shape, const btTransform& pose, double friction) {
+    btRigidBody::btRigidBodyConstructionInfo info(1.0, nullptr, &shape.compound, shape.inertia);
+    info.m_startWorldTransform = pose;
+    info.m_friction = friction;
+    bodies_.push_back(std::make_unique<btRigidBody>(info));
+    bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
+    world_.addRigidBody(bodies_.back().get());
+    return *bodies_.back();
+  }
+
+  void simulate(double seconds) {
+    const int steps = static_cast<int>(std::lround(seconds / time_step));
+    for (int k = 0; k < steps; ++k) world_.stepSimulation(time_step, 0, time_step);
+  }
+
+ private:
+  void add_wall(const Vec3& half, const Vec3& center, double friction) {
+    auto box = std::make_unique<btBoxShape>(to_bt(half));
+    box->setMargin(0.0);
+    box->initializePolyhedralFeatures();
+    btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, box.get());
+    info.m_startWorldTransform = btTransform(btQuaternion::getIdentity(), to_bt(center));
+    info.m_friction = friction;
+    bodies_.push_back(std::make_unique<btRigidBody>(info));
+    walls_.push_back(std::move(box));
+    world_.addRigidBody(bodies_.back().get());
+  }
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_;
+  std::vector<std::unique_ptr<btBoxShape>> walls_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+};
+
+}  // namespace
+
+Pieces read_pieces(const std::string& folder, double scale) {
+  std::vector<std::filesystem::path> files;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  Pieces pieces;
+  for (const auto& path : files) {
+    std::ifstream file(path);
+    std::vector<Vec3> vertices;
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream words(line);
+      std::string word;
+      Vec3 v;
+      if (words >> word >> v.x() >> v.y() >> v.z() && word == "v") vertices.push_back(v * scale);
+    }
+    if (!vertices.empty()) pieces.push_back(std::move(vertices));
+  }
+  if (pieces.empty()) throw input_error("no convex pieces", folder, "give a part that models/pieces/ has");
+  return pieces;
+}
+
+Drift referee_drift(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                    const std::vector<Pieces>& pieces, double seconds) {
+  const double scale = 1.0 / parts.front()->diagonal();
+  std::vector<std::unique_ptr<Shape>> shapes;
+  for (std::size_t line = 0; line < parts.size(); ++line)
+    shapes.push_back(std::make_unique<Shape>(*parts[line], pieces[line], scale));
+  World world(request, scale);
+
+  struct Judged {
+    btRigidBody* body;
+    btTransform start;
+    double diagonal;
+  };
+  std::vector<Judged> judged;
+  for (const ScenePart& part : scene.parts) {
+    if (part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+    Shape& shape = *shapes[part.line];
+    const btTransform model(to_bt(part.pose.orientation), to_bt(Vec3(part.pose.position * scale)));
+    const btTransform start = model * shape.principal;
+    judged.push_back(
+        {&world.add(shape, start, request.parts[part.line].friction), start, scale * parts[part.line]->diagonal()});
+  }
+  world.simulate(seconds);
+
+  Drift drift;
+  for (const Judged& part : judged) {
+    const btTransform end = part.body->getWorldTransform();
+    drift.moved.push_back((end.getOrigin() - part.start.getOrigin()).length() / part.diagonal);
+    const btScalar cosine = std::abs(end.getRotation().dot(part.start.getRotation()));
+    drift.turned.push_back(2.0 * std::acos(std::min(btScalar(1), cosine)) * 180.0 / M_PI);
+  }
+  return drift;
+}
+
+}  // namespace bin_scenes::bench

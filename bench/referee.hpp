@@ -1,0 +1,28 @@
+/// An outside judge of final scenes: the parts' exact convex pieces in stock Bullet, double precision, 0.25 ms, no
+/// margins. What rests stays; what overlaps, floats or was only called resting moves.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes::bench {
+
+/// Vertices of the convex pieces that a part is made of, in its model frame (m).
+using Pieces = std::vector<std::vector<Vec3>>;
+/// Reads FOLDER/hull_*.obj (vertices only, `scale` metres a unit). Throws an input Error if there is none.
+Pieces read_pieces(const std::string& folder, double scale);
+
+struct Drift {
+  std::vector<double> moved;   ///< of the centres of mass / diagonal, by part
+  std::vector<double> turned;  ///< degrees
+};
+
+/// Lets the parts of a box bin go on from rest for `seconds`. `pieces` by part line. Escaped and unpoured parts are
+/// left out. Sets globals of Bullet: run it in a process of its own.
+Drift referee_drift(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                    const std::vector<Pieces>& pieces, double seconds = 0.5);
+
+}  // namespace bin_scenes::bench
