@@ -3,10 +3,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "tool/commands.hpp"
 
-#ifdef BIN_SCENES_HAS_BAG
-#include "ros/bag_hook.hpp"
-#endif
-
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -78,9 +74,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-#ifdef BIN_SCENES_HAS_BAG
-    install_bag_writer();
-#endif
     return run(argc, argv);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", kInterrupted);
