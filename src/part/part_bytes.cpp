@@ -29,11 +29,15 @@ void for_each_member(Report& r, Each&& each) {
   each(r.degenerate_removed);
   each(r.duplicate_removed);
   each(r.holes_closed);
+  each(r.t_junctions_split);
+  each(r.turned);
   each(r.open_edges);
   each(r.shells);
   each(r.inverted);
   each(r.closed);
   each(r.unit);
+  each(r.metres_per_unit);
+  each(r.file_metres_per_unit);
   each(r.content_sha256);
 }
 

@@ -46,10 +46,13 @@ Marker marker(const std::string& name, int id, const Pose& pose, const Frames& f
   return m;
 }
 
-void set_mesh(Marker& m, const std::string& uri, double scale) {
+/// RViz reads a COLLADA file in the unit that the file states, and any other in metres; what is left to do is `scale`
+/// and the difference to the unit that the request gives.
+void set_mesh(Marker& m, const std::string& model, const PartModel& part, double scale) {
+  const LoadReport& file = part.load_report();
   m.type = Marker::MESH_RESOURCE;
-  m.mesh_resource = uri;
-  m.scale.x = m.scale.y = m.scale.z = scale;
+  m.mesh_resource = resource_uri(model, part.path());
+  m.scale.x = m.scale.y = m.scale.z = scale * file.metres_per_unit / file.file_metres_per_unit;
 }
 
 struct Box {
@@ -111,7 +114,7 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
     case Bin::Kind::mesh:
       if (bin_model) {
         Marker m = marker("bin", 0, bin.pose, frames, stamp);
-        set_mesh(m, resource_uri(bin.mesh, bin_model->path()), metres_per(bin_model->load_report().unit));
+        set_mesh(m, bin.mesh, *bin_model, 1.0);
         m.color = bin_color();
         array.markers.push_back(m);
       }
@@ -122,10 +125,8 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
 
   for (const ScenePart& part : scene.parts) {
     if (!part.pose.finite()) continue;
-    const PartModelPtr& model = parts.at(part.line);
     Marker m = marker("parts", part.id, part.pose, frames, stamp);
-    set_mesh(m, resource_uri(part.model, model->path()),
-             metres_per(model->load_report().unit) * request.parts.at(part.line).scale);
+    set_mesh(m, part.model, *parts.at(part.line), request.parts.at(part.line).scale);
     m.color = part_color(part.id);
     array.markers.push_back(m);
   }

@@ -288,6 +288,7 @@ LoadedMesh load_mesh(const std::string& path, const LoadOptions& options) {
   report.meshes = file.meshes;
   report.content_sha256 = file.content_sha256;
   report.metres_per_unit = metres;
+  report.file_metres_per_unit = own_unit;
   for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch}) {
     if (std::abs(metres_per(unit) - metres) <= 1e-6 * metres) report.unit = unit;
   }

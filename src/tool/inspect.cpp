@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 namespace bin_scenes {
 
@@ -27,6 +28,14 @@ Json json_of(const ShapeError& e) {
           {"volume", e.volume}};
 }
 
+/// Its name, or for one without (a COLLADA file in feet) its length.
+std::string unit_text(const LoadReport& report) {
+  if (metres_per(report.unit) == report.metres_per_unit) return name_of(report.unit);
+  std::ostringstream text;
+  text << report.metres_per_unit << " m";
+  return text.str();
+}
+
 std::size_t files_below(const std::string& directory) {
   std::size_t count = 0;
   std::error_code error;
@@ -40,8 +49,9 @@ std::size_t files_below(const std::string& directory) {
 
 Json file_json(const LoadReport& report) {
   Json json = {
-      {"format", report.format},          {"unit", name_of(report.unit)},       {"meshes", report.meshes},
-      {"vertices", report.file_vertices}, {"triangles", report.file_triangles}, {"sha256", report.content_sha256}};
+      {"format", report.format},        {"unit", unit_text(report)},        {"metres_per_unit", report.metres_per_unit},
+      {"meshes", report.meshes},        {"vertices", report.file_vertices}, {"triangles", report.file_triangles},
+      {"sha256", report.content_sha256}};
   Json& repairs = json["repairs"] = Json::array();
   for (const Flag& flag : report.flags) {
     repairs.push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});

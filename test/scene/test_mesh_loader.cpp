@@ -1,6 +1,7 @@
 #include "bin_scenes/scene/mesh_loader.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "dae.hpp"
 #include "part/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -78,31 +79,6 @@ std::string ply(const Mesh& mesh) {
       << "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Vec3& v : mesh.vertices) out << v.transpose() << "\n";
   for (const Triangle& t : mesh.triangles) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
-  return out.str();
-}
-
-/// One geometry, one instance a matrix. `extra` goes before the scene (libraries).
-std::string dae(const Mesh& mesh, const std::string& asset, const std::vector<std::string>& matrices = {""},
-                const std::string& extra = "", const std::string& material = "") {
-  std::ostringstream out;
-  out << "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\">"
-      << "<asset>" << asset << "</asset>" << extra << "<library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
-      << "<float_array id=\"a\" count=\"" << 3 * mesh.vertices.size() << "\">";
-  for (const Vec3& v : mesh.vertices) out << v.transpose() << " ";
-  out << "</float_array><technique_common><accessor source=\"#a\" count=\"" << mesh.vertices.size()
-      << "\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
-      << "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
-      << "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\""
-      << mesh.triangles.size() << "\"" << (material.empty() ? "" : " material=\"m\"")
-      << "><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>";
-  for (const Triangle& t : mesh.triangles) out << t[0] << " " << t[1] << " " << t[2] << " ";
-  out << "</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\">";
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    out << "<node id=\"n" << i << "\">";
-    if (!matrices[i].empty()) out << "<matrix>" << matrices[i] << "</matrix>";
-    out << "<instance_geometry url=\"#g\">" << material << "</instance_geometry></node>";
-  }
-  out << "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
   return out.str();
 }
 
@@ -201,6 +177,7 @@ TEST_F(MeshLoader, ADaeKeepsItsOwnUnitAndAxes) {
   const LoadedMesh loaded = load_mesh(path);
   EXPECT_LT((loaded.mesh.bounds().size() - Vec3(0.01, 0.02, 0.03)).norm(), 1e-9);
   EXPECT_EQ(loaded.report.unit, Unit::millimetre);
+  EXPECT_EQ(loaded.report.file_metres_per_unit, 1e-3);
 
   LoadOptions options;
   options.unit = Unit::centimetre;

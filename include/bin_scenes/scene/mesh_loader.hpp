@@ -35,6 +35,7 @@ struct LoadReport {
   bool closed = false;               ///< after repair
   Unit unit = Unit::metre;           ///< the one used, where it has a name
   double metres_per_unit = 1.0;      ///< the one used, scale not included
+  double file_metres_per_unit = 1.0;  ///< the one that the file states (DAE); 1 where its format states none
   std::vector<Flag> flags;           ///< one per repair; plain welding of equal vertices is none
   std::string content_sha256;        ///< of the file's bytes
 };

@@ -1,0 +1,97 @@
+#include "markers.hpp"
+
+#include "box_mesh.hpp"
+#include "dae.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace bin_scenes {
+namespace {
+
+namespace fs = std::filesystem;
+const ros::Time kStamp(12, 34);
+
+/// A box of 20 units in a file of each kind, and how large RViz draws its unit: metres, or what COLLADA states.
+class Markers : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("bin_scenes_markers_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "box.stl") << box_stl(20);
+    std::ofstream(folder_ / "mm.dae") << dae(box_mesh(20), "<unit meter=\"0.001\"/><up_axis>Z_UP</up_axis>");
+    std::ofstream(folder_ / "feet.dae") << dae(box_mesh(20), "<unit meter=\"0.3048\"/><up_axis>Z_UP</up_axis>");
+    std::ofstream(folder_ / "none.dae") << dae(box_mesh(20), "<up_axis>Z_UP</up_axis>");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  struct Case {
+    const char* file;
+    std::optional<Unit> unit;
+    double drawn;  ///< m a unit
+  };
+  const std::vector<Case> cases_ = {{"box.stl", Unit::millimetre, 1.0},     {"box.stl", std::nullopt, 1.0},
+                                    {"mm.dae", std::nullopt, 1e-3},         {"mm.dae", Unit::millimetre, 1e-3},
+                                    {"mm.dae", Unit::inch, 1e-3},           {"feet.dae", std::nullopt, 0.3048},
+                                    {"feet.dae", Unit::centimetre, 0.3048}, {"none.dae", Unit::millimetre, 1.0}};
+
+  std::string path(const Case& c) const { return (folder_ / c.file).string(); }
+  PartModelPtr load(const Case& c, double scale) const {
+    LoadOptions options;
+    options.unit = c.unit;
+    options.scale = scale;
+    return PartModel::load(path(c), options);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Markers, PartsAreDrawnAsLargeAsTheyAre) {
+  for (const Case& c : cases_) {
+    SCOPED_TRACE(c.file);
+    Request request;
+    request.parts.emplace_back();
+    request.parts[0].model = request.parts[0].path = path(c);
+    request.parts[0].scale = 2.0;
+    const PartModelPtr model = load(c, 2.0);
+    Scene scene;
+    scene.parts.emplace_back();
+    scene.parts[0].model = path(c);
+    const auto markers = scene_markers(scene, request, {model}, nullptr, Frames(), kStamp).markers;
+    const auto& part = markers.back();
+    ASSERT_EQ(part.ns, "parts");
+    EXPECT_EQ(part.mesh_resource, "file://" + path(c));
+    const double size = model->mesh().bounds().size().x();
+    EXPECT_NEAR(20 * c.drawn * part.scale.x, size, 1e-6 * size);
+    EXPECT_EQ(part.scale.x, part.scale.y);
+    EXPECT_EQ(part.scale.x, part.scale.z);
+  }
+}
+
+TEST_F(Markers, ABinOfAMeshIsDrawnWhereAndAsLargeAsItIs) {
+  for (const Case& c : cases_) {
+    SCOPED_TRACE(c.file);
+    Request request;
+    request.bin.kind = Bin::Kind::mesh;
+    request.bin.mesh = path(c);
+    request.bin.pose.position = Vec3(0.1, 0.2, 0.3);
+    const PartModelPtr model = load(c, 1.0);
+    const auto markers = scene_markers(Scene(), request, {}, model, Frames(), kStamp).markers;
+    ASSERT_EQ(markers.size(), 2u);
+    EXPECT_EQ(markers[1].ns, "bin");
+    EXPECT_EQ(markers[1].pose.position.z, 0.3);
+    const double size = model->mesh().bounds().size().x();
+    EXPECT_NEAR(20 * c.drawn * markers[1].scale.x, size, 1e-6 * size);
+  }
+}
+
+TEST(ResourceUri, KeepsPackagesAndEncodesPaths) {
+  EXPECT_EQ(resource_uri("package://cell/a b.stl", "/opt/cell/a b.stl"), "package://cell/a b.stl");
+  EXPECT_EQ(resource_uri("a b.stl", "/opt/a b#1.stl"), "file:///opt/a%20b%231.stl");
+}
+
+}  // namespace
+}  // namespace bin_scenes
