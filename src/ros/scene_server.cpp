@@ -47,7 +47,7 @@ std::function<std::optional<Message>()> SceneServer::from_image(std::size_t sens
   return [this, sensor, convert]() -> std::optional<Message> {
     if (!shown_ || sensor >= shown_->scene.sensors.size()) return std::nullopt;
     try {
-      render();
+      if (render()) publish_scene();  // the latched one does not know yet how much of each part is seen
       const RangeImage& image = shown_->images.at(sensor);
       std_msgs::Header header;
       header.stamp = shown_->stamp;
@@ -231,8 +231,8 @@ void SceneServer::show(Shown shown, bool render_anyway) {
   for (const auto& topics : sensors_) topics->renew();
 }
 
-void SceneServer::render() {
-  if (!shown_->images.empty() || shown_->scene.sensors.empty()) return;
+bool SceneServer::render() {
+  if (!shown_->images.empty() || shown_->scene.sensors.empty()) return false;
   if (!camera_) camera_ = std::make_unique<RangeCamera>();
   Profile& profile = shown_->scene.report.profile;
   const StageTimer timer(profile, "render");
@@ -240,6 +240,11 @@ void SceneServer::render() {
   profile.count("rendered_images", shown_->images.size());
   for (const RangeImage& image : shown_->images) set_visible_fractions(shown_->scene, image);
   ROS_INFO("rendered %zu images", shown_->images.size());
+  return true;
+}
+
+void SceneServer::publish_scene() {
+  scene_.publish(scene_message(shown_->scene, shown_->request, settings_.frames, shown_->stamp));
 }
 
 void SceneServer::send_transforms() {

@@ -67,7 +67,9 @@ class SceneServer {
 
   void make(const bin_scenes_msgs::SceneRequest& message, GenerateScene::Response& response);
   void show(Shown shown, bool render);
-  void render();
+  /// False if there was nothing left to do.
+  bool render();
+  void publish_scene();
   void send_transforms();
   template <class Message, class Convert>
   std::function<std::optional<Message>()> from_image(std::size_t sensor, Convert convert);

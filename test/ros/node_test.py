@@ -211,11 +211,16 @@ class NodeTest(unittest.TestCase):
         scene = self.scene()
         self.assertEqual(counter(scene, "rendered_images"), 0)
         self.assertTrue(all(math.isnan(p.visible_fraction[0]) for p in scene.parts))
-        late = Listener({"points": PointCloud2})
+        late = Listener({"points": PointCloud2, "scene": Scene})
         try:
             late.wait(scene.header.stamp, ["points"])
+            self.wait_until(lambda: counter(late.seen["scene"], "rendered_images") == 1)
+            sent_again = late.seen["scene"]
         finally:
             late.close()
+        self.assertEqual(sent_again.header.stamp, scene.header.stamp)
+        self.assertEqual([p.pose for p in sent_again.parts], [p.pose for p in scene.parts])
+        self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in sent_again.parts))
         asked = self.scene(render=True)
         self.assertEqual(counter(asked, "rendered_images"), 1)
         self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in asked.parts))
