@@ -17,15 +17,18 @@ constexpr const char* part = "channel_u";
 Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
   Heaps heaps(heap, settings, per_world, worlds);
   const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
-  heaps.seconds_per_step(steps);
-  std::vector<double> step_ms, part_us;
+  heaps.steps(steps);
+  std::vector<double> wall, cpu, part_us;
   for (int k = 0; k < 3; ++k) {
-    step_ms.push_back(1e3 * heaps.seconds_per_step(steps));
-    part_us.push_back(1e3 * step_ms.back() / static_cast<double>(heaps.bodies()));
+    const Heaps::Cost cost = heaps.steps(steps);
+    wall.push_back(cost.wall_ms);
+    cpu.push_back(cost.cpu_ms);
+    part_us.push_back(1e3 * cost.cpu_ms / static_cast<double>(heaps.bodies()));
   }
   return Row()
-      .measure("step_ms", step_ms)
-      .measure("step_per_part_us", part_us)
+      .measure("step_ms", wall)
+      .measure("step_cpu_ms", cpu)
+      .measure("part_cpu_us", part_us)
       .exact("asleep_share", heaps.asleep())
       .info("device", heaps.solver().device());
 }
@@ -40,7 +43,9 @@ class Curve {
     const std::size_t skip = x_.size() > 4 ? x_.size() - 4 : 0;
     Row row = key("exponent");
     row.measure("exponent_of_step", fitted_exponent({x_.begin() + skip, x_.end()}, {y_.begin() + skip, y_.end()}));
-    row.measure("exponent_of_memory", fitted_exponent({x_.begin() + skip, x_.end()}, {mb_.begin() + skip, mb_.end()}));
+    if (mb_[skip] > 1.0)  // less is lost in what the program has anyway
+      row.measure("exponent_of_memory",
+                  fitted_exponent({x_.begin() + skip, x_.end()}, {mb_.begin() + skip, mb_.end()}));
     out_.row(row);
   }
   /// False where the limit was reached: larger ones would not fit either.
@@ -49,10 +54,10 @@ class Curve {
     const Isolated one = isolated(work, limit_cpu_s);
     Row row = key(Row::text(x)).info("bodies", bodies).info("worlds", worlds).append(one.row);
     if (one.good) {
-      row.measure("peak_mb", one.peak_mb);
+      row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
       x_.push_back(x);
-      y_.push_back(one.row.number("step_ms"));
-      mb_.push_back(one.peak_mb);
+      y_.push_back(one.row.number("step_cpu_ms"));
+      mb_.push_back(one.added_mb);
     }
     out_.row(row);
     return one.good;

@@ -54,12 +54,12 @@ Heaps::Heaps(const Heap& heap, const Request& settings, std::size_t per_world, s
   bodies_ = request.parts[0].count * worlds;
 }
 
-double Heaps::seconds_per_step(int steps) {
+Heaps::Cost Heaps::steps(int count) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::uint64_t before = solver_->steps(worlds_.front());
-  solver_->advance(worlds_, steps * solver_->step_size());
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  return spent.count() / static_cast<double>(solver_->steps(worlds_.front()) - before);
+  const double cpu_begin = cpu_seconds();
+  solver_->advance(worlds_, count * solver_->step_size());
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begin;
+  return {wall.count() / count, 1e3 * (cpu_seconds() - cpu_begin) / count};
 }
 
 void Heaps::wake(double share) {

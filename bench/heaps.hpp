@@ -24,8 +24,10 @@ class Heaps {
   /// `per_world` heaps side by side in each of `worlds` worlds.
   Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds);
 
-  /// Wall seconds per step over `steps` steps of every world.
-  double seconds_per_step(int steps);
+  struct Cost {
+    double wall_ms, cpu_ms;  ///< of a step of every world, mean over the steps
+  };
+  Cost steps(int count);
   /// Puts the first `share` of the bodies of each world where they are, at rest and awake.
   void wake(double share);
   std::size_t bodies() const { return bodies_; }

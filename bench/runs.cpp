@@ -12,15 +12,6 @@ namespace bin_scenes::bench {
 
 namespace {
 
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 /// "step 812, shape 40": the stages that take more than a hundredth of the time.
 std::string stages_of(const Profile& profile) {
   double total = 0.0;
@@ -36,6 +27,15 @@ std::string stages_of(const Profile& profile) {
 }
 
 }  // namespace
+
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
 
 Poured pour_timed(const Request& request) {
   Poured out;

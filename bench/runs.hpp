@@ -11,6 +11,9 @@
 
 namespace bin_scenes::bench {
 
+/// Of all threads of this process so far (s).
+double cpu_seconds();
+
 /// One scene, timed from request to final poses: judging and rendering come after.
 struct Poured {
   Scene scene;

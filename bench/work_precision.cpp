@@ -147,10 +147,10 @@ void run(Run& out) {
   struct Pile {
     const char* part;
     std::size_t count;
+    int seeds;
   };
-  const std::vector<Pile> piles =
-      out.quick() ? std::vector<Pile>{{"channel_u", 8}} : std::vector<Pile>{{"channel_u", 48}, {"ring_24", 32}};
-  const int seeds = out.quick() ? 1 : 2;
+  const std::vector<Pile> piles = out.quick() ? std::vector<Pile>{{"channel_u", 8, 1}}
+                                              : std::vector<Pile>{{"channel_u", 32, 2}, {"ring_24", 16, 1}};
   for (const Pile& pile : piles) {
     for (const Setting& setting : settings(out.quick())) {
       Row row;
@@ -166,11 +166,11 @@ void run(Run& out) {
         warm_up(request);
       }
       std::vector<Row> scenes;
-      for (int seed = 1; seed <= seeds; ++seed) {
+      for (int seed = 1; seed <= pile.seeds; ++seed) {
         Request request = bin_of(pile.part, pile.count);
         request.seed = static_cast<std::uint64_t>(seed);
         if (setting.apply) setting.apply(request);
-        scenes.push_back(one_scene(out, setting, request, pile.part, out.quick() ? 20.0 : 120.0));
+        scenes.push_back(one_scene(out, setting, request, pile.part, out.quick() ? 20.0 : 60.0));
         if (scenes.back().at("scenes").empty()) break;
       }
       row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes));

@@ -15,13 +15,14 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <sstream>
 
 namespace bin_scenes::bench {
 
 namespace {
 
-constexpr double wall_per_cpu = 10.0;  ///< a process that waits longer than this for its CPU time hangs
+constexpr double wall_per_cpu = 30.0;  ///< a process that waits longer than this for its CPU time hangs
 
 // A row on its way through the pipe: role, name, value, one cell a line.
 std::string packed(const Row& row) {
@@ -81,6 +82,13 @@ bool receive(int pipe, double limit_s, std::string& text) {
   }
 }
 
+double resident_mb() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0.0, resident = 0.0;
+  file >> size >> resident;
+  return 1e-6 * resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
 double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
@@ -91,6 +99,7 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   std::fflush(nullptr);  // or the child would print it again
   int ends[2];
   if (::pipe(ends) != 0) throw environment_error(std::strerror(errno), "pipe", "close some files");
+  const double before_mb = resident_mb();
   const auto begin = std::chrono::steady_clock::now();
   const pid_t pid = ::fork();
   if (pid < 0) throw environment_error(std::strerror(errno), "fork", "free some memory");
@@ -109,6 +118,7 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   ::wait4(pid, &status, 0, &usage);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.peak_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
+  result.added_mb = std::max(0.0, result.peak_mb - before_mb);
   result.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   const bool whole = unpack(text, result.row);
   result.good = whole && in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -11,12 +11,13 @@ namespace bin_scenes::bench {
 struct Isolated {
   Row row;  ///< what the function returned; only a status if it failed
   bool good = false;
-  double peak_mb = 0.0;  ///< largest resident set (MB = 1e6 byte)
-  double cpu_s = 0.0;    ///< user and system time of all threads
+  double peak_mb = 0.0;   ///< largest resident set (MB = 1e6 byte)
+  double added_mb = 0.0;  ///< of it, what the work added to what the process started with
+  double cpu_s = 0.0;     ///< user and system time of all threads
   double wall_s = 0.0;
 };
 
-/// Forks and runs `work` there. An exception, a crash, or more than `limit_cpu_s` seconds of CPU time (or ten times
+/// Forks and runs `work` there. An exception, a crash, or more than `limit_cpu_s` seconds of CPU time (or thirty times
 /// that on the wall) become the row's status: on a busy machine too, the same rows fit into the limit. The caller must
 /// not have made a GL context yet: contexts do not survive a fork.
 Isolated isolated(const std::function<Row()>& work, double limit_cpu_s = 600.0);

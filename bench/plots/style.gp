@@ -1,4 +1,4 @@
-# Shared by all figures: read tables by column name; a colour-blind-safe palette (Okabe & Ito 2008).
+# Shared by all figures: tables are read by column name; colours for the colour-blind (Okabe & Ito 2008).
 set datafile separator ','
 set datafile missing NaN
 set datafile columnheaders
@@ -13,5 +13,5 @@ set linetype 4 linecolor rgb '#cc79a7' linewidth 2 pointtype 11 pointsize 1.0
 set linetype 5 linecolor rgb '#e69f00' linewidth 2 pointtype 13 pointsize 1.0
 set linetype 6 linecolor rgb '#56b4e9' linewidth 2 pointtype 4 pointsize 0.9
 set linetype 7 linecolor rgb '#000000' linewidth 2 pointtype 6 pointsize 0.9
-# Value of a column in the rows of one series, nothing in the others:  (only('solver', 'bullet', 'scene_s'))
+# A column of the rows of one series, nothing in the others:  only('solver', 'bullet', 'scene_s')
 only(name, value, y) = stringcolumn(name) eq value ? column(y) : NaN

@@ -45,7 +45,7 @@ TEST(Isolated, CrashHangAndExceptionBecomeStatus) {
         ::pause();
         return {};
       },
-      0.02);
+      0.01);
   EXPECT_FALSE(hang.good);
   EXPECT_NE(hang.row.at("status").find("stopped after"), std::string::npos);
   const Isolated busy = isolated(

@@ -1,0 +1,17 @@
+# needs: distribution.csv
+set termoption noenhanced
+table = results.'/distribution.csv'
+measures = system("awk -F, '!/^#/ && $1 != \"part\" && !seen[$4]++ { printf \"\\\"%s\\\" \", $4 }' '".table."'")
+set title 'Distance from the reference / 95th percentile of its distance from itself: below 1 is within its noise'
+set ylabel 'Wasserstein distance, relative'
+set yrange [0:*]
+set xrange [0.5:words(measures) + 0.5]
+set xtics ()
+do for [i=1:words(measures)] { set xtics add (word(measures, i) i) }
+set xtics font ',10'
+at(name) = sum [i=1:words(measures)] (word(measures, i) eq name ? i : 0)
+array solvers = ['sphere', 'sphere coarse', 'sphere coarser', 'bullet']
+set key outside bottom center horizontal
+plot 1 with lines linecolor rgb '#999999' dashtype 2 notitle, for [s=1:4] table \
+  using (at(strcol('measure')) + 0.12 * (s - 2.5)):(only('solver', solvers[s], 'wasserstein') / column('reference_to_itself_p95')) \
+  with points linetype s pointsize 1.3 title solvers[s]

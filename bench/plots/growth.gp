@@ -1,0 +1,22 @@
+# needs: growth.csv
+set termoption noenhanced
+table = results.'/growth.csv'
+array curves = ['parts of one world', 'worlds of 16 parts', 'samples of a part']
+array solvers = ['sphere', 'bullet', 'sphere/thesis']
+array columns = ['part_cpu_us', 'part_cpu_us', 'step_cpu_ms']
+array labels = ['CPU us a part and step', 'CPU us a part and step', 'CPU ms a step']
+set logscale xy
+set format '%g'
+set xtics auto rotate by -35
+set multiplot layout 2, 2 title 'How the cost of a step grows (heaps, every part awake)'
+at(c, s, y) = strcol('over') eq curves[c] && strcol('solver') eq solvers[s] && strcol('x') ne 'exponent' ? column(y) : NaN
+do for [c=1:3] {
+  set xlabel curves[c]
+  set ylabel labels[c]
+  set key inside top left samplen 1 font ',9'
+  plot for [s=1:3] table using 'x':(at(c, s, columns[c])) with linespoints linetype s title solvers[s]
+}
+set xlabel curves[1]
+set ylabel 'memory added, MB'
+plot for [s=1:3] table using 'x':(at(1, s, 'added_mb')) with linespoints linetype s title solvers[s]
+unset multiplot

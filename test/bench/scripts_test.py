@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""bench/publish and bench/plot on small results of their own."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+TABLE = """# benchmark: scenes
+# command: bin_scenes_bench --filter scenes
+# cpu: some CPU
+# cores: 2
+# gl: llvmpipe
+# driver: Mesa
+# version: 1
+# commit: abc
+# date: 2020-01-01
+# roles: key key measure spread measure spread info
+part,solver,time_s,time_s_spread,error_rel,error_rel_spread,status
+ring,sphere,1.25,0.5,0.00123,,
+ring,bullet,,,,,"stopped, too slow"
+tee,sphere,0,0,12345,,
+"""
+DOC = """before
+<!-- bench: scenes
+%scolumns: part; solver; time_s = s; error_rel = error | %%
+-->
+<!-- /bench -->
+after
+"""
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="bin_scenes_scripts_"))
+        self.addCleanup(shutil.rmtree, self.root)
+        for folder in ("bench/plots", "bench/results/device", "docs"):
+            (self.root / folder).mkdir(parents=True)
+        for script in ("publish", "plot"):
+            shutil.copy(ROOT / "bench" / script, self.root / "bench")
+        (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
+        for name in ("accuracy.md", "performance.md"):
+            (self.root / "docs" / name).write_text(DOC % "")
+
+    def run_script(self, name, *arguments, **environment):
+        return subprocess.run([self.root / "bench" / name, *arguments], env={**os.environ, **environment},
+                              capture_output=True, text=True)
+
+    def doc(self):
+        return (self.root / "docs/accuracy.md").read_text()
+
+    def test_publish_fills_the_tables(self):
+        self.run_script("publish")
+        text = self.doc()
+        self.assertIn("| part | solver | s | error |", text)
+        self.assertIn("| ring | sphere | 1.25 ± 0.25 | 0.123 % |", text)
+        self.assertIn("| ring | bullet | - | stopped, too slow |", text)
+        self.assertIn("| tee | sphere | 0 | 1234500 % |", text)
+        self.assertIn("`bin_scenes_bench --filter scenes` on some CPU, 2 cores", text)
+        self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+
+    def test_publish_chooses_rows(self):
+        (self.root / "docs/accuracy.md").write_text(DOC % "where: solver=sphere part=r*\n")
+        self.run_script("publish")
+        self.assertIn("| ring | sphere |", self.doc())
+        self.assertNotIn("bullet", self.doc())
+        self.assertNotIn("tee", self.doc())
+
+    def test_check_tells_stale_tables(self):
+        stale = self.run_script("publish", "--check")
+        self.assertEqual(stale.returncode, 1)
+        self.assertIn("docs/accuracy.md", stale.stderr)
+        self.run_script("publish")
+        self.assertEqual(self.run_script("publish", "--check").returncode, 0)
+
+    def test_plot_says_when_gnuplot_is_missing(self):
+        tools = self.root / "tools"
+        tools.mkdir()
+        for tool in ("bash", "dirname", "basename", "sed", "mkdir"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        outcome = self.run_script("plot", self.root / "bench/results/device", PATH=str(tools))
+        self.assertEqual(outcome.returncode, 3)
+        self.assertIn("gnuplot-nox", outcome.stderr)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot here")
+    def test_plot_draws_what_has_a_table_and_names_what_has_none(self):
+        (self.root / "bench/plots/style.gp").write_text("set datafile separator ','\n")
+        plot = "plot results.'/scenes.csv' using (column('time_s')) with points\n"
+        (self.root / "bench/plots/scenes.gp").write_text("# needs: scenes.csv\n" + plot)
+        (self.root / "bench/plots/growth.gp").write_text("# needs: growth.csv\nplot x\n")
+        outcome = self.run_script("plot", self.root / "bench/results/device", self.root / "out")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("growth: left out, no growth.csv", outcome.stdout)
+        self.assertTrue((self.root / "out/scenes.svg").read_text().rstrip().endswith("</svg>"))
+        self.assertTrue((self.root / "out/scenes.png").read_bytes().startswith(b"\x89PNG"))
+
+
+if __name__ == "__main__":
+    unittest.main()
