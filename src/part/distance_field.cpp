@@ -1,5 +1,6 @@
 #include "bin_scenes/part/distance_field.hpp"
 
+#include "field_sign.hpp"
 #include "triangle.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -25,7 +26,7 @@ struct Nearest {
   std::int32_t triangle = kNone;
 };
 
-/// Builds the field in four steps, each one function: rasterise, sweep, refine, sign.
+/// Builds the field in four steps: rasterise, sweep, refine, sign.
 class FieldBuilder {
  public:
   FieldBuilder(const MeshQuery& query, DistanceField& field) : query_(query), field_(field) {
@@ -42,7 +43,8 @@ class FieldBuilder {
     rasterise();
     sweep();
     refine();
-    sign();
+    sign_field(field_, query_);
+    for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
   }
 
  private:
@@ -154,72 +156,6 @@ class FieldBuilder {
           field_.values[i] = static_cast<float>(distance);
         }
       }
-    }
-  }
-
-  /// The sign can only change across the surface, and the straight way between two nodes meets no surface if their
-  /// distances add up to more than its length. Nodes joined by such ways form regions; one winding number settles a
-  /// region. Ends by scaling the values to metres.
-  void sign() {
-    std::vector<std::uint8_t> seen(nodes_.size(), 0);
-    std::vector<std::array<int, 3>> region;
-    const auto [nx, ny, nz] = field_.nodes;
-    for (int z = 0; z < nz; ++z) {
-      for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x) {
-          if (seen[index(x, y, z)]) continue;
-          collect_region({x, y, z}, seen, region);
-          sign_region(region);
-        }
-      }
-    }
-    for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
-  }
-
-  void collect_region(const std::array<int, 3>& start, std::vector<std::uint8_t>& seen,
-                      std::vector<std::array<int, 3>>& region) const {
-    static const float kLength[4] = {0.0f, 1.0001f, 1.4144f, 1.7323f};  // a little more than sqrt(1, 2, 3): rounding
-    region.assign(1, start);
-    seen[index(start[0], start[1], start[2])] = 1;
-    for (std::size_t next = 0; next < region.size(); ++next) {
-      const auto [x, y, z] = region[next];
-      const float here = std::abs(field_.values[index(x, y, z)]);
-      for (int dz = -1; dz <= 1; ++dz) {
-        if (z + dz < 0 || z + dz >= field_.nodes[2]) continue;
-        for (int dy = -1; dy <= 1; ++dy) {
-          if (y + dy < 0 || y + dy >= field_.nodes[1]) continue;
-          for (int dx = -1; dx <= 1; ++dx) {
-            if (x + dx < 0 || x + dx >= field_.nodes[0]) continue;
-            const std::size_t there = index(x + dx, y + dy, z + dz);
-            if (seen[there]) continue;
-            const int axes = std::abs(dx) + std::abs(dy) + std::abs(dz);
-            // Signs of settled regions do not matter here: seen nodes are skipped above.
-            if (here + field_.values[there] <= kLength[axes]) continue;
-            seen[there] = 1;
-            region.push_back({x + dx, y + dy, z + dz});
-          }
-        }
-      }
-    }
-  }
-
-  void sign_region(const std::vector<std::array<int, 3>>& region) {
-    const auto inside = [&](const std::array<int, 3>& n) {
-      return query_.inside(field_.origin + field_.cell * Vec3(n[0], n[1], n[2]));
-    };
-    const auto flip = [&](const std::array<int, 3>& n) {
-      float& value = field_.values[index(n[0], n[1], n[2])];
-      value = -value;
-    };
-    // Through a hole wider than a cell a region leaks to the other side: its probes then disagree, and each node
-    // is settled by itself.
-    constexpr std::size_t kProbes = 8;
-    const std::size_t step = std::max<std::size_t>(1, region.size() / kProbes);
-    const bool first = inside(region.front());
-    bool agree = true;
-    for (std::size_t i = step; agree && i < region.size(); i += step) agree = inside(region[i]) == first;
-    for (const auto& node : region) {
-      if (agree ? first : inside(node)) flip(node);
     }
   }
 

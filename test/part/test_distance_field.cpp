@@ -113,6 +113,24 @@ TEST(DistanceField, SignSurvivesWallsThinnerThanACell) {
   EXPECT_LT(field.distance(Vec3::Zero()), 0);
 }
 
+// Rows of nodes run along edges and through vertices of an aligned mesh, and through buried walls of shells that
+// overlap.
+TEST(DistanceField, SignOfEveryNodeIsThatOfTheWindingNumber) {
+  const Mesh aligned = box_mesh(Vec3(0.06, 0.04, 0.02));
+  Mesh turned = torus_mesh(0.04, 0.012, 24, 10);
+  for (Vec3& v : turned.vertices) v = Quat(0.8, 0.3, -0.4, 0.33).normalized() * v;
+  for (const Mesh& mesh : {aligned, turned, joined(aligned, moved(turned, Vec3(0.01, 0, 0))),
+                           joined(aligned, box_mesh(Vec3::Constant(0.03), Vec3(0.03, 0.01, 0)))}) {
+    const MeshQuery query(mesh);
+    const DistanceField field = distance_field(query, with_cell(0.02));
+    std::size_t wrong = 0;
+    for_each_node(field, [&](const Vec3& p, double value) {
+      if (std::abs(value) > 1e-9) wrong += (value < 0) != query.inside(p);
+    });
+    EXPECT_EQ(wrong, 0u) << "of " << field.values.size();
+  }
+}
+
 TEST(DistanceField, OpenMeshTakesItsSignNodeByNode) {
   Mesh mesh = box_mesh(Vec3::Constant(0.06));
   mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);  // the lid at +z
