@@ -86,6 +86,7 @@ class Repair {
     close_holes();
     if (options_.thickness) thicken();
     turn_outward();
+    unite();
     judge();
   }
 
@@ -221,6 +222,21 @@ class Repair {
     }
   }
 
+  /// Solids that overlap would count twice in the mass, and their buried walls as surface.
+  void unite() {
+    if (repair::open_edges(mesh_) > 0) return;
+    const std::size_t overlaps = repair::overlapping_pairs(mesh_);
+    if (overlaps == 0) return;
+    const std::string what = count(overlaps, "pair") + " of closed shells overlap: ";
+    if (repair::unite(mesh_, tolerance())) {
+      flag("shells_united", what + "they were united, so that the space they share counts once",
+           "nothing to do: the outside is unchanged");
+    } else {
+      flag("shells_overlap", what + "the space they share counts twice in volume and mass",
+           "unite them in the modeller, or give the part's mass instead of its density");
+    }
+  }
+
   void judge() {
     report_.open_edges = repair::open_edges(mesh_);
     report_.closed = report_.open_edges == 0;
@@ -245,12 +261,6 @@ class Repair {
     if (volume < 0.0) {
       throw input_error("the enclosed volume is negative (" + number(volume) + " m3): cavities exceed the solid",
                         where_, "recompute normals in the modeller");
-    }
-    const std::size_t overlaps = repair::overlapping_pairs(mesh_);
-    if (overlaps > 0) {
-      flag("shells_overlap",
-           count(overlaps, "pair") + " of closed shells overlap: the space they share counts twice in volume and mass",
-           "unite them in the modeller, or give the part's mass instead of its density");
     }
   }
 

@@ -303,22 +303,22 @@ TEST_F(MeshLoader, DefectsOfOneFileAreEachCountedAndFlagged) {
   EXPECT_NEAR(volume(loaded.mesh), 1.0, 1e-12);
 }
 
-TEST_F(MeshLoader, OverlappingShellsAreSaidToCountTwiceCavitiesAreNot) {
+TEST_F(MeshLoader, OverlappingShellsAreUnitedCavitiesAndNeighboursAreNot) {
   Mesh crossed = box_mesh({3, 1, 1});
   append(crossed, box_mesh({1, 3, 1.5}));
-  EXPECT_TRUE(has_flag(repair_mesh(crossed, {}, "part").report, "shells_overlap"));
+  EXPECT_TRUE(has_flag(repair_mesh(crossed, {}, "part").report, "shells_united"));
 
   Mesh within = box_mesh({3, 3, 3});
   append(within, box_mesh({1, 1, 1}));
-  EXPECT_TRUE(has_flag(repair_mesh(within, {}, "part").report, "shells_overlap"));
+  EXPECT_TRUE(has_flag(repair_mesh(within, {}, "part").report, "shells_united"));
 
   Mesh hollow = box_mesh({3, 3, 3});
   append(hollow, inverted(box_mesh({1, 1, 1})));
-  EXPECT_FALSE(has_flag(repair_mesh(hollow, {}, "part").report, "shells_overlap"));
+  EXPECT_FALSE(has_flag(repair_mesh(hollow, {}, "part").report, "shells_united"));
 
   Mesh apart = box_mesh({1, 1, 1});
   append(apart, box_mesh({1, 1, 1}, {1.1, 0.2, 0.1}));
-  EXPECT_FALSE(has_flag(repair_mesh(apart, {}, "part").report, "shells_overlap"));
+  EXPECT_FALSE(has_flag(repair_mesh(apart, {}, "part").report, "shells_united"));
 }
 
 TEST_F(MeshLoader, NothingOfTheFileIsLostOnTheWay) {

@@ -48,7 +48,8 @@ struct LoadedMesh {
 /// Reads all meshes of a file with their node transforms applied, welds, checks and repairs.
 /// Throws an input Error (missing, unreadable, empty, NaN, zero volume, still open) with path, cause and remedy.
 /// Where assimp refuses a DAE, it is read once more without images, materials and animations: flag "file_mended".
-/// Closed shells may overlap; they are counted, and only their union is inside (winding number, part/mesh_query.hpp).
+/// Closed shells that overlap are united: flag "shells_united". Where that fails ("shells_overlap"), what they share counts
+/// twice in volume and mass, and only their union is inside (winding number, part/mesh_query.hpp).
 LoadedMesh load_mesh(const std::string& path, const LoadOptions& options = {});
 
 /// The same checks and repairs on a mesh that is in memory already (metres).

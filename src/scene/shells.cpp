@@ -1,0 +1,57 @@
+#include "shells.hpp"
+
+#include "edge_uses.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace bin_scenes::repair {
+
+Shells shells(const Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  for_each_edge(edge_uses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first != 2) return;
+    const std::uint32_t a = root(first->triangle), b = root(first[1].triangle);
+    parent[std::max(a, b)] = std::min(a, b);
+  });
+  Shells result;
+  result.of_triangle.resize(parent.size());
+  for (std::uint32_t t = 0; t < parent.size(); ++t) {
+    const std::uint32_t r = root(t);
+    result.of_triangle[t] = r == t ? static_cast<std::uint32_t>(result.count++) : result.of_triangle[r];
+  }
+  return result;
+}
+
+double signed_volume(const Mesh& mesh) {
+  const Vec3 apex = mesh.empty() ? Vec3(Vec3::Zero()) : mesh.bounds().center();
+  double volume6 = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    volume6 += (mesh.vertices[a] - apex).dot((mesh.vertices[b] - apex).cross(mesh.vertices[c] - apex));
+  }
+  return volume6 / 6.0;
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += 0.5 * mesh.area_vector(t).norm();
+  return sum;
+}
+
+double winding(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& p) {
+  double angle = 0.0;
+  for (const std::uint32_t t : triangles) {
+    const Vec3 a = mesh.vertices[mesh.triangles[t][0]] - p, b = mesh.vertices[mesh.triangles[t][1]] - p,
+               c = mesh.vertices[mesh.triangles[t][2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (4.0 * M_PI);
+}
+
+}  // namespace bin_scenes::repair
