@@ -160,6 +160,29 @@ TEST_F(PartModelTest, WorksWithoutACache) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(PartModelTest, FileIsLoadedOnceAndThenReadFromTheCache) {
+  const fs::path file = folder_ / "tetrahedron.off";
+  fs::create_directories(folder_);
+  std::ofstream(file) << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  LoadOptions options;
+  options.unit = Unit::centimetre;
+  {
+    const auto part = PartModel::load(file, options);
+    EXPECT_NEAR(part->mass().volume, 1e-6 / 6, 1e-15);
+    EXPECT_EQ(PartModel::load(file, options), part);  // shared while someone holds it
+    EXPECT_EQ(built(), 1u);
+  }
+  const auto again = PartModel::load(file, options);
+  EXPECT_EQ(built(), 1u);
+  EXPECT_EQ(read(), 1u);
+  EXPECT_NEAR(again->mass().volume, 1e-6 / 6, 1e-15);
+  EXPECT_TRUE(again->load_report().closed);
+  EXPECT_EQ(again->load_report().unit, Unit::centimetre);
+  options.unit = Unit::millimetre;
+  EXPECT_NEAR(PartModel::load(file, options)->mass().volume, 1e-9 / 6, 1e-18);
+  EXPECT_EQ(built(), 2u);
+}
+
 // The smallest error first: a field of a box is exact on faces and rounds edges by less than a third of a cell.
 TEST_F(PartModelTest, FieldErrorOfABoxIsTheRoundingOfItsEdges) {
   const auto part = PartModel::from_mesh(box_mesh(Vec3(0.06, 0.05, 0.04)), "box");
