@@ -1,11 +1,13 @@
 #include "bin_scenes/part/convex_hulls.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "bin_scenes/part/shape_error.hpp"
 #include "hacd_partition.hpp"
+#include "plane_cuts.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -14,28 +16,14 @@
 namespace bin_scenes {
 namespace {
 
+// Cell of the field that tells how far a hull sticks out, and distance of the places where it is asked, / diagonal.
+constexpr double kFieldCell = 0.008, kStep = 0.02;
+// Distance of the places where the error is measured, / diagonal.
+constexpr double kMeasureStep = 0.015;
+// Cuts may make this many times the pieces that are allowed: merging makes fewer of them.
+constexpr int kSpare = 3;
 // Patches of HACD to merge from.
-constexpr int kFewPatches = 16, kManyPatches = 128;
-
-/// Largest distance from the outer surface of the hulls to the mesh, / diagonal.
-double surface_error(const std::vector<Mesh>& hulls, const MeshQuery& query) {
-  const double diagonal = query.mesh().bounds().diagonal();
-  std::vector<HullPlanes> planes;
-  for (const Mesh& hull : hulls) planes.emplace_back(hull);
-  double worst = 0;
-  for (std::size_t h = 0; h < hulls.size(); ++h) {
-    for (const SurfacePoint& s : dense_surface_points(hulls[h], 0.015 * diagonal)) {
-      bool covered = false;
-      for (std::size_t other = 0; other < hulls.size() && !covered; ++other) {
-        covered = other != h && planes[other].covers(s.point, s.normal, 1e-4 * diagonal);
-      }
-      // Only points further off than the worst so far matter: a point has to be looked up only if none is that near.
-      if (covered || query.nearest(s.point, worst).distance <= worst) continue;
-      worst = query.nearest(s.point).distance;
-    }
-  }
-  return worst / diagonal;
-}
+constexpr int kPatches = 64;
 
 /// A piece of the part on its way to a hull.
 struct Piece {
@@ -58,28 +46,55 @@ Piece merged(const Piece& a, const Piece& b) {
   return piece_of(std::move(points));
 }
 
-/// How far a hull sticks out of the mesh (m); looks no further once it is more than `enough`. A point is outside if it
-/// lies before its nearest triangle.
-double protrusion(const Mesh& hull, const MeshQuery& query, double step, double enough) {
-  double worst = 0;
-  for (const SurfacePoint& s : dense_surface_points(hull, step)) {
-    if (worst > enough) break;
-    if (query.nearest(s.point, worst).distance <= worst) continue;
-    const NearestPoint nearest = query.nearest(s.point);
-    if ((s.point - nearest.point).dot(query.mesh().area_vector(nearest.triangle)) > 0) worst = nearest.distance;
+/// How far hulls stick out of a solid, read from its distance field.
+class Protrusion {
+ public:
+  explicit Protrusion(const MeshQuery& query)
+      : field_(distance_field(query, {kFieldCell})), step_(kStep * query.mesh().bounds().diagonal()) {}
+
+  /// Largest distance (m) before the surface, and where.
+  std::pair<double, Vec3> operator()(const Mesh& hull) const {
+    std::pair<double, Vec3> worst{0.0, hull.vertices[0]};
+    for (const SurfacePoint& s : dense_surface_points(hull, step_)) {
+      const double distance = field_.distance(s.point);
+      if (distance > worst.first) worst = {distance, s.point};
+    }
+    return worst;
   }
-  return worst;
+  bool inside(const Vec3& point) const { return field_.distance(point) < 0; }
+
+ private:
+  DistanceField field_;
+  double step_;
+};
+
+/// Larger of what the hulls stick out of the mesh and what they leave bare of it, / diagonal. Without a field every
+/// face of a hull counts; with one, those inside the solid do not: there two hulls meet, and nothing touches them.
+double surface_error(const std::vector<Mesh>& hulls, const MeshQuery& query, const Protrusion* protrusion) {
+  const double diagonal = query.mesh().bounds().diagonal();
+  std::vector<HullPlanes> planes;
+  double worst = 0;
+  for (const Mesh& hull : hulls) {
+    planes.emplace_back(hull);
+    for (const SurfacePoint& s : dense_surface_points(hull, kMeasureStep * diagonal)) {
+      if (protrusion && protrusion->inside(s.point)) continue;
+      // Only points further off than the worst so far matter: a point has to be looked up only if none is that near.
+      if (query.nearest(s.point, worst).distance > worst) worst = query.nearest(s.point).distance;
+    }
+  }
+  for (const SurfacePoint& s : dense_surface_points(query.mesh(), kMeasureStep * diagonal)) {
+    worst = std::max(worst, distance_to_union(planes, s.point));
+  }
+  return worst / diagonal;
 }
 
-/// Merges the pair whose common hull sticks out least, until no pair stays below the limit and few enough are left.
-/// HACD's own measure of concavity is looser, and its hulls of surface patches are hollow: merging by the measured
-/// protrusion lets opposite sides grow together and ends at the fewest pieces the goal allows.
-std::vector<Piece> merge(std::vector<Piece> pieces, const MeshQuery& query, double limit, int max_pieces) {
-  const double step = 0.03 * query.mesh().bounds().diagonal();
-  const double touch = 1e-3 * query.mesh().bounds().diagonal();
+/// Merges the pair of pieces whose common hull sticks out least, until no pair stays below the limit and few enough are
+/// left. Pieces further apart than `touch` are not tried unless few are left.
+std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Protrusion& protrusion, double limit,
+                         double touch, int max_pieces) {
+  std::vector<Piece> pieces;
+  for (const std::vector<Vec3>& points : parts) pieces.push_back(piece_of(points));
   constexpr std::size_t kAllPairs = 16;  // so few that pieces which do not touch are tried, too
-  // Costs above the limit matter only while there are more pieces than allowed.
-  const double enough = pieces.size() > static_cast<std::size_t>(max_pieces) ? 8 * limit : limit;
   const double never = std::numeric_limits<double>::infinity();
   // cost[a][b], a < b; NaN = not asked yet
   const std::size_t n = pieces.size();
@@ -96,7 +111,7 @@ std::vector<Piece> merge(std::vector<Piece> pieces, const MeshQuery& query, doub
         if (count > kAllPairs && !pieces[a].bounds.overlaps(pieces[b].bounds, touch)) continue;
         if (std::isnan(cost[a * n + b])) {
           const Piece both = merged(pieces[a], pieces[b]);
-          cost[a * n + b] = both.hull.empty() ? 0.0 : protrusion(both.hull, query, step, enough);
+          cost[a * n + b] = both.hull.empty() ? 0.0 : protrusion(both.hull).first;
         }
         // Equal costs (most are zero at first): the smaller piece first, which keeps pieces compact.
         const double size = (pieces[a].bounds.diagonal() + pieces[b].bounds.diagonal());
@@ -136,25 +151,32 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
   if (best.hulls[0].empty()) {
     throw input_error("all vertices lie in one plane", "convex_hulls", "give a closed mesh with a volume");
   }
-  best.surface_error = surface_error(best.hulls, query);
+  best.surface_error = surface_error(best.hulls, query, nullptr);
   if (best.surface_error > options.max_error && options.max_hulls > 1) {
-    // Few patches first; more, which cost more, only where they do not meet the goal.
-    for (int patches = 2 * kFewPatches; patches <= kManyPatches; patches *= 2) {
-      std::vector<Piece> pieces;
-      for (std::vector<Vec3>& points : hacd_patches(mesh, patches)) pieces.push_back(piece_of(std::move(points)));
-      pieces = merge(std::move(pieces), query, 0.8 * options.max_error * mesh.bounds().diagonal(), options.max_hulls);
+    const double diagonal = mesh.bounds().diagonal();
+    const Protrusion protrusion(query);
+    const SolidMeasure measure{protrusion, [&](const Vec3& p) { return protrusion.inside(p); }};
+    // Keeps the hulls of the pieces, merged and with few vertices, if they are better than the best so far.
+    const auto try_pieces = [&](const std::vector<std::vector<Vec3>>& pieces, double limit) {
       std::vector<Mesh> hulls;
-      for (const Piece& piece : pieces) {
+      for (const Piece& piece : merge(pieces, protrusion, limit, 1e-3 * diagonal, options.max_hulls)) {
         Mesh hull = convex_hull(piece.points, options.max_vertices);
         if (!hull.empty()) hulls.push_back(std::move(hull));
       }
-      const double error = hulls.empty() ? 1.0 : surface_error(hulls, query);
-      if (error < best.surface_error) {
-        best.hulls = std::move(hulls);
-        best.surface_error = error;
+      const double error = hulls.empty() ? 1.0 : surface_error(hulls, query, &protrusion);
+      if (error >= best.surface_error) return;
+      best.hulls = std::move(hulls);
+      best.surface_error = error;
+    };
+    const auto missed = [&] { return best.surface_error > options.max_error; };
+    for (const double margin : {0.75, 0.5}) {
+      const double limit = margin * options.max_error * diagonal;
+      // More pieces than the limit allows do not help.
+      if (missed() && static_cast<int>(best.hulls.size()) < options.max_hulls) {
+        try_pieces(plane_cut_pieces(mesh, measure, limit, kSpare * options.max_hulls), limit);
       }
-      if (best.surface_error <= options.max_error) break;
     }
+    if (missed()) try_pieces(hacd_patches(mesh, kPatches), 0.75 * options.max_error * diagonal);
   }
   best.met = best.surface_error <= options.max_error;
   const double volume = mass_properties(mesh).volume;

@@ -8,33 +8,6 @@
 namespace bin_scenes {
 namespace {
 
-/// Extreme points in `count` directions spread evenly by the Fibonacci spiral, and along the axes.
-std::vector<Vec3> extreme_points(const std::vector<Vec3>& points, int count) {
-  std::vector<std::size_t> chosen;
-  const auto choose = [&](const Vec3& direction) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (points[i].dot(direction) > points[best].dot(direction)) best = i;
-    }
-    if (std::find(chosen.begin(), chosen.end(), best) == chosen.end()) chosen.push_back(best);
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    choose(Vec3::Unit(axis));
-    choose(-Vec3::Unit(axis));
-  }
-  // Several directions share a point: ask more of them than points are wanted.
-  const double golden = M_PI * (3 - std::sqrt(5.0));
-  const int directions = 4 * count;
-  for (int i = 0; i < directions && static_cast<int>(chosen.size()) < count; ++i) {
-    const int k = static_cast<int>(static_cast<long long>(i) * 89 % directions);  // spread from the first one on
-    const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z);
-    choose(Vec3(r * std::cos(golden * k), r * std::sin(golden * k), z));
-  }
-  std::vector<Vec3> extremes;
-  for (const std::size_t i : chosen) extremes.push_back(points[i]);
-  return extremes;
-}
-
 Mesh full_hull(const std::vector<Vec3>& points) {
   btConvexHullComputer computer;
   if (points.size() < 4) return {};
@@ -64,12 +37,49 @@ double volume(const Mesh& hull) {
   return six / 6;
 }
 
+/// The hull of some of a hull's vertices: the extreme ones along axes and diagonals, then again and again the one that
+/// lies furthest outside of the hull so far.
+Mesh reduced(const Mesh& hull, int max_vertices) {
+  std::vector<char> chosen(hull.vertices.size(), 0);
+  std::vector<Vec3> points;
+  const auto choose = [&](std::size_t v) {
+    if (!chosen[v] && static_cast<int>(points.size()) < max_vertices) points.push_back(hull.vertices[v]);
+    chosen[v] = 1;
+  };
+  const auto extreme = [&](const Vec3& direction) {
+    std::size_t best = 0;
+    for (std::size_t v = 1; v < hull.vertices.size(); ++v) {
+      if (hull.vertices[v].dot(direction) > hull.vertices[best].dot(direction)) best = v;
+    }
+    return best;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    choose(extreme(Vec3::Unit(axis)));
+    choose(extreme(-Vec3::Unit(axis)));
+  }
+  for (int i = 0; i < 8; ++i) choose(extreme({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0}));
+  Mesh smaller = full_hull(points);
+  while (static_cast<int>(points.size()) < max_vertices) {
+    const HullPlanes planes(smaller);
+    std::size_t furthest = 0;
+    double most = 0;
+    for (std::size_t v = 0; v < hull.vertices.size(); ++v) {
+      const double outside = chosen[v] ? 0.0 : planes.outside(hull.vertices[v]);
+      if (outside > most) most = outside, furthest = v;
+    }
+    if (!(most > 0)) break;
+    choose(furthest);
+    smaller = full_hull(points);
+  }
+  return smaller;
+}
+
 }  // namespace
 
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices) {
   Mesh hull = full_hull(points);
   if (static_cast<int>(hull.vertices.size()) > max_vertices) {
-    hull = full_hull(extreme_points(hull.vertices, std::max(4, max_vertices)));
+    hull = reduced(hull, max_vertices);
   }
   if (hull.empty()) return {};
   const double size = hull.bounds().diagonal(), enclosed = volume(hull);
@@ -86,10 +96,11 @@ HullPlanes::HullPlanes(const Mesh& hull) : bounds_(hull.bounds()) {
     const double length = area.norm();
     if (!(length > 0)) continue;
     const Vec3 normal = area / length;
+    if (!planes_.empty() && (planes_.back().normal - normal).norm() < 1e-9) continue;
+    // Over all vertices, because the normal of a sliver may point anywhere: its plane then touches the hull elsewhere.
     double offset = -std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : hull.triangles[t]) offset = std::max(offset, normal.dot(hull.vertices[v]));
-    const bool known = !planes_.empty() && (planes_.back().normal - normal).norm() < 1e-9;
-    if (!known) planes_.push_back({normal, offset});
+    for (const Vec3& v : hull.vertices) offset = std::max(offset, normal.dot(v));
+    planes_.push_back({normal, offset});
   }
 }
 
@@ -99,16 +110,13 @@ double HullPlanes::outside(const Vec3& p) const {
   return most;
 }
 
-bool HullPlanes::covers(const Vec3& p, const Vec3& normal, double tolerance) const {
-  bool opposed = false;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Plane& plane : planes_) {
-    const double outside = plane.normal.dot(p) - plane.offset;
-    if (outside > tolerance) return false;
-    most = std::max(most, outside);
-    opposed = opposed || (outside > -tolerance && plane.normal.dot(normal) < -0.5);
+double distance_to_union(const std::vector<HullPlanes>& hulls, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HullPlanes& hull : hulls) {
+    const double to_box = (hull.bounds().lower - p).cwiseMax(p - hull.bounds().upper).maxCoeff();
+    if (to_box < least) least = std::min(least, hull.outside(p));
   }
-  return most < -tolerance || opposed;
+  return std::max(least, 0.0);
 }
 
 }  // namespace bin_scenes

@@ -213,22 +213,17 @@ ShapeError shape_error(const DistanceField& field, const MeshQuery& query) {
 ShapeError shape_error(const ConvexHulls& set, const MeshQuery& query) {
   const double diagonal = query.mesh().bounds().diagonal();
   std::vector<HullPlanes> planes;
-  for (const Mesh& hull : set.hulls) planes.emplace_back(hull);
   Distances to_mesh;
-  for (std::size_t h = 0; h < set.hulls.size(); ++h) {
-    for (const SurfacePoint& s : dense_surface_points(set.hulls[h], kStep * diagonal)) {
-      bool covered = false;
-      for (std::size_t other = 0; other < planes.size() && !covered; ++other) {
-        covered = other != h && planes[other].covers(s.point, s.normal, 1e-4 * diagonal);
-      }
-      if (!covered) to_mesh.add(query.nearest(s.point).distance, s.weight);
+  for (const Mesh& hull : set.hulls) {
+    planes.emplace_back(hull);
+    for (const SurfacePoint& s : dense_surface_points(hull, kStep * diagonal)) {
+      // Faces inside the solid are where two hulls meet: nothing touches them. Outside they may be covered by another
+      // hull, which then sticks out further.
+      const double distance = query.nearest(s.point).distance;
+      if (distance < 1e-4 * diagonal || !query.inside(s.point)) to_mesh.add(distance, s.weight);
     }
   }
-  return errors(query, to_mesh, union_volume(set.hulls), [&](const Vec3& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const HullPlanes& hull : planes) least = std::min(least, hull.outside(p));
-    return least;
-  });
+  return errors(query, to_mesh, union_volume(set.hulls), [&](const Vec3& p) { return distance_to_union(planes, p); });
 }
 
 }  // namespace bin_scenes

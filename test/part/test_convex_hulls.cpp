@@ -54,12 +54,14 @@ TEST(ConvexHulls, ConvexPartIsOneHullWithoutError) {
   }
 }
 
-TEST(ConvexHulls, LIsTwoOrThreeHulls) {
+TEST(ConvexHulls, LIsExactlyTwoHulls) {
   const ConvexHulls hulls = convex_hulls(l_mesh(1.0));
   EXPECT_TRUE(hulls.met) << hulls.surface_error;
-  EXPECT_GE(hulls.hulls.size(), 2u);
-  EXPECT_LE(hulls.hulls.size(), 4u);
-  EXPECT_NEAR(hulls.volume_error, 0.0, 0.03);
+  EXPECT_EQ(hulls.hulls.size(), 2u);
+  EXPECT_LT(hulls.surface_error, 1e-9);
+  double sum = 0;
+  for (const Mesh& hull : hulls.hulls) sum += mass_properties(hull).volume;
+  EXPECT_NEAR(sum, 3.0, 1e-9);  // they share no volume
   for (const Mesh& hull : hulls.hulls) expect_closed_and_convex(hull);
 }
 
@@ -70,6 +72,43 @@ TEST(ConvexHulls, ThreeOverlappingBoxesAreThreeHulls) {
   const ConvexHulls hulls = convex_hulls(u);
   EXPECT_TRUE(hulls.met) << hulls.surface_error;
   EXPECT_EQ(hulls.hulls.size(), 3u);
+}
+
+// Neither one cut through a ring nor one through the hole of a plate makes its hulls smaller; two do.
+TEST(ConvexHulls, RingOfPrismsKeepsItsHole) {
+  Mesh ring;
+  constexpr std::uint32_t kSides = 24;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const double u = 2 * M_PI * i / kSides;
+    for (const double r : {0.02, 0.03}) {
+      for (const double z : {0.0, 0.01}) ring.vertices.push_back({r * std::cos(u), r * std::sin(u), z});
+    }
+    const std::uint32_t a = 4 * i, b = 4 * ((i + 1) % kSides);
+    const auto quad = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
+      ring.triangles.push_back({p, q, r});
+      ring.triangles.push_back({p, r, s});
+    };
+    quad(a + 2, b + 2, b, a);          // inner wall, top to bottom
+    quad(a + 1, b + 1, b + 3, a + 3);  // outer wall
+    quad(a + 3, b + 3, b + 2, a + 2);  // top
+    quad(a, b, b + 1, a + 1);          // bottom
+  }
+  ring = inverted(ring);
+  ASSERT_NEAR(mass_properties(ring).volume, 0.01 * 12 * std::sin(2 * M_PI / kSides) * (9e-4 - 4e-4), 1e-12);
+  const ConvexHulls hulls = convex_hulls(ring);
+  EXPECT_TRUE(hulls.met) << hulls.surface_error;
+  EXPECT_LE(hulls.hulls.size(), 24u);
+  EXPECT_NEAR(hulls.volume_error, 0.0, 0.05);
+  for (const Mesh& hull : hulls.hulls) EXPECT_GT(HullPlanes(hull).outside(Vec3(0, 0, 0.005)), 0.018);
+}
+
+// Hulls of real parts have slivers, whose normals mean nothing; their planes must not cut into the hull.
+TEST(HullPlanes, SliversCutNothingOff) {
+  Mesh box = box_mesh(Vec3::Constant(0.05));
+  box.vertices.push_back(0.5 * (box.vertices[0] + box.vertices[1]) + Vec3(0, 1e-19, -1e-18));
+  box.triangles.push_back({0, 1, 8});
+  const HullPlanes planes(box);
+  for (const Vec3& v : box.vertices) EXPECT_LT(planes.outside(0.999 * v), 0.0);
 }
 
 TEST(ConvexHulls, TorusStaysOpenInTheMiddle) {

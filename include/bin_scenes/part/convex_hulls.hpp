@@ -1,4 +1,4 @@
-/// A part as a few convex hulls, by HACD (Mamou & Ghorbel 2009). Only the source file sees HACD.
+/// A part as a few convex hulls: cut by planes, or by HACD (Mamou & Ghorbel 2009) where that is better.
 #pragma once
 
 #include "bin_scenes/scene/mesh.hpp"
@@ -16,17 +16,19 @@ struct HullOptions {
 };
 
 struct ConvexHulls {
-  std::vector<Mesh> hulls;   ///< closed convex meshes, model frame, metres
-  double surface_error = 0;  ///< one-sided Hausdorff, hulls' outer surface to mesh / diagonal
-  double volume_error = 0;   ///< (volume of union of hulls - volume) / volume
-  bool met = false;          ///< error goal reached
+  std::vector<Mesh> hulls;  ///< closed convex meshes, model frame, metres
+  /// Hausdorff distance / diagonal, larger of hulls' outer surface to mesh and mesh to hulls. Where hulls meet inside
+  /// the part is no outer surface.
+  double surface_error = 0;
+  double volume_error = 0;  ///< (volume of union of hulls - volume) / volume
+  bool met = false;         ///< error goal reached
 };
 
 class MeshQuery;
 
-/// One hull if the part is convex enough. Else patches by HACD, merged while the hull of two sticks out of the mesh by
-/// less than max_error; starts from few patches and takes more until the measured error meets the goal. The best result
-/// is kept, with `met` telling whether it is good enough.
+/// One hull if the part is convex enough. Else it is cut by planes into nearly convex pieces, which are merged while
+/// the hull of two sticks out of the mesh by less than max_error; where that misses the goal, HACD's patches are tried,
+/// too. The best result is kept, with `met` telling whether it is good enough.
 ConvexHulls convex_hulls(const Mesh& mesh, const HullOptions& options = {});
 ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options = {});
 

@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Closed convex mesh over the points, or an empty one where they span no volume. Above `max_vertices` the extreme
-/// points in evenly spread directions are kept, so the hull shrinks a little.
+/// Closed convex mesh over the points, or an empty one where they span no volume. Above `max_vertices` it
+/// shrinks a little: the vertex furthest outside is added until the count is reached.
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices);
 
 /// The half-spaces of a closed convex mesh: normal . p <= offset inside.
@@ -18,8 +18,6 @@ class HullPlanes {
 
   /// Largest normal . p - offset: negative inside; outside a lower bound of the distance.
   double outside(const Vec3& p) const;
-  /// Inside, or on a face that looks against `normal` (m): a point with that normal is then no outer surface.
-  bool covers(const Vec3& p, const Vec3& normal, double tolerance) const;
   const Aabb& bounds() const { return bounds_; }
 
  private:
@@ -30,5 +28,8 @@ class HullPlanes {
   std::vector<Plane> planes_;
   Aabb bounds_;
 };
+
+/// How far a point lies outside all of the hulls: 0 inside of one, else a lower bound of the distance.
+double distance_to_union(const std::vector<HullPlanes>& hulls, const Vec3& p);
 
 }  // namespace bin_scenes

@@ -1,0 +1,40 @@
+/// A solid cut by planes into pieces that are nearly convex.
+#pragma once
+
+#include "bin_scenes/scene/mesh.hpp"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Points with normal . p > offset lie above.
+struct CutPlane {
+  Vec3 normal = Vec3::UnitZ();
+  double offset = 0.0;
+
+  double height(const Vec3& p) const { return normal.dot(p) - offset; }
+};
+
+/// The triangles of a surface below and above a plane, those across it clipped. Vertices within `tolerance` of the
+/// plane count as in it; a triangle wholly in it goes to the side of its solid: below, if it looks up. No caps are
+/// made: the corners of a cut solid all lie on its clipped surface, but for those where three cuts meet inside it.
+std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double tolerance);
+
+/// What the cutting needs to know of the solid.
+struct SolidMeasure {
+  /// How far a convex hull sticks out of the solid (m), and where it does so most.
+  std::function<std::pair<double, Vec3>(const Mesh& hull)> protrusion;
+  std::function<bool(const Vec3& point)> inside;
+};
+
+/// Corners of the pieces, each a point set for a hull. The piece whose hull sticks out most is cut next, until none
+/// sticks out by more than `limit` (m) or there are `max_pieces`. Of the planes through concave edges of the piece and
+/// across its axes the one is taken after which the hulls of the two sides enclose least. Exact for unions of convex
+/// solids that meet at concave edges; the idea is that of approximate convex decomposition by cutting (Lien & Amato
+/// 2007, "Approximate convex decomposition of polyhedra"; Wei et al. 2022, CoACD).
+std::vector<std::vector<Vec3>> plane_cut_pieces(const Mesh& mesh, const SolidMeasure& measure, double limit,
+                                                int max_pieces);
+
+}  // namespace bin_scenes
