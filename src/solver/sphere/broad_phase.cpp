@@ -90,11 +90,11 @@ void find_pairs(World& world) {
   world.previous.swap(world.manifolds);
   world.manifolds.clear();
   std::size_t old = 0;
-  const auto keep_sleeping = [&](const Manifold& m) {
+  const auto keep_sleeping = [&](Manifold& m) {
     const bool a_waits = world.bodies[m.a].present && !world.bodies[m.a].moves();
     const bool b_waits = m.b == ground || (world.bodies[m.b].present && !world.bodies[m.b].moves());
     if (a_waits && b_waits) {
-      world.manifolds.push_back(m);
+      world.manifolds.push_back(std::move(m));
       ++world.counters.pairs_asleep;
     }
   };
@@ -103,7 +103,7 @@ void find_pairs(World& world) {
            std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
       keep_sleeping(world.previous[old++]);
     if (old < world.previous.size() && world.previous[old].a == a && world.previous[old].b == b) {
-      world.manifolds.push_back(world.previous[old++]);
+      world.manifolds.push_back(std::move(world.previous[old++]));
       continue;
     }
     Manifold m;
@@ -114,7 +114,7 @@ void find_pairs(World& world) {
     const float restitution = b == ground ? world.ground_restitution : world.bodies[b].restitution;
     m.friction = std::sqrt(body.friction * friction);
     m.restitution = std::max(body.restitution, restitution);
-    world.manifolds.push_back(m);
+    world.manifolds.push_back(std::move(m));
   }
   while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
 }

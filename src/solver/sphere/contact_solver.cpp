@@ -24,8 +24,7 @@ Body immovable() {
 
 /// Manifolds of one body pair in world terms.
 void prepare(Manifold& m, Body& a, Body& b) {
-  for (int i = 0; i < m.count; ++i) {
-    Contact& c = m.contacts[i];
+  for (Contact& c : m.contacts) {
     const bool field_of_a = c.feature >> 31;
     c.normal = field_of_a      ? Vec3f(a.rotation * c.local_normal)
                : m.b == ground ? c.local_normal
@@ -64,8 +63,7 @@ inline Vec3f relative_velocity(const Body& a, const Body& b, const Contact& c) {
 }
 
 void warm_start(const Settings& s, float speed_gain, Manifold& m, Body& a, Body& b) {
-  for (int i = 0; i < m.count; ++i) {
-    Contact& c = m.contacts[i];
+  for (Contact& c : m.contacts) {
     // What is about to strike gains speed until it does, but no more than gravity gives in a step.
     if (c.approach < -s.restitution_speed && c.max_impulse == 0) {
       const float vn = relative_velocity(a, b, c).dot(c.normal);
@@ -80,8 +78,7 @@ void warm_start(const Settings& s, float speed_gain, Manifold& m, Body& a, Body&
 void solve_manifold(const Settings& s, const Softness& soft, Manifold& m, Body& a, Body& b, float h, bool bias,
                     float d) {
   const float inverse_h = 1.0f / h, slop = s.slop * d, push = s.push_speed * d;
-  for (int i = 0; i < m.count; ++i) {
-    Contact& c = m.contacts[i];
+  for (Contact& c : m.contacts) {
     const Vec3f moved = b.dx + (b.turn * c.rb - c.rb) - a.dx - (a.turn * c.ra - c.ra);
     const float separation = c.separation + moved.dot(c.normal);
     float velocity_bias = 0, mass_scale = 1, impulse_scale = 0;
@@ -101,8 +98,7 @@ void solve_manifold(const Settings& s, const Softness& soft, Manifold& m, Body& 
     c.max_impulse = std::max(c.max_impulse, total);
     apply(a, b, c, change * c.normal);
   }
-  for (int i = 0; i < m.count; ++i) {
-    Contact& c = m.contacts[i];
+  for (Contact& c : m.contacts) {
     const Vec3f v = relative_velocity(a, b, c);
     float f1 = c.f1 - c.tangent_mass * v.dot(c.t1), f2 = c.f2 - c.tangent_mass * v.dot(c.t2);
     const float most = m.friction * c.normal_impulse, size = std::sqrt(f1 * f1 + f2 * f2);
@@ -125,8 +121,7 @@ bool struck(const Settings& s, const Contact& c) {
 
 /// Newton's restitution: one sweep towards a separating speed of e times that of the approach.
 void bounce(const Settings& s, Manifold& m, Body& a, Body& b) {
-  for (int i = 0; i < m.count; ++i) {
-    Contact& c = m.contacts[i];
+  for (Contact& c : m.contacts) {
     if (!struck(s, c)) continue;
     const float vn = relative_velocity(a, b, c).dot(c.normal);
     const float total = std::max(c.normal_impulse - c.normal_mass * (vn + m.restitution * c.approach), 0.0f);
@@ -143,13 +138,13 @@ void restitute(const Settings& s, World& world, Body& wall) {
   for (const std::uint32_t i : world.order) {
     Manifold& m = world.manifolds[i];
     const auto hit = [&](const Contact& c) { return c.max_impulse > 0 && struck(s, c); };
-    if (m.restitution > 0 && std::any_of(m.contacts.begin(), m.contacts.begin() + m.count, hit)) bouncing.push_back(&m);
+    if (m.restitution > 0 && std::any_of(m.contacts.begin(), m.contacts.end(), hit)) bouncing.push_back(&m);
   }
   for (int k = 0; k < bounce_sweeps; ++k)
     for (Manifold* m : bouncing) bounce(s, *m, world.bodies[m->a], m->b == ground ? wall : world.bodies[m->b]);
   for (Manifold* m : bouncing)  // a blow is over: it must not warm-start the next step
-    for (int i = 0; i < m->count; ++i)
-      if (struck(s, m->contacts[i])) m->contacts[i].normal_impulse = m->contacts[i].f1 = m->contacts[i].f2 = 0;
+    for (Contact& c : m->contacts)
+      if (struck(s, c)) c.normal_impulse = c.f1 = c.f2 = 0;
 }
 
 /// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
@@ -185,7 +180,7 @@ void color_manifolds(World& world) {
   int colors = 0;
   for (Manifold& m : world.manifolds) {
     m.color = -1;
-    if (m.count == 0) continue;
+    if (m.contacts.empty()) continue;
     Body& a = world.bodies[m.a];
     Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
     const bool a_moves = a.moves(), b_moves = b && b->moves();
@@ -258,8 +253,7 @@ void solve(World& world) {
   }
   restitute(s, world, wall);
   each([&](Manifold& m, Body&, Body&) {
-    for (int i = 0; i < m.count; ++i)
-      m.contacts[i].friction_impulse = m.contacts[i].f1 * m.contacts[i].t1 + m.contacts[i].f2 * m.contacts[i].t2;
+    for (Contact& c : m.contacts) c.friction_impulse = c.f1 * c.t1 + c.f2 * c.t2;
   });
   for (const auto& [i, body] : frozen) {
     world.bodies[i].inverse_mass = body.inverse_mass;

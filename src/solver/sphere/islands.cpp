@@ -14,8 +14,8 @@ class Islands {
     std::iota(parent_.begin(), parent_.end(), 0u);
     for (const Manifold& m : world.manifolds) {
       if (m.b == ground || world.bodies[m.a].inverse_mass == 0 || world.bodies[m.b].inverse_mass == 0) continue;
-      const bool presses = std::any_of(m.contacts.begin(), m.contacts.begin() + m.count,
-                                       [](const Contact& c) { return c.normal_impulse > 0; });
+      const bool presses =
+          std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_impulse > 0; });
       if (presses) join(m.a, m.b);
     }
   }

@@ -17,13 +17,6 @@ using Candidates = std::vector<Candidate>;
 
 constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;
 
-/// How the samples of one body are carried into the frame of the field's body.
-struct Carry {
-  Mat3f rotation;
-  Vec3f offset;
-  Vec3f operator()(const Vec3f& p) const { return rotation * p + offset; }
-};
-
 /// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope
 /// along the edge, which is monotonic where the other surface is convex.
 bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gradient_p, const Vec3f& gradient_q,
@@ -61,9 +54,16 @@ bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f&
   bool found = false;
   Vec3f best_point = point, best_normal = gradient;
   float best_distance = 0;
+  const auto beyond = [&](const Ball& ball) {
+    const float far = ball.radius + nearest;
+    return (ball.center - point).squaredNorm() > far * far;
+  };
   for (std::size_t c = 0; c < other.clusters.size(); ++c) {
-    const float far = other.clusters[c].radius + nearest;
-    if ((other.clusters[c].center - point).squaredNorm() > far * far) continue;
+    if (c % group_size == 0 && beyond(other.groups[c / group_size])) {
+      c += group_size - 1;
+      continue;
+    }
+    if (beyond(other.clusters[c])) continue;
     for (std::uint32_t e = other.first_edge[c]; e < other.first_edge[c + 1]; ++e) {
       const Vec3f r = other.nodes[other.edges[e].a], v = other.nodes[other.edges[e].b] - r, w = p - r;
       const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
@@ -94,46 +94,63 @@ bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f&
 template <class Emit>
 void test_samples(const Samples& samples, const Field& field, const Samples& other, const Carry& carry, float margin,
                   Counters& counters, Emit&& emit) {
-  const float slack = margin + samples.radius + (field.ball > 0 ? 0.0f : 0.5f * field.cell);
-  Vec3f point[cluster_size], gradient[cluster_size];
-  float distance[cluster_size];
+  const float error = field.ball > 0 ? 0.0f : 0.5f * field.cell;  // of the grid where it bends
+  const float slack = margin + samples.radius + error;
+  Points<group_size> center;
+  Points<cluster_size> point;
+  float cluster_distance[group_size], distance[cluster_size];
+  Vec3f gradient[cluster_size];  // few are needed
+  std::uint32_t known;           // which of them are there
+  const auto offer = [&](const Vec3f& p, const Vec3f& out, float d, const Cone& cone, std::uint32_t feature) {
+    Vec3f pressed = -(carry.rotation.transpose() * out);  // how the sample is pressed if `out` is the way out for it
+    if (cone.restrict(pressed))
+      emit(p, Vec3f(-(carry.rotation * pressed)), d, feature);
+    else if (d < -2.0f * field.cell)  // deep inside any way out is better than none
+      emit(p, out, d, feature);
+  };
   counters.nodes_possible += samples.nodes.size();
   for (std::size_t g = 0; g < samples.groups.size(); ++g) {
     ++counters.groups_tested;
     if (field.sample(carry(samples.groups[g].center)) > samples.groups[g].radius + slack) continue;
-    const std::size_t last_cluster = std::min(samples.clusters.size(), (g + 1) * group_size);
-    for (std::size_t c = g * group_size; c < last_cluster; ++c) {
-      ++counters.clusters_tested;
-      if (field.sample(carry(samples.clusters[c].center)) > samples.clusters[c].radius + slack) continue;
+    const std::size_t first_cluster = g * group_size;
+    const std::size_t clusters = std::min(samples.clusters.size() - first_cluster, std::size_t{group_size});
+    counters.clusters_tested += clusters;
+    sample(field, carry, samples.cluster_points[g], center, cluster_distance);
+    for (std::size_t k = 0; k < clusters; ++k) {
+      const std::size_t c = first_cluster + k;
+      if (cluster_distance[k] > samples.clusters[c].radius + slack) continue;
       const std::size_t first = c * cluster_size, n = std::min(samples.nodes.size() - first, std::size_t{cluster_size});
       counters.nodes_tested += n;
+      sample(field, carry, samples.node_points[c], point, distance);
+      known = 0;
+      const auto gradient_at = [&](std::size_t i) -> const Vec3f& {
+        if (!(known >> i & 1u)) field.sample(point[i], gradient[i]);
+        known |= 1u << i;
+        return gradient[i];
+      };
       for (std::size_t i = 0; i < n; ++i) {
-        point[i] = carry(samples.nodes[first + i]);
-        distance[i] = field.sample(point[i], gradient[i]) - samples.radius;
-        if (distance[i] < margin) emit(point[i], gradient[i], distance[i], static_cast<std::uint32_t>(first + i));
+        distance[i] -= samples.radius;
+        if (distance[i] < margin)
+          offer(point[i], gradient_at(i), distance[i], samples.cones[first + i], static_cast<std::uint32_t>(first + i));
       }
       for (std::uint32_t e = samples.first_edge[c]; e < samples.first_edge[c + 1]; ++e) {
         const Edge& edge = samples.edges[e];
         const std::size_t ia = edge.a - first, ib = edge.b - first;
-        Vec3f q, gradient_q;
-        float distance_q;
-        if (ib < n) {
-          q = point[ib];
-          gradient_q = gradient[ib];
-          distance_q = distance[ib];
-        } else {
-          q = carry(samples.nodes[edge.b]);
-          distance_q = field.sample(q, gradient_q);
-        }
-        const float length = (q - point[ia]).norm();
-        if (0.5f * (distance[ia] + distance_q - length) > margin) continue;  // a distance falls by no more than the way
-        Vec3f deepest, normal;
+        const Vec3f p = point[ia], q = ib < n ? point[ib] : carry(samples.nodes[edge.b]);
+        const float distance_q = ib < n ? distance[ib] : field.sample(q);
+        const float at_least = 0.5f * (distance[ia] + distance_q - edge.length);  // it falls by no more than the way
+        if (at_least >= margin) continue;
+        Vec3f gradient_q, deepest, normal;
+        if (ib < n)
+          gradient_q = gradient_at(ib);
+        else
+          field.sample(q, gradient_q);
+        const Vec3f gradient_p = gradient_at(ia);
         float depth;
-        if (!descend(field, point[ia], q, gradient[ia], gradient_q, std::min(distance[ia], distance_q), deepest, normal,
-                     depth))
+        if (!descend(field, p, q, gradient_p, gradient_q, std::min(distance[ia], distance_q), deepest, normal, depth))
           continue;
-        cross_edges(other, 2.0f * field.cell + std::abs(depth), point[ia], q, deepest, normal, depth);
-        if (depth < margin) emit(deepest, normal, depth, e | edge_bit);
+        cross_edges(other, 2.0f * field.cell + std::abs(depth), p, q, deepest, normal, depth);
+        if (depth < margin) offer(deepest, normal, depth, edge.cone, e | edge_bit);
       }
     }
   }
@@ -179,6 +196,7 @@ float plane_distance(const World& world, const Plane& plane, const Vec3f& p, Vec
   return d;
 }
 
+/// Samples of a body against walls and floor.
 void candidates_of_ground(World& world, const Manifold& m, float margin, Candidates& out) {
   const Body& a = world.bodies[m.a];
   const Samples& samples = world.samples(a);
@@ -211,8 +229,16 @@ void candidates_of_ground(World& world, const Manifold& m, float margin, Candida
 void reduce(const Candidates& candidates, const Manifold& old, float size, std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
-  static thread_local std::vector<float> apart;
+  static thread_local std::vector<float> apart, advantage;
   apart.assign(candidates.size(), std::numeric_limits<float>::max());
+  advantage.assign(candidates.size(), 0.0f);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
+    const float separation = candidates[i].separation;
+    advantage[i] = 8.0f * std::max(0.0f, -separation) - 2.0f * std::max(0.0f, separation);
+    for (const Contact& c : old.contacts)
+      if (c.feature == candidates[i].feature) advantage[i] += 0.05f * size;
+  }
   int next = 0;
   for (std::size_t i = 1; i < candidates.size(); ++i)
     if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
@@ -232,10 +258,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, std::
         apart[i] = -1;  // a twin of a chosen one
         continue;
       }
-      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
-      float score = apart[i] + 8.0f * std::max(0.0f, -p.separation) - 2.0f * std::max(0.0f, p.separation);
-      for (int k = 0; k < old.count; ++k)
-        if (old.contacts[k].feature == p.feature) score += 0.05f * size;
+      const float score = apart[i] + advantage[i];
       if (score > best) {
         best = score;
         best_i = static_cast<int>(i);
@@ -247,37 +270,60 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, std::
 }
 
 /// Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
-void carry_impulses(const Manifold& old, Manifold& fresh, float near) {
+void carry_impulses(const std::vector<Contact>& old, std::vector<Contact>& fresh, float near) {
   std::array<bool, max_contacts> taken{}, warm{};
-  const auto take = [&](int i, int k) {
-    fresh.contacts[i].normal_impulse = old.contacts[k].normal_impulse;
-    fresh.contacts[i].friction_impulse = old.contacts[k].friction_impulse;
+  const auto take = [&](std::size_t i, std::size_t k) {
+    fresh[i].normal_impulse = old[k].normal_impulse;
+    fresh[i].friction_impulse = old[k].friction_impulse;
     taken[k] = warm[i] = true;
   };
-  for (int i = 0; i < fresh.count; ++i)
-    for (int k = 0; k < old.count; ++k)
-      if (!taken[k] && !warm[i] && old.contacts[k].feature == fresh.contacts[i].feature) take(i, k);
-  for (int i = 0; i < fresh.count; ++i) {
+  for (std::size_t i = 0; i < fresh.size(); ++i)
+    for (std::size_t k = 0; k < old.size(); ++k)
+      if (!taken[k] && !warm[i] && old[k].feature == fresh[i].feature) take(i, k);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
     if (warm[i]) continue;
-    int best = -1;
+    std::size_t best = old.size();
     float best_way = near;
-    for (int k = 0; k < old.count; ++k) {
-      const float way = (old.contacts[k].anchor_a - fresh.contacts[i].anchor_a).norm();
-      if (taken[k] || way > best_way || old.contacts[k].normal.dot(fresh.contacts[i].normal) < 0.9f) continue;
+    for (std::size_t k = 0; k < old.size(); ++k) {
+      const float way = (old[k].anchor_a - fresh[i].anchor_a).norm();
+      if (taken[k] || way > best_way || old[k].normal.dot(fresh[i].normal) < 0.9f) continue;
       best = k;
       best_way = way;
     }
-    if (best >= 0) take(i, best);
+    if (best < old.size()) take(i, best);
   }
 }
 
+Contact contact_of(const Candidate& c, const Body& a, const Body* b) {
+  Contact contact;
+  contact.anchor_a = c.on_a;
+  contact.feature = c.feature;
+  contact.normal = a.rotation * c.normal;
+  const Vec3f on_b = a.x + a.rotation * c.on_b;
+  contact.anchor_b = b ? Vec3f(b->rotation.transpose() * (on_b - b->x)) : on_b;
+  // The normal turns with the body whose field it comes from.
+  const bool field_of_a = c.feature & side_b;
+  contact.local_normal = field_of_a ? c.normal : b ? Vec3f(b->rotation.transpose() * contact.normal) : contact.normal;
+  return contact;
+}
+
+/// Pose of one body of a pair as the other sees it; of a lone body, as the bin sees it.
+struct RelativePose {
+  Vec3f x;
+  Quatf q;
+};
+
+RelativePose relative_pose(const Body& a, const Body* b) {
+  if (!b) return {a.x, a.q};
+  return {a.rotation.transpose() * (b->x - a.x), a.q.conjugate() * b->q};
+}
+
 /// Whether the pair has hardly moved since its contacts were found.
-bool recyclable(const World& world, const Manifold& m, const Vec3f& x, const Quatf& q, float size) {
+bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
   const float limit = world.settings.recycle * size;
-  if ((x - m.found_x).squaredNorm() > limit * limit) return false;
-  const float half_turn = (m.found_q.conjugate() * q).vec().norm();
-  return 2.0f * half_turn * 0.5f * size < limit;
+  const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
+  return (now.x - m.found_x).squaredNorm() < limit * limit && half_turn * size < limit;
 }
 
 }  // namespace
@@ -285,6 +331,7 @@ bool recyclable(const World& world, const Manifold& m, const Vec3f& x, const Qua
 void find_contacts(World& world) {
   static thread_local Candidates candidates;
   static thread_local std::vector<int> chosen;
+  static thread_local std::vector<Contact> fresh;
   for (Manifold& m : world.manifolds) {
     const Body& a = world.bodies[m.a];
     const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
@@ -292,9 +339,8 @@ void find_contacts(World& world) {
     ++world.counters.pairs;
     const Shape& sa = *world.shapes[a.shape];
     const float size = b ? std::min(sa.diagonal, world.shapes[b->shape]->diagonal) : sa.diagonal;
-    const Vec3f relative = b ? Vec3f(a.rotation.transpose() * (b->x - a.x)) : Vec3f(a.rotation.transpose() * -a.x);
-    const Quatf turned = b ? a.q.conjugate() * b->q : a.q.conjugate();
-    if (recyclable(world, m, relative, turned, size)) {
+    const RelativePose pose = relative_pose(a, b);
+    if (recyclable(world, m, pose, size)) {
       ++world.counters.pairs_recycled;
     } else {
       const float dt = world.settings.time_step;
@@ -308,30 +354,15 @@ void find_contacts(World& world) {
         candidates_of_ground(world, m, margin, candidates);
       reduce(candidates, m, size, chosen);
       world.counters.dropped += candidates.size() - chosen.size();
-      Manifold fresh = m;
-      fresh.count = static_cast<int>(chosen.size());
-      for (int i = 0; i < fresh.count; ++i) {
-        const Candidate& c = candidates[chosen[i]];
-        Contact& contact = fresh.contacts[i];
-        contact = Contact{};
-        contact.anchor_a = c.on_a;
-        contact.feature = c.feature;
-        contact.normal = a.rotation * c.normal;
-        const Vec3f on_b = a.x + a.rotation * c.on_b;
-        contact.anchor_b = b ? Vec3f(b->rotation.transpose() * (on_b - b->x)) : on_b;
-        // The normal turns with the body whose field it comes from.
-        const bool field_of_a = c.feature & side_b;
-        contact.local_normal = field_of_a ? c.normal
-                               : b        ? Vec3f(b->rotation.transpose() * contact.normal)
-                                          : contact.normal;
-      }
-      carry_impulses(m, fresh, world.samples(a).spacing);
-      fresh.found = true;
-      fresh.found_x = relative;
-      fresh.found_q = turned;
-      m = fresh;
+      fresh.clear();
+      for (const int i : chosen) fresh.push_back(contact_of(candidates[i], a, b));
+      carry_impulses(m.contacts, fresh, world.samples(a).spacing);
+      m.contacts.assign(fresh.begin(), fresh.end());
+      m.found = true;
+      m.found_x = pose.x;
+      m.found_q = pose.q;
     }
-    world.counters.contacts += m.count;
+    world.counters.contacts += m.contacts.size();
   }
 }
 

@@ -3,105 +3,52 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace bin_scenes::sphere {
-
-namespace {
-
-/// Corner values around a point of the grid, and where in the cell it lies.
-struct Cell {
-  float c[8];
-  float u, v, w;
-  float outside;  ///< way from the point to the grid (m)
-};
-
-inline Cell locate(const Field& f, const Vec3f& point) {
-  const float gx = (point.x() - f.origin.x()) * f.inverse_cell;
-  const float gy = (point.y() - f.origin.y()) * f.inverse_cell;
-  const float gz = (point.z() - f.origin.z()) * f.inverse_cell;
-  const float x = std::min(std::max(gx, 0.0f), static_cast<float>(f.nx) - 1.001f);
-  const float y = std::min(std::max(gy, 0.0f), static_cast<float>(f.ny) - 1.001f);
-  const float z = std::min(std::max(gz, 0.0f), static_cast<float>(f.nz) - 1.001f);
-  const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
-  const std::size_t row = static_cast<std::size_t>(f.nx), slice = row * f.ny;
-  const float* p = f.values + i + row * j + slice * k;
-  Cell cell;
-  cell.c[0] = p[0];
-  cell.c[1] = p[1];
-  cell.c[2] = p[row];
-  cell.c[3] = p[row + 1];
-  cell.c[4] = p[slice];
-  cell.c[5] = p[slice + 1];
-  cell.c[6] = p[slice + row];
-  cell.c[7] = p[slice + row + 1];
-  cell.u = x - i;
-  cell.v = y - j;
-  cell.w = z - k;
-  const float dx = gx - x, dy = gy - y, dz = gz - z;
-  const float out = dx * dx + dy * dy + dz * dz;
-  cell.outside = out > 1e-4f ? std::sqrt(out) * f.cell : 0.0f;
-  return cell;
-}
-
-inline float mix(float a, float b, float t) {
-  return a + (b - a) * t;
-}
-
-inline float value(const Cell& c) {
-  const float x0 = mix(c.c[0], c.c[1], c.u), x1 = mix(c.c[2], c.c[3], c.u);
-  const float x2 = mix(c.c[4], c.c[5], c.u), x3 = mix(c.c[6], c.c[7], c.u);
-  return mix(mix(x0, x1, c.v), mix(x2, x3, c.v), c.w);
-}
-
-}  // namespace
-
-float Field::sample(const Vec3f& point) const {
-  if (ball > 0) return point.norm() - ball;
-  const Cell c = locate(*this, point);
-  return c.outside > 0 ? std::max(value(c), c.outside + padding) : value(c);
-}
-
-float Field::sample(const Vec3f& point, Vec3f& gradient) const {
-  if (ball > 0) {
-    const float distance = point.norm();
-    gradient = distance > 0 ? Vec3f(point / distance) : Vec3f(Vec3f::UnitZ());
-    return distance - ball;
-  }
-  const Cell c = locate(*this, point);
-  const float x0 = mix(c.c[0], c.c[1], c.u), x1 = mix(c.c[2], c.c[3], c.u);
-  const float x2 = mix(c.c[4], c.c[5], c.u), x3 = mix(c.c[6], c.c[7], c.u);
-  const float y0 = mix(x0, x1, c.v), y1 = mix(x2, x3, c.v);
-  const float dx0 = mix(c.c[1] - c.c[0], c.c[3] - c.c[2], c.v), dx1 = mix(c.c[5] - c.c[4], c.c[7] - c.c[6], c.v);
-  gradient = Vec3f(mix(dx0, dx1, c.w), mix(x1 - x0, x3 - x2, c.w), y1 - y0);
-  const float length = gradient.norm();
-  // On the medial axis the slopes of both sides cancel: out is then away from the centre of mass.
-  if (length > 1e-3f * cell)  // differences of neighbours: a slope of 1 is one cell
-    gradient /= length;
-  else
-    gradient = point.squaredNorm() > 0 ? Vec3f(point.normalized()) : Vec3f(Vec3f::UnitZ());
-  const float distance = mix(y0, y1, c.w);
-  return c.outside > 0 ? std::max(distance, c.outside + padding) : distance;
-}
 
 namespace {
 
 /// A sharp convex edge of the mesh.
 struct SharpEdge {
   std::uint32_t a, b;
+  Cone cone;
 };
 
+struct SharpEdges {
+  std::vector<SharpEdge> convex;
+  std::set<std::uint32_t> saddles;  ///< vertices at which a concave edge ends too
+};
+
+/// Directions between the normals of both faces of an edge, as bounds: across the edge into each face, and along it.
+Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::vector<std::size_t>& faces) {
+  Cone cone;
+  const Vec3 along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
+  for (const std::size_t face : faces) {
+    const Triangle& t = mesh.triangles[face];
+    const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    Vec3 into = middle - mesh.vertices[a];
+    into -= into.dot(along) * along;
+    if (into.norm() < 1e-9 * (mesh.vertices[b] - mesh.vertices[a]).norm()) return Cone{};  // a sliver tells nothing
+    cone.bound[cone.bounds++] = into.normalized().cast<float>();
+  }
+  cone.bound[cone.bounds++] = along.cast<float>();
+  cone.bound[cone.bounds++] = -along.cast<float>();
+  return cone;
+}
+
 /// Edges over which the surface bends outwards by more than `angle`. Concave edges cannot touch first.
-std::vector<SharpEdge> sharp_edges(const Mesh& mesh, double angle) {
+SharpEdges sharp_edges(const Mesh& mesh, double angle) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int e = 0; e < 3; ++e) {
       const std::uint32_t a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
       sides[std::minmax(a, b)].push_back(t);
     }
-  std::vector<SharpEdge> sharp;
+  SharpEdges sharp;
   for (const auto& [ends, faces] : sides) {
     if (faces.size() != 2) {
-      sharp.push_back({ends.first, ends.second});
+      sharp.convex.push_back({ends.first, ends.second, Cone{}});
       continue;
     }
     const Vec3 n0 = mesh.area_vector(faces[0]).normalized(), n1 = mesh.area_vector(faces[1]).normalized();
@@ -111,7 +58,12 @@ std::vector<SharpEdge> sharp_edges(const Mesh& mesh, double angle) {
     std::uint32_t far = other[0];
     for (const std::uint32_t v : other)
       if (v != ends.first && v != ends.second) far = v;
-    if (n0.dot(mesh.vertices[far] - mesh.vertices[ends.first]) < 0) sharp.push_back({ends.first, ends.second});
+    if (n0.dot(mesh.vertices[far] - mesh.vertices[ends.first]) < 0) {
+      sharp.convex.push_back({ends.first, ends.second, edge_cone(mesh, ends.first, ends.second, faces)});
+    } else {
+      sharp.saddles.insert(ends.first);
+      sharp.saddles.insert(ends.second);
+    }
   }
   return sharp;
 }
@@ -119,35 +71,73 @@ std::vector<SharpEdge> sharp_edges(const Mesh& mesh, double angle) {
 /// Nodes and edge pieces before they are put in cluster order.
 struct Draft {
   std::vector<Vec3> nodes;
+  std::vector<Cone> cones;
   std::vector<Edge> edges;
+
+  std::uint32_t add(const Vec3& node, const Cone& cone) {
+    nodes.push_back(node);
+    cones.push_back(cone);
+    return static_cast<std::uint32_t>(nodes.size() - 1);
+  }
 };
 
-/// Sharp edges cut in pieces no longer than `spacing`; corners appear once.
-Draft edge_draft(const Mesh& mesh, const std::vector<SharpEdge>& sharp, double spacing) {
-  Draft draft;
-  std::map<std::uint32_t, std::uint32_t> corner;
-  const auto node_of = [&](std::uint32_t vertex) {
-    const auto [it, fresh] = corner.try_emplace(vertex, static_cast<std::uint32_t>(draft.nodes.size()));
-    if (fresh) draft.nodes.push_back(mesh.vertices[vertex]);
-    return it->second;
+/// Cone of a vertex from the sharp edges that end there: three or more bound it themselves, two with their faces.
+Cone corner_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<const SharpEdge*>& edges) {
+  Cone cone;
+  const auto add = [&](const Vec3f& bound) {
+    if (cone.bounds < Cone::max_bounds) cone.bound[cone.bounds++] = bound;
   };
-  for (const SharpEdge& edge : sharp) {
+  if (edges.size() < 2 || edges.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
+  for (const SharpEdge* edge : edges) {
+    if (edge->cone.bounds == 0) return Cone{};
+    const std::uint32_t other = edge->a == vertex ? edge->b : edge->a;
+    add((mesh.vertices[other] - mesh.vertices[vertex]).normalized().cast<float>());
+  }
+  if (edges.size() == 2)
+    for (const SharpEdge* edge : edges)
+      for (int i = 0; i < 2; ++i) add(edge->cone.bound[i]);
+  return cone;
+}
+
+/// Sharp edges cut in pieces no longer than `spacing`; corners appear once.
+Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
+  Draft draft;
+  std::map<std::uint32_t, std::vector<const SharpEdge*>> around;
+  for (const SharpEdge& edge : sharp.convex) {
+    around[edge.a].push_back(&edge);
+    around[edge.b].push_back(&edge);
+  }
+  std::map<std::uint32_t, std::uint32_t> corner;
+  for (const auto& [vertex, edges] : around)
+    corner[vertex] =
+        draft.add(mesh.vertices[vertex], sharp.saddles.count(vertex) ? Cone{} : corner_cone(mesh, vertex, edges));
+  for (const SharpEdge& edge : sharp.convex) {
     const Vec3 a = mesh.vertices[edge.a], b = mesh.vertices[edge.b];
     const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
-    std::uint32_t last = node_of(edge.a);
+    std::uint32_t last = corner[edge.a];
     for (int i = 1; i <= pieces; ++i) {
-      std::uint32_t next;
-      if (i == pieces) {
-        next = node_of(edge.b);
-      } else {
-        next = static_cast<std::uint32_t>(draft.nodes.size());
-        draft.nodes.push_back(a + (b - a) * (static_cast<double>(i) / pieces));
-      }
-      draft.edges.push_back({last, next});
+      const std::uint32_t next =
+          i == pieces ? corner[edge.b] : draft.add(a + (b - a) * (static_cast<double>(i) / pieces), edge.cone);
+      draft.edges.push_back({last, next, 0, edge.cone});
       last = next;
     }
   }
   return draft;
+}
+
+/// Cone of a point on a face: as far around its normal as the normals of its neighbours on the same face lean.
+Cone face_cone(const SurfaceSample& sample, const std::vector<SurfaceSample>& all, double sharp_angle) {
+  const double near = 2.0 * sample.spacing, least = std::cos(sharp_angle);
+  double most = 1;
+  for (const SurfaceSample& other : all) {
+    if ((other.point - sample.point).squaredNorm() > near * near) continue;
+    const double lean = other.normal.dot(sample.normal);
+    if (lean > least) most = std::min(most, lean);
+  }
+  Cone cone;
+  cone.axis = sample.normal.cast<float>();
+  cone.spread = static_cast<float>(std::acos(std::min(1.0, most)));
+  return cone;
 }
 
 /// Halves [first, last) of the order along the longest side of its bounds until a run fits a cluster, so that each
@@ -179,6 +169,17 @@ Ball ball_around(const std::vector<Vec3f>& points) {
   return ball;
 }
 
+/// Copies by component; the last point fills up what is left of a bunch.
+void lay_out(Samples& samples) {
+  samples.node_points.resize(samples.clusters.size());
+  for (std::size_t i = 0; i < samples.node_points.size() * cluster_size; ++i)
+    samples.node_points[i / cluster_size].set(i % cluster_size, samples.nodes[std::min(i, samples.nodes.size() - 1)]);
+  samples.cluster_points.resize(samples.groups.size());
+  for (std::size_t i = 0; i < samples.cluster_points.size() * group_size; ++i)
+    samples.cluster_points[i / group_size].set(i % group_size,
+                                               samples.clusters[std::min(i, samples.clusters.size() - 1)].center);
+}
+
 Samples clustered(const Draft& draft, const Vec3& center, double spacing) {
   std::vector<std::uint32_t> order(draft.nodes.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -189,15 +190,17 @@ Samples clustered(const Draft& draft, const Vec3& center, double spacing) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = static_cast<std::uint32_t>(i);
     samples.nodes.push_back((draft.nodes[order[i]] - center).cast<float>());
+    samples.cones.push_back(draft.cones[order[i]]);
   }
   for (Edge e : draft.edges) {
-    Edge placed{place[e.a], place[e.b]};
+    Edge placed{place[e.a], place[e.b], 0, e.cone};
     if (placed.a > placed.b) std::swap(placed.a, placed.b);
     samples.edges.push_back(placed);
   }
   std::sort(samples.edges.begin(), samples.edges.end(),
             [](const Edge& x, const Edge& y) { return std::make_pair(x.a, x.b) < std::make_pair(y.a, y.b); });
   const std::size_t clusters = (samples.nodes.size() + cluster_size - 1) / cluster_size;
+  for (Edge& edge : samples.edges) edge.length = (samples.nodes[edge.a] - samples.nodes[edge.b]).norm();
   std::size_t e = 0;
   samples.first_edge.push_back(0);
   for (std::size_t c = 0; c < clusters; ++c) {
@@ -221,12 +224,13 @@ Samples clustered(const Draft& draft, const Vec3& center, double spacing) {
           std::max(ball.radius, (samples.clusters[c].center - ball.center).norm() + samples.clusters[c].radius);
     samples.groups.push_back(ball);
   }
+  lay_out(samples);
   return samples;
 }
 
-double total_length(const Mesh& mesh, const std::vector<SharpEdge>& sharp) {
+double total_length(const Mesh& mesh, const SharpEdges& sharp) {
   double length = 0;
-  for (const SharpEdge& e : sharp) length += (mesh.vertices[e.a] - mesh.vertices[e.b]).norm();
+  for (const SharpEdge& e : sharp.convex) length += (mesh.vertices[e.a] - mesh.vertices[e.b]).norm();
   return length;
 }
 
@@ -247,27 +251,31 @@ float ball_radius(const PartModel& part) {
 Samples ball_samples(float radius) {
   Samples samples;
   samples.nodes = {Vec3f::Zero()};
+  samples.cones = {Cone{}};
   samples.clusters = samples.groups = {{Vec3f::Zero(), 0}};
   samples.first_edge = {0, 0};
   samples.radius = samples.spacing = radius;
+  lay_out(samples);
   return samples;
 }
 
 /// About `count` nodes: two thirds of them on sharp edges where there are such, the others on faces.
 Samples make_samples(const PartModel& part, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
-  std::vector<SharpEdge> sharp = sharp_edges(mesh, sharp_angle);
+  SharpEdges sharp = sharp_edges(mesh, sharp_angle);
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
-  while (sharp.size() > static_cast<std::size_t>(2 * count) && sharp_angle < 1.5)
+  while (sharp.convex.size() > static_cast<std::size_t>(2 * count) && sharp_angle < 1.5)
     sharp = sharp_edges(mesh, sharp_angle *= 1.3);
   const double spacing = std::max(total_length(mesh, sharp) / (0.67 * count), 0.004 * part.diagonal());
   Draft draft = edge_draft(mesh, sharp, spacing);
   const int faces = std::max(count / 4, count - static_cast<int>(draft.nodes.size()));
   // Face nodes, but for those that stand on a sharp edge already covered.
   const std::size_t on_edges = draft.nodes.size();
-  for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples) {
+  const std::vector<SurfaceSample>& samples = part.samples({faces, sharp_angle}).samples;
+  for (const SurfaceSample& sample : samples) {
     const auto near = [&](const Vec3& node) { return (node - sample.point).norm() < 0.5 * spacing; };
-    if (std::none_of(draft.nodes.begin(), draft.nodes.begin() + on_edges, near)) draft.nodes.push_back(sample.point);
+    if (std::none_of(draft.nodes.begin(), draft.nodes.begin() + on_edges, near))
+      draft.add(sample.point, face_cone(sample, samples, sharp_angle));
   }
   return clustered(draft, part.mass().center, spacing);
 }

@@ -12,27 +12,17 @@
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
-#include "solver/sphere/math.hpp"
+#include "solver/sphere/cone.hpp"
+#include "solver/sphere/field.hpp"
 
 #include <vector>
 
 namespace bin_scenes::sphere {
 
-/// Distance field in the body frame: trilinear on a grid, or the closed form of a ball.
-struct Field {
-  float ball = 0;  ///< radius if the part is a ball: then there is no grid
-  Vec3f origin = Vec3f::Zero();
-  float cell = 1, inverse_cell = 1, padding = 0;
-  int nx = 0, ny = 0, nz = 0;
-  const float* values = nullptr;  ///< owned by the PartModel
-
-  /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
-  float sample(const Vec3f& point, Vec3f& gradient) const;
-  float sample(const Vec3f& point) const;
-};
-
 struct Edge {
   std::uint32_t a, b;  ///< nodes
+  float length = 0;    ///< m
+  Cone cone;
 };
 
 struct Ball {
@@ -40,18 +30,21 @@ struct Ball {
   float radius = 0;
 };
 
+constexpr int cluster_size = 16, group_size = 8;
+
 /// Nodes at one resolution.
 struct Samples {
-  std::vector<Vec3f> nodes;               ///< in cluster order
-  std::vector<Edge> edges;                ///< in order of their first node's cluster
-  std::vector<Ball> clusters;             ///< nodes [16 c, 16 c + 16) and the edges that start there
-  std::vector<std::uint32_t> first_edge;  ///< clusters + 1
-  std::vector<Ball> groups;               ///< clusters [8 g, 8 g + 8)
-  float spacing = 0;                      ///< longest edge piece (m)
-  float radius = 0;                       ///< of the nodes: 0 = points; a ball is one node of its own radius
+  std::vector<Vec3f> nodes;                        ///< in cluster order
+  std::vector<Cone> cones;                         ///< of the nodes
+  std::vector<Points<cluster_size>> node_points;   ///< the same, a cluster at a time
+  std::vector<Edge> edges;                         ///< in order of their first node's cluster
+  std::vector<Ball> clusters;                      ///< nodes [16 c, 16 c + 16) and the edges that start there
+  std::vector<std::uint32_t> first_edge;           ///< clusters + 1
+  std::vector<Points<group_size>> cluster_points;  ///< their centres, a group at a time
+  std::vector<Ball> groups;                        ///< clusters [8 g, 8 g + 8)
+  float spacing = 0;                               ///< longest edge piece (m)
+  float radius = 0;                                ///< of the nodes: 0 = points; a ball is one node of its own radius
 };
-
-constexpr int cluster_size = 16, group_size = 8;
 
 struct Shape {
   Samples coarse, fine;

@@ -25,7 +25,7 @@ struct Settings {
   float push_speed = 4.0f;            ///< d per second at which overlap is pushed out; higher = popping
   float slop = 2e-4f;                 ///< d left overlapping, so that contacts persist
   float margin = 4e-3f;               ///< d: contacts are kept while closer than this, plus the way of one step
-  float recycle = 2e-4f;              ///< d: contacts of a pair are reused until it moved this far
+  float recycle = 1e-3f;              ///< d: contacts of a pair are reused until it moved this far
   float restitution_speed = 0.05f;    ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;           ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;            ///< d within which it must have stayed
@@ -72,14 +72,13 @@ struct Contact {
 
 struct Manifold {
   std::uint32_t a = 0, b = 0;  ///< a < b; b may be ground
-  int count = 0;
   int color = 0;
   float friction = 0, restitution = 0;
-  // Relative pose at which the contacts were found, for recycling.
+  // Relative pose at which the contacts were found, for recycling; against the ground, the pose of a.
   Vec3f found_x = Vec3f::Zero();
   Quatf found_q = Quatf::Identity();
   bool found = false;
-  std::array<Contact, max_contacts> contacts;
+  std::vector<Contact> contacts;  ///< at most max_contacts; a manifold that is carried over moves only its handle
 };
 
 /// Half space that solids may not enter, up to `top` along +z of the bin (walls) or unbounded (floor).

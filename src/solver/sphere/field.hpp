@@ -1,0 +1,46 @@
+/// Distance field of a part in its body frame, and how the narrow phase asks it: one point with the gradient, or a
+/// bunch of points for their distances alone. The bunch is what nearly all tests are, and most of them end there.
+#pragma once
+
+#include "solver/sphere/math.hpp"
+
+namespace bin_scenes::sphere {
+
+/// N points, component by component, so that one instruction treats several. N is a multiple of 8.
+template <int N>
+struct alignas(32) Points {
+  float x[N], y[N], z[N];
+
+  void set(int i, const Vec3f& p) {
+    x[i] = p.x();
+    y[i] = p.y();
+    z[i] = p.z();
+  }
+  Vec3f operator[](int i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// How points of one body are carried into the frame of another.
+struct Carry {
+  Mat3f rotation;
+  Vec3f offset;
+  Vec3f operator()(const Vec3f& p) const { return rotation * p + offset; }
+};
+
+/// Trilinear on a grid, or the closed form of a ball.
+struct Field {
+  float ball = 0;  ///< radius if the part is a ball: then there is no grid
+  Vec3f origin = Vec3f::Zero();
+  float cell = 1, inverse_cell = 1, padding = 0;
+  int nx = 0, ny = 0, nz = 0;
+  const float* values = nullptr;  ///< owned by the PartModel
+
+  /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
+  float sample(const Vec3f& point, Vec3f& gradient) const;
+  float sample(const Vec3f& point) const;
+};
+
+/// Carries N points into the field's frame and samples it there: bit for bit what one point after the other gives.
+void sample(const Field& field, const Carry& carry, const Points<8>& points, Points<8>& carried, float* distances);
+void sample(const Field& field, const Carry& carry, const Points<16>& points, Points<16>& carried, float* distances);
+
+}  // namespace bin_scenes::sphere
