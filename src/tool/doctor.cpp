@@ -60,7 +60,9 @@ PartModelPtr box(double edge) {
 
 /// A box of 5 cm let go a little above an endless floor has to lie on it: its centre at half an edge.
 void test_solver(const char* name, SolverType type, SolverSettings::Preset preset) {
-  constexpr double kEdge = 0.05, kTolerance = 1e-3;
+  constexpr double kEdge = 0.05;
+  // The thesis's floor is a lattice of spheres, here of 2.5 mm, in whose hollows a face rests: r (2 - sqrt 2) lower.
+  const double tolerance = preset == SolverSettings::Preset::thesis ? 1.6e-3 : 1e-3;
   try {
     Request request;
     request.bin.kind = Bin::Kind::floor;
@@ -81,7 +83,7 @@ void test_solver(const char* name, SolverType type, SolverSettings::Preset prese
     std::ostringstream found;
     found << name << ": box " << (scene.report.at_rest ? "at rest" : "still moving") << " after "
           << scene.report.simulated_s << " s, height off by " << 1e3 * error << " mm, on " << solver->device();
-    line("solver", scene.report.at_rest && error < kTolerance, found.str(), "use another solver, and report this line");
+    line("solver", scene.report.at_rest && error < tolerance, found.str(), "use another solver, and report this line");
   } catch (const Error& error) {
     line("solver", false, std::string(name) + ": " + error.what(), "use solver.type: bullet, which needs no GL");
   }

@@ -108,19 +108,23 @@ class Lab {
   }
   double time() const { return time_; }
 
-  BodyState state(std::size_t body) const { return solver_->states(world_)[body]; }
+  std::vector<BodyState> states() const { return solver_->states(world_); }
+  BodyState state(std::size_t body) const { return states()[body]; }
+  const BodyDef& body(std::size_t body) const { return def_.bodies[body]; }
   const PartModel& part(std::size_t body) const { return *def_.parts[def_.bodies[body].part]; }
   Vec3 center(std::size_t body) const { return state(body).pose * part(body).mass().center; }
   Vec3 momentum(std::size_t body) const { return def_.bodies[body].mass * state(body).velocity.linear; }
   /// About the centre of mass, bin frame.
-  Vec3 spin(std::size_t body) const {
-    const Mat3 R = state(body).pose.orientation.toRotationMatrix();
+  Vec3 spin(std::size_t body) const { return spin(body, state(body)); }
+  Vec3 spin(std::size_t body, const BodyState& state) const {
+    const Mat3 R = state.pose.orientation.toRotationMatrix();
     const MassProperties& mass = part(body).mass();
-    return R * mass.inertia * R.transpose() * state(body).velocity.angular * (def_.bodies[body].mass / mass.volume);
+    return R * mass.inertia * R.transpose() * state.velocity.angular * (def_.bodies[body].mass / mass.volume);
   }
-  double kinetic_energy(std::size_t body) const {
-    const Twist v = state(body).velocity;
-    return 0.5 * def_.bodies[body].mass * v.linear.squaredNorm() + 0.5 * v.angular.dot(spin(body));
+  double kinetic_energy(std::size_t body) const { return kinetic_energy(body, state(body)); }
+  double kinetic_energy(std::size_t body, const BodyState& state) const {
+    const Twist& v = state.velocity;
+    return 0.5 * def_.bodies[body].mass * v.linear.squaredNorm() + 0.5 * v.angular.dot(spin(body, state));
   }
 
  private:

@@ -1,0 +1,344 @@
+/// The tables of J. Edhammer, "Rigid Body Physics for Synthetic Data Generation" (LiTH-ISY-EX--16/4958--SE, 2016),
+/// again: time per step by stage beside the published figures (GTX 960, ms). Quick forms are an eighth of the size and
+/// have nothing to stand beside.
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "requests.hpp"
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/solver/pour.hpp"
+#include "solver/thesis/scenes.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace bin_scenes::bench {
+namespace {
+
+using thesis::test::WorldBuilder;
+
+constexpr double limit_s = 1500.0;
+const std::vector<std::string> stages = {"move", "grid", "detect", "impulse", "velocity", "position"};
+
+/// The thesis's stages from the solver's passes.
+std::string stage_of(const std::string& pass) {
+  if (pass == "force" || pass == "move_to_world") return "move";
+  if (pass == "count_cells" || pass == "prefix_sum" || pass == "scatter" || pass == "reorder") return "grid";
+  if (pass == "detect" || pass == "count_pairs" || pass == "split_mass") return "detect";
+  if (pass == "pre_velocity" || pass == "velocity") return "velocity";
+  return pass;
+}
+
+/// Device time per step by stage, and the wall time they were part of.
+Row times(const Profile& profile, double steps, double wall_ms) {
+  std::map<std::string, double> sums;
+  double total = 0.0;
+  for (const auto& [pass, ms] : profile.stages_ms) {
+    sums[stage_of(pass)] += ms / steps;
+    total += ms / steps;
+  }
+  Row row;
+  for (const std::string& stage : stages) row.measure(stage + "_ms", sums[stage]);
+  return row.measure("total_ms", total).measure("wall_ms", wall_ms / steps).exact("steps", steps);
+}
+
+/// Published figures: stages in their order, then the total; fewer numbers are the total alone.
+Row published(const std::vector<double>& ms) {
+  Row row;
+  for (std::size_t i = 0; i + 1 < ms.size(); ++i) row.info("published_" + stages[i] + "_ms", ms[i]);
+  if (!ms.empty()) row.info("published_total_ms", ms.back());
+  return row;
+}
+
+/// n^3 spheres, those inside too: the thesis's counts are 27, 125, 343.
+std::vector<Sphere> full_cube(int n, double radius) {
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < n * n * n; ++i)
+    spheres.push_back(
+        {(Vec3(i % n, i / n % n, i / n / n) - Vec3::Constant(0.5 * (n - 1))) * 2.0 * radius, radius, Vec3::Zero()});
+  return spheres;
+}
+
+/// Open box of stored spheres `width` wide and `height` high inside, in sphere diameters.
+std::vector<Sphere> stored_bin(int width, int height, double radius) {
+  std::vector<Sphere> spheres;
+  const auto add = [&](int x, int y, int z) {
+    spheres.push_back(
+        {Vec3(x - 0.5 * (width - 1), y - 0.5 * (width - 1), z + 0.5) * 2.0 * radius, radius, Vec3::Zero()});
+  };
+  for (int x = 0; x < width; ++x)
+    for (int y = 0; y < width; ++y) add(x, y, -1);
+  for (int z = 0; z < height; ++z)
+    for (int i = 0; i < width; ++i) {
+      add(i, -1, z);
+      add(i, width, z);
+      add(-1, i, z);
+      add(width, i, z);
+    }
+  return spheres;
+}
+
+struct Cubes {
+  std::size_t bodies = 1024;
+  int edge = 3;                 ///< spheres
+  int width = 48, height = 20;  ///< of the bin, sphere diameters
+  bool stored = true;           ///< static spheres in the grid, as in the thesis; else sheets worked out on demand
+  double gap = 1.067;           ///< pitch of the cubes at the start / their edge
+  double radius = 0.005;        ///< of all spheres, m
+};
+
+/// Cubes in layers just above the floor, each turned a little.
+WorldBuilder cubes_in_bin(const Cubes& cubes, const std::vector<Sphere>& spheres) {
+  WorldBuilder world;
+  const double edge = 2.0 * cubes.radius * cubes.edge * cubes.gap;
+  const int columns = std::max(1, static_cast<int>(cubes.width * 2.0 * cubes.radius / edge + 1e-9));
+  world.def.bin.inner_size = Vec3(cubes.width, cubes.width, cubes.height) * 2.0 * cubes.radius;
+  world.def.wall_height = 4000.0 * cubes.radius;
+  if (cubes.stored) world.def.bin.kind = Bin::Kind::none;
+  const std::size_t shape = world.shape(spheres);
+  Random random(1, 0, Stream::probe);
+  for (std::size_t b = 0; b < cubes.bodies; ++b) {
+    const int i = static_cast<int>(b) % (columns * columns), layer = static_cast<int>(b) / (columns * columns);
+    world.body(shape, edge * Vec3(i % columns - 0.5 * (columns - 1), i / columns - 0.5 * (columns - 1), layer + 0.51),
+               Vec3::Zero(), 0.1);
+    world.starts.back().pose.orientation =
+        Quat(Eigen::AngleAxisd(random.uniform(-0.04, 0.04), random.orientation() * Vec3::UnitX()));
+  }
+  return world;
+}
+
+/// `steps` steps of the cubes, from their fall on.
+Row timed(const Cubes& cubes, const ThesisSettings& settings, int steps) {
+  return isolated(
+             [&] {
+               const WorldBuilder builder = cubes_in_bin(cubes, full_cube(cubes.edge, cubes.radius));
+               thesis::World world = thesis::make_world(builder.def, builder.shapes, settings);
+               if (cubes.stored) world.bin_spheres = stored_bin(cubes.width, cubes.height, cubes.radius);
+               const std::size_t fixed = world.bin_spheres.size();
+               ThesisSolver solver(settings);
+               const WorldId id = solver.add_world(std::move(world));
+               for (std::size_t b = 0; b < builder.starts.size(); ++b) solver.insert(id, b, builder.starts[b]);
+               const auto start = std::chrono::steady_clock::now();
+               solver.advance({id}, steps * settings.time_step);
+               const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+               const double contacts = static_cast<double>(solver.profile().counters.at("contacts")) / steps;
+               return Row()
+                   .exact("spheres",
+                          cubes.bodies * static_cast<std::size_t>(cubes.edge * cubes.edge * cubes.edge) + fixed)
+                   .exact("static_spheres", fixed)
+                   .exact("contacts", contacts)
+                   .append(times(solver.profile(), steps, wall.count()));
+             },
+             limit_s)
+      .row;
+}
+
+Row key(const std::string& table, const std::string& setting) {
+  return Row().key("table", table).key("setting", setting);
+}
+
+void step_tables(Run& out) {
+  const bool quick = out.quick();
+  const int steps = quick ? 24 : 200;
+  const ThesisSettings settings;
+  const auto sized = [&](Cubes cubes) {
+    if (!quick) return cubes;
+    cubes.bodies = std::max<std::size_t>(1, cubes.bodies / 8);
+    cubes.width /= 2;
+    cubes.height /= 2;
+    return cubes;
+  };
+  const auto row = [&](const std::string& table, const std::string& setting, const Cubes& cubes,
+                       const ThesisSettings& with, const std::vector<double>& ms) {
+    const Cubes used = sized(cubes);
+    out.row(key(table, setting)
+                .exact("bodies", used.bodies)
+                .append(timed(used, with, steps))
+                .append(published(quick ? std::vector<double>() : ms)));
+  };
+
+  row("spheres_per_body", "1024 x 27", {1024, 3}, settings, {0.174, 1.307, 1.869, 4.187, 7.413, 0.023, 14.973});
+  row("spheres_per_body", "222 x 125", {222, 5}, settings, {0.162, 1.307, 1.815, 3.749, 7.947, 0.020, 15.000});
+  row("spheres_per_body", "82 x 343", {82, 7}, settings, {0.171, 1.310, 1.928, 3.731, 9.226, 0.012, 16.377});
+
+  const std::pair<int, double> bins[] = {{20, 6.08}, {48, 7.06}, {98, 9.87}, {115, 10.87}, {120, 11.14}, {137, 12.58}};
+  for (const auto& [width, ms] : bins)
+    row("static_spheres", "bin " + std::to_string(width) + " wide", {128, 3, width, width == 20 ? 15 : 20}, settings,
+        {ms});
+  row("static_spheres", "bin 137 wide, on demand", {128, 3, 137, 20, false}, settings, {});
+
+  for (const std::size_t bodies : {64, 128, 256, 512, 1024})
+    row("bodies", std::to_string(bodies) + " x 27", {bodies, 3}, settings, {});
+  for (const int size : {32, 64, 128}) {
+    ThesisSettings with = settings;
+    with.grid_size = size;
+    row("grid_size", std::to_string(size) + "^3", {128, 3}, with, {});
+  }
+  for (const double size : {1.0, 2.0, 4.0, 8.0}) {
+    ThesisSettings with = settings;
+    with.cell_size = size;
+    row("cell_size", Row::text(size) + " diameters", {128, 3}, with, {});
+  }
+}
+
+struct Stability {
+  std::size_t tunnelled;  ///< bodies below the floor or with their centre far inside another's cube
+  double speed;           ///< mean over bodies, m/s
+  double rest;            ///< share that moves less than 0.001 d and turns less than 0.01 rad in 0.25 s
+};
+
+/// A heap of 5 x 5 x 5 cubes with an edge of about `size` m, two seconds after they were let go.
+Stability heap(const ThesisSettings& settings, std::size_t bodies, double size) {
+  ThesisSolver solver(settings);
+  const int n = 5;
+  const double radius = 0.1 * size, pitch = 2.0 * radius * settings.tightness, edge = (n - 1) * pitch + 2.0 * radius;
+  const Cubes cubes{bodies, n, 16, 40, false, 1.5 * edge / (2.0 * radius * n), radius};
+  WorldBuilder builder = cubes_in_bin(cubes, thesis::test::block(n, n, n, radius, pitch));
+  Random random(2, 0, Stream::probe);
+  for (BodyState& start : builder.starts)
+    start.pose.orientation = Quat(Eigen::AngleAxisd(random.uniform(0.0, 0.4), random.orientation() * Vec3::UnitX()));
+  const WorldId id = builder.add(solver, settings);
+  solver.advance({id}, 2.0);
+  const std::vector<BodyState> before = solver.states(id);
+  solver.advance({id}, 0.25);
+  const std::vector<BodyState> after = solver.states(id);
+  Stability result{0, 0.0, 0.0};
+  for (std::size_t a = 0; a < after.size(); ++a) {
+    const Vec3& at = after[a].pose.position;
+    bool bad = !at.allFinite() || at.z() < 0.25 * edge;
+    for (std::size_t b = 0; b < after.size(); ++b)
+      bad = bad || (a != b && (after[b].pose.position - at).norm() < 0.75 * edge);
+    result.tunnelled += bad;
+    result.speed += after[a].velocity.linear.norm() / static_cast<double>(after.size());
+    const bool rests = (at - before[a].pose.position).norm() < 1e-3 * std::sqrt(3.0) * edge &&
+                       after[a].pose.orientation.angularDistance(before[a].pose.orientation) < 1e-2;
+    result.rest += rests / static_cast<double>(after.size());
+  }
+  return result;
+}
+
+/// The thesis counted iterations until its cubes no longer sank into each other: more than 6 as they are, 4 with
+/// modified normals, 3 with tighter voxels. It gives no size. Gravity takes small cubes further in a step, against
+/// their size, so size decides as much.
+void stability_tables(Run& out) {
+  struct Case {
+    const char* name;
+    bool normals;
+    double tightness;
+    const char* published;
+  };
+  const Case cases[] = {{"plain", false, 1.0, "above 6"},
+                        {"modified normals", true, 1.0, "4"},
+                        {"tighter voxels", false, 0.75, "3"},
+                        {"both", true, 0.75, ""}};
+  std::vector<int> tried = {1, 2, 3, 4, 5, 6, 8, 10, 20, 40};
+  if (out.quick()) tried = {1, 3, 6, 10};
+  const std::size_t bodies = out.quick() ? 12 : 64;
+  for (const double size : {1.0, 0.05})
+    for (const Case& c : cases) {
+      const auto row = [&] { return key("stability", c.name).key("cube_m", size); };
+      int least = 0;
+      for (const int iterations : tried) {
+        const Isolated one = isolated(
+            [&] {
+              ThesisSettings settings;
+              settings.iterations = iterations;
+              settings.modified_normals = c.normals;
+              settings.tightness = c.tightness;
+              const Stability s = heap(settings, bodies, size);
+              return Row()
+                  .exact("tunnelled", s.tunnelled)
+                  .exact("mean_speed_m_s", s.speed)
+                  .exact("resting_share", s.rest);
+            },
+            limit_s);
+        const bool stable = one.good && one.row.number("tunnelled") == 0.0;
+        if (!stable) least = 0;
+        if (stable && least == 0) least = iterations;
+        out.row(row().key("iterations", iterations).exact("bodies", bodies).append(one.row));
+      }
+      out.row(row()
+                  .key("iterations", "least stable")
+                  .exact("least_iterations", least ? Row::text(least) : "none tried")
+                  .info("published_least", c.published));
+    }
+}
+
+Request teapots(std::size_t count, double seconds) {
+  Request request = bin_of("teapot", count);
+  request.bin.inner_size = Vec3(0.70, 0.70, 0.40);
+  request.parts[0].density = 1000.0;
+  request.pour.pattern = Pour::Pattern::grid;
+  request.seconds = seconds;
+  request.seed = 1;
+  return request;
+}
+
+void teapot_table(Run& out) {
+  struct Case {
+    std::size_t count;
+    int iterations;  ///< of the thesis's solver; 0: Bullet
+    bool sleeping;
+    std::vector<double> ms;
+  };
+  std::vector<Case> cases;
+  const std::map<std::size_t, std::pair<double, double>> bullet = {
+      {256, {22.3175, 13.298}}, {512, {51.9156, 30.5515}}, {1024, {94.665, 78.317}}};
+  for (const auto& [count, ms] : bullet) {
+    cases.push_back({count, 10, false, {}});
+    cases.push_back({count, 5, false, {}});
+    if (count == 512) {
+      cases[cases.size() - 2].ms = {0.355, 2.426, 4.661, 12.735, 19.000, 0.017, 39.194};
+      cases.back().ms = {0.354, 2.425, 4.681, 6.414, 9.563, 0.012, 23.449};
+    }
+    cases.push_back({count, 0, false, {ms.first}});
+    cases.push_back({count, 0, true, {ms.second}});
+  }
+  const double seconds = out.quick() ? 0.4 : 6.0;
+  for (const Case& c : cases) {
+    if (out.quick() && c.count > 256) continue;
+    const std::size_t count = out.quick() ? c.count / 16 : c.count;
+    const std::string how = c.iterations ? "sphere/thesis, " + std::to_string(c.iterations) + " iterations"
+                                         : std::string("bullet, sleeping ") + (c.sleeping ? "on" : "off");
+    const Isolated one = isolated(
+        [&] {
+          Request request = teapots(count, seconds);
+          choose_solver(request, c.iterations ? "sphere/thesis" : "bullet");
+          request.solver.thesis.iterations = std::max(1, c.iterations);
+          request.solver.bullet.time_step = 0.01;
+          request.solver.bullet.sleeping = c.sleeping;
+          LoadOptions load;
+          load.unit = request.parts[0].unit;
+          const std::vector<PartModelPtr> parts = {PartModel::load(request.parts[0].path, load)};
+          std::string reason;
+          const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+          VoxelOptions voxels;
+          voxels.voxels = request.solver.thesis.voxels;
+          const std::size_t spheres = c.iterations ? parts[0]->spheres(voxels).spheres.size() : 0;
+          const auto start = std::chrono::steady_clock::now();
+          const Scene scene = pour(request, parts, *solver, {0}).at(0);
+          const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+          Row row;
+          if (c.iterations) row.exact("spheres_per_body", spheres).exact("spheres", spheres * count);
+          return row.exact("escaped", scene.report.escaped.size())
+              .append(times(solver->profile(), seconds / 0.01, wall.count()));
+        },
+        limit_s);
+    out.row(key("teapots", std::to_string(count) + ", " + how)
+                .exact("bodies", count)
+                .append(one.row)
+                .append(published(out.quick() ? std::vector<double>() : c.ms)));
+  }
+}
+
+void run(Run& out) {
+  step_tables(out);
+  stability_tables(out);
+  teapot_table(out);
+}
+
+const Registration registration{"thesis_tables", "the thesis's tables again, stage by stage, beside its figures", run};
+
+}  // namespace
+}  // namespace bin_scenes::bench
