@@ -270,6 +270,7 @@ Request teapots(std::size_t count, double seconds) {
   request.bin.inner_size = Vec3(0.70, 0.70, 0.40);
   request.parts[0].density = 1000.0;
   request.pour.pattern = Pour::Pattern::grid;
+  request.solver.thesis.voxels = 13;  // 166 spheres a teapot, of the thesis's 171
   request.seconds = seconds;
   request.seed = 1;
   return request;
