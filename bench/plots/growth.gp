@@ -8,12 +8,14 @@ array labels = ['CPU us a part and step', 'CPU us a part and step', 'CPU ms a st
 set logscale xy
 set format '%g'
 set xtics auto rotate by -35
+set rmargin 6
 set multiplot layout 2, 2 title 'How the cost of a step grows (heaps, every part awake)'
 at(c, s, y) = strcol('over') eq curves[c] && strcol('solver') eq solvers[s] && strcol('x') ne 'exponent' ? column(y) : NaN
 do for [c=1:3] {
+  if (int(system("grep -c '".curves[c]."' '".table."'")) == 0) { set multiplot next; continue }
   set xlabel curves[c]
   set ylabel labels[c]
-  set key inside top left samplen 1 font ',9'
+  set key inside bottom right samplen 1 font ',9'
   plot for [s=1:3] table using 'x':(at(c, s, columns[c])) with linespoints linetype s title solvers[s]
 }
 set xlabel curves[1]

@@ -31,7 +31,8 @@ do for [p=1:words(parts)] {
       table using (strcol('part') eq part && strcol(fronts[e]) eq 'yes' ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
         smooth unique with lines linecolor rgb '#bbbbbb' linewidth 3 notitle, \
       for [i=1:|series|] table using (strcol('part') eq part && name(i) ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
-        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) title names[i]
+        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) notitle, \
+      for [i=1:|series|] keyentry with points pointtype shapes[i] linecolor rgb colours[i] title names[i]
   }
 }
 unset multiplot
