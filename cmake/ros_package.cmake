@@ -27,6 +27,12 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(CATKIN_DEPENDS geometry_msgs message_runtime std_msgs)
 
+# catkin gives its include path and definitions to every target of the project. Only those of src/ros and test/ros take
+# them: a stray include does not compile, and the rest compiles to the same objects with and without ROS.
+get_directory_property(BIN_SCENES_CATKIN_DEFINITIONS COMPILE_DEFINITIONS)
+get_directory_property(BIN_SCENES_CATKIN_INCLUDES INCLUDE_DIRECTORIES)
+set_directory_properties(PROPERTIES COMPILE_DEFINITIONS "" INCLUDE_DIRECTORIES "")
+
 # catkin sends every library and program of the project to its development space. Only what rosrun has to find goes
 # there (src/ros); a build with ROS leaves the rest where a build without ROS does.
 unset(CMAKE_ARCHIVE_OUTPUT_DIRECTORY)
