@@ -1,10 +1,10 @@
 # Messages and package metadata for catkin, which wants them declared from the folder of package.xml. Sets
 # BIN_SCENES_CATKIN_* for src/ros and test/ros; no other target sees a ROS header.
 
-# What scripts/ and models/ hold is run in the source folder.
-#catkin_lint: ignore uninstalled_script
-# Folders are added where they exist, which the linter does not evaluate.
-#catkin_lint: ignore missing_subdir
+# What scripts/, models/ and bench/ hold is run in the source and build folders.
+#catkin_lint: ignore uninstalled_script uninstalled_target
+# A layer's private headers are named without its folder, tests of another layer name them with it.
+#catkin_lint: ignore ambiguous_include_path
 
 # ROS 1 lives in the system's Python; another python3 first on the PATH knows neither empy nor genmsg.
 if(EXISTS /usr/bin/python3)

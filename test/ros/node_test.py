@@ -35,6 +35,16 @@ parts:
 solver: {type: bullet}
 sensors: [{name: camera, width: 240, height: 200}]
 """
+# Nuts in a mug, seen from above and from the side.
+TWO_SENSORS = """
+seed: 7
+bin: {mesh: mug.stl, unit: mm, pose: [0.01, 0, 0, 0, 0, 0, 1]}
+parts: [{model: nut_hex.stl, unit: mm, count: 2}]
+solver: {type: sphere}
+sensors:
+  - {name: camera, width: 240, height: 200}
+  - {name: side-view, width: 160, height: 120, pose: [0.3, 0, 0.03, -0.5, -0.5, 0.5, 0.5]}
+"""
 MODELS = ["bracket_l.stl", "gear_spur.stl"]
 TOPICS = {
     "scene": Scene, "markers": MarkerArray, "points": PointCloud2, "depth/image_rect": Image,
@@ -233,6 +243,50 @@ class NodeTest(unittest.TestCase):
         time.sleep(2.0)
         subscriber.unregister()
         self.assertEqual(received, [scene.header.stamp])
+
+    # Several sensors, a bin of a mesh
+
+    def test_every_sensor_has_topics_of_its_own(self):
+        names = {"side_view/" + name: kind for name, kind in TOPICS.items() if name not in ("scene", "markers")}
+        scene = self.scene(yaml=TWO_SENSORS)
+        self.assertEqual([s.name for s in scene.sensors], ["camera", "side-view"])
+        listener = Listener({**TOPICS, **names})
+        try:
+            topics = listener.wait(scene.header.stamp, {**TOPICS, **names})
+            self.wait_until(lambda: counter(listener.seen["scene"], "rendered_images") == 2)
+        finally:
+            listener.close()
+        for name in names:
+            self.assertEqual(topics[name].header.frame_id, "side-view_optical_frame")
+            self.assertEqual((topics[name].width, topics[name].height), (160, 120))
+        for sensor in scene.sensors:
+            truth = data.matrix(sensor.pose.position, sensor.pose.orientation)
+            np.testing.assert_allclose(self.lookup(sensor.name + "_optical_frame", scene.header.stamp), truth, atol=1e-12)
+        # From above the nuts are seen; from the side the mug hides them, and is seen itself.
+        fractions = np.array([p.visible_fraction for p in listener.seen["scene"].parts])
+        self.assertEqual(fractions.shape, (2, 2))
+        self.assertGreater(fractions[:, 0].max(), 0.5)
+        np.testing.assert_array_equal(fractions[:, 1], 0.0)
+        self.assertTrue(data.image_array(topics["labels/image_raw"]).any())
+        self.assertFalse(data.image_array(topics["side_view/labels/image_raw"]).any())
+        self.check_mug(scene, topics)
+        self.scene()
+        published = [name for name, _ in rospy.get_published_topics()]
+        self.assertNotIn("/side_view/points", published)
+
+    def check_mug(self, scene, topics):
+        """The side camera's points, through TF alone, lie on the mug where the request and its marker put it."""
+        bins = [m for m in topics["markers"].markers if m.ns == "bin"]
+        self.assertEqual([os.path.basename(m.mesh_resource) for m in bins], ["mug.stl"])
+        self.assertEqual((bins[0].pose.position.x, bins[0].scale.x), (0.01, 1e-3))
+        cloud = topics["side_view/points"]
+        points = data.cloud_array(cloud)
+        points = data.xyz(points[np.isfinite(points["z"])])
+        self.assertGreater(len(points), 200)
+        some = points[np.random.RandomState(1).choice(len(points), 150, replace=False)]
+        in_bin = data.moved(self.lookup(cloud.header.frame_id, scene.header.stamp), some)
+        foot, _ = data.nearest_on_mesh(in_bin - [0.01, 0, 0], data.model("mug.stl"))
+        self.assertLess(np.linalg.norm(in_bin - [0.01, 0, 0] - foot, axis=1).max(), TOLERANCE)
 
     # The same request, the same scene
 
