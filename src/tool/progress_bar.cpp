@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 namespace {
-constexpr int kWidth = 30;
+constexpr int kWidth = 20;                        ///< a line longer than 80 columns would wrap, and stay
 constexpr std::chrono::milliseconds kPause(100);  ///< between two updates: a terminal is slow
 }  // namespace
 
@@ -24,8 +24,10 @@ void ProgressBar::show(const Progress& progress) {
   shown_ = true;
   const int full = static_cast<int>(progress.fraction * kWidth);
   const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
-  std::fprintf(stderr, "\r\033[K[%s] scene %zu %s: %zu of %zu parts at rest, %.2f s simulated", bar.c_str(),
-               progress.scene, progress.phase.c_str(), progress.resting, progress.parts, progress.simulated_s);
+  std::fprintf(stderr, "\r\033[K[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
+  if (progress.simulated_s > 0) {  // other phases know nothing of rest
+    std::fprintf(stderr, ": %zu of %zu parts at rest, %.2f s", progress.resting, progress.parts, progress.simulated_s);
+  }
   std::fflush(stderr);
 }
 
