@@ -350,7 +350,7 @@ MeshFile read_mesh_file(const std::string& path) {
     const std::string what = import.points + import.lines > 0
                                  ? "holds " + std::to_string(import.points) + " points and " +
                                        std::to_string(import.lines) + " lines, but no faces"
-                             : import.meshes > 0 ? "holds vertices, but no faces"
+                             : import.meshes > 0 ? "holds no faces"
                                                  : "holds no mesh";
     throw input_error(what, path, "a part needs a closed surface of triangles: export it as a mesh");
   }
