@@ -37,6 +37,12 @@ inline Names<SolverSettings::Preset> names(SolverSettings::Preset) {
   return {{"standard", SolverSettings::Preset::standard}, {"thesis", SolverSettings::Preset::thesis}};
 }
 
+inline Names<SphereSettings::Device> names(SphereSettings::Device) {
+  return {{"auto", SphereSettings::Device::automatic},
+          {"cpu", SphereSettings::Device::cpu},
+          {"gpu", SphereSettings::Device::gpu}};
+}
+
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.
 struct BinKeys {
   bool floor = false, none = false;
@@ -158,6 +164,10 @@ void visit(Visitor& v, SphereSettings& s) {
           s.fine_samples);
   v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
           s.field_cell);
+  v.field({"device", "",
+           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the GPU if the OpenGL device is "
+           "hardware and a scene fits, and the report says why. Scenes repeat bit for bit on the same class of device"},
+          s.device);
 }
 
 template <class Visitor>

@@ -57,7 +57,9 @@ void Storage::grow(std::size_t bytes) {
 
 void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
   assert(offset + bytes <= bytes_);
-  if (bytes) glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+  if (!bytes) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // behind what passes wrote there
+  glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
 void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {

@@ -1,15 +1,40 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/solver/bullet_solver.hpp"
 #include "bin_scenes/solver/solver.hpp"
 #include "bin_scenes/solver/thesis_solver.hpp"
 #include "sphere/sphere_solver.hpp"
+#include "sphere_gl/gl_sphere_solver.hpp"
 
 namespace bin_scenes {
 
 namespace {
 
-std::unique_ptr<Solver> make_sphere(const SolverSettings& settings) {
+/// Whether the sphere solver's passes run on the GPU; says why. Under a software GL they are much slower than the same
+/// passes in C++ (docs/solver.md, "On the GPU").
+bool on_gpu(const SphereSettings& settings, std::size_t bodies, std::string& reason) {
+  if (settings.device != SphereSettings::Device::automatic) return settings.device == SphereSettings::Device::gpu;
+  if (bodies > most_gl_bodies()) {
+    reason += "; on the CPU: more bodies than the GPU's form takes";
+    return false;
+  }
+  try {
+    if (gl::Device::hardware_listed() && !gl::Device::current().software()) {
+      reason += "; on the GPU";
+      return true;
+    }
+  } catch (const Error&) {
+  }
+  reason += "; on the CPU: no hardware OpenGL device";
+  return false;
+}
+
+std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason) {
+  const SolverSettings& settings = request.solver;
   if (settings.preset == SolverSettings::Preset::thesis) return std::make_unique<ThesisSolver>(settings.thesis);
-  return make_sphere_solver(settings.sphere);
+  const std::size_t bodies = request.part_count() + (request.bin.kind == Bin::Kind::mesh ? 1 : 0);
+  return on_gpu(settings.sphere, bodies, reason) ? make_gl_sphere_solver(settings.sphere)
+                                                 : make_sphere_solver(settings.sphere);
 }
 
 }  // namespace
@@ -18,7 +43,7 @@ std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<Pa
   switch (request.solver.type) {
     case SolverType::sphere:
       reason = "asked for";
-      return make_sphere(request.solver);
+      return make_sphere(request, reason);
     case SolverType::bullet:
       reason = "asked for";
       return make_bullet_solver(request.solver.bullet);
@@ -28,7 +53,7 @@ std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<Pa
   // Bullet needs a convex decomposition first, and its cost grows with the hulls of each touching pair squared. A cost
   // model by device, part and count awaits the benchmarks.
   reason = "auto: sphere, which takes any concave part without convex decomposition";
-  return make_sphere(request.solver);
+  return make_sphere(request, reason);
 }
 
 }  // namespace bin_scenes

@@ -51,7 +51,7 @@ solver:
   bullet: {time_step: 0.005, iterations: 30, margin: 0.01, sleeping: false, hull_error: 0.02, max_hulls: 16}
   thesis: {time_step: 0.02, sub_steps: 2, iterations: 5, bias: 0.3, slop: 0.02, rest_velocity: 0.1, voxels: 12,
            tightness: 0.75, modified_normals: false, grid_size: 64, cell_size: 2, contacts_per_sphere: 8}
-  sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02}
+  sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
 sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
   - {name: right, k: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
@@ -107,6 +107,7 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_FALSE(r.solver.bullet.sleeping);
   EXPECT_EQ(r.solver.bullet.hull_error, 0.02);
   EXPECT_EQ(r.solver.bullet.max_hulls, 16);
+  EXPECT_EQ(r.solver.sphere.device, SphereSettings::Device::cpu);
   EXPECT_EQ(r.solver.thesis.time_step, 0.02);
   EXPECT_EQ(r.solver.thesis.sub_steps, 2);
   EXPECT_EQ(r.solver.thesis.iterations, 5);

@@ -102,6 +102,8 @@ struct SphereSettings {
   int coarse_samples = 400;        ///< per part while pouring
   int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost
   double field_cell = 0.004;       ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
+  /// Where it runs. automatic: on the GPU if there is one, else the same passes as plain C++; a software GL is slower.
+  enum class Device { automatic, cpu, gpu } device = Device::automatic;
 };
 
 struct SolverSettings {

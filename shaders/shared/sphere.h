@@ -1,0 +1,189 @@
+// Data of the default sphere solver as shaders and C++ see it. Lengths in m, world axes unless said otherwise.
+// Indices of pairs and manifold slots count within their world, so that a world's regions can be moved whole.
+#ifndef SHARED_SPHERE_H
+#define SHARED_SPHERE_H
+#include "shared/types.h"
+
+// Binding numbers; the same buffer has the same number in every pass.
+#define BIND_SETTINGS 0
+#define BIND_RUNNING 1
+#define BIND_WORLDS 2
+#define BIND_PROGRESS 3
+#define BIND_PLANES 4
+#define BIND_BODIES 5
+#define BIND_STATES 6
+#define BIND_TENSORS 7
+#define BIND_SHAPES 8
+#define BIND_NODES 9
+#define BIND_EDGES 10
+#define BIND_CLUSTERS 11
+#define BIND_FIELDS 12
+#define BIND_NEAR 13
+#define BIND_RANGES 14
+#define BIND_PAIRS 15
+#define BIND_FREE 16
+#define BIND_MANIFOLDS 17
+#define BIND_CONTACTS 18
+#define BIND_JOBS 19
+#define BIND_CANDIDATES 20
+#define BIND_COLORS 21
+#define BIND_ORDER 22
+#define BIND_ROWS 23
+
+#define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
+#define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
+#define SPHERE_MAX_CONTACTS 16      // per pair, after reduction
+#define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
+#define SPHERE_CLUSTER 16           // nodes
+#define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
+#define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
+
+// Normal cone of a node (w, bits) or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are;
+// 0 = all directions, SPHERE_AXIS = one axis with its spread in w.
+#define SPHERE_AXIS 7u
+
+#define SPHERE_GROUND 0xffffffffu   // body index of the bin's walls and floor
+#define SPHERE_SIDE_B 0x80000000u   // feature: sample of b against the field of a
+#define SPHERE_EDGE 0x40000000u     // feature: edge, not node
+#define SPHERE_PLANE 0x1000000u     // feature of a ground contact: node + plane times this
+
+// SphereState.flags.x
+#define SPHERE_PRESENT 1u
+#define SPHERE_ASLEEP 2u
+
+// SphereProgress.overflow: the world waits, as it was before the step, until the host has made room.
+#define SPHERE_PAIR_OVERFLOW 1u
+#define SPHERE_CANDIDATE_OVERFLOW 2u
+
+GPU_STRUCTS_BEGIN
+
+struct SphereSettingsBlock {
+  float time_step;         // s
+  uint sub_steps;
+  float contact_rate;      // Hz, of soft contacts
+  float damping_ratio;
+  float push_speed;        // d per second
+  float slop, margin, recycle, rest_move;  // d
+  float restitution_speed; // m/s
+  float rest_window;       // s
+  uint candidates;         // kept per invocation of find_contacts
+  uint contact_groups;     // groups that take jobs at once
+  uint unused0, unused1, unused2;
+};
+
+struct SphereWorld {
+  uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
+  uvec4 pairs;    // first, capacity; planes: first, count
+  vec4 gravity;   // m/s2; w: diagonal of the smallest part
+  vec4 ground;    // friction, restitution, height where walls end
+};
+
+// What the steps of a world leave behind; the host reads it every few steps.
+struct SphereProgress {
+  uint steps_left, steps, overflow, need;    // need: pairs or candidates that did not fit
+  uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
+  uint fine, ordered, unused0, unused1;      // samples in use, manifolds to solve
+  // Counters, since the host last looked.
+  uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
+  uint clusters_tested, nodes_tested, contacts, dropped;
+  uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
+};
+
+struct SphereBody {
+  uvec4 ids;        // shape, world
+  vec4 material;    // inverse mass (0: fixed), friction, restitution
+  vec4 inertia, inertia_mixed;                  // body axes: xx yy zz, xy xz yz (kg m2)
+  vec4 inverse_inertia, inverse_inertia_mixed;  // zero: fixed
+};
+
+struct SphereState {
+  vec4 position;     // centre of mass
+  vec4 orientation;  // xyzw, body -> world
+  vec4 velocity;     // m/s
+  vec4 spin;         // rad/s
+  vec4 still_position;     // pose from which rest is judged; w: s spent near it
+  vec4 still_orientation;
+  uvec4 flags;       // bits; label of the island
+};
+
+struct SphereTensor {  // inverse inertia, world axes, when contacts were found
+  vec4 diagonal, mixed;
+};
+
+struct SpherePlane {
+  vec4 plane;        // normal . p >= w outside
+  uvec4 wall;        // x: 1 = ends at the world's wall top
+};
+
+struct SphereSamples {
+  uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the vectors of their normal cones
+  uvec4 clusters;    // first, count
+  vec4 size;         // radius of the nodes, longest edge piece
+};
+
+struct SphereShape {
+  SphereSamples coarse, fine;
+  vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass
+  vec4 box_half;     // w: diagonal
+  vec4 origin;       // of the field's grid; w: cell
+  vec4 field;        // 1 / cell, padding, radius if the part is a ball
+  uvec4 grid;        // values along x, y, z; first value
+};
+
+struct SphereCluster {
+  vec4 ball;         // of the nodes and of the edges that start there
+  uvec4 edges;       // first, end (of the part)
+};
+
+struct SpherePair {
+  uint a, b;         // bodies (of all worlds), a < b; b may be SPHERE_GROUND
+  uint slot;         // of the manifold, in the world
+  uint color;
+};
+
+struct SphereManifold {
+  uvec4 state;       // contacts, presses, found
+  vec4 found_position;     // of b in the frame of a when contacts were found
+  vec4 found_orientation;
+};
+
+struct SphereContact {
+  vec4 anchor_a;     // on the surface of a, body axes; w: normal impulse
+  vec4 anchor_b;     // w: feature (bits)
+  vec4 normal;       // from a to b, in the frame of the body whose field gave it
+  vec4 friction;     // impulse on b, world axes
+};
+
+struct SphereCandidate {
+  vec4 on_a;         // frame of a; w: separation
+  vec4 normal;       // a -> b, frame of a; w: distance to the nearest chosen candidate
+  uvec4 feature;     // y: 1 = was a contact in the last step
+};
+
+// A contact in world terms, for the sub-steps of one step.
+struct SphereRow {
+  vec4 ra;           // w: separation
+  vec4 rb;           // w: tangent mass
+  vec4 normal;       // w: normal mass
+  vec4 impulse;      // normal, two of friction, largest normal
+  vec4 bounce;       // approach speed, the same when prepared, gap
+};
+
+struct SphereStatus {  // stands before the list of jobs
+  uint jobs, next_job, unused0, unused1;
+  uvec4 groups;      // arguments of the dispatch over jobs
+};
+
+GPU_STRUCTS_END
+
+#ifdef __cplusplus
+namespace bin_scenes::gpu {
+static_assert(sizeof(SphereSettingsBlock) == 64 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 96, "std430");
+static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 32, "std430");
+static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
+static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
+static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48 && sizeof(SphereRow) == 80, "std430");
+static_assert(sizeof(SphereStatus) == 32, "std430");
+}  // namespace bin_scenes::gpu
+#endif
+#endif

@@ -1,0 +1,115 @@
+// One group a world: colors for the manifolds to solve, so that no two of a color share a moving body. Jones and
+// Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose hashed key is the lowest among the
+// uncolored ones of both its bodies takes the lowest color that both still have. That is the greedy coloring in order of
+// the hash, whatever runs when; an order by index would wait along rows of neighbours. Twin: color_manifolds().
+#include "shared/sphere.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_RANGES) readonly buffer Ranges { uvec4 ranges[]; };
+layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
+layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
+
+#include "sphere/body.h"
+#include "sphere/color.h"
+
+shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
+shared uint members[SPHERE_COLORS], starts[SPHERE_COLORS + 1];
+shared uint left[2];  // uncolored manifolds, take turns
+shared uint contact_count;
+
+void main() {
+  uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
+  SphereWorld world = worlds[w];
+  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
+
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) used_low[i] = used_high[i] = 0u;
+  for (uint c = thread; c < SPHERE_COLORS; c += SPHERE_GROUP) members[c] = 0u;
+  if (thread == 0u) contact_count = 0u;
+  if (thread < 2u) left[thread] = 0u;
+  barrier();
+  uint own_contacts = 0u;
+  for (uint p = thread; p < count; p += SPHERE_GROUP) {
+    SpherePair pair = pairs[list + p];
+    uint n = manifolds[world.pairs.x + pair.slot].state.x;
+    bool solved = n > 0u && (moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b));
+    pairs[list + p].color = solved ? UNCOLORED : NOT_SOLVED;
+    if (moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b)) own_contacts += n;
+  }
+  atomicAdd(contact_count, own_contacts);
+
+  uint rounds = 0u;
+  for (;; ++rounds) {
+    uint turn = rounds & 1u;
+    for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) lowest[i] = 0xffffffffu;
+    if (thread == 0u) left[turn ^ 1u] = 0u;
+    barrier();
+    for (uint p = thread; p < count; p += SPHERE_GROUP) {
+      SpherePair pair = pairs[list + p];
+      if (pair.color != UNCOLORED) continue;
+      uint key = hashed_key(pair, world.bodies.x);
+      if (moves(pair.a)) atomicMin(lowest[pair.a - world.bodies.x], key);
+      if (pair.b != SPHERE_GROUND && moves(pair.b)) atomicMin(lowest[pair.b - world.bodies.x], key);
+      left[turn] = 1u;
+    }
+    barrier();
+    if (left[turn] == 0u) break;
+    for (uint p = thread; p < count; p += SPHERE_GROUP) {
+      SpherePair pair = pairs[list + p];
+      if (pair.color != UNCOLORED) continue;
+      uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
+      bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
+      if (a_moves && lowest[a] != key || b_moves && lowest[b] != key) continue;
+      uvec2 used = uvec2(0u);
+      if (a_moves) used |= uvec2(used_low[a], used_high[a]);
+      if (b_moves) used |= uvec2(used_low[b], used_high[b]);
+      uint color = lowest_free(used);
+      used = color_bit(color);
+      if (a_moves) {
+        used_low[a] |= used.x;
+        used_high[a] |= used.y;
+      }
+      if (b_moves) {
+        used_low[b] |= used.x;
+        used_high[b] |= used.y;
+      }
+      pairs[list + p].color = color;
+      atomicAdd(members[color], 1u);
+    }
+    barrier();
+  }
+
+  memoryBarrierBuffer();
+  barrier();
+  if (thread == 0u) {
+    uint sum = 0u, colors = 0u;
+    for (uint c = 0u; c < SPHERE_COLORS; ++c) {
+      starts[c] = sum;
+      sum += members[c];
+      if (members[c] > 0u) colors = c + 1u;
+      color_starts[w * (SPHERE_COLORS + 1u) + c] = starts[c];
+    }
+    color_starts[w * (SPHERE_COLORS + 1u) + SPHERE_COLORS] = sum;
+    progress[w].ordered = sum;
+    progress[w].colors += colors;
+    progress[w].coloring_rounds += rounds;
+    progress[w].contacts += contact_count;
+    // Manifolds without a color of their own are solved one by one, so their order counts.
+    if (members[LAST_COLOR] > 0u)
+      for (uint p = 0u, at = starts[LAST_COLOR]; p < count; ++p)
+        if (pairs[list + p].color == LAST_COLOR) order[world.pairs.x + at++] = p;
+  }
+  barrier();
+  for (uint p = thread; p < count; p += SPHERE_GROUP) {
+    uint color = pairs[list + p].color;
+    if (color < LAST_COLOR) order[world.pairs.x + atomicAdd(starts[color], 1u)] = p;
+  }
+}

@@ -1,0 +1,34 @@
+// Normal cones of nodes and edges. Needs the binding Nodes.
+
+// Turns a unit direction into the cone; false if it lies so far outside that nothing of it is left. `cone` as in
+// SPHERE_AXIS, its vectors counted from `first`. Bounds by cyclic projection.
+bool turn_into_cone(uint cone, uint first, inout vec3 direction) {
+  const float least_left = 0.1;  // of a unit direction: what leans over more than 84 degrees does not press
+  uint bounds = cone & 7u, at = first + (cone >> 3);
+  if (bounds == 0u) return true;
+  if (bounds == SPHERE_AXIS) {
+    vec4 axis = nodes[at];
+    float along = dot(axis.xyz, direction);
+    if (along < least_left) return false;
+    vec3 across = direction - along * axis.xyz;
+    float side = length(across);
+    if (atan(side, along) > axis.w) direction = cos(axis.w) * axis.xyz + sin(axis.w) / side * across;
+    return true;
+  }
+  vec3 n = direction;
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    float outside = 0.0;
+    for (uint i = 0u; i < bounds; ++i) {
+      vec3 bound = nodes[at + i].xyz;
+      float over = dot(n, bound);
+      if (over <= 0.0) continue;
+      outside = max(outside, over);
+      n -= over * bound;
+    }
+    if (outside < 1e-5) break;
+  }
+  float left = length(n);
+  if (left < least_left) return false;
+  direction = n / left;
+  return true;
+}

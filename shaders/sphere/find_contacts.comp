@@ -1,0 +1,217 @@
+// A group takes one pair after the other from the list of jobs: samples of each body against the field of the other,
+// bounding spheres first, edges by descent, then the few contacts that stand for all, with the impulses of the last
+// step. An invocation keeps the candidates it finds; choices go by depth and spread, ties by feature, so that neither
+// the order of arrival nor who tested what matters. Twin: find_contacts().
+#include "shared/sphere.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_PLANES) readonly buffer Planes { SpherePlane planes[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
+layout(std430, binding = BIND_NODES) readonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = BIND_EDGES) readonly buffer Edges { uvec4 edges[]; };
+layout(std430, binding = BIND_CLUSTERS) readonly buffer Clusters { SphereCluster clusters[]; };
+layout(std430, binding = BIND_FIELDS) readonly buffer Fields { float fields[]; };
+layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate candidates[]; };
+
+#include "sphere/body.h"
+#include "sphere/pair.h"
+#include "sphere/field.h"
+#include "sphere/edge.h"
+#include "sphere/cone.h"
+
+uint world_index, clusters_tested, nodes_tested;
+
+SphereSamples samples_of(uint body) {
+  uint shape = bodies[body].ids.x;
+  return progress[world_index].fine != 0u ? shapes[shape].fine : shapes[shape].coarse;
+}
+
+#include "sphere/reduce.h"
+
+shared uint job;
+shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
+shared uint edge_queue[SPHERE_EDGE_QUEUE], queued;
+
+// Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
+struct View {
+  mat3 to_field, to_a;
+  vec3 field_offset, a_offset;
+  SphereSamples samples, other;
+  uint side;
+  float margin;
+};
+
+vec3 carry(View view, uint node) {
+  return view.to_field * nodes[view.samples.nodes.x + node].xyz + view.field_offset;
+}
+
+void emit_from(View view, vec3 point, vec3 gradient, float distance, uint feature) {
+  vec3 surface = point - view.samples.size.x * gradient;
+  if (view.side == 0u)
+    emit(view.to_a * surface + view.a_offset, -(view.to_a * gradient), distance, feature);
+  else
+    emit(surface - distance * gradient, gradient, distance, feature | view.side);
+}
+
+// A candidate, if its own surface can be pressed against the way out of the other.
+void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
+  vec3 pressed = -(away * view.to_field);
+  if (turn_into_cone(cone, view.samples.nodes.x, pressed))
+    emit_from(view, point, -(view.to_field * pressed), distance, feature);
+  else if (distance < -2.0 * field_cell)  // deep inside any way out is better than none
+    emit_from(view, point, away, distance, feature);
+}
+
+void test_node(View view, uint node) {
+  vec3 point = carry(view, node), gradient;
+  float distance = sample_field(point, gradient) - view.samples.size.x;
+  ++nodes_tested;
+  if (distance >= view.margin) return;
+  offer(view, point, gradient, distance, floatBitsToUint(nodes[view.samples.nodes.x + node].w), node);
+}
+
+bool edge_may_touch(View view, uint edge) {
+  uvec4 ends = edges[view.samples.nodes.z + edge];
+  vec3 p = carry(view, ends.x), q = carry(view, ends.y), gradient_p, gradient_q;
+  float distance_p = sample_field(p, gradient_p), distance_q = sample_field(q, gradient_q);
+  // A distance falls by no more than the way.
+  if (0.5 * (distance_p + distance_q - 2.0 * view.samples.size.x - uintBitsToFloat(ends.w)) >= view.margin) return false;
+  return dot(gradient_p, q - p) < 0.0 && dot(gradient_q, q - p) > 0.0;
+}
+
+void test_edge(View view, uint edge) {
+  uvec4 ends = edges[view.samples.nodes.z + edge];
+  vec3 p = carry(view, ends.x), q = carry(view, ends.y), point, gradient;
+  float distance;
+  if (!descend(p, q, view.samples.size.x, point, gradient, distance)) return;
+  cross_edges(view.other, 2.0 * field_cell + abs(distance), p, q, point, gradient, distance);
+  if (distance < view.margin) offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
+}
+
+// All invocations; the field of the other body is in use.
+void test_samples(View view) {
+  uint thread = gl_LocalInvocationIndex, count = view.samples.clusters.y;
+  float slack = view.margin + view.samples.size.x + (field_ball > 0.0 ? 0.0 : 0.5 * field_cell);
+  if (thread == 0u) near_count = queued = 0u;
+  barrier();
+  for (uint c = thread; c < count; c += SPHERE_GROUP) {
+    vec4 ball = clusters[view.samples.clusters.x + c].ball;
+    ++clusters_tested;
+    if (sample_field(view.to_field * ball.xyz + view.field_offset) <= ball.w + slack)
+      near_clusters[atomicAdd(near_count, 1u)] = c;
+  }
+  barrier();
+  const uint lane = thread % SPHERE_CLUSTER;
+  for (uint k = thread / SPHERE_CLUSTER; k < near_count; k += SPHERE_GROUP / SPHERE_CLUSTER) {
+    uint c = near_clusters[k], node = c * SPHERE_CLUSTER + lane;
+    if (node < view.samples.nodes.y) test_node(view, node);
+    uvec4 range = clusters[view.samples.clusters.x + c].edges;
+    for (uint e = range.x + lane; e < range.y; e += SPHERE_CLUSTER) {
+      if (!edge_may_touch(view, e)) continue;
+      uint at = atomicAdd(queued, 1u);
+      if (at < SPHERE_EDGE_QUEUE)
+        edge_queue[at] = e;
+      else
+        test_edge(view, e);
+    }
+  }
+  barrier();
+  for (uint k = thread; k < min(queued, SPHERE_EDGE_QUEUE); k += SPHERE_GROUP) test_edge(view, edge_queue[k]);
+  barrier();
+}
+
+void test_pair(SpherePair pair, float margin) {
+  uint shape_a = bodies[pair.a].ids.x, shape_b = bodies[pair.b].ids.x;
+  mat3 ra = rotation_of(states[pair.a].orientation), rb = rotation_of(states[pair.b].orientation);
+  mat3 b_to_a = transpose(ra) * rb, a_to_b = transpose(b_to_a);
+  vec3 b_in_a = (states[pair.b].position.xyz - states[pair.a].position.xyz) * ra, a_in_b = -(a_to_b * b_in_a);
+  SphereSamples samples_a = samples_of(pair.a), samples_b = samples_of(pair.b);
+  use_field(shape_b);
+  test_samples(View(a_to_b, b_to_a, a_in_b, b_in_a, samples_a, samples_b, 0u, margin));
+  use_field(shape_a);
+  test_samples(View(b_to_a, b_to_a, b_in_a, b_in_a, samples_b, samples_a, SPHERE_SIDE_B, margin));
+  if (gl_LocalInvocationIndex == 0u) count_possible(samples_a.nodes.y + samples_b.nodes.y);
+}
+
+// Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
+// between its inner face and the rim's level, as thick as it takes.
+float plane_distance(SpherePlane plane, float top, vec3 p, out vec3 away) {
+  float face = dot(plane.plane.xyz, p) - plane.plane.w, above = p.z - top;
+  const vec3 up = vec3(0.0, 0.0, 1.0);
+  away = plane.plane.xyz;
+  if (plane.wall.x == 0u || above <= 0.0 && face >= above) return face;
+  away = up;
+  if (above <= 0.0 || face <= 0.0) return above;
+  float way = sqrt(above * above + face * face);
+  away = (above * up + face * plane.plane.xyz) / way;
+  return way;
+}
+
+void test_ground(SpherePair pair, float margin) {
+  uint thread = gl_LocalInvocationIndex, shape = bodies[pair.a].ids.x;
+  SphereWorld world = worlds[world_index];
+  mat3 ra = rotation_of(states[pair.a].orientation);
+  vec3 position = states[pair.a].position.xyz;
+  SphereSamples samples = samples_of(pair.a);
+  for (uint k = 0u; k < world.pairs.w; ++k) {
+    SpherePlane plane = planes[world.pairs.z + k];
+    float far = samples.size.x + margin;
+    if (dot(plane.plane.xyz, position) - plane.plane.w > shapes[shape].box_center.w + far) continue;
+    for (uint c = thread / SPHERE_CLUSTER; c < samples.clusters.y; c += SPHERE_GROUP / SPHERE_CLUSTER) {
+      vec4 ball = clusters[samples.clusters.x + c].ball;
+      if (thread % SPHERE_CLUSTER == 0u) ++clusters_tested;
+      if (dot(plane.plane.xyz, position + ra * ball.xyz) - plane.plane.w > ball.w + far) continue;
+      uint node = c * SPHERE_CLUSTER + thread % SPHERE_CLUSTER;
+      if (node >= samples.nodes.y) continue;
+      ++nodes_tested;
+      vec3 arm = ra * nodes[samples.nodes.x + node].xyz, away;
+      float distance = plane_distance(plane, world.ground.z, position + arm, away) - samples.size.x;
+      if (distance <= margin)
+        emit((arm - samples.size.x * away) * ra, -(away * ra), distance, node + k * SPHERE_PLANE);
+    }
+  }
+  if (thread == 0u) count_possible(samples.nodes.y);
+}
+
+// Distance up to which contacts are kept: they may close within the step.
+float margin_of(SpherePair pair) {
+  bool ground = pair.b == SPHERE_GROUND;
+  SphereState a = states[pair.a];
+  vec3 v = ground ? -a.velocity.xyz : states[pair.b].velocity.xyz - a.velocity.xyz;
+  float spin = length(a.spin.xyz) * shapes[bodies[pair.a].ids.x].box_center.w;
+  if (!ground) spin += length(states[pair.b].spin.xyz) * shapes[bodies[pair.b].ids.x].box_center.w;
+  float dt = settings.time_step;
+  return settings.margin * size_of(pair) + (length(v) + spin + length(worlds[world_index].gravity.xyz) * dt) * dt;
+}
+
+void main() {
+  for (;;) {
+    if (gl_LocalInvocationIndex == 0u) job = atomicAdd(status.next_job, 1u);
+    barrier();
+    if (job >= status.jobs) return;
+    SpherePair pair = pairs[jobs[job]];
+    world_index = bodies[pair.a].ids.y;
+    uint slot = worlds[world_index].pairs.x + pair.slot;
+    clusters_tested = nodes_tested = 0u;
+    begin_candidates(slot);
+    float margin = margin_of(pair);
+    if (pair.b == SPHERE_GROUND)
+      test_ground(pair, margin);
+    else
+      test_pair(pair, margin);
+    finish_candidates(pair, slot);
+    atomicAdd(progress[world_index].clusters_tested, clusters_tested);
+    atomicAdd(progress[world_index].nodes_tested, nodes_tested);
+    barrier();  // shared memory is free for the next pair
+  }
+}

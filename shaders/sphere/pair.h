@@ -1,0 +1,48 @@
+// Pairs of bodies: how near is near. Needs the bindings Settings, Bodies, States, Shapes.
+
+// Way the surface of a body may move in one step, and the distance at which contacts are kept.
+float reach(SphereWorld world, uint body, float radius, float diagonal) {
+  float base = 0.5 * settings.margin * diagonal;
+  if (!moves(body)) return base;
+  float dt = settings.time_step;
+  return base + (length(states[body].velocity.xyz) + length(states[body].spin.xyz) * radius +
+                 length(world.gravity.xyz) * dt) * dt;
+}
+
+// Separating axis test on the six face normals.
+bool oriented_boxes_apart(uint a, uint b, float margin) {
+  mat3 ra = rotation_of(states[a].orientation), rb = rotation_of(states[b].orientation);
+  vec3 ca = shapes[bodies[a].ids.x].box_center.xyz, ha = shapes[bodies[a].ids.x].box_half.xyz;
+  vec3 cb = shapes[bodies[b].ids.x].box_center.xyz, hb = shapes[bodies[b].ids.x].box_half.xyz;
+  vec3 d = (states[b].position.xyz + rb * cb) - (states[a].position.xyz + ra * ca);
+  mat3 size = magnitudes(transpose(ra) * rb);
+  vec3 gap_a = abs(d * ra) - ha - size * hb, gap_b = abs(d * rb) - hb - ha * size;
+  return any(greaterThan(max(gap_a, gap_b), vec3(margin)));
+}
+
+// Pose of b in the frame of a; on the ground: of a in the bin's.
+void relative_pose(SpherePair pair, out vec3 position, out vec4 orientation) {
+  position = states[pair.a].position.xyz;
+  orientation = states[pair.a].orientation;
+  if (pair.b == SPHERE_GROUND) return;
+  position = (states[pair.b].position.xyz - position) * rotation_of(orientation);
+  orientation = quat_multiply(quat_conjugate(orientation), states[pair.b].orientation);
+}
+
+float size_of(SpherePair pair) {
+  float size = shapes[bodies[pair.a].ids.x].box_half.w;
+  return pair.b == SPHERE_GROUND ? size : min(size, shapes[bodies[pair.b].ids.x].box_half.w);
+}
+
+// Whether the pair has hardly moved since its contacts were found.
+bool recyclable(SphereManifold manifold, SpherePair pair) {
+  if (manifold.state.z == 0u) return false;
+  float size = size_of(pair), limit = settings.recycle * size;
+  vec3 position;
+  vec4 orientation;
+  relative_pose(pair, position, orientation);
+  vec3 moved = position - manifold.found_position.xyz;
+  if (dot(moved, moved) > limit * limit) return false;
+  vec4 turn = quat_multiply(quat_conjugate(manifold.found_orientation), orientation);
+  return length(turn.xyz) * size < limit;
+}

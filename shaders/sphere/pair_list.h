@@ -1,0 +1,11 @@
+// Where the lists of pairs lie. Needs the binding Ranges.
+
+// First pair of a world's list; each world has two that take turns.
+uint list_of(SphereWorld world, uint page) { return 2u * world.pairs.x + page * world.pairs.y; }
+uvec2 range_of(uint body, uint page) { return page == 0u ? ranges[body].xy : ranges[body].zw; }
+void set_range(uint body, uint page, uvec2 range) {
+  if (page == 0u)
+    ranges[body].xy = range;
+  else
+    ranges[body].zw = range;
+}

@@ -1,0 +1,203 @@
+// Candidates of one pair, found by all invocations of a group, and the few of them that become contacts. Needs the
+// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index and samples_of().
+
+const float FAR = 3.4e38;
+
+shared SphereContact old[SPHERE_MAX_CONTACTS];
+shared uint old_count, old_found;
+shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS], chosen_normal[SPHERE_MAX_CONTACTS];  // w: separation
+shared uint chosen_feature[SPHERE_MAX_CONTACTS];
+shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose impulses it takes
+shared uint source_taken[SPHERE_MAX_CONTACTS];
+shared uint highest[2], highest_feature[2];      // take turns
+shared uint found_count, any_lost;
+const uint NO_SOURCE = 0xffffffffu;
+
+uint mine;  // candidates of this invocation
+bool lost;
+
+uint feature_of(SphereContact contact) { return floatBitsToUint(contact.anchor_b.w); }
+
+// Side by side for neighbours, so that a group's reads are one.
+uint candidate_place(uint k) {
+  return (gl_WorkGroupID.x * settings.candidates + k) * SPHERE_GROUP + gl_LocalInvocationIndex;
+}
+
+void begin_candidates(uint slot) {
+  uint thread = gl_LocalInvocationIndex;
+  mine = 0u;
+  lost = false;
+  uint count = manifolds[slot].state.x;
+  if (thread == 0u) {
+    old_count = count;
+    old_found = manifolds[slot].state.z;
+    highest[0] = 0u;
+    highest_feature[0] = NO_SOURCE;
+    found_count = any_lost = 0u;
+  }
+  if (thread < count) {
+    old[thread] = contacts[slot * SPHERE_MAX_CONTACTS + thread];
+    source_taken[thread] = 0u;
+  }
+  barrier();
+}
+
+void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
+  if (mine == settings.candidates) {
+    lost = true;
+    return;
+  }
+  uint known = 0u;
+  for (uint k = 0u; k < old_count; ++k)
+    if (old_found != 0u && feature_of(old[k]) == feature) known = 1u;
+  candidates[candidate_place(mine++)] =
+      SphereCandidate(vec4(on_a, separation), vec4(normal, FAR), uvec4(feature, known, 0u, 0u));
+}
+
+// 64-bit sum, for what a big world counts beyond 2^32 between two looks.
+void count_possible(uint n) {
+  uint before = atomicAdd(progress[world_index].nodes_possible, n);
+  if (before + n < before) atomicAdd(progress[world_index].nodes_possible_high, 1u);
+}
+
+// The candidate with the largest key of all invocations, ties by feature, becomes number n of the chosen; false if
+// every key is 0.
+bool choose(uint n, uint key, uint k) {
+  uint turn = n & 1u, feature = NO_SOURCE;
+  if (key > 0u) {
+    feature = candidates[candidate_place(k)].feature.x;
+    atomicMax(highest[turn], key);
+  }
+  barrier();
+  if (key > 0u && key == highest[turn]) atomicMin(highest_feature[turn], feature);
+  if (gl_LocalInvocationIndex == 0u) {
+    highest[turn ^ 1u] = 0u;
+    highest_feature[turn ^ 1u] = NO_SOURCE;
+  }
+  barrier();
+  if (highest[turn] == 0u) return false;
+  if (key == highest[turn] && feature == highest_feature[turn]) {
+    SphereCandidate c = candidates[candidate_place(k)];
+    chosen_on_a[n] = c.on_a;
+    chosen_normal[n] = c.normal;
+    chosen_feature[n] = feature;
+    candidates[candidate_place(k)].normal.w = -1.0;
+  }
+  barrier();
+  return true;
+}
+
+// Floats as keys: larger keys for smaller separations.
+uint depth_key(float separation) {
+  uint bits = floatBitsToUint(separation);
+  return (bits & 0x80000000u) != 0u ? bits : ~(bits | 0x80000000u);
+}
+
+// The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
+// preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
+uint reduce(float size) {
+  uint key = 0u, best = 0u;
+  for (uint k = 0u; k < mine; ++k) {
+    SphereCandidate c = candidates[candidate_place(k)];
+    uint depth = depth_key(c.on_a.w);
+    if (depth > key || depth == key && c.feature.x < candidates[candidate_place(best)].feature.x) {
+      key = depth;
+      best = k;
+    }
+  }
+  uint n = 0u;
+  while (choose(n, key, best)) {
+    if (++n == SPHERE_MAX_CONTACTS) break;
+    key = 0u;
+    vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u].xyz;
+    for (uint k = 0u; k < mine; ++k) {
+      SphereCandidate c = candidates[candidate_place(k)];
+      if (c.normal.w < 0.0) continue;
+      float apart = min(c.normal.w, length(c.on_a.xyz - on_a) + 0.3 * size * length(c.normal.xyz - normal));
+      if (apart < 1e-3 * size) apart = -1.0;  // a twin of a chosen one
+      candidates[candidate_place(k)].normal.w = apart;
+      if (apart < 0.0) continue;
+      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
+      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 2.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.y);
+      uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
+      if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
+        key = value;
+        best = k;
+      }
+    }
+  }
+  return n;
+}
+
+// Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
+void carry_impulses(uint count, float near, mat3 ra, mat3 rb, bool ground) {
+  uint i = gl_LocalInvocationIndex;
+  if (i < count) {
+    chosen_source[i] = NO_SOURCE;
+    for (uint k = 0u; k < old_count; ++k)
+      if (old_found != 0u && feature_of(old[k]) == chosen_feature[i]) {
+        chosen_source[i] = k;
+        source_taken[k] = 1u;
+      }
+  }
+  barrier();
+  if (i == 0u) {
+    for (uint n = 0u; n < count; ++n) {
+      if (chosen_source[n] != NO_SOURCE) continue;
+      float nearest = near;
+      for (uint k = 0u; k < old_count; ++k) {
+        float way = length(old[k].anchor_a.xyz - chosen_on_a[n].xyz);
+        if (source_taken[k] == 1u || way > nearest) continue;
+        bool field_of_a = (feature_of(old[k]) & SPHERE_SIDE_B) != 0u;
+        vec3 normal = old[k].normal.xyz;
+        if (!field_of_a) normal = (ground ? normal : rb * normal) * ra;
+        if (dot(normal, chosen_normal[n].xyz) < 0.9) continue;
+        chosen_source[n] = k;
+        nearest = way;
+      }
+      if (chosen_source[n] != NO_SOURCE) source_taken[chosen_source[n]] = 1u;
+    }
+  }
+  barrier();
+}
+
+void finish_candidates(SpherePair pair, uint slot) {
+  uint thread = gl_LocalInvocationIndex;
+  bool ground = pair.b == SPHERE_GROUND;
+  SphereState a = states[pair.a];
+  mat3 ra = rotation_of(a.orientation), rb = mat3(1.0);
+  vec3 b_position = vec3(0.0);
+  if (!ground) {
+    rb = rotation_of(states[pair.b].orientation);
+    b_position = states[pair.b].position.xyz;
+  }
+  if (lost) any_lost = 1u;
+  atomicAdd(found_count, mine);
+  uint count = reduce(size_of(pair));
+  carry_impulses(count, samples_of(pair.a).size.y, ra, rb, ground);
+  if (thread < count) {
+    vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
+    vec3 on_b = a.position.xyz + ra * (on_a + chosen_on_a[thread].w * normal);
+    if (!ground) on_b = (on_b - b_position) * rb;
+    // The normal turns with the body whose field it comes from.
+    if ((chosen_feature[thread] & SPHERE_SIDE_B) == 0u) normal = ground ? ra * normal : (ra * normal) * rb;
+    SphereContact contact;
+    contact.anchor_a = vec4(on_a, 0.0);
+    contact.anchor_b = vec4(on_b, uintBitsToFloat(chosen_feature[thread]));
+    contact.normal = vec4(normal, 0.0);
+    contact.friction = vec4(0.0);
+    if (chosen_source[thread] != NO_SOURCE) {
+      contact.anchor_a.w = old[chosen_source[thread]].anchor_a.w;
+      contact.friction = old[chosen_source[thread]].friction;
+    }
+    contacts[slot * SPHERE_MAX_CONTACTS + thread] = contact;
+  }
+  if (thread == 0u) {
+    vec3 position;
+    vec4 orientation;
+    relative_pose(pair, position, orientation);
+    if (any_lost != 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
+    manifolds[slot] = SphereManifold(uvec4(count, 0u, 1u - any_lost, 0u), vec4(position, 0.0), orientation);
+    atomicAdd(progress[world_index].dropped, found_count - count);
+  }
+}

@@ -1,0 +1,29 @@
+// Rest of a body. Needs the bindings Settings, Bodies, States, Shapes and sphere/body.h.
+
+void note_motion(uint body) {
+  SphereState s = states[body];
+  uint shape = bodies[body].ids.x;
+  float limit = settings.rest_move * shapes[shape].box_half.w;
+  vec3 way = s.position.xyz - s.still_position.xyz;
+  float turned = 2.0 * length(quat_multiply(quat_conjugate(s.still_orientation), s.orientation).xyz);
+  if (length(way) > limit || turned * shapes[shape].box_center.w > limit) {
+    states[body].still_position = vec4(s.position.xyz, 0.0);
+    states[body].still_orientation = s.orientation;
+  } else {
+    states[body].still_position.w += settings.time_step;
+  }
+}
+
+// Puts a body to sleep or wakes it, with its island.
+void settle(uint body, uint label, bool restless) {
+  uint flags = states[body].flags.x;
+  states[body].flags.y = label;
+  if ((flags & SPHERE_PRESENT) == 0u || bodies[body].material.x == 0.0) return;
+  bool asleep = (flags & SPHERE_ASLEEP) != 0u;
+  if (!restless && !asleep) {
+    states[body].velocity = vec4(0.0);
+    states[body].spin = vec4(0.0);
+  }
+  if (restless && asleep) states[body].still_position.w = 0.0;
+  states[body].flags.x = restless ? flags & ~SPHERE_ASLEEP : flags | SPHERE_ASLEEP;
+}

@@ -1,0 +1,222 @@
+// One group a world: the whole of a step's solve, sub-stepped soft contacts with relaxation (Catto 2024, "Solver2D"),
+// Gauss-Seidel over the colors of manifolds with the velocities in shared memory. Twin: solve().
+#include "shared/sphere.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
+layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
+layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
+layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
+layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
+layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_ROWS) buffer Rows { SphereRow rows[]; };
+
+shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
+shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
+shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found
+shared vec4 turned[SPHERE_MAX_BODIES];    // quaternion, since then
+shared uint starts[SPHERE_COLORS + 1];
+shared uint any_bounce;
+
+SphereWorld world;
+uint ordered, list;
+
+#include "sphere/body.h"
+
+// A body as one manifold sees it.
+struct Side {
+  vec3 v, w, moved;
+  vec4 turned;
+  float inverse_mass;
+  vec3 tensor, tensor_mixed;
+};
+
+Side side_of(uint body) {
+  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, vec3(0.0), vec3(0.0));
+  if (body == SPHERE_GROUND) return s;
+  uint i = body - world.bodies.x;
+  s.v = velocity[i].xyz;
+  s.w = spin[i].xyz;
+  s.moved = moved[i].xyz;
+  s.turned = turned[i];
+  s.inverse_mass = velocity[i].w;
+  if (s.inverse_mass > 0.0) {
+    s.tensor = tensors[body].diagonal.xyz;
+    s.tensor_mixed = tensors[body].mixed.xyz;
+  }
+  return s;
+}
+
+void keep_side(uint body, Side s) {
+  if (s.inverse_mass == 0.0) return;
+  uint i = body - world.bodies.x;
+  velocity[i].xyz = s.v;
+  spin[i].xyz = s.w;
+}
+
+#include "sphere/contact_row.h"
+
+uint row_place(uint o, uint i) { return world.pairs.x * SPHERE_MAX_CONTACTS + i * ordered + o; }
+SpherePair pair_at(uint o) { return pairs[list + order[world.pairs.x + o]]; }
+
+// The manifolds of color c that are this invocation's in every sweep: nobody else touches their rows. The last color is
+// that of manifolds which share bodies: one invocation takes them in order.
+uint first_of(uint c) {
+  return c < SPHERE_COLORS - 1u ? starts[c] + gl_LocalInvocationIndex : gl_LocalInvocationIndex == 0u ? starts[c] : ordered;
+}
+uint stride_of(uint c) { return c < SPHERE_COLORS - 1u ? SPHERE_GROUP : 1u; }
+#define FOR_OWN_MANIFOLDS(o)                                      \
+  for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) \
+    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c))
+
+void begin_bodies() {
+  for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP) {
+    uint body = world.bodies.x + i;
+    bool moving = moves(body);
+    velocity[i] = moving ? vec4(states[body].velocity.xyz, bodies[body].material.x) : vec4(0.0);
+    spin[i] = moving ? vec4(states[body].spin.xyz, 0.0) : vec4(0.0);
+    moved[i] = vec4(0.0);
+    turned[i] = vec4(0.0, 0.0, 0.0, 1.0);
+  }
+}
+
+void prepare() {
+  FOR_OWN_MANIFOLDS(o) {
+    SpherePair pair = pair_at(o);
+    uint slot = world.pairs.x + pair.slot, n = manifolds[slot].state.x;
+    Side a = side_of(pair.a), b = side_of(pair.b);
+    for (uint i = 0u; i < n; ++i)
+      rows[row_place(o, i)] = prepared_row(contacts[slot * SPHERE_MAX_CONTACTS + i], pair, a, b);
+    spin[pair.a - world.bodies.x].w = 1.0;  // all that come here write the same
+    if (pair.b != SPHERE_GROUND) spin[pair.b - world.bodies.x].w = 1.0;
+  }
+}
+
+void integrate_velocities(float h) {
+  for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP)
+    if (velocity[i].w > 0.0) {
+      uint body = world.bodies.x + i;
+      velocity[i].xyz += h * world.gravity.xyz;
+      spin[i].xyz = gyrated(spin[i].xyz, quat_multiply(turned[i], states[body].orientation), bodies[body], h);
+    }
+  barrier();
+}
+
+void integrate_positions(float h) {
+  for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP)
+    if (velocity[i].w > 0.0) {
+      moved[i].xyz += h * velocity[i].xyz;
+      if (spin[i].w == 0.0) moved[i].xyz -= 0.5 * h * h * world.gravity.xyz;  // touched by nothing: exactly the parabola
+      turned[i] = normalize(quat_multiply(quat_of_turn(h * spin[i].xyz), turned[i]));
+    }
+  barrier();
+}
+
+const uint WARM_START = 0u, PUSH = 1u, RELAX = 2u, BOUNCE = 3u;
+
+// One sweep over all manifolds, color by color.
+void sweep(uint kind, float h) {
+  for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) {
+    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c)) {
+      SpherePair pair = pair_at(o);
+      uint n = manifolds[world.pairs.x + pair.slot].state.x;
+      if (kind == BOUNCE && rows[row_place(o, 0u)].bounce.w == 0.0) continue;
+      Side a = side_of(pair.a), b = side_of(pair.b);
+      if (kind == WARM_START)
+        for (uint i = 0u; i < n; ++i) warm_start(row_place(o, i), a, b);
+      else if (kind == BOUNCE)
+        for (uint i = 0u; i < n; ++i) bounce(row_place(o, i), restitution_of(pair), a, b);
+      else {
+        for (uint i = 0u; i < n; ++i) solve_normal(row_place(o, i), h, kind == PUSH, a, b);
+        float friction = friction_of(pair);
+        for (uint i = 0u; i < n; ++i) solve_friction(row_place(o, i), friction, a, b);
+      }
+      keep_side(pair.a, a);
+      if (pair.b != SPHERE_GROUND) keep_side(pair.b, b);
+    }
+    barrier();
+  }
+}
+
+// Newton's restitution, some sweeps of it: a face that strikes flat shares its blow among many contacts.
+void restitute() {
+  if (gl_LocalInvocationIndex == 0u) any_bounce = 0u;
+  barrier();
+  FOR_OWN_MANIFOLDS(o) {
+    SpherePair pair = pair_at(o);
+    if (restitution_of(pair) == 0.0) continue;
+    uint n = manifolds[world.pairs.x + pair.slot].state.x;
+    for (uint i = 0u; i < n; ++i) {
+      SphereRow row = rows[row_place(o, i)];
+      if (row.impulse.w == 0.0 || !struck(row)) continue;
+      rows[row_place(o, 0u)].bounce.w = 1.0;
+      any_bounce = 1u;
+    }
+  }
+  barrier();
+  if (any_bounce == 0u) return;
+  for (uint k = 0u; k < BOUNCE_SWEEPS; ++k) sweep(BOUNCE, 0.0);
+}
+
+void keep_impulses() {
+  FOR_OWN_MANIFOLDS(o) {
+    SpherePair pair = pair_at(o);
+    uint slot = world.pairs.x + pair.slot, n = manifolds[slot].state.x, presses = 0u;
+    bool bounced = rows[row_place(o, 0u)].bounce.w == 1.0;
+    for (uint i = 0u; i < n; ++i) {
+      SphereRow row = rows[row_place(o, i)];
+      if (bounced && struck(row)) row.impulse = vec4(0.0);  // a blow is over: it must not warm-start the next step
+      uint at = slot * SPHERE_MAX_CONTACTS + i;
+      contacts[at].anchor_a.w = row.impulse.x;
+      contacts[at].friction = vec4(row.impulse.y * tangent_1(row.normal.xyz) + row.impulse.z * tangent_2(row.normal.xyz), 0.0);
+      if (row.impulse.x > 0.0) presses = 1u;
+    }
+    manifolds[slot].state.y = presses;
+  }
+}
+
+void keep_bodies() {
+  uint falling = 0u;
+  for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP)
+    if (velocity[i].w > 0.0) {
+      uint body = world.bodies.x + i;
+      states[body].position.xyz += moved[i].xyz;
+      states[body].orientation = normalize(quat_multiply(turned[i], states[body].orientation));
+      states[body].velocity.xyz = velocity[i].xyz;
+      states[body].spin.xyz = spin[i].xyz;
+      if (spin[i].w == 0.0) ++falling;
+    }
+  atomicAdd(progress[running[gl_WorkGroupID.x]].free_steps, falling);
+}
+
+void main() {
+  uint w = running[gl_WorkGroupID.x];
+  world = worlds[w];
+  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  ordered = progress[w].ordered;
+  list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
+  for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
+    starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
+  begin_bodies();
+  barrier();
+  prepare();
+  barrier();
+  float h = settings.time_step / float(settings.sub_steps);
+  for (uint k = 0u; k < settings.sub_steps; ++k) {
+    integrate_velocities(h);
+    sweep(WARM_START, h);
+    sweep(PUSH, h);
+    integrate_positions(h);
+    sweep(RELAX, h);
+  }
+  restitute();
+  keep_impulses();
+  keep_bodies();
+}

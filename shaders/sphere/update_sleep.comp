@@ -1,0 +1,72 @@
+// One group a world: an island of bodies joined by pressing contacts sleeps when all of them stayed where they are for
+// the rest window; a moving body that presses on a sleeping one wakes the whole island. Labels spread over manifolds to
+// the lowest body of each island; walls and fixed bodies join nothing. Ends the step. Twin: update_sleep().
+#include "shared/sphere.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
+layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
+layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+
+#include "sphere/body.h"
+#include "sphere/rest.h"
+
+shared uint label[SPHERE_MAX_BODIES], restless[SPHERE_MAX_BODIES];
+shared uint changed[2];  // take turns
+
+void main() {
+  uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
+  if (thread == 0u) {  // find_contacts has done the jobs; every group writes the same
+    status.jobs = status.next_job = 0u;
+    status.groups = uvec4(0u, 1u, 1u, 0u);
+  }
+  SphereWorld world = worlds[w];
+  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
+
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) {
+    uint body = world.bodies.x + i;
+    if (moves(body)) note_motion(body);
+    label[i] = i;
+    restless[i] = 0u;
+  }
+  if (thread < 2u) changed[thread] = 0u;
+  barrier();
+  for (uint round = 0u;; ++round) {
+    uint turn = round & 1u;
+    for (uint p = thread; p < count; p += SPHERE_GROUP) {
+      SpherePair pair = pairs[list + p];
+      if (pair.b == SPHERE_GROUND || manifolds[world.pairs.x + pair.slot].state.y == 0u) continue;
+      if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
+      uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x, la = label[a], lb = label[b];
+      if (la == lb) continue;
+      atomicMin(label[a], lb);
+      atomicMin(label[b], la);
+      atomicMin(label[max(la, lb)], min(la, lb));
+      changed[turn] = 1u;
+    }
+    barrier();
+    if (changed[turn] == 0u) break;
+    for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) atomicMin(label[i], label[label[i]]);
+    if (thread == 0u) changed[turn ^ 1u] = 0u;
+    barrier();
+  }
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
+    if (moves(world.bodies.x + i) && states[world.bodies.x + i].still_position.w < settings.rest_window)
+      restless[label[i]] = 1u;
+  barrier();
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
+    settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u);
+  if (thread == 0u) {
+    --progress[w].steps_left;
+    ++progress[w].steps;
+  }
+}

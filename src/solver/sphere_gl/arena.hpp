@@ -1,0 +1,30 @@
+/// Where regions of a growing buffer lie: first fit. A region's place never matters to a result.
+#pragma once
+
+#include <cstddef>
+#include <map>
+
+namespace bin_scenes::sphere_gl {
+
+class Arena {
+ public:
+  /// First element of a region of `count`.
+  std::size_t take(std::size_t count) {
+    std::size_t at = 0;
+    for (const auto& [first, length] : taken_) {
+      if (first >= at + count) break;
+      at = first + length;
+    }
+    if (count > 0) taken_[at] = count;
+    if (at + count > size_) size_ = at + count;
+    return at;
+  }
+  void give(std::size_t first) { taken_.erase(first); }
+  std::size_t size() const { return size_; }  ///< elements ever in use
+
+ private:
+  std::map<std::size_t, std::size_t> taken_;  // first, count
+  std::size_t size_ = 0;
+};
+
+}  // namespace bin_scenes::sphere_gl

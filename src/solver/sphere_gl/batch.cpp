@@ -1,0 +1,304 @@
+#include "solver/sphere_gl/batch.hpp"
+
+#include "bin_scenes/gl/device.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace bin_scenes::sphere_gl {
+
+namespace {
+
+constexpr std::size_t status_words = sizeof(gpu::SphereStatus) / sizeof(gpu::uint);
+
+/// Groups that fill a device; each takes pair after pair.
+std::size_t groups_at_once() {
+  return gl::Device::current().software() ? 8 : 2048;
+}
+
+template <class T>
+void at_least(gl::Buffer<T>& buffer, std::size_t count) {
+  if (buffer.size() < count || buffer.size() == 0) buffer.grow(std::max<std::size_t>({count, 2 * buffer.size(), 1}));
+}
+
+template <class T>
+void move_within(gl::Buffer<T>& buffer, std::size_t from, std::size_t to, std::size_t count) {
+  buffer.storage().copy_from(buffer.storage(), from * sizeof(T), to * sizeof(T), count * sizeof(T));
+}
+
+gl::Program pass(const char* name) {
+  return gl::Program::compute(std::string("sphere/") + name + ".comp");
+}
+
+}  // namespace
+
+Batch::Batch(const Capacity& capacity)
+    : capacity_(capacity),
+      contact_groups_(groups_at_once()),
+      find_pairs_(pass("find_pairs")),
+      find_contacts_(pass("find_contacts")),
+      color_manifolds_(pass("color_manifolds")),
+      solve_(pass("solve")),
+      update_sleep_(pass("update_sleep")) {
+  settings_block_.candidates = static_cast<gpu::uint>(capacity.candidates);
+}
+
+void Batch::make_room() {
+  const std::size_t bodies = body_arena_.size(), pairs = pair_arena_.size();
+  at_least(settings_, 1);
+  at_least(running_, slots_.size());
+  at_least(worlds_, slots_.size());
+  at_least(progress_, slots_.size());
+  at_least(colors_, slots_.size() * (SPHERE_COLORS + 1));
+  at_least(planes_, plane_arena_.size());
+  at_least(bodies_, bodies);
+  at_least(states_, bodies);
+  at_least(tensors_, bodies);
+  at_least(ranges_, bodies);
+  at_least(near_, word_arena_.size());
+  at_least(pairs_, 2 * pairs);
+  at_least(free_, pairs);
+  at_least(manifolds_, pairs);
+  at_least(contacts_, SPHERE_MAX_CONTACTS * pairs);
+  at_least(rows_, SPHERE_MAX_CONTACTS * pairs);
+  at_least(order_, pairs);
+  if (jobs_.size() < status_words + pairs) {
+    at_least(jobs_, status_words + pairs);
+    const gpu::SphereStatus none{0, 0, 0, 0, {0, 1, 1, 0}};
+    jobs_.storage().write(0, &none, sizeof none);
+  }
+  at_least(candidates_, contact_groups_ * settings_block_.candidates * SPHERE_GROUP);
+  bound_ = false;
+}
+
+Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress) {
+  const Slot slot = slots_.take(1);
+  if (slot >= regions_.size()) {
+    regions_.resize(slot + 1);
+    host_worlds_.resize(slot + 1);
+  }
+  Region& r = regions_[slot];
+  r.bodies = world.bodies.size();
+  r.words = (r.bodies + 31) / 32;
+  r.planes = world.planes.size();
+  r.capacity = std::max(capacity_.pairs * r.bodies, world.manifolds.size());
+  r.first_body = body_arena_.take(r.bodies);
+  r.first_word = word_arena_.take(r.bodies * r.words);
+  r.first_plane = plane_arena_.take(r.planes);
+  r.first_pair = pair_arena_.take(r.capacity);
+  const gpu::uint candidates = settings_block_.candidates;
+  settings_block_ = to_gpu(world.settings);
+  settings_block_.candidates = candidates;
+  settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
+  make_room();
+
+  gpu::SphereWorld& w = host_worlds_[slot];
+  w.gravity = vec4(world.gravity, world.smallest_diagonal);
+  w.ground = {world.ground_friction, world.ground_restitution, world.wall_top, 0};
+  upload_world(slot);
+  std::vector<gpu::SpherePlane> planes;
+  for (const sphere::Plane& plane : world.planes) planes.push_back(to_gpu(plane));
+  planes_.upload(r.first_plane, planes.data(), planes.size());
+  std::vector<gpu::SphereBody> bodies;
+  for (const sphere::Body& b : world.bodies)
+    bodies.push_back(to_gpu(b, shapes_.index_of(*world.shapes[b.shape]), static_cast<gpu::uint>(slot)));
+  bodies_.upload(r.first_body, bodies.data(), bodies.size());
+  upload_states(slot, world);
+
+  const ManifoldImage image = to_gpu(world, static_cast<gpu::uint>(r.first_body));
+  ranges_.upload(r.first_body, image.ranges.data(), r.bodies);
+  pairs_.upload(2 * r.first_pair, image.pairs.data(), image.pairs.size());
+  manifolds_.upload(r.first_pair, image.manifolds.data(), image.manifolds.size());
+  contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
+  const std::size_t free = r.capacity - image.pairs.size();
+  std::vector<gpu::uint> slots(free);
+  for (std::size_t i = 0; i < free; ++i) slots[i] = static_cast<gpu::uint>(r.capacity - 1 - i);
+  free_.upload(r.first_pair, slots.data(), free);
+  progress = {};
+  progress.pairs = static_cast<gpu::uint>(image.pairs.size());
+  progress.free_slots = static_cast<gpu::uint>(free);
+  progress.fine = world.fine ? 1 : 0;
+  upload_progress(slot, progress);
+  return slot;
+}
+
+void Batch::upload_world(Slot slot) {
+  const Region& r = regions_[slot];
+  const auto word = [](std::size_t n) { return static_cast<gpu::uint>(n); };
+  host_worlds_[slot].bodies = {word(r.first_body), word(r.bodies), word(r.words), word(r.first_word)};
+  host_worlds_[slot].pairs = {word(r.first_pair), word(r.capacity), word(r.first_plane), word(r.planes)};
+  worlds_.upload(slot, &host_worlds_[slot], 1);
+}
+
+void Batch::remove(Slot slot) {
+  const Region& r = regions_[slot];
+  body_arena_.give(r.first_body);
+  word_arena_.give(r.first_word);
+  plane_arena_.give(r.first_plane);
+  pair_arena_.give(r.first_pair);
+  slots_.give(slot);
+}
+
+void Batch::upload_state(Slot slot, std::size_t body, const sphere::Body& state) {
+  const gpu::SphereState out = state_of(state);
+  states_.upload(regions_[slot].first_body + body, &out, 1);
+}
+
+void Batch::upload_states(Slot slot, const sphere::World& world) {
+  std::vector<gpu::SphereState> states;
+  for (const sphere::Body& b : world.bodies) states.push_back(state_of(b));
+  states_.upload(regions_[slot].first_body, states.data(), states.size());
+}
+
+void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
+  progress_.upload(slot, &progress, 1);
+}
+
+std::vector<gpu::SphereProgress> Batch::progress() const {
+  read_back_ += slots_.size() * sizeof(gpu::SphereProgress);
+  return progress_.download(0, slots_.size());
+}
+
+void Batch::request_progress() {
+  Look& look = looks_[(first_look_ + looks_under_way_++) % 2];
+  const std::size_t bytes = slots_.size() * sizeof(gpu::SphereProgress);
+  if (look.capacity < bytes) {
+    look.back = std::make_unique<gl::ReadBack>(2 * bytes);
+    look.capacity = 2 * bytes;
+  }
+  look.slots = slots_.size();
+  look.back->request(progress_.storage(), 0, bytes);
+  read_back_ += bytes;
+}
+
+std::vector<gpu::SphereProgress> Batch::requested_progress() {
+  Look& look = looks_[first_look_++ % 2];
+  --looks_under_way_;
+  const auto* seen = static_cast<const gpu::SphereProgress*>(look.back->wait());
+  return {seen, seen + look.slots};
+}
+
+void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
+  Region& r = regions_[slot];
+  const std::size_t old_first = r.first_pair, old = r.capacity;
+  r.capacity = std::max<std::size_t>(2 * old, progress.need + progress.need / 4);
+  r.first_pair = pair_arena_.take(r.capacity);  // the old region is given back when its contents are away
+  make_room();
+  for (std::size_t page = 0; page < 2; ++page)
+    move_within(pairs_, 2 * old_first + page * old, 2 * r.first_pair + page * r.capacity, old);
+  move_within(manifolds_, old_first, r.first_pair, old);
+  move_within(contacts_, SPHERE_MAX_CONTACTS * old_first, SPHERE_MAX_CONTACTS * r.first_pair,
+              SPHERE_MAX_CONTACTS * old);
+  move_within(free_, old_first, r.first_pair, progress.free_slots);
+  std::vector<gpu::uint> fresh(r.capacity - old);
+  std::iota(fresh.begin(), fresh.end(), static_cast<gpu::uint>(old));
+  free_.upload(r.first_pair + progress.free_slots, fresh.data(), fresh.size());
+  progress.free_slots += static_cast<gpu::uint>(fresh.size());
+  pair_arena_.give(old_first);
+  upload_world(slot);
+}
+
+void Batch::grow_candidates() {
+  settings_block_.candidates *= 2;
+  make_room();
+}
+
+std::vector<gpu::SphereState> Batch::states() const {
+  read_back_ += body_arena_.size() * sizeof(gpu::SphereState);
+  return states_.download(0, body_arena_.size());
+}
+
+void Batch::download(Slot slot, sphere::World& world) const {
+  const Region& r = regions_[slot];
+  const gpu::SphereProgress progress = progress_.download(slot, 1)[0];
+  const std::vector<gpu::SphereState> states = states_.download(r.first_body, r.bodies);
+  for (std::size_t i = 0; i < r.bodies; ++i) read_state(states[i], world.bodies[i]);
+  ManifoldImage image;
+  image.pairs = pairs_.download(2 * r.first_pair + progress.page * r.capacity, progress.pairs);
+  image.manifolds = manifolds_.download(r.first_pair, r.capacity);
+  image.contacts = contacts_.download(SPHERE_MAX_CONTACTS * r.first_pair, SPHERE_MAX_CONTACTS * r.capacity);
+  world.manifolds = to_cpu(image, world, static_cast<std::uint32_t>(r.first_body));
+}
+
+void Batch::run(const std::vector<Slot>& slots) {
+  std::vector<gpu::uint> list(slots.begin(), slots.end());
+  running_.upload(0, list.data(), list.size());
+  running_count_ = list.size();
+  settings_.upload(0, &settings_block_, 1);
+  if (!bound_) bind();
+}
+
+void Batch::bind() const {
+  shapes_.bind();
+  settings_.bind(BIND_SETTINGS);
+  running_.bind(BIND_RUNNING);
+  worlds_.bind(BIND_WORLDS);
+  progress_.bind(BIND_PROGRESS);
+  planes_.bind(BIND_PLANES);
+  bodies_.bind(BIND_BODIES);
+  states_.bind(BIND_STATES);
+  tensors_.bind(BIND_TENSORS);
+  near_.bind(BIND_NEAR);
+  ranges_.bind(BIND_RANGES);
+  pairs_.bind(BIND_PAIRS);
+  free_.bind(BIND_FREE);
+  manifolds_.bind(BIND_MANIFOLDS);
+  contacts_.bind(BIND_CONTACTS);
+  jobs_.bind(BIND_JOBS);
+  candidates_.bind(BIND_CANDIDATES);
+  colors_.bind(BIND_COLORS);
+  order_.bind(BIND_ORDER);
+  rows_.bind(BIND_ROWS);
+}
+
+void Batch::find_pairs() {
+  gl::Stage stage(timer_, "find_pairs");
+  gl::dispatch_groups(find_pairs_, running_count_);
+  ++dispatches_;
+}
+
+void Batch::find_contacts() {
+  gl::Stage stage(timer_, "find_contacts");
+  gl::dispatch_indirect(find_contacts_, jobs_.storage(), offsetof(gpu::SphereStatus, groups));
+  ++dispatches_;
+}
+
+void Batch::color_manifolds() {
+  gl::Stage stage(timer_, "color_manifolds");
+  gl::dispatch_groups(color_manifolds_, running_count_);
+  ++dispatches_;
+}
+
+void Batch::solve() {
+  gl::Stage stage(timer_, "solve");
+  gl::dispatch_groups(solve_, running_count_);
+  ++dispatches_;
+}
+
+void Batch::update_sleep() {
+  gl::Stage stage(timer_, "update_sleep");
+  gl::dispatch_groups(update_sleep_, running_count_);
+  ++dispatches_;
+}
+
+void Batch::step() {
+  find_pairs();
+  find_contacts();
+  color_manifolds();
+  solve();
+  update_sleep();
+}
+
+std::size_t Batch::bytes() const {
+  std::size_t sum = shapes_.bytes();
+  for (const gl::Storage* s :
+       {&settings_.storage(), &running_.storage(), &worlds_.storage(), &progress_.storage(), &planes_.storage(),
+        &bodies_.storage(), &states_.storage(), &tensors_.storage(), &near_.storage(), &ranges_.storage(),
+        &pairs_.storage(), &free_.storage(), &manifolds_.storage(), &contacts_.storage(), &jobs_.storage(),
+        &candidates_.storage(), &colors_.storage(), &order_.storage(), &rows_.storage()})
+    sum += s->bytes();
+  return sum;
+}
+
+}  // namespace bin_scenes::sphere_gl

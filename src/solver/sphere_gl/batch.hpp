@@ -1,0 +1,132 @@
+/// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
+/// shaders/sphere/<name>.comp, its method here, its timer, and its twin on the CPU (solver/sphere/world.hpp).
+///
+///     shapes      | part 0: nodes, edges, clusters, field | part 1 | ...           shared by all worlds, never change
+///     bodies      | world 0 ............... | world 1 ...... | ...                  states, tensors, ranges alike
+///     pairs       | world 0: page 0, page 1 | world 1: page 0, page 1 | ...         take turns, sorted by (a, b)
+///     manifolds   | world 0: capacity slots | world 1 | ...                         a pair keeps its slot while it
+///     lasts contacts    | slot 0: 16 | slot 1: 16 | ...                                   impulses and anchors over
+///     steps rows        | world 0: contact 0 of all manifolds by color, contact 1 | ...   of one step jobs        |
+///     pairs whose contacts are to be found, of all worlds |
+///
+/// A step is five dispatches, however many worlds run:
+///
+///     find_pairs ─► find_contacts ─► color_manifolds ─► solve ─► update_sleep
+///     group/world   group/pair       group/world        group/world   group/world
+///
+/// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
+/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it
+/// is until the host has looked.
+#pragma once
+
+#include "bin_scenes/gl/buffer.hpp"
+#include "bin_scenes/gl/program.hpp"
+#include "bin_scenes/gl/timer.hpp"
+#include "solver/sphere_gl/arena.hpp"
+#include "solver/sphere_gl/convert.hpp"
+#include "solver/sphere_gl/gl_sphere_solver.hpp"
+#include "solver/sphere_gl/shape_table.hpp"
+
+#include <memory>
+
+namespace bin_scenes::sphere_gl {
+
+class Batch {
+ public:
+  using Slot = std::size_t;  ///< of a world
+
+  explicit Batch(const Capacity& capacity = {});
+
+  /// Makes room for a world and uploads it: bodies, states, pairs and contacts. Settings are the same for all worlds.
+  /// @param progress filled with where the world stands.
+  Slot add(const sphere::World& world, gpu::SphereProgress& progress);
+  void remove(Slot slot);
+
+  void upload_state(Slot slot, std::size_t body, const sphere::Body& state);
+  void upload_states(Slot slot, const sphere::World& world);
+  /// What the steps of a world left behind; upload takes effect at the next pass.
+  void upload_progress(Slot slot, const gpu::SphereProgress& progress);
+  /// Of all slots; waits for the passes so far.
+  std::vector<gpu::SphereProgress> progress() const;
+  /// As progress(), without waiting: request now, look some steps later. Two requests may be under way.
+  void request_progress();
+  std::vector<gpu::SphereProgress> requested_progress();
+
+  /// Room for more pairs of a world that had too little, from its progress; contents are kept.
+  void grow_pairs(Slot slot, gpu::SphereProgress& progress);
+  /// Room for twice the candidates per pair of bodies.
+  void grow_candidates();
+
+  /// States of all bodies of all worlds; those of a slot begin at first_body().
+  std::vector<gpu::SphereState> states() const;
+  std::size_t first_body(Slot slot) const { return regions_[slot].first_body; }
+  /// Everything of one world, for tests.
+  void download(Slot slot, sphere::World& world) const;
+
+  /// Worlds that the passes work on from now on.
+  void run(const std::vector<Slot>& slots);
+  void step();
+
+  // The passes in their order.
+  void find_pairs();
+  void find_contacts();
+  void color_manifolds();
+  void solve();
+  void update_sleep();
+
+  gl::Timer& timer() { return timer_; }
+  std::uint64_t dispatches() const { return dispatches_; }
+  std::uint64_t bytes_read_back() const { return read_back_; }
+  std::size_t bytes() const;  ///< of all buffers on the device
+
+ private:
+  struct Region {
+    std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_plane = 0,
+                planes = 0;
+  };
+  void make_room();
+  void upload_world(Slot slot);
+  void bind() const;
+
+  std::vector<Region> regions_;
+  std::vector<gpu::SphereWorld> host_worlds_;
+  Arena slots_, body_arena_, word_arena_, pair_arena_, plane_arena_;
+  gpu::SphereSettingsBlock settings_block_{};
+  Capacity capacity_;
+  std::size_t running_count_ = 0, contact_groups_ = 1;
+  std::uint64_t dispatches_ = 0;
+  mutable std::uint64_t read_back_ = 0;
+  bool bound_ = false;
+
+  gl::Program find_pairs_, find_contacts_, color_manifolds_, solve_, update_sleep_;
+  gl::Timer timer_;
+  struct Look {
+    std::unique_ptr<gl::ReadBack> back;
+    std::size_t capacity = 0, slots = 0;
+  };
+  Look looks_[2];
+  std::size_t first_look_ = 0, looks_under_way_ = 0;
+
+  ShapeTable shapes_;
+  gl::Buffer<gpu::SphereSettingsBlock> settings_{"sphere.settings"};
+  gl::Buffer<gpu::uint> running_{"sphere.running"};
+  gl::Buffer<gpu::SphereWorld> worlds_{"sphere.worlds"};
+  gl::Buffer<gpu::SphereProgress> progress_{"sphere.progress"};
+  gl::Buffer<gpu::SpherePlane> planes_{"sphere.planes"};
+  gl::Buffer<gpu::SphereBody> bodies_{"sphere.bodies"};
+  gl::Buffer<gpu::SphereState> states_{"sphere.states"};
+  gl::Buffer<gpu::SphereTensor> tensors_{"sphere.tensors"};
+  gl::Buffer<gpu::uint> near_{"sphere.near"};
+  gl::Buffer<gpu::uvec4> ranges_{"sphere.ranges"};
+  gl::Buffer<gpu::SpherePair> pairs_{"sphere.pairs"};
+  gl::Buffer<gpu::uint> free_{"sphere.free"};
+  gl::Buffer<gpu::SphereManifold> manifolds_{"sphere.manifolds"};
+  gl::Buffer<gpu::SphereContact> contacts_{"sphere.contacts"};
+  gl::Buffer<gpu::uint> jobs_{"sphere.jobs"};
+  gl::Buffer<gpu::SphereCandidate> candidates_{"sphere.candidates"};
+  gl::Buffer<gpu::uint> colors_{"sphere.colors"};
+  gl::Buffer<gpu::uint> order_{"sphere.order"};
+  gl::Buffer<gpu::SphereRow> rows_{"sphere.rows"};
+};
+
+}  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,119 @@
+#include "solver/sphere_gl/convert.hpp"
+
+#include <cmath>
+
+namespace bin_scenes::sphere_gl {
+
+using namespace sphere;
+
+static_assert(max_contacts == SPHERE_MAX_CONTACTS, "the pass keeps as many as the twin");
+
+namespace {
+
+gpu::vec4 diagonal(const Mat3f& m) {
+  return {m(0, 0), m(1, 1), m(2, 2), 0};
+}
+gpu::vec4 mixed(const Mat3f& m) {
+  return {m(0, 1), m(0, 2), m(1, 2), 0};
+}
+
+}  // namespace
+
+gpu::SphereBody to_gpu(const Body& body, std::uint32_t shape, std::uint32_t world) {
+  return {{shape, world, 0, 0},           {body.inverse_mass, body.friction, body.restitution, 0},
+          diagonal(body.inertia),         mixed(body.inertia),
+          diagonal(body.inverse_inertia), mixed(body.inverse_inertia)};
+}
+
+gpu::SphereState state_of(const Body& b) {
+  const std::uint32_t flags = (b.present ? SPHERE_PRESENT : 0u) | (b.asleep ? SPHERE_ASLEEP : 0u);
+  return {vec4(b.x), vec4(b.q), vec4(b.v), vec4(b.w), vec4(b.still_x, b.still), vec4(b.still_q), {flags, 0, 0, 0}};
+}
+
+void read_state(const gpu::SphereState& state, Body& b) {
+  b.x = vec3(state.position);
+  b.q = quat(state.orientation);
+  b.v = vec3(state.velocity);
+  b.w = vec3(state.spin);
+  b.still_x = vec3(state.still_position);
+  b.still = state.still_position.w;
+  b.still_q = quat(state.still_orientation);
+  b.present = state.flags.x & SPHERE_PRESENT;
+  b.asleep = state.flags.x & SPHERE_ASLEEP;
+}
+
+gpu::SphereSettingsBlock to_gpu(const Settings& s) {
+  gpu::SphereSettingsBlock out{};
+  out.time_step = s.time_step;
+  out.sub_steps = static_cast<gpu::uint>(s.sub_steps);
+  out.contact_rate = s.contact_hertz_share * static_cast<float>(s.sub_steps) / s.time_step;
+  out.damping_ratio = s.damping_ratio;
+  out.push_speed = s.push_speed;
+  out.slop = s.slop;
+  out.margin = s.margin;
+  out.recycle = s.recycle;
+  out.rest_move = s.rest_move;
+  out.restitution_speed = s.restitution_speed;
+  out.rest_window = s.rest_window;
+  return out;
+}
+
+gpu::SpherePlane to_gpu(const Plane& plane) {
+  return {vec4(plane.normal, plane.offset), {plane.wall ? 1u : 0u, 0, 0, 0}};
+}
+
+ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
+  ManifoldImage image;
+  image.ranges.assign(world.bodies.size(), {0, 0, 0, 0});
+  for (const Manifold& m : world.manifolds) {
+    const auto p = static_cast<std::uint32_t>(image.pairs.size());
+    gpu::uvec4& range = image.ranges[m.a];
+    if (range.y == 0) range.x = range.z = p;
+    range.y = range.w = p + 1;
+    image.pairs.push_back({first_body + m.a, m.b == ground ? SPHERE_GROUND : first_body + m.b, p, 0});
+    std::uint32_t presses = 0;
+    for (std::size_t i = 0; i < SPHERE_MAX_CONTACTS; ++i) {
+      const Contact c = i < m.contacts.size() ? m.contacts[i] : Contact{};
+      if (c.normal_impulse > 0) presses = 1;
+      image.contacts.push_back({vec4(c.anchor_a, c.normal_impulse), vec4(c.anchor_b, float_of(c.feature)),
+                                vec4(c.local_normal), vec4(c.friction_impulse)});
+    }
+    image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, 0},
+                               vec4(m.found_x),
+                               vec4(m.found_q)});
+  }
+  return image;
+}
+
+std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std::uint32_t first_body) {
+  std::vector<Manifold> out;
+  for (const gpu::SpherePair& pair : image.pairs) {
+    Manifold m;
+    m.a = pair.a - first_body;
+    m.b = pair.b == SPHERE_GROUND ? ground : pair.b - first_body;
+    m.color = static_cast<int>(pair.color);
+    const gpu::SphereManifold& from = image.manifolds[pair.slot];
+    m.contacts.resize(from.state.x);
+    m.found = from.state.z;
+    m.found_x = vec3(from.found_position);
+    m.found_q = quat(from.found_orientation);
+    const Body& a = world.bodies[m.a];
+    const bool on_ground = m.b == ground;
+    m.friction = std::sqrt(a.friction * (on_ground ? world.ground_friction : world.bodies[m.b].friction));
+    m.restitution = std::max(a.restitution, on_ground ? world.ground_restitution : world.bodies[m.b].restitution);
+    for (std::size_t i = 0; i < m.contacts.size(); ++i) {
+      const gpu::SphereContact& g = image.contacts[pair.slot * SPHERE_MAX_CONTACTS + i];
+      Contact& c = m.contacts[i];
+      c.anchor_a = vec3(g.anchor_a);
+      c.anchor_b = vec3(g.anchor_b);
+      c.local_normal = vec3(g.normal);
+      c.feature = word_of(g.anchor_b.w);
+      c.normal_impulse = g.anchor_a.w;
+      c.friction_impulse = vec3(g.friction);
+    }
+    out.push_back(m);
+  }
+  return out;
+}
+
+}  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,262 @@
+#include "solver/sphere_gl/gl_sphere_solver.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/gl/device.hpp"
+#include "solver/sphere/make_world.hpp"
+#include "solver/sphere_gl/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bin_scenes {
+
+namespace {
+
+using namespace sphere_gl;
+
+constexpr std::uint64_t steps_per_look = 16;  ///< the host runs at most two looks ahead of the device
+
+/// What the host knows of a world. The states of its bodies are those of the last fetch, but for the changed ones.
+struct Resident {
+  sphere::World world;
+  std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
+  Batch::Slot slot = 0;
+  gpu::SphereProgress progress{};
+  std::set<std::size_t> changed;  ///< bodies to upload
+  std::vector<std::uint32_t> island;
+  bool stale = false;
+  std::uint64_t steps = 0;
+};
+
+class GlSphereSolver final : public Solver {
+ public:
+  GlSphereSolver(const SphereSettings& settings, const Capacity& capacity) : settings_(settings), batch_(capacity) {}
+
+  WorldId add_world(const WorldDef& def) override {
+    if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > SPHERE_MAX_BODIES)
+      throw input_error("the sphere solver takes up to " + std::to_string(SPHERE_MAX_BODIES) +
+                            " bodies per world on the GPU, asked for " + std::to_string(def.bodies.size()),
+                        "solver.sphere.device", "set solver.sphere.device: cpu");
+    gl::Device::current().make_current();
+    Resident r;
+    r.bodies = def.bodies.size();
+    r.world = sphere::make_world(def, settings_,
+                                 [this](const PartModelPtr& part) -> const sphere::Shape& { return shape_of(part); });
+    r.island.assign(r.world.bodies.size(), 0);
+    r.slot = batch_.add(r.world, r.progress);
+    worlds_.emplace(next_, std::move(r));
+    return next_++;
+  }
+
+  void remove_world(WorldId id) override {
+    batch_.remove(world(id).slot);
+    worlds_.erase(id);
+  }
+
+  void insert(WorldId id, std::size_t body, const BodyState& state) override {
+    Resident& r = world(id);
+    sphere::place(r.world, body, state);
+    r.changed.insert(body);
+  }
+
+  void remove(WorldId id, std::size_t body) override {
+    Resident& r = world(id);
+    fetch();
+    for (std::size_t i = 0; i < r.world.bodies.size(); ++i)
+      if (r.island[i] == r.island[body]) wake(r, i);
+    r.world.bodies[body].present = false;
+    r.changed.insert(body);
+  }
+
+  void set_phase(WorldId id, Phase phase) override {
+    Resident& r = world(id);
+    const bool fine = phase == Phase::settle;
+    if (r.world.fine == fine) return;
+    fetch();
+    r.world.fine = fine;
+    r.progress.fine = fine ? 1 : 0;
+    r.progress.refresh = 1;  // node numbers mean other points now
+    for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
+  }
+
+  double advance(const std::vector<WorldId>& ids, double seconds) override {
+    gl::Device::current().make_current();
+    const auto steps = static_cast<std::uint64_t>(std::max(1L, std::lround(seconds / settings_.time_step)));
+    std::vector<Batch::Slot> slots;
+    for (const WorldId id : ids) {
+      Resident& r = world(id);
+      for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
+      r.changed.clear();
+      r.stale = true;
+      r.steps += steps;
+      r.progress.steps_left = static_cast<gpu::uint>(steps);
+      batch_.upload_progress(r.slot, r.progress);
+      slots.push_back(r.slot);
+    }
+    for (std::uint64_t left = steps; left > 0;) {
+      batch_.run(slots);
+      run_ahead(left);
+      left = look(ids);
+    }
+    return static_cast<double>(steps) * settings_.time_step;
+  }
+
+  std::vector<BodyState> states(WorldId id) const override {
+    fetch();
+    const Resident& r = world(id);
+    std::vector<BodyState> out;
+    for (std::size_t i = 0; i < r.bodies; ++i) out.push_back(sphere::state_of(r.world, i));
+    return out;
+  }
+
+  std::vector<bool> asleep(WorldId id) const override {
+    fetch();
+    const Resident& r = world(id);
+    std::vector<bool> out(r.bodies);
+    for (std::size_t i = 0; i < r.bodies; ++i) out[i] = r.world.bodies[i].asleep;
+    return out;
+  }
+
+  std::size_t worlds_at_once() const override { return gl::Device::current().software() ? 4 : 256; }
+  double step_size() const override { return settings_.time_step; }
+  std::uint64_t steps(WorldId id) const override { return world(id).steps; }
+  std::vector<Flag> flags(WorldId) const override { return {}; }
+  std::string name() const override { return "sphere"; }
+  std::string device() const override { return gl::Device::current().renderer(); }
+
+  const Profile& profile() const override {
+    batch_.timer().collect(profile_, true);
+    shown_ = profile_;
+    shown_.count("gl_dispatches", batch_.dispatches());
+    shown_.count("gl_bytes_read_back", batch_.bytes_read_back());
+    shown_.count("gl_bytes_held", batch_.bytes());
+    return shown_;
+  }
+
+ private:
+  Resident& world(WorldId id) const { return worlds_.at(id); }
+
+  static void wake(Resident& r, std::size_t body) {
+    sphere::Body& b = r.world.bodies[body];
+    if (!b.present) return;
+    b.asleep = false;
+    b.still = 0;
+    r.changed.insert(body);
+  }
+
+  /// Issues the steps that are left, or fewer if a world asks for room; a look is asked for every few steps and taken
+  /// while the next ones run.
+  void run_ahead(std::uint64_t left) {
+    bool full = false;
+    std::size_t under_way = 0;
+    const auto take = [&] {
+      for (const gpu::SphereProgress& p : batch_.requested_progress()) full = full || p.overflow != 0;
+      --under_way;
+    };
+    while (left > 0 && !full) {
+      const std::uint64_t now = std::min(left, steps_per_look);
+      for (std::uint64_t k = 0; k < now; ++k) batch_.step();
+      left -= now;
+      if (left == 0) break;  // the last look is look()
+      batch_.request_progress();
+      if (++under_way == 2) take();
+    }
+    while (under_way > 0) take();
+    batch_.timer().collect(profile_);
+  }
+
+  /// Reads what the steps left behind, makes room where it was asked for, and returns how many steps are left.
+  std::uint64_t look(const std::vector<WorldId>& ids) {
+    const std::vector<gpu::SphereProgress> seen = batch_.progress();
+    std::uint64_t left = 0;
+    bool candidates = false;
+    for (const WorldId id : ids) {
+      Resident& r = world(id);
+      r.progress = seen[r.slot];
+      count(r.progress);
+      const gpu::uint overflow = r.progress.overflow;
+      r.progress.overflow = 0;
+      if (overflow) profile_.count("steps_repeated");
+      if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
+      candidates = candidates || overflow & SPHERE_CANDIDATE_OVERFLOW;
+      left = std::max<std::uint64_t>(left, r.progress.steps_left);
+      if (overflow) batch_.upload_progress(r.slot, r.progress);
+    }
+    if (candidates) batch_.grow_candidates();
+    return left;
+  }
+
+  /// Moves the counters of a world to the profile.
+  void count(gpu::SphereProgress& p) {
+    profile_.count("body_steps_in_free_fall", p.free_steps);
+    profile_.count("pairs", p.pairs_tested);
+    profile_.count("pairs_recycled", p.pairs_recycled);
+    profile_.count("pairs_asleep", p.pairs_asleep);
+    profile_.count("clusters_tested", p.clusters_tested);
+    profile_.count("nodes_tested", p.nodes_tested);
+    profile_.count("nodes_possible", p.nodes_possible + (std::uint64_t{p.nodes_possible_high} << 32));
+    profile_.count("contacts", p.contacts);
+    profile_.count("contacts_reduced", p.dropped);
+    profile_.count("colors", p.colors);
+    profile_.count("coloring_rounds", p.coloring_rounds);
+    profile_.count("steps", p.steps);
+    p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
+        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds = 0;
+  }
+
+  /// Brings the states of all worlds that ran to the host, in one read.
+  void fetch() const {
+    if (std::none_of(worlds_.begin(), worlds_.end(), [](const auto& w) { return w.second.stale; })) return;
+    const std::vector<gpu::SphereState> states = batch_.states();
+    for (auto& [id, r] : worlds_) {
+      if (!r.stale) continue;
+      const std::size_t first = batch_.first_body(r.slot);
+      for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
+        if (r.changed.count(i)) continue;
+        read_state(states[first + i], r.world.bodies[i]);
+        r.island[i] = states[first + i].flags.y;
+      }
+      r.stale = false;
+    }
+  }
+
+  const sphere::Shape& shape_of(const PartModelPtr& part) {
+    auto& entry = shapes_[part.get()];
+    if (!entry.shape) {
+      StageTimer timer(profile_, "shape");
+      entry.part = part;  // keeps the address, and with it the key, alive
+      entry.shape = std::make_unique<sphere::Shape>(
+          sphere::make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
+    }
+    return *entry.shape;
+  }
+
+  struct Entry {
+    PartModelPtr part;
+    std::unique_ptr<sphere::Shape> shape;
+  };
+  SphereSettings settings_;
+  std::map<const PartModel*, Entry> shapes_;
+  mutable Batch batch_;
+  mutable std::map<WorldId, Resident> worlds_;
+  WorldId next_ = 0;
+  mutable Profile profile_;
+  mutable Profile shown_;
+};
+
+}  // namespace
+
+std::size_t most_gl_bodies() {
+  return SPHERE_MAX_BODIES;
+}
+
+std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, const Capacity& capacity) {
+  if (!(settings.time_step > 0))
+    throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
+  gl::Device::current().make_current();
+  return std::make_unique<GlSphereSolver>(settings, capacity);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,93 @@
+#include "solver/sphere_gl/shape_table.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "solver/sphere_gl/convert.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere_gl {
+
+namespace {
+
+/// Appends behind the first `count` elements, which it moves on.
+template <class T>
+std::uint32_t append(gl::Buffer<T>& buffer, std::size_t& count, const T* values, std::size_t n) {
+  const std::size_t first = count;
+  count += n;
+  if (count > buffer.size() || buffer.size() == 0) buffer.grow(std::max<std::size_t>(count, 1));
+  if (n > 0) buffer.upload(first, values, n);
+  return static_cast<std::uint32_t>(first);
+}
+
+/// Puts the vectors of a normal cone behind the nodes; returns how the pass finds them.
+gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::vec4>& nodes) {
+  static_assert(sphere::Cone::max_bounds < SPHERE_AXIS, "three bits tell how many");
+  const auto at = static_cast<gpu::uint>(nodes.size()) << 3;
+  if (cone.bounds > 0) {
+    for (int i = 0; i < cone.bounds; ++i) nodes.push_back(vec4(cone.bound[i]));
+    return at | static_cast<gpu::uint>(cone.bounds);
+  }
+  if (cone.axis.isZero()) return 0;
+  nodes.push_back(vec4(cone.axis, cone.spread));
+  return at | SPHERE_AXIS;
+}
+
+}  // namespace
+
+gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
+  static_assert(sphere::cluster_size == SPHERE_CLUSTER, "clusters of the twin are those of the pass");
+  if (samples.clusters.size() > SPHERE_MAX_CLUSTERS)
+    throw input_error("a part has " + std::to_string(samples.nodes.size()) + " contact samples, the GPU takes " +
+                          std::to_string(SPHERE_MAX_CLUSTERS * SPHERE_CLUSTER),
+                      "solver.sphere", "lower solver.sphere.fine_samples, or set solver.sphere.device: cpu");
+  std::vector<gpu::vec4> nodes;
+  for (const sphere::Vec3f& node : samples.nodes) nodes.push_back(vec4(node));
+  for (std::size_t i = 0; i < samples.cones.size(); ++i) nodes[i].w = float_of(add_cone(samples.cones[i], nodes));
+  std::vector<gpu::uvec4> edges;
+  for (const sphere::Edge& edge : samples.edges)
+    edges.push_back({edge.a, edge.b, add_cone(edge.cone, nodes), word_of(edge.length)});
+  std::vector<gpu::SphereCluster> clusters;
+  for (std::size_t c = 0; c < samples.clusters.size(); ++c)
+    clusters.push_back({vec4(samples.clusters[c].center, samples.clusters[c].radius),
+                        {samples.first_edge[c], samples.first_edge[c + 1], 0, 0}});
+  gpu::SphereSamples out{};
+  out.nodes = {append(nodes_, node_count_, nodes.data(), nodes.size()), static_cast<gpu::uint>(samples.nodes.size()),
+               append(edges_, edge_count_, edges.data(), edges.size()), static_cast<gpu::uint>(edges.size())};
+  out.clusters = {append(clusters_, cluster_count_, clusters.data(), clusters.size()),
+                  static_cast<gpu::uint>(clusters.size()), 0, 0};
+  out.size = {samples.radius, samples.spacing, 0, 0};
+  return out;
+}
+
+std::uint32_t ShapeTable::index_of(const sphere::Shape& shape) {
+  const auto found = known_.find(&shape);
+  if (found != known_.end()) return found->second;
+  const sphere::Field& field = shape.field;
+  gpu::SphereShape out{};
+  out.coarse = add(shape.coarse);
+  out.fine = add(shape.fine);
+  out.box_center = vec4(shape.box_center, shape.radius);
+  out.box_half = vec4(shape.box_half, shape.diagonal);
+  out.origin = vec4(field.origin, field.cell);
+  out.field = {field.inverse_cell, field.padding, field.ball, 0};
+  const std::size_t values = field.values ? std::size_t(field.nx) * field.ny * field.nz : 0;
+  out.grid = {static_cast<gpu::uint>(field.nx), static_cast<gpu::uint>(field.ny), static_cast<gpu::uint>(field.nz),
+              append(fields_, value_count_, field.values, values)};
+  std::size_t count = known_.size();
+  return known_[&shape] = append(shapes_, count, &out, 1);
+}
+
+void ShapeTable::bind() const {
+  shapes_.bind(BIND_SHAPES);
+  nodes_.bind(BIND_NODES);
+  edges_.bind(BIND_EDGES);
+  clusters_.bind(BIND_CLUSTERS);
+  fields_.bind(BIND_FIELDS);
+}
+
+std::size_t ShapeTable::bytes() const {
+  return shapes_.storage().bytes() + nodes_.storage().bytes() + edges_.storage().bytes() + clusters_.storage().bytes() +
+         fields_.storage().bytes();
+}
+
+}  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,33 @@
+/// Collision shapes of all parts in the buffers that find_contacts reads: nodes, edges, clusters, distance fields one
+/// behind the other. A shape goes up once, however many worlds use it.
+#pragma once
+
+#include "bin_scenes/gl/buffer.hpp"
+#include "shared/sphere.h"
+#include "solver/sphere/shape.hpp"
+
+#include <map>
+
+namespace bin_scenes::sphere_gl {
+
+class ShapeTable {
+ public:
+  /// Index of a shape on the device; uploads it if it is new. Throws an input Error for a part with more samples than
+  /// the pass takes.
+  std::uint32_t index_of(const sphere::Shape& shape);
+  void bind() const;
+  std::size_t bytes() const;
+
+ private:
+  gpu::SphereSamples add(const sphere::Samples& samples);
+
+  std::map<const sphere::Shape*, std::uint32_t> known_;
+  std::size_t node_count_ = 0, edge_count_ = 0, cluster_count_ = 0, value_count_ = 0;
+  gl::Buffer<gpu::SphereShape> shapes_{"sphere.shapes"};
+  gl::Buffer<gpu::vec4> nodes_{"sphere.nodes"};
+  gl::Buffer<gpu::uvec4> edges_{"sphere.edges"};
+  gl::Buffer<gpu::SphereCluster> clusters_{"sphere.clusters"};
+  gl::Buffer<float> fields_{"sphere.fields"};
+};
+
+}  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,168 @@
+/// What must not matter: the run, the other worlds of a batch, threads of the driver, sizes of buffers. What must: who
+/// touches whom when a part is taken out.
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/solver/pour.hpp"
+#include "solver/fixture.hpp"
+#include "solver/sphere_gl/gl_sphere_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include <unistd.h>
+
+namespace bin_scenes::sphere_gl {
+namespace {
+
+SphereSettings coarse() {
+  SphereSettings settings;
+  settings.coarse_samples = 60;
+  settings.fine_samples = 150;
+  settings.field_cell = 0.03;
+  return settings;
+}
+
+/// Angle irons that fall into a small box: 5, 8, 11 of them by variant.
+struct Handful {
+  WorldDef def;
+  std::vector<BodyState> starts;
+
+  explicit Handful(int variant) {
+    using testing::box_mesh;
+    static const PartModelPtr angle = PartModel::from_mesh(
+        testing::merged(box_mesh({0.06, 0.02, 0.02}), box_mesh({0.02, 0.04, 0.02}, {0.02, 0.03, 0})), "angle");
+    def.parts = {angle};
+    def.bin.kind = Bin::Kind::box;
+    def.bin.inner_size = Vec3(0.16, 0.14, 0.1);
+    def.wall_height = 0.5;
+    BodyDef body;
+    body.mass = 0.1;
+    def.bodies.assign(static_cast<std::size_t>(5 + 3 * variant), body);
+    Random random(7, static_cast<std::uint64_t>(variant), Stream::probe);
+    for (std::size_t i = 0; i < def.bodies.size(); ++i) {
+      BodyState state;
+      state.pose.position = Vec3(0.02 * (static_cast<double>(i % 3) - 1), 0.03 * (i % 2) - 0.02, 0.05 + 0.04 * i);
+      state.pose.orientation = random.orientation();
+      state.velocity.linear = Vec3(0, 0, -0.5);
+      starts.push_back(state);
+    }
+  }
+
+  WorldId add(Solver& solver) const {
+    const WorldId id = solver.add_world(def);
+    for (std::size_t i = 0; i < starts.size(); ++i) solver.insert(id, i, starts[i]);
+    return id;
+  }
+};
+
+std::uint64_t hash_of(const std::vector<BodyState>& states) {
+  std::vector<ScenePart> parts(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) parts[i].pose = states[i].pose;
+  return state_hash(parts);
+}
+
+std::uint64_t fallen(int variant, const Capacity& capacity = {}) {
+  const auto solver = make_gl_sphere_solver(coarse(), capacity);
+  const WorldId id = Handful(variant).add(*solver);
+  solver->advance({id}, 0.1);
+  solver->advance({id}, 0.1);
+  return hash_of(solver->states(id));
+}
+
+TEST(SphereGlBatch, SameRunSameBits) {
+  EXPECT_EQ(fallen(0), fallen(0));
+  EXPECT_NE(fallen(0), fallen(1)) << "the hash does not see the states";
+}
+
+TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
+  const auto solver = make_gl_sphere_solver(coarse());
+  std::vector<WorldId> ids;
+  for (const int variant : {2, 0, 1}) ids.push_back(Handful(variant).add(*solver));
+  solver->advance(ids, 0.1);
+  // One leaves, the next takes its place; worlds are at different steps.
+  const std::uint64_t none = solver->steps(ids[1]);
+  solver->remove_world(ids[1]);
+  ids[1] = Handful(0).add(*solver);
+  EXPECT_LT(solver->steps(ids[1]), none);
+  solver->advance({ids[1]}, 0.1);
+  solver->advance({ids[2], ids[1], ids[0]}, 0.1);
+  EXPECT_EQ(hash_of(solver->states(ids[0])), fallen(2));
+  EXPECT_EQ(hash_of(solver->states(ids[1])), fallen(0));
+  EXPECT_EQ(hash_of(solver->states(ids[2])), fallen(1));
+}
+
+TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
+  Capacity small;
+  small.pairs = 1;
+  small.candidates = 1;
+  EXPECT_EQ(fallen(1, small), fallen(1));
+  const auto solver = make_gl_sphere_solver(coarse(), small);
+  const WorldId id = Handful(1).add(*solver);
+  solver->advance({id}, 0.2);
+  EXPECT_GT(solver->profile().counters.at("steps_repeated"), 1u);
+}
+
+TEST(SphereGlBatch, PrintsHash) {  // for the test below, in a process of its own
+  if (!std::getenv("BIN_SCENES_TEST_PRINT_HASH")) GTEST_SKIP() << "runs inside another test";
+  std::printf("hash %016llx\n", static_cast<unsigned long long>(fallen(1)));
+}
+
+std::string hash_in_process(const std::string& environment) {
+  std::array<char, 4096> path{};
+  const auto length = readlink("/proc/self/exe", path.data(), path.size() - 1);
+  const std::string command = environment + " BIN_SCENES_TEST_PRINT_HASH=1 '" +
+                              std::string(path.data(), static_cast<std::size_t>(length)) +
+                              "' --gtest_filter=SphereGlBatch.PrintsHash";
+  std::string out;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 256> line{};
+  while (pipe && std::fgets(line.data(), line.size(), pipe))
+    if (std::string(line.data()).rfind("hash ", 0) == 0) out = line.data();
+  if (pipe) pclose(pipe);
+  return out;
+}
+
+TEST(SphereGlBatch, ThreadsOfTheDriverDoNotMatter) {
+  const std::string without = hash_in_process("LP_NUM_THREADS=0");
+  EXPECT_EQ(without.size(), 22u) << without;
+  EXPECT_EQ(without, hash_in_process("LP_NUM_THREADS=2"));
+}
+
+/// Two stacks of two blocks: what is taken out wakes the one above it, not the other stack. Asleep, a world costs no
+/// contact work.
+TEST(SphereGlBatch, TakingAPartOutWakesWhatItHeldUp) {
+  SphereSettings settings = coarse();
+  settings.field_cell = 0.01;
+  const auto solver = make_gl_sphere_solver(settings);
+  WorldDef def;
+  def.parts = {PartModel::from_mesh(testing::box_mesh({0.05, 0.05, 0.05}), "block"),
+               PartModel::from_mesh(testing::box_mesh({0.03, 0.03, 0.03}), "small block")};
+  def.bin.kind = Bin::Kind::floor;
+  def.bodies.assign(4, testing::material(0.5));
+  def.bodies[1].part = def.bodies[3].part = 1;
+  const WorldId id = solver->add_world(def);
+  for (std::size_t i = 0; i < 4; ++i) {
+    BodyState state;
+    state.pose.position = Vec3(i < 2 ? 0.0 : 0.2, 0, i % 2 ? 0.065 : 0.025);
+    solver->insert(id, i, state);
+  }
+  solver->advance({id}, 1.0);
+  EXPECT_EQ(solver->asleep(id), std::vector<bool>(4, true));
+  const auto tested = [&] { return solver->profile().counters.at("nodes_tested"); };
+  const std::uint64_t before = tested();
+  solver->advance({id}, 0.2);
+  EXPECT_EQ(tested(), before);
+  solver->remove(id, 0);
+  solver->advance({id}, solver->step_size());
+  EXPECT_EQ(solver->asleep(id), (std::vector<bool>{false, false, true, true}));
+  solver->advance({id}, 0.5);
+  EXPECT_NEAR(solver->states(id)[1].pose.position.z(), 0.015, 1e-4);
+  solver->set_phase(id, Phase::settle);
+  solver->advance({id}, solver->step_size());
+  EXPECT_EQ(solver->asleep(id)[2], false) << "finer samples must look again";
+}
+
+}  // namespace
+}  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,11 @@
+#include "solver/closed_forms.hpp"
+#include "solver/sphere_gl/gl_sphere_solver.hpp"
+
+namespace bin_scenes::testing {
+
+const SolverCase sphere_gl{"sphere_gl", [] { return make_gl_sphere_solver({}); }, 1e-4};
+
+INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace bin_scenes::testing

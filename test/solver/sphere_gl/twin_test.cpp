@@ -1,0 +1,243 @@
+/// Each pass on the GPU against its twin on the CPU, on the same world: what is counted or chosen is equal, what is
+/// computed agrees to the rounding of single precision.
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/gl/device.hpp"
+#include "solver/fixture.hpp"
+#include "solver/sphere/make_world.hpp"
+#include "solver/sphere_gl/batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace bin_scenes::sphere_gl {
+namespace {
+
+using sphere::Body;
+using sphere::Contact;
+using sphere::ground;
+using sphere::Manifold;
+using sphere::Quatf;
+using sphere::Vec3f;
+using sphere::World;
+
+/// Angle irons, a ball and a fixed block, thrown together above a box.
+struct Heap {
+  std::vector<PartModelPtr> parts;
+  std::vector<std::unique_ptr<sphere::Shape>> shapes;
+
+  Heap() {
+    using testing::box_mesh;
+    parts = {PartModel::from_mesh(
+                 testing::merged(box_mesh({0.06, 0.02, 0.02}), box_mesh({0.02, 0.04, 0.02}, {0.02, 0.03, 0})), "angle"),
+             PartModel::from_mesh(testing::sphere_mesh(0.02, 3), "ball"),
+             PartModel::from_mesh(box_mesh({0.05, 0.05, 0.05}), "block")};
+    for (const PartModelPtr& part : parts)
+      shapes.push_back(std::make_unique<sphere::Shape>(sphere::make_shape(*part, 100, 300, 0.02)));
+  }
+
+  World world(std::size_t bodies, std::uint64_t seed, double spread = 0.1) const {
+    WorldDef def;
+    def.parts = parts;
+    def.bin.kind = Bin::Kind::box;
+    def.bin.inner_size = Vec3(2 * spread, 2 * spread, 0.2);
+    def.wall_height = 0.2;
+    for (std::size_t i = 0; i < bodies; ++i) {
+      BodyDef body;
+      body.part = i % 7 == 3 ? 1 : 0;
+      body.mass = 0.1;
+      if (i == 5) {
+        body.part = 2;
+        body.fixed = true;
+      }
+      def.bodies.push_back(body);
+    }
+    World w = sphere::make_world(def, {}, [&](const PartModelPtr& part) -> const sphere::Shape& {
+      return *shapes[std::find(parts.begin(), parts.end(), part) - parts.begin()];
+    });
+    Random random(seed, 0, Stream::probe);
+    const auto along = [&](double half) { return random.uniform(-half, half); };
+    for (std::size_t i = 0; i < bodies; ++i) {
+      BodyState state;
+      state.pose.orientation = random.orientation();
+      state.pose.position = Vec3(along(spread), along(spread), 0.03 + 0.5 * spread + along(0.5 * spread));
+      state.velocity.linear = Vec3(along(0.2), along(0.2), along(0.2));
+      state.velocity.angular = Vec3(along(3), along(3), along(3));
+      sphere::place(w, i, state);
+    }
+    return w;
+  }
+};
+
+class TwinTest : public ::testing::Test {
+ protected:
+  void SetUp() override { gl::Device::current().make_current(); }
+
+  /// Uploads a world that is to make steps.
+  static Batch::Slot load(Batch& batch, const World& world) {
+    gpu::SphereProgress progress;
+    const Batch::Slot slot = batch.add(world, progress);
+    progress.steps_left = 1000;
+    batch.upload_progress(slot, progress);
+    return slot;
+  }
+
+  static const Heap& heap() {
+    static const Heap heap;
+    return heap;
+  }
+};
+
+/// What `batch` makes of a world, with `world` for all that it does not hold.
+World downloaded(const Batch& batch, Batch::Slot slot, const World& world) {
+  World out = world;
+  batch.download(slot, out);
+  return out;
+}
+
+using Keys = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+Keys keys(const World& world) {
+  Keys out;
+  for (const Manifold& m : world.manifolds) out.emplace_back(m.a, m.b);
+  return out;
+}
+
+TEST_F(TwinTest, FindPairsFindsThoseOfTheTwinInTheirOrder) {
+  Batch batch;
+  World world = heap().world(70, 1, 0.16);
+  world.bodies[9].present = false;
+  world.bodies[11].asleep = world.bodies[12].asleep = true;
+  const Batch::Slot slot = load(batch, world);
+  batch.run({slot});
+  batch.find_pairs();
+  find_pairs(world);
+  EXPECT_EQ(keys(downloaded(batch, slot, world)), keys(world));
+  EXPECT_GT(world.manifolds.size(), 100u);
+}
+
+/// Passes of a step up to the contacts, repeated with more room where there was too little.
+gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
+  for (;;) {
+    batch.run({slot});
+    batch.find_pairs();
+    batch.find_contacts();
+    gpu::SphereProgress progress = batch.progress()[slot];
+    if (!progress.overflow) return progress;
+    batch.update_sleep();  // empties the list of jobs
+    if (progress.overflow & SPHERE_PAIR_OVERFLOW) batch.grow_pairs(slot, progress);
+    if (progress.overflow & SPHERE_CANDIDATE_OVERFLOW) batch.grow_candidates();
+    progress.overflow = 0;
+    batch.upload_progress(slot, progress);
+  }
+}
+
+TEST_F(TwinTest, FindContactsChoosesThoseOfTheTwin) {
+  for (const bool fine : {false, true}) {
+    Batch batch;
+    World world = heap().world(40, 2);
+    world.fine = fine;
+    const Batch::Slot slot = load(batch, world);
+    find_all(batch, slot);
+    find_pairs(world);
+    find_contacts(world);
+    const World seen = downloaded(batch, slot, world);
+    ASSERT_EQ(seen.manifolds.size(), world.manifolds.size());
+    std::size_t same = 0, contacts = 0;
+    for (std::size_t m = 0; m < world.manifolds.size(); ++m) {
+      const Manifold &mine = seen.manifolds[m], &twin = world.manifolds[m];
+      contacts += twin.contacts.size();
+      bool alike = mine.contacts.size() == twin.contacts.size();
+      for (std::size_t i = 0; alike && i < twin.contacts.size(); ++i) {
+        const Contact &c = mine.contacts[i], &t = twin.contacts[i];
+        alike = c.feature == t.feature && (c.anchor_a - t.anchor_a).norm() < 2e-7f &&
+                (c.anchor_b - t.anchor_b).norm() < 2e-7f && (c.local_normal - t.local_normal).norm() < 2e-4f;
+      }
+      same += alike;
+    }
+    EXPECT_GT(contacts, 300u);
+    // Ties, samples at the margin and descents across a kink of the field fall to either side by rounding.
+    EXPECT_GE(same, world.manifolds.size() - world.manifolds.size() / 40) << "of " << world.manifolds.size();
+  }
+}
+
+/// Takes colors and order from the device.
+void take_order(World& world) {
+  world.order.clear();
+  world.color_start = {0};
+  for (int c = 0; c < SPHERE_COLORS; ++c) {
+    for (std::uint32_t m = 0; m < world.manifolds.size(); ++m)
+      if (world.manifolds[m].color == c) world.order.push_back(m);
+    world.color_start.push_back(static_cast<std::uint32_t>(world.order.size()));
+  }
+  for (Body& b : world.bodies) {
+    b.rotation = b.q.toRotationMatrix();
+    b.world_inverse_inertia = b.rotation * b.inverse_inertia * b.rotation.transpose();
+  }
+}
+
+TEST_F(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
+  Batch batch;
+  World world = heap().world(60, 3);
+  world.bodies[20].asleep = true;
+  const Batch::Slot slot = load(batch, world);
+  find_all(batch, slot);
+  batch.color_manifolds();
+  batch.download(slot, world);
+  const auto hashed = [](const Manifold& m) {
+    std::uint32_t key = m.a << 16 | (m.b == ground ? m.a : m.b);
+    key = (key ^ key >> 16) * 0x85ebca6bu;
+    key = (key ^ key >> 13) * 0xc2b2ae35u;
+    return key ^ key >> 16;
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t m = 0; m < world.manifolds.size(); ++m) order.push_back(m);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t x, std::size_t y) { return hashed(world.manifolds[x]) < hashed(world.manifolds[y]); });
+  std::vector<std::uint64_t> used(world.bodies.size(), 0);
+  std::size_t colored = 0;
+  for (const std::size_t i : order) {
+    const Manifold& m = world.manifolds[i];
+    const bool a_moves = world.bodies[m.a].moves(), b_moves = m.b != ground && world.bodies[m.b].moves();
+    if (m.contacts.empty() || (!a_moves && !b_moves)) {
+      EXPECT_EQ(m.color, -1);
+      continue;
+    }
+    ++colored;
+    const std::uint64_t taken = (a_moves ? used[m.a] : 0) | (b_moves ? used[m.b] : 0);
+    int color = 0;
+    while (taken >> color & 1) ++color;
+    EXPECT_EQ(m.color, color);
+    if (a_moves) used[m.a] |= std::uint64_t{1} << color;
+    if (b_moves) used[m.b] |= std::uint64_t{1} << color;
+  }
+  EXPECT_GT(colored, 100u);
+  EXPECT_EQ(batch.progress()[slot].ordered, colored);
+}
+
+TEST_F(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
+  Batch batch;
+  World world = heap().world(40, 4);
+  world.bodies[20].asleep = true;
+  const Batch::Slot slot = load(batch, world);
+  find_all(batch, slot);
+  batch.color_manifolds();
+  batch.download(slot, world);
+  take_order(world);
+  batch.solve();
+  solve(world);
+  const World seen = downloaded(batch, slot, world);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const Body &mine = seen.bodies[i], &twin = world.bodies[i];
+    if (!twin.moves()) continue;
+    EXPECT_LT((mine.x - twin.x).norm(), 1e-6f) << i;
+    EXPECT_LT((mine.v - twin.v).norm(), 1e-4f) << i;
+    EXPECT_LT((mine.w - twin.w).norm(), 1e-2f) << i;
+    EXPECT_LT((mine.q.conjugate() * twin.q).vec().norm(), 1e-5f) << i;
+  }
+  for (std::size_t m = 0; m < world.manifolds.size(); ++m)
+    for (std::size_t i = 0; i < world.manifolds[m].contacts.size(); ++i)
+      EXPECT_NEAR(seen.manifolds[m].contacts[i].normal_impulse, world.manifolds[m].contacts[i].normal_impulse, 2e-5f);
+}
+
+}  // namespace
+}  // namespace bin_scenes::sphere_gl
