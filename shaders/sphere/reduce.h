@@ -175,6 +175,10 @@ void finish_candidates(SpherePair pair, uint slot) {
   atomicAdd(found_count, mine);
   uint count = reduce(size_of(pair));
   carry_impulses(count, samples_of(pair.a).size.y, ra, rb, ground);
+  if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
+    if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
+    return;
+  }
   if (thread < count) {
     vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
     vec3 on_b = a.position.xyz + ra * (on_a + chosen_on_a[thread].w * normal);
@@ -196,8 +200,7 @@ void finish_candidates(SpherePair pair, uint slot) {
     vec3 position;
     vec4 orientation;
     relative_pose(pair, position, orientation);
-    if (any_lost != 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
-    manifolds[slot] = SphereManifold(uvec4(count, 0u, 1u - any_lost, 0u), vec4(position, 0.0), orientation);
+    manifolds[slot] = SphereManifold(uvec4(count, 0u, 1u, 0u), vec4(position, 0.0), orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
   }
 }

@@ -268,6 +268,7 @@ void PourWorld::look() {
     if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return;
   settling_ = true;
   solver_.set_phase(id_, Phase::settle);
+  rest_ = RestWatch(states_.size());  // rest on the coarse shape says nothing of the exact one
   if (!walls_cut_) cut_walls();
 }
 

@@ -97,7 +97,7 @@ struct ThesisSettings {
 
 /// The default sphere solver: surface samples of one part against the distance field of the other.
 struct SphereSettings {
-  double time_step = 1.0 / 800.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
+  double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
   int coarse_samples = 400;        ///< per part while pouring
   int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost

@@ -90,12 +90,47 @@ bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f&
   return true;
 }
 
+/// A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
+/// way follows from the angle between the node's normal and the gradient of `depth(point, gradient)`, and from how fast
+/// the normals turn (cone); the part's own field brings the point back to the surface. `point`, `gradient` and
+/// `distance` are the node's own in the other frame, and are replaced.
+template <class Depth>
+void slide(const Samples& samples, const Field& own, const Carry& carry, std::size_t node, const Depth& depth,
+           Vec3f& point, Vec3f& gradient, float& distance) {
+  constexpr float flat = 0.02f;  // rad: below it the node itself is deep enough
+  const Cone& cone = samples.cones[node];
+  if (cone.axis.isZero() || cone.spread < flat || own.ball > 0) return;
+  float way_per_angle = 2.0f * samples.face_spacing / cone.spread;
+  Vec3f x = samples.nodes[node], normal = cone.axis;
+  for (int i = 0; i < 6; ++i) {
+    const Vec3f down = -(carry.rotation.transpose() * gradient);
+    const Vec3f across = down - down.dot(normal) * normal;
+    const float angle = across.norm();
+    if (angle < flat || down.dot(normal) < 0.5f) return;
+    Vec3f there = x + std::min(angle * way_per_angle, samples.face_spacing) / angle * across, normal_there, slope;
+    const float off = own.sample(there, normal_there);
+    there -= off * normal_there;
+    const Vec3f carried = carry(there);
+    const float deeper = depth(carried, slope);
+    if (deeper >= distance) {  // past the deepest point
+      way_per_angle *= 0.5f;
+      continue;
+    }
+    x = there;
+    normal = normal_there;
+    point = carried;
+    gradient = slope;
+    distance = deeper;
+  }
+}
+
 /// Samples against a field, bounding spheres first. `emit(point, gradient, distance, feature)` in the field's frame.
 template <class Emit>
-void test_samples(const Samples& samples, const Field& field, const Samples& other, const Carry& carry, float margin,
-                  Counters& counters, Emit&& emit) {
+void test_samples(const Samples& samples, const Field& own, const Field& field, const Samples& other,
+                  const Carry& carry, float margin, Counters& counters, Emit&& emit) {
   const float error = field.ball > 0 ? 0.0f : 0.5f * field.cell;  // of the grid where it bends
-  const float slack = margin + samples.radius + error;
+  const float slack = margin + samples.radius + samples.sag + error;
+  const auto depth_in_field = [&](const Vec3f& p, Vec3f& out) { return field.sample(p, out); };
   Points<group_size> center;
   Points<cluster_size> point;
   float cluster_distance[group_size], distance[cluster_size];
@@ -130,8 +165,11 @@ void test_samples(const Samples& samples, const Field& field, const Samples& oth
       };
       for (std::size_t i = 0; i < n; ++i) {
         distance[i] -= samples.radius;
-        if (distance[i] < margin)
-          offer(point[i], gradient_at(i), distance[i], samples.cones[first + i], static_cast<std::uint32_t>(first + i));
+        if (distance[i] >= margin + samples.sag) continue;
+        Vec3f at = point[i], out = gradient_at(i);
+        float d = distance[i];
+        slide(samples, own, carry, first + i, depth_in_field, at, out, d);
+        if (d < margin) offer(at, out, d, samples.cones[first + i], static_cast<std::uint32_t>(first + i));
       }
       for (std::uint32_t e = samples.first_edge[c]; e < samples.first_edge[c + 1]; ++e) {
         const Edge& edge = samples.edges[e];
@@ -162,12 +200,12 @@ void candidates_of_pair(World& world, const Manifold& m, float margin, Candidate
   const Shape &sa = *world.shapes[a.shape], &sb = *world.shapes[b.shape];
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
-  test_samples(world.samples(a), sb.field, world.samples(b), a_to_b, margin, world.counters,
+  test_samples(world.samples(a), sa.field, sb.field, world.samples(b), a_to_b, margin, world.counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - world.samples(a).radius * g;
                  out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature});
                });
-  test_samples(world.samples(b), sa.field, world.samples(a), b_to_a, margin, world.counters,
+  test_samples(world.samples(b), sb.field, sa.field, world.samples(a), b_to_a, margin, world.counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - world.samples(b).radius * g;
                  out.push_back({surface - d * g, surface, g, d, feature | side_b});
@@ -201,19 +239,23 @@ void candidates_of_ground(World& world, const Manifold& m, float margin, Candida
   const Body& a = world.bodies[m.a];
   const Samples& samples = world.samples(a);
   const Mat3f back = a.rotation.transpose();
+  const Carry carry{a.rotation, a.x};
   world.counters.nodes_possible += samples.nodes.size();
   for (std::size_t k = 0; k < world.planes.size(); ++k) {
     const Plane& plane = world.planes[k];
+    const auto depth = [&](const Vec3f& p, Vec3f& out) { return plane_distance(world, plane, p, out); };
     for (std::size_t c = 0; c < samples.clusters.size(); ++c) {
       ++world.counters.clusters_tested;
       const Vec3f center = a.x + a.rotation * samples.clusters[c].center;
-      if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + samples.radius + margin) continue;
+      if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + samples.radius + samples.sag + margin)
+        continue;
       const std::size_t last = std::min(samples.nodes.size(), (c + 1) * cluster_size);
       world.counters.nodes_tested += last - c * cluster_size;
       for (std::size_t i = c * cluster_size; i < last; ++i) {
-        const Vec3f p = a.x + a.rotation * samples.nodes[i];
-        Vec3f up;
-        const float d = plane_distance(world, plane, p, up) - samples.radius;
+        Vec3f p = carry(samples.nodes[i]), up;
+        float d = plane_distance(world, plane, p, up) - samples.radius;
+        if (d > margin + samples.sag) continue;
+        slide(samples, world.shapes[a.shape]->field, carry, i, depth, p, up, d);
         if (d > margin) continue;
         const Vec3f surface = p - samples.radius * up;
         out.push_back({back * (surface - a.x), back * (surface - d * up - a.x), -(back * up), d,

@@ -259,25 +259,34 @@ Samples ball_samples(float radius) {
   return samples;
 }
 
-/// About `count` nodes: two thirds of them on sharp edges where there are such, the others on faces.
+/// About `count` nodes: half of them on sharp edges where there are such, the others on faces.
 Samples make_samples(const PartModel& part, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
   SharpEdges sharp = sharp_edges(mesh, sharp_angle);
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
-  while (sharp.convex.size() > static_cast<std::size_t>(2 * count) && sharp_angle < 1.5)
+  // Where the nodes would stand too far apart to stand for them, they belong to a curved face.
+  constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
+  while ((sharp.convex.size() > static_cast<std::size_t>(2 * count) ||
+          total_length(mesh, sharp) > edge_share * count * longest_piece * part.diagonal()) &&
+         sharp_angle < 0.8)
     sharp = sharp_edges(mesh, sharp_angle *= 1.3);
-  const double spacing = std::max(total_length(mesh, sharp) / (0.67 * count), 0.004 * part.diagonal());
+  const double spacing = std::max(total_length(mesh, sharp) / (edge_share * count), 0.004 * part.diagonal());
   Draft draft = edge_draft(mesh, sharp, spacing);
-  const int faces = std::max(count / 4, count - static_cast<int>(draft.nodes.size()));
+  // Some of these fall on edges that have their nodes.
+  const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));
   // Face nodes, but for those that stand on a sharp edge already covered.
-  const std::size_t on_edges = draft.nodes.size();
-  const std::vector<SurfaceSample>& samples = part.samples({faces, sharp_angle}).samples;
-  for (const SurfaceSample& sample : samples) {
+  std::vector<SurfaceSample> on_faces;
+  for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples) {
     const auto near = [&](const Vec3& node) { return (node - sample.point).norm() < 0.5 * spacing; };
-    if (std::none_of(draft.nodes.begin(), draft.nodes.begin() + on_edges, near))
-      draft.add(sample.point, face_cone(sample, samples, sharp_angle));
+    if (std::none_of(draft.nodes.begin(), draft.nodes.end(), near)) on_faces.push_back(sample);
   }
-  return clustered(draft, part.mass().center, spacing);
+  for (const SurfaceSample& sample : on_faces) draft.add(sample.point, face_cone(sample, on_faces, sharp_angle));
+  Samples made = clustered(draft, part.mass().center, spacing);
+  for (const SurfaceSample& sample : on_faces)
+    made.face_spacing += static_cast<float>(sample.spacing / on_faces.size());
+  for (const Cone& cone : made.cones)
+    if (!cone.axis.isZero()) made.sag = std::max(made.sag, 0.25f * std::min(cone.spread, 0.6f) * made.face_spacing);
+  return made;
 }
 
 }  // namespace

@@ -43,6 +43,8 @@ struct Samples {
   std::vector<Points<group_size>> cluster_points;  ///< their centres, a group at a time
   std::vector<Ball> groups;                        ///< clusters [8 g, 8 g + 8)
   float spacing = 0;                               ///< longest edge piece (m)
+  float face_spacing = 0;                          ///< mean way between neighbours on faces (m)
+  float sag = 0;                                   ///< m by which a curved face may bulge between its nodes
   float radius = 0;                                ///< of the nodes: 0 = points; a ball is one node of its own radius
 };
 
