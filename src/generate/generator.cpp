@@ -91,7 +91,10 @@ struct Generator::State {
     quiet.cancel = hooks.cancel;
     const Scene moved = pour(next, models.parts(), solver, {scene.index}, quiet, models.bin()).at(0);
     Scene before;
-    for (const std::size_t i : kept) before.parts.push_back(scene.parts[i]);
+    for (const std::size_t i : kept) {
+      before.parts.push_back(scene.parts[i]);
+      before.parts.back().id = static_cast<int>(before.parts.size()) - 1;  // as the re-run counts them
+    }
     scene.report.drift = drift(before, moved, models.parts());
   }
 

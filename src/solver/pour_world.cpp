@@ -45,6 +45,10 @@ PourPlan::PourPlan(const Request& r, const std::vector<PartModelPtr>& parts, Par
   for (std::size_t l = 0; l < r.parts.size(); ++l) {
     const PartLine& line = r.parts[l];
     const std::string where = "parts[" + std::to_string(l) + "] (" + line.model + ")";
+    if (line.count == 0) {  // nobody of this line is left: a scene may go on without
+      covers.push_back(cover(parts[l]->mesh()));
+      continue;
+    }
     if (line.poses.empty() && line.fixed)
       throw input_error("a fixed part needs a pose", where + ".poses", "give one pose [x,y,z,qx,qy,qz,qw] per copy");
     if (line.poses.empty() && r.pour.pattern == Pour::Pattern::given)
@@ -96,6 +100,7 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
     start_grid();
   else
     start_rain();
+  if (!entering) settle_if_slow();  // a heap that goes on would sink or stir on coarser shapes than it rested on
   fresh_ = true;
 }
 
@@ -118,6 +123,11 @@ void PourWorld::start_given() {
     }
     BodyState state{line.poses[plan_.copy_of[b]], {}};
     if (!line.velocities.empty() && !line.fixed) state.velocity = line.velocities[plan_.copy_of[b]];
+    if (!line.fixed && outside(state.pose * plan_.world.parts[plan_.line_of[b]]->mass().center)) {
+      states_[b] = state;  // the walls would push it further out
+      place_[b] = Place::escaped;
+      continue;
+    }
     insert(b, state);
   }
 }
@@ -263,13 +273,17 @@ void PourWorld::cut_walls() {
 void PourWorld::look() {
   judge();
   let_in();
+  settle_if_slow();
+}
+
+void PourWorld::settle_if_slow() {
   if (settling_ || !waiting_.empty()) return;
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return;
   settling_ = true;
   solver_.set_phase(id_, Phase::settle);
-  rest_ = RestWatch(states_.size());  // rest on the coarse shape says nothing of the exact one
   if (!walls_cut_) cut_walls();
+  rest_ = RestWatch(states_.size());  // what rested on coarser shapes, or leant on a wall that is gone, may move again
 }
 
 bool PourWorld::over() const {

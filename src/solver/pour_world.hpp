@@ -54,6 +54,7 @@ class PourWorld {
   void start_rain();
   void let_in();
   void cut_walls();
+  void settle_if_slow();
   bool outside(const Vec3& center) const;
   bool slow(std::size_t body) const;
   double top() const;

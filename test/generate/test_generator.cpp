@@ -54,6 +54,30 @@ class GeneratorTest : public ::testing::Test {
   Generator generator;
 };
 
+TEST_F(GeneratorTest, DriftIsOfThePartsThatAreThere) {
+  Request request = boxes(3);
+  request.pour.pattern = Pour::Pattern::given;
+  request.drift_check = true;
+  for (const double x : {0.5, -0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.021), Quat::Identity()});
+  const Report report = run(request).at(0).scene.report;  // the first stands beside the bin
+  ASSERT_EQ(report.escaped, std::vector<int>{0});
+  ASSERT_TRUE(report.drift.measured);
+  EXPECT_LT(report.drift.max, 0.001);
+
+  for (Pose& pose : request.parts[0].poses) pose.position.x() += 1.0;
+  EXPECT_FALSE(run(request).at(0).scene.report.drift.measured) << "nobody is left to drift";
+}
+
+TEST_F(GeneratorTest, DriftGoesOnWithoutALineThatIsGone) {
+  Request request = boxes(1);
+  request.pour.pattern = Pour::Pattern::given;
+  request.drift_check = true;
+  request.parts.push_back(request.parts[0]);
+  request.parts[0].poses = {Pose{Vec3(0.5, 0, 0.021), Quat::Identity()}};
+  request.parts[1].poses = {Pose{Vec3(0.0, 0, 0.021), Quat::Identity()}};
+  EXPECT_LT(run(request).at(0).scene.report.drift.max, 0.001);
+}
+
 TEST_F(GeneratorTest, PoursJudgesAndHandsOverInOrder) {
   Request request = boxes(4);
   request.scenes = 2;

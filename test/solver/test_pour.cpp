@@ -154,6 +154,110 @@ TEST(Pour, CancelsAndReportsProgressThatNeverFalls) {
   EXPECT_GT(last, 0.9);
 }
 
+/// An open box as a mesh: five plates, inner 0.2 x 0.15 x 0.12 like the bin of request_of().
+PartModelPtr tray() {
+  static const PartModelPtr model = [] {
+    Mesh mesh = box_mesh({0.22, 0.17, 0.01}, {0, 0, -0.005});
+    for (const double side : {-1.0, 1.0}) {
+      mesh = merged(mesh, box_mesh({0.01, 0.17, 0.12}, {side * 0.105, 0, 0.06}));
+      mesh = merged(mesh, box_mesh({0.22, 0.01, 0.12}, {0, side * 0.08, 0.06}));
+    }
+    return PartModel::from_mesh(mesh, "tray");
+  }();
+  return model;
+}
+
+TEST(Pour, MeshBinHoldsItsPartsWhereItsPosePutsIt) {
+  Request request = request_of(6);
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.mesh = "tray";
+  request.bin.pose = {Vec3(0.5, -0.3, 0.1), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))};
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+  EXPECT_TRUE(scene.report.not_poured.empty());
+  const Pose into_bin = request.bin.pose.inverse();
+  for (const ScenePart& part : scene.parts)
+    for (const Vec3& v : small_box()->mesh().vertices) {
+      const Vec3 x = into_bin * (part.pose * v);
+      EXPECT_GT(x.z(), -2e-4);
+      EXPECT_LT(std::abs(x.x()), 0.1 + 2e-4);
+      EXPECT_LT(std::abs(x.y()), 0.075 + 2e-4);
+    }
+}
+
+TEST(Pour, WhatLeavesAMeshBinHasEscaped) {
+  Request request = request_of(1);
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.mesh = "tray";
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].count = 2;
+  request.parts[0].poses = {Pose{Vec3(0, 0, 0.03), Quat::Identity()}, Pose{Vec3(0.3, 0, 0.03), Quat::Identity()}};
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
+  EXPECT_EQ(scene.parts[0].state, PartState::resting);
+}
+
+TEST(Pour, GridStartsAllAtOnceAboveTheRimAndComesToRestInside) {
+  Request request = request_of(9);
+  request.pour.pattern = Pour::Pattern::grid;
+  std::vector<BodyState> first;
+  RunHooks hooks;
+  hooks.trace_rate = 1.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+    if (time == 0.0) first = states;
+  };
+  const Scene scene = poured(request, {0}, hooks)[0];
+  ASSERT_EQ(first.size(), 9u);
+  const double radius = small_box()->radius();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Vec3 center = first[i].pose * small_box()->mass().center;
+    EXPECT_GT(center.z(), request.bin.inner_size.z()) << i;
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GE((first[k].pose * small_box()->mass().center - center).norm(), 2.0 * radius) << i << " and " << k;
+  }
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+}
+
+/// A shaft fuller than it is high: what leans on the walls above the rim must lean on nothing when the scene ends.
+TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
+  Request request = request_of(16);
+  request.bin.inner_size = Vec3(0.07, 0.06, 0.05);
+  const Scene scene = poured(request, {0})[0];
+  ASSERT_TRUE(scene.report.at_rest);
+  Request again = request;
+  again.pour.pattern = Pour::Pattern::given;  // given scenes have no raised walls
+  again.seconds = 0.5;
+  again.parts[0].poses.clear();
+  std::vector<Vec3> before;
+  for (const ScenePart& part : scene.parts) {
+    if (part.state != PartState::resting) continue;
+    again.parts[0].poses.push_back(part.pose);
+    before.push_back(part.pose * small_box()->mass().center);
+  }
+  again.parts[0].count = again.parts[0].poses.size();
+  ASSERT_GE(before.size(), 3u);
+  double top = 0.0;
+  for (const Vec3& center : before) top = std::max(top, center.z());
+  EXPECT_GT(top, 0.04) << "the heap never came near the rim";
+  const Scene later = poured(again, {0})[0];
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
+}
+
+TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {
+  Lab lab(make_bullet_solver({}));
+  const auto below = lab.place(small_box(), Vec3(0, 0, 0.01)), above = lab.place(small_box(), Vec3(0, 0, 0.03));
+  lab.simulate(2.0);
+  ASSERT_TRUE(lab.solver().asleep(lab.world())[above]) << "it never fell asleep, so that nothing has to be woken";
+  lab.solver().remove(lab.world(), below);
+  lab.simulate(0.5);
+  EXPECT_NEAR(lab.center(above).z(), 0.01, 2e-4);
+}
+
 TEST(Rain, StartsClearOfEverything) {
   const Cover shape = cover(small_box()->mesh());
   const Rain rain({Vec3(-0.1, -0.075, 0), Vec3(0.1, 0.075, 0.12)}, 0.02);
