@@ -2,9 +2,14 @@
 
 #include "convert.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace bin_scenes::bullet {
 
 namespace {
+
+constexpr int most_cuts = 1000;  ///< of a torque-free step; only what is not finite needs more
 
 btQuaternion rotation(const btVector3& turn) {
   const btScalar angle = turn.length();
@@ -42,11 +47,18 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
     motion.linear = body.getLinearVelocity();
     motion.touches = false;
     const btMatrix3x3& axes = body.getWorldTransform().getBasis();
-    const Vec3 start = from_bt(axes.transpose() * body.getAngularVelocity());
-    const Vec3 end = torque_free_step(motion.inertia, start, dt);
-    motion.middle = axes * to_bt(Vec3(0.5 * (start + end)));
-    motion.free = btMatrix3x3(rotation(motion.middle * dt)) * axes * to_bt(end);
-    body.setAngularVelocity(motion.free);
+    Vec3 angular = from_bt(axes.transpose() * body.getAngularVelocity());
+    const double turned = angular.norm() * dt / turn_per_step;
+    const int cuts = turned < most_cuts ? std::max(1, static_cast<int>(std::ceil(turned))) : most_cuts;
+    btQuaternion turn(0, 0, 0, 1);  // in the body frame: each cut turns the axes the next one is told in
+    for (int k = 0; k < cuts; ++k) {
+      const Vec3 end = torque_free_step(motion.inertia, angular, dt / cuts);
+      turn = (turn * rotation(to_bt(Vec3(0.5 * (angular + end))) * (dt / cuts))).normalized();
+      angular = end;
+    }
+    const btQuaternion start = body.getWorldTransform().getRotation();
+    motion.turn = start * turn * start.inverse();
+    body.setAngularVelocity(btMatrix3x3(motion.turn) * axes * to_bt(angular));
   }
 }
 
@@ -58,11 +70,11 @@ void DynamicsWorld::integrateTransforms(btScalar dt) {
     // Gravity alone acts through the whole step, so the mean of the velocities carries a free body (exact parabola).
     const btVector3 way =
         motion.touches ? motion.moved : (motion.linear + body.getLinearVelocity()) * (btScalar(0.5) * dt);
-    const btVector3 turn = motion.touches ? motion.turned : motion.middle * dt;
+    const btQuaternion turn = motion.touches ? rotation(motion.turned) : motion.turn;
     const btTransform& now = body.getWorldTransform();
     btTransform next;
     next.setOrigin(now.getOrigin() + way);
-    next.setRotation((rotation(turn) * now.getRotation()).normalized());
+    next.setRotation((turn * now.getRotation()).normalized());
     body.proceedToTransform(next);
   }
 }

@@ -13,11 +13,13 @@ namespace bin_scenes::bullet {
 struct Motion {
   Vec3 inertia = Vec3::Ones();                ///< principal moments (Bullet's body frame is the principal frame)
   btVector3 linear{0, 0, 0};                  ///< velocity at the start of the step
-  btVector3 middle{0, 0, 0};                  ///< angular velocity of torque-free motion in the middle of the step
-  btVector3 free{0, 0, 0};                    ///< and at its end
+  btQuaternion turn{0, 0, 0, 1};              ///< of torque-free motion over the step
   bool touches = false;                       ///< the contact solver moved it in this step:
   btVector3 moved{0, 0, 0}, turned{0, 0, 0};  ///< by way and turn
 };
+
+/// Angle (rad) a body may turn in one torque-free step: Newton converges, and the path of its axis is followed.
+constexpr double turn_per_step = 0.1;
 
 /// One step of Euler's equations without torque, I dw/dt = (I w) x w in the body frame, by the implicit midpoint rule,
 /// which keeps both quadratic invariants (energy and |L|^2) exactly; returns the angular velocity at the end.
