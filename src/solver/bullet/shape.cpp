@@ -43,6 +43,7 @@ PartShape part_shape(const PartModel& part, const BulletSettings& settings, doub
   result.principal = {mass.center, mass.principal_axes};
   result.inertia = mass.principal / mass.volume * (scale * scale);
   result.radius = part.radius() * scale;
+  result.thickness = 2.0 * mass.volume / mass.area * scale;
   if (const double radius = sphere_radius(part, settings.hull_error); radius > 0.0) {
     result.shape = std::make_unique<btSphereShape>(radius * scale);
     return result;

@@ -19,6 +19,7 @@ struct PartShape {
   Pose principal;               ///< principal frame in the model frame, metres
   Vec3 inertia = Vec3::Ones();  ///< principal moments / mass, square units of the scaled world
   double radius = 0.0;          ///< bounding sphere about the centre of mass, units of the scaled world
+  double thickness = 1.0;       ///< 2 volume / area: of a plate, and less than the width of anything thicker
   bool hulls_met = true;        ///< the decomposition reached BulletSettings::hull_error
   double hull_error = 0.0;      ///< / diagonal
 };

@@ -1,6 +1,7 @@
 #include "world.hpp"
 
 #include "convert.hpp"
+#include "solver/step_limit.hpp"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -17,10 +18,12 @@ namespace {
 
 // Lengths in units of the scaled world: the median part's diagonal is 1.
 constexpr double contact_distance = 0.005;
-constexpr double step_length = 0.02;  ///< way of the fastest part in one cut of a step
-constexpr int most_cuts = 16;
+constexpr double step_length = 0.02;  ///< way of the fastest part in one cut of a step that has contacts
+constexpr int fine_cuts = 16;         ///< no more for the sake of exactness alone
+constexpr int most_cuts = 512;        ///< no more for the sake of a part that would pass through another
 constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
-constexpr double endless = 1e4;       ///< half the edge of an endless floor
+// Half the edge of an endless floor. At 3e5 the rounding of its contacts lets a box creep on a slope it should rest on.
+constexpr double endless = 1e4;
 constexpr double sleep_speed = 1e-3;  ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;   ///< rad/s, likewise of Pour::rest_turn
 constexpr double sleep_time = 0.5;    ///< s an island must stay below both
@@ -39,6 +42,12 @@ void set_globals() {
   gDeactivationTime = sleep_time;
   gCalculateCombinedFrictionCallback = geometric_mean;
   gCalculateCombinedRestitutionCallback = larger;
+}
+
+double smallest_diagonal(const WorldDef& def) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const BodyDef& body : def.bodies) smallest = std::min(smallest, def.parts[body.part]->diagonal());
+  return smallest;
 }
 
 double median_diagonal(const WorldDef& def) {
@@ -66,6 +75,8 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
     : def_(def),
       settings_(settings),
       scale_(1.0 / median_diagonal(def)),
+      shortening_(step_cuts(settings.time_step, def.gravity.norm(), smallest_diagonal(def))),
+      time_step_(settings.time_step / shortening_),
       dispatcher_(&configuration_),
       world_(&dispatcher_, &broadphase_, &contact_solver_, &configuration_) {
   set_globals();
@@ -79,7 +90,7 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
 
   btContactSolverInfo& info = world_.getSolverInfo();
   ContactSolver::configure(info);
-  info.m_restitutionVelocityThreshold = 2.0 * def.gravity.norm() * scale_ * settings.time_step;
+  info.m_restitutionVelocityThreshold = 2.0 * def.gravity.norm() * scale_ * time_step_;
 
   Vec3 unset = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (const BodyDef& body_def : def_.bodies) {
@@ -189,21 +200,30 @@ void World::remove(std::size_t index) {
 }
 
 int World::cuts() const {
-  double way = 0.0;
+  const double dt = time_step_, fall = def_.gravity.norm() * scale_ * dt * dt;
+  double way = 0.0;  // of the fastest part, without what gravity adds
+  bool moves = false;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_)
+    if (body->rigid) thinnest = std::min(thinnest, body->shape->thickness);
   for (const auto& body : bodies_) {
     if (!body->rigid || body->rigid->isStaticObject() || !body->rigid->isActive()) continue;
     const double speed =
         body->rigid->getLinearVelocity().length() + body->rigid->getAngularVelocity().length() * body->shape->radius;
-    if (std::isfinite(speed)) way = std::max(way, speed * settings_.time_step);
+    if (std::isfinite(speed)) way = std::max(way, speed * dt);
+    moves = true;
   }
-  return std::clamp(static_cast<int>(std::ceil(way / step_length)), 1, most_cuts);
+  if (!moves) return 1;
+  const auto whole = [](double ratio, int most) { return static_cast<int>(std::ceil(std::min<double>(ratio, most))); };
+  const int exact = world_.getDispatcher()->getNumManifolds() > 0 ? whole(way / step_length, fine_cuts) : 1;
+  return std::max({1, exact, whole((way + fall) / (0.5 * thinnest), most_cuts)});
 }
 
 void World::advance(int steps) {
   set_globals();
-  for (int s = 0; s < steps; ++s) {
-    const int n = world_.getDispatcher()->getNumManifolds() > 0 ? cuts() : 1;
-    const double dt = settings_.time_step / n;
+  for (int s = 0; s < steps * shortening_; ++s) {
+    const int n = cuts();
+    const double dt = time_step_ / n;
     // A sub-step takes two sweeps; cutting a step does not make sub-steps any shorter than they are.
     world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
     for (int k = 0; k < n; ++k) world_.stepSimulation(dt, 0);
@@ -238,6 +258,9 @@ std::vector<bool> World::asleep() const {
 
 std::vector<Flag> World::flags() const {
   std::vector<Flag> result;
+  if (shortening_ > 1)
+    result.push_back(
+        step_cut_flag("solver.bullet.time_step", settings_.time_step, shortening_, smallest_diagonal(def_)));
   for (std::size_t p = 0; p < def_.parts.size(); ++p) {
     const auto user = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b->def->part == p; });
     if (user == bodies_.end() || (*user)->shape->hulls_met) continue;

@@ -50,6 +50,8 @@ class World {
   WorldDef def_;
   BulletSettings settings_;
   double scale_ = 1.0;  ///< units per metre
+  int shortening_ = 1;  ///< steps of time_step_ for one of the settings: small parts need short ones
+  double time_step_;    ///< s
   btDefaultCollisionConfiguration configuration_;
   HullContact::Factory hull_contact_;
   btCollisionDispatcher dispatcher_;

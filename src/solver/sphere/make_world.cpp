@@ -1,5 +1,7 @@
 #include "solver/sphere/make_world.hpp"
 
+#include "solver/step_limit.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -14,7 +16,8 @@ Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
   body.restitution = static_cast<float>(def.restitution);
   body.inverse_mass = def.fixed ? 0.0f : static_cast<float>(1.0 / def.mass);
   body.inertia = shape.unit_inertia * static_cast<float>(def.mass);
-  body.inverse_inertia = def.fixed ? Mat3f(Mat3f::Zero()) : Mat3f(body.inertia.inverse());
+  // In double precision: the determinant of a half-millimetre part's inertia is below what single can tell from 0.
+  if (!def.fixed) body.inverse_inertia = body.inertia.cast<double>().inverse().cast<float>();
   return body;
 }
 
@@ -35,7 +38,6 @@ std::vector<Plane> planes_of(const Bin& bin) {
 World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of) {
   World w;
-  w.settings.time_step = static_cast<float>(settings.time_step);
   w.settings.sub_steps = settings.sub_steps;
   w.gravity = def.gravity.cast<float>();
   w.wall_top = static_cast<float>(def.wall_height);
@@ -55,9 +57,17 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
     w.bodies.push_back(make_body(*w.shapes[index], index, bin));
     place(w, w.bodies.size() - 1, {def.bin.pose, {}});
   }
-  w.smallest_diagonal = std::numeric_limits<float>::max();
+  w.smallest_diagonal = w.thinnest = std::numeric_limits<float>::max();
+  for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->diagonal);
+  w.cuts = step_cuts(settings.time_step, def.gravity.norm(), w.smallest_diagonal);
+  w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   return w;
+}
+
+std::vector<Flag> flags_of(const World& world) {
+  if (world.cuts == 1) return {};
+  return {step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_diagonal)};
 }
 
 void place(World& world, std::size_t body, const BodyState& state) {

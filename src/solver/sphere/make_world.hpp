@@ -14,6 +14,9 @@ namespace bin_scenes::sphere {
 World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of);
 
+/// What the user should know of a world's settings: a time step that is too long for its parts is cut.
+std::vector<Flag> flags_of(const World& world);
+
 /// Puts a body where the state says, awake.
 void place(World& world, std::size_t body, const BodyState& state);
 

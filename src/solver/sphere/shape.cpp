@@ -289,6 +289,8 @@ Samples make_samples(const PartModel& part, int count, double sharp_angle) {
   return made;
 }
 
+constexpr double cells_through = 1.5;  ///< of the field, through the thinnest part: two nodes see its inside
+
 }  // namespace
 
 Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell) {
@@ -297,6 +299,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   shape.center = mass.center.cast<float>();
   shape.diagonal = static_cast<float>(part.diagonal());
   shape.radius = static_cast<float>(part.radius());
+  shape.thickness = static_cast<float>(2.0 * mass.volume / mass.area);
   shape.volume = static_cast<float>(mass.volume);
   shape.unit_inertia = (mass.inertia / mass.volume).cast<float>();
   const Aabb box = part.mesh().bounds();
@@ -308,6 +311,8 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
     shape.coarse = shape.fine = ball_samples(shape.field.ball);
     return shape;
   }
+  // A sheet thinner than a cell has no inside: others would pass through it.
+  if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
   const DistanceField& field = part.field({field_cell});
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);

@@ -56,6 +56,7 @@ struct Shape {
   Vec3f box_half = Vec3f::Zero();
   float radius = 0;  ///< largest node distance from the centre of mass
   float diagonal = 0;
+  float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
   float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
 };

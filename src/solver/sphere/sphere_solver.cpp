@@ -4,6 +4,7 @@
 #include "solver/sphere/make_world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <thread>
 
@@ -20,6 +21,31 @@ struct Slot {
   bool used = false;
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
 };
+
+// Of the fastest part in one step: parts would fly through each other, and contacts would pull at levers that have long
+// turned away.
+constexpr float longest_way = 1.0f;    ///< thicknesses of the thinnest part
+constexpr float longest_turn = 0.4f;   ///< rad; beyond, also
+constexpr float turn_of_a_cut = 0.1f;  ///< rad: keeps a tumbling part's energy and angular momentum
+constexpr float most_cuts = 64.0f;
+
+int cuts_of_fast(const World& world) {
+  float way = 0.0f, turn = 0.0f;
+  for (const Body& b : world.bodies) {
+    if (!b.moves()) continue;
+    way = std::max(way, (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius) * world.whole_step);
+    turn = std::max(turn, b.w.norm() * world.whole_step);
+  }
+  float cuts = std::max(1.0f, way / (longest_way * world.thinnest));
+  if (turn > longest_turn) cuts = std::max(cuts, turn / turn_of_a_cut);
+  return static_cast<int>(std::ceil(std::min(cuts, most_cuts)));
+}
+
+void step_in_cuts(World& world) {
+  const int cuts = cuts_of_fast(world);
+  world.settings.time_step = world.whole_step / static_cast<float>(cuts);
+  for (int k = 0; k < cuts; ++k) step(world);
+}
 
 class SphereSolver final : public Solver {
  public:
@@ -70,7 +96,7 @@ class SphereSolver final : public Solver {
     const std::size_t threads = std::min<std::size_t>(worlds.size(), std::max(1u, std::thread::hardware_concurrency()));
     const auto run = [&](std::size_t first) {
       for (std::size_t i = first; i < worlds.size(); i += threads)
-        for (int k = 0; k < steps; ++k) step(slots_[worlds[i]]->world);
+        for (int k = 0; k < steps * slots_[worlds[i]]->world.cuts; ++k) step_in_cuts(slots_[worlds[i]]->world);
     };
     std::vector<std::thread> pool;
     for (std::size_t t = 1; t < threads; ++t) pool.emplace_back(run, t);
@@ -96,7 +122,7 @@ class SphereSolver final : public Solver {
   std::size_t worlds_at_once() const override { return std::max(1u, std::thread::hardware_concurrency()); }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return slots_[id]->world.counters.steps; }
-  std::vector<Flag> flags(WorldId) const override { return {}; }
+  std::vector<Flag> flags(WorldId id) const override { return flags_of(slots_[id]->world); }
   std::string name() const override { return "sphere"; }
   std::string device() const override { return "cpu"; }
 

@@ -102,7 +102,9 @@ struct World {
   float ground_friction = 0.5f, ground_restitution = 0;
   Vec3f gravity = Vec3f(0, 0, -9.81f);
   bool fine = false;
-  float smallest_diagonal = 0;
+  float smallest_diagonal = 0, thinnest = 0;  ///< m, of the parts
+  float whole_step = 0;                       ///< s: Settings::time_step while nothing is fast
+  int cuts = 1;                               ///< whole steps for one of the request: small parts need short ones
 
   std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
   std::vector<std::uint32_t> order;           ///< manifolds by color

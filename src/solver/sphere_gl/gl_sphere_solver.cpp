@@ -84,18 +84,21 @@ class GlSphereSolver final : public Solver {
   double advance(const std::vector<WorldId>& ids, double seconds) override {
     gl::Device::current().make_current();
     const auto steps = static_cast<std::uint64_t>(std::max(1L, std::lround(seconds / settings_.time_step)));
+    std::uint64_t most = 0;
     std::vector<Batch::Slot> slots;
     for (const WorldId id : ids) {
       Resident& r = world(id);
       for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
       r.changed.clear();
       r.stale = true;
-      r.steps += steps;
-      r.progress.steps_left = static_cast<gpu::uint>(steps);
+      const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
+      most = std::max(most, own);
+      r.steps += own;
+      r.progress.steps_left = static_cast<gpu::uint>(own);
       batch_.upload_progress(r.slot, r.progress);
       slots.push_back(r.slot);
     }
-    for (std::uint64_t left = steps; left > 0;) {
+    for (std::uint64_t left = most; left > 0;) {
       batch_.run(slots);
       run_ahead(left);
       left = look(ids);
@@ -122,7 +125,7 @@ class GlSphereSolver final : public Solver {
   std::size_t worlds_at_once() const override { return gl::Device::current().software() ? 4 : 256; }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
-  std::vector<Flag> flags(WorldId) const override { return {}; }
+  std::vector<Flag> flags(WorldId id) const override { return sphere::flags_of(world(id).world); }
   std::string name() const override { return "sphere"; }
   std::string device() const override { return gl::Device::current().renderer(); }
 

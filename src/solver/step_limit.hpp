@@ -1,0 +1,39 @@
+/// How long a time step may be for the parts that are simulated with it: what is a short step for a part of 5 cm lets
+/// one of half a millimetre fall by its own height. Shared by the solvers, which lie below this layer's library:
+/// hence inline.
+#pragma once
+
+#include "bin_scenes/scene/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace bin_scenes {
+
+/// Steps into which a time step (s) must be cut for parts whose smallest bounding diagonal is given (m), under gravity
+/// (m/s2), so that what is at rest falls by no more than 0.2 % of that diagonal in one. With longer steps contacts that
+/// a heap hangs on are found too late: parts sink into each other and, at 1/15 s, through the floor.
+inline int step_cuts(double time_step, double gravity, double smallest_diagonal) {
+  constexpr double longest_step = 0.06;  // / sqrt(d / g); its half square is the way fallen from rest / d
+  constexpr double most_cuts = 1000.0;
+  const double longest = longest_step * std::sqrt(smallest_diagonal / std::max(gravity, 1e-9));
+  const double cuts = std::ceil(time_step / longest - 1e-6);
+  return cuts > 1.0 ? static_cast<int>(std::min(cuts, most_cuts)) : 1;
+}
+
+/// What the report says of it. `key`: of the setting, "solver.sphere.time_step".
+inline Flag step_cut_flag(const std::string& key, double time_step, int cuts, double smallest_diagonal) {
+  const auto milli = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g m", 1e3 * value);
+    return std::string(text);
+  };
+  return {"time_step_cut",
+          "each time step of " + milli(time_step) + "s was cut in " + std::to_string(cuts) + ", since parts of " +
+              milli(smallest_diagonal) + "m fall too far in one",
+          "nothing to do, or set " + key + " to " + milli(time_step / cuts) + "s or less"};
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,80 @@
+/// Small, thin and fast parts that a solver must hold whatever its time step is. Include in a test file and instantiate
+/// as closed_forms.hpp; `SolverCase::make` of long steps comes from CoarseSteps below.
+#pragma once
+
+#include "solver/fixture.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::testing {
+
+class Extremes : public SolverTest {};
+
+/// The same under time steps of 1/15 s.
+class CoarseSteps : public SolverTest {};
+
+TEST_P(CoarseSteps, PartOfHalfAMillimetreRestsOnTheFloor) {
+  const double edge = 5e-4;
+  Lab lab = this->lab();
+  lab.place(box(Vec3::Constant(edge)), Vec3(0, 0, edge));
+  lab.simulate(0.4);
+  EXPECT_NEAR(lab.center(0).z(), 0.5 * edge, 0.01 * edge);
+  const std::vector<Flag> flags = lab.solver().flags(lab.world());
+  EXPECT_TRUE(std::any_of(flags.begin(), flags.end(), [](const Flag& flag) { return flag.code == "time_step_cut"; }));
+}
+
+TEST_P(Extremes, OrdinaryPartsAndStepsAreNotCut) {
+  Lab lab = this->lab();
+  lab.place(box(Vec3::Constant(0.05)), Vec3(0, 0, 0.05));
+  lab.simulate(0.05);
+  EXPECT_TRUE(lab.solver().flags(lab.world()).empty());
+  EXPECT_EQ(lab.solver().steps(lab.world()), static_cast<std::uint64_t>(std::lround(0.05 / lab.solver().step_size())));
+}
+
+TEST_P(Extremes, SheetsOfAFifthOfAMillimetreStopEachOther) {
+  const double thickness = 2e-4;
+  Lab lab = this->lab();
+  const PartModelPtr sheet = box(Vec3(0.05, 0.04, thickness));
+  lab.place(sheet, Vec3(0, 0, 0.5 * thickness));
+  lab.place(sheet, Vec3(0, 0, 0.02), Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitZ())));
+  lab.simulate(0.5);
+  EXPECT_NEAR(lab.center(0).z(), 0.5 * thickness, 0.25 * thickness);
+  EXPECT_NEAR(lab.center(1).z(), 1.5 * thickness, 0.25 * thickness);
+}
+
+TEST_P(Extremes, HundredMetresASecondStayInTheBin) {
+  for (const Vec3& velocity : {Vec3(0, 10, -99.5), Vec3(98, 20, 0), Vec3(58, 58, -58)}) {
+    Lab lab = this->lab();
+    lab.def().bin.kind = Bin::Kind::box;
+    lab.def().bin.inner_size = Vec3(0.4, 0.4, 20.0);
+    lab.def().wall_height = 20.0;
+    lab.place(PartModel::from_mesh(merged(box_mesh({0.05, 0.01, 0.03}), box_mesh({0.01, 0.05, 0.03}, {-0.02, 0.03, 0})),
+                                   "angle"),
+              Vec3(0, 0, 0.3));
+    lab.start(0).velocity = {velocity, Vec3(5, 7, 3)};
+    for (int k = 0; k < 60; ++k) {
+      lab.simulate(1.0 / 60.0);
+      const Vec3 center = lab.center(0);
+      ASSERT_TRUE(center.allFinite());
+      ASSERT_LT(center.head<2>().cwiseAbs().maxCoeff(), 0.2) << velocity.transpose();
+      ASSERT_GT(center.z(), 0.0) << velocity.transpose();
+    }
+    EXPECT_LT(lab.kinetic_energy(0), 0.5 * 1e4);
+  }
+}
+
+TEST_P(Extremes, ThousandRadiansASecondKeepTheirEnergy) {
+  Lab lab = this->lab();
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  lab.place(box(Vec3(0.06, 0.04, 0.006)), Vec3::Zero());
+  lab.start(0).velocity.angular = 1000.0 * Vec3(0.01, 1.0, 0.01).normalized();
+  lab.simulate(1.0 / 60.0);
+  const double energy = lab.kinetic_energy(0, lab.start(0));
+  for (int k = 0; k < 30; ++k) {
+    lab.simulate(1.0 / 60.0);
+    EXPECT_NEAR(lab.kinetic_energy(0) / energy, 1.0, 1e-3);
+  }
+}
+
+}  // namespace bin_scenes::testing
