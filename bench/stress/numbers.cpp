@@ -1,0 +1,71 @@
+/// Many of everything: spheres per part, parts per scene, scenes per process.
+#include "stress/stress.hpp"
+
+namespace bin_scenes::stress {
+
+namespace {
+
+Case many_samples(std::size_t samples, std::size_t count) {
+  Case c = a_case(std::to_string(samples) + " samples a part");
+  c.request.bin.inner_size = Vec3(0.12, 0.1, 0.1);
+  pour_in(c, "angle", angle(0.05, 0.01, 0.03), count).density = 2700.0;
+  c.request.solver.sphere.coarse_samples = static_cast<int>(samples);
+  c.request.solver.sphere.fine_samples = static_cast<int>(samples);
+  return c;
+}
+
+/// The thesis stops at 4096 spheres a body. A cube of n voxels an edge has n^3 - (n-2)^3 of them at its surface.
+Case many_voxels(int voxels, std::size_t count) {
+  const int inside = voxels - 2, spheres = voxels * voxels * voxels - inside * inside * inside;
+  Case c = a_case(std::to_string(spheres) + " spheres a part");
+  c.request.bin.inner_size = Vec3(0.12, 0.1, 0.1);
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < count; ++i) places.emplace_back(-0.03 + 0.055 * i, 0, 0.03);
+  put(c, "cube", cube(0.05), places);
+  c.request.solver.thesis.voxels = voxels;
+  c.request.seconds = 0.2;
+  c.expect.rests = false;
+  return c;
+}
+
+/// Cubes that fall side by side onto a floor: each must land, none may be lost.
+Case many_parts(int across, int layers, double seconds) {
+  Case c = on_floor(std::to_string(across * across * layers) + " cubes fall on a floor");
+  std::vector<Vec3> places;
+  for (int i = 0; i < across * across * layers; ++i)
+    places.emplace_back(0.05 * (i % across) - 0.025 * across, 0.05 * (i / across % across) - 0.025 * across,
+                        0.02 + 0.05 * (i / (across * across)));
+  put(c, "cube_30", cube(0.03), places);
+  c.request.seconds = seconds;
+  c.expect.rests = false;
+  return c;
+}
+
+Case many_scenes(std::size_t scenes, bool until_rest) {
+  Case c = a_case(std::to_string(scenes) + " scenes in one process");
+  c.request.bin.inner_size = Vec3(0.12, 0.1, 0.1);
+  pour_in(c, "angle", angle(0.05, 0.01, 0.03), 3).density = 2700.0;
+  c.request.scenes = scenes;
+  if (!until_rest) c.request.seconds = 0.05;
+  c.expect.rests = until_rest;
+  c.expect.flat_memory = true;
+  c.expect.traced = false;
+  c.expect.all_in = until_rest;
+  return c;
+}
+
+}  // namespace
+
+std::vector<Row> numbers(bool soak) {
+  std::vector<Row> rows;
+  rows.push_back({"number", "10,000 samples a part", {"sphere"}, {many_samples(10000, soak ? 10 : 3)}, {}});
+  rows.push_back({"number", "10,000 spheres a part", {"thesis"}, {many_voxels(42, 2)}, {}});
+  Row parts{"number", "parts in one scene", both, {}, {}};
+  parts.cases.push_back(soak ? many_parts(50, 8, 0.5) : many_parts(20, 5, 0.1));
+  rows.push_back(parts);
+  rows.push_back({"number", "scenes in one process", both, {many_scenes(1000, soak)}, {}});
+  rows.push_back({"number", "scenes in one process, thesis", {"thesis"}, {many_scenes(soak ? 1000 : 50, false)}, {}});
+  return rows;
+}
+
+}  // namespace bin_scenes::stress

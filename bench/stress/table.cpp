@@ -1,0 +1,114 @@
+#include "stress/table.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "framework/host.hpp"
+#include "framework/table.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace bin_scenes::stress {
+
+namespace {
+
+const std::string begin_mark = "<!-- stress table: begin -->", end_mark = "<!-- stress table: end -->";
+
+std::string figure(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& texts, const std::string& between) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+  return all;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw environment_error("cannot be written", path, "choose another path");
+}
+
+std::string table_of(const std::vector<Tally>& rows, const std::string& command) {
+  std::vector<std::string> devices;
+  for (const Tally& row : rows)
+    if (!row.device.empty() && std::find(devices.begin(), devices.end(), row.device) == devices.end())
+      devices.push_back(row.device);
+  std::size_t tried = 0, survived = 0;
+  std::ostringstream out;
+  out << "| theme | row | solver | survived | overlap max, % | drift max, % | energy gained, % | CPU s |\n"
+      << "|---|---|---|---|---|---|---|---|\n";
+  for (const Tally& row : rows) {
+    tried += row.tried;
+    survived += row.survived;
+    out << "| " << row.theme << " | " << row.row << " | " << row.solver << " | "
+        << (row.survived < row.tried ? "**" : "") << row.survived << " / " << row.tried
+        << (row.survived < row.tried ? "**" : "") << " | " << figure("%.2f", 100.0 * row.penetration) << " | "
+        << figure("%.2f", 100.0 * row.drift) << " | " << figure("%.2f", 100.0 * row.energy) << " | "
+        << figure("%.1f", row.cpu_s) << " |\n";
+  }
+  std::ostringstream head;
+  for (const auto& [key, value] : bench::host())
+    if (key != "date" && key != "gl") head << key << ": " << value << "; ";
+  head << "solvers on: " << joined(devices, ", ") << "; command: `" << command << "`\n\n"
+       << "**" << survived << " / " << tried << "** survived.\n\n";
+  std::ostringstream failures;
+  for (const Tally& row : rows)
+    for (const std::string& failure : row.failures)
+      failures << "- " << row.theme << ", " << row.row << ", " << row.solver << ": " << failure << "\n";
+  return head.str() + out.str() + (failures.str().empty() ? "" : "\nDid not survive:\n\n" + failures.str());
+}
+
+}  // namespace
+
+void Tally::add(const std::string& case_name, const Outcome& o, const std::string& why_known) {
+  ++tried;
+  survived += o.survived();
+  if (!o.device.empty()) device = o.device;
+  penetration = std::max(penetration, o.penetration);
+  drift = std::max(drift, o.drift);
+  energy = std::max(energy, o.energy);
+  cpu_s += o.cpu_s;
+  simulated_s += o.simulated_s;
+  peak_mb = std::max(peak_mb, o.peak_mb);
+  if (!o.survived())
+    failures.push_back(case_name + ": " + joined(o.failures, "; ") +
+                       (why_known.empty() ? "" : " (known: " + why_known + ")"));
+}
+
+void write_csv(const std::string& path, const std::vector<Tally>& rows, const std::string& command) {
+  bench::Table table;
+  table.header = {{"benchmark", "stress"}, {"command", command}};
+  for (const auto& line : bench::host()) table.header.push_back(line);
+  for (const Tally& t : rows)
+    table.add(bench::Row()
+                  .key("theme", t.theme)
+                  .key("row", t.row)
+                  .key("solver", t.solver)
+                  .info("device", t.device)
+                  .exact("tried", t.tried)
+                  .exact("survived", t.survived)
+                  .info("penetration_max_rel", t.penetration)
+                  .info("drift_max_rel", t.drift)
+                  .info("energy_gain_rel", t.energy)
+                  .info("simulated_s", t.simulated_s)
+                  .info("cpu_s", t.cpu_s)
+                  .info("peak_mb", t.peak_mb)
+                  .info("failures", joined(t.failures, " | ")));
+  write_file(path, bench::to_csv(table));
+}
+
+void write_table(const std::string& path, const std::vector<Tally>& rows, const std::string& command) {
+  std::stringstream old;
+  old << std::ifstream(path).rdbuf();
+  const std::string text = old.str();
+  const auto begin = text.find(begin_mark), end = text.find(end_mark);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw input_error("has no place for the table", path, "put the lines " + begin_mark + " and " + end_mark);
+  write_file(path, text.substr(0, begin + begin_mark.size()) + "\n" + table_of(rows, command) + text.substr(end));
+}
+
+}  // namespace bin_scenes::stress

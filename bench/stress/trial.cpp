@@ -1,0 +1,136 @@
+#include "stress/trial.hpp"
+
+#include "stress/watch.hpp"
+
+#include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/generate/generator.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+namespace bin_scenes::stress {
+
+namespace {
+
+constexpr double trace_rate = 120.0;     ///< Hz
+constexpr double growth_allowed = 64e3;  ///< bytes: a few log lines, not a scene
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+  return text;
+}
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// What the scene's own report says, held against what must be.
+void judge_scene(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                 const Expect& expect, Outcome& outcome) {
+  const auto fails = [&](const std::string& what) {
+    if (std::find(outcome.failures.begin(), outcome.failures.end(), what) == outcome.failures.end())
+      outcome.failures.push_back(what);
+  };
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (const PartModelPtr& part : parts) {
+    smallest = std::min(smallest, part->diagonal());
+    largest = std::max(largest, part->diagonal());
+  }
+  const Report& report = scene.report;
+  outcome.simulated_s += report.simulated_s;
+  outcome.device = report.device;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const ScenePart& part : scene.parts) {
+    if (part.state == PartState::fixed) continue;
+    ++outcome.parts;
+    outcome.resting += part.state == PartState::resting;
+    if (!part.pose.finite()) fails("not finite");
+    highest = std::max(highest, (part.pose * parts[part.line]->mass().center).z());
+  }
+  const double depth =
+      std::max(report.penetration.max_relative, report.penetration.bin_max / std::max(smallest, 1e-300));
+  outcome.penetration = std::max(outcome.penetration, depth);
+  if (depth > expect.penetration) fails("overlap " + percent(depth));
+  if (report.escaped.size() != expect.escapes)
+    fails("escaped " + std::to_string(report.escaped.size()) + " of " + std::to_string(scene.parts.size()) +
+          (expect.escapes ? ", expected " + std::to_string(expect.escapes) : ""));
+  if (expect.all_in && !report.not_poured.empty())
+    fails("not poured " + std::to_string(report.not_poured.size()) + " of " + std::to_string(scene.parts.size()));
+  if (expect.rests && !report.at_rest) fails("did not come to rest");
+  if (report.drift.measured && report.at_rest) {
+    outcome.drift = std::max(outcome.drift, report.drift.max / largest);
+    if (report.drift.max > stays * largest) fails("called resting, moved on by " + percent(report.drift.max / largest));
+  }
+  if (!(highest >= expect.height)) fails("fell down");
+  if (request.seconds && std::abs(report.simulated_s - *request.seconds) > 0.1) fails("did not keep the set time");
+}
+
+}  // namespace
+
+std::string request_text(const Case& c, const std::string& solver) {
+  Request request = c.request;
+  request.solver.type = solver == "bullet" ? SolverType::bullet : SolverType::sphere;
+  if (solver == "thesis") request.solver.preset = SolverSettings::Preset::thesis;
+  // A scene that says it rests is taken at its word, and re-run from its poses.
+  request.drift_check = !request.seconds && !c.expect.refused && request.scenes == 1;
+  for (PartLine& line : request.parts) line.model = "models/" + line.model + ".obj";
+  if (request.bin.kind == Bin::Kind::mesh) request.bin.mesh = "models/" + request.bin.mesh + ".obj";
+  return write_request(request);
+}
+
+Outcome run_here(const std::string& yaml, const std::string& directory, const Expect& expect) {
+  Outcome outcome;
+  try {
+    const Request request = read_request_text(yaml, directory);
+    Generator generator;
+    std::unique_ptr<Watch> watch;
+    Generator::Options options;
+    options.render = false;
+    if (expect.traced) {
+      options.hooks.trace_rate = trace_rate;
+      options.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+        if (time == 0.0) watch = std::make_unique<Watch>(request, generator.parts());
+        watch->look(states);
+      };
+    }
+    const std::size_t warm = std::max<std::size_t>(1, request.scenes / 10);
+    std::vector<double> cpu = {cpu_seconds()};
+    double in_use = 0.0;
+    generator.generate(request, options, [&](Generator::Result&& result) {
+      judge_scene(result.scene, request, generator.parts(), expect, outcome);
+      if (watch) {
+        outcome.energy = std::max(outcome.energy, watch->energy_gain());
+        if (!watch->finite()) outcome.failures.push_back("velocity not finite");
+        if (watch->energy_gain() > expect.energy)
+          outcome.failures.push_back("energy +" + percent(watch->energy_gain()));
+        if (watch->momentum_change() > expect.momentum)
+          outcome.failures.push_back("momentum changed by " + percent(watch->momentum_change()));
+        if (watch->top_speed() > expect.speed)
+          outcome.failures.push_back("as fast as " + with("", watch->top_speed()) + " m/s");
+      }
+      cpu.push_back(cpu_seconds());
+      if (cpu.size() - 1 == warm) in_use = static_cast<double>(mallinfo2().uordblks);
+    });
+    if (expect.refused) outcome.failures.push_back("was not refused");
+    if (expect.flat_memory) {
+      outcome.growth_bytes = static_cast<double>(mallinfo2().uordblks) - in_use;
+      if (outcome.growth_bytes > growth_allowed)
+        outcome.failures.push_back("memory in use grew by " + with("", outcome.growth_bytes) + " bytes");
+      const std::size_t n = cpu.size() - 1;
+      if (n >= 3 * warm) outcome.pace = (cpu[n] - cpu[n - warm]) / std::max(1e-9, cpu[2 * warm] - cpu[warm]);
+    }
+  } catch (const Error& error) {
+    if (!expect.refused || error.kind() != ErrorKind::input || error.remedy().empty())
+      outcome.failures.push_back(std::string("error: ") + error.what());
+  } catch (const std::exception& error) {
+    outcome.failures.push_back(std::string("exception: ") + error.what());
+  }
+  return outcome;
+}
+
+}  // namespace bin_scenes::stress

@@ -1,0 +1,38 @@
+/// One case under one solver: run it, and say what did not hold.
+#pragma once
+
+#include "stress/stress.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes::stress {
+
+struct Outcome {
+  std::vector<std::string> failures;  ///< empty = survived
+  double penetration = 0.0;           ///< largest / smaller diagonal, bin included
+  double drift = 0.0;                 ///< largest / diagonal, of scenes called resting
+  double energy = 0.0;                ///< largest gain
+  double simulated_s = 0.0;           ///< all scenes
+  double cpu_s = 0.0, peak_mb = 0.0;  ///< of the process
+  double growth_bytes = 0.0;          ///< flat_memory: in use at the end over a tenth of the way
+  double pace = 1.0;                  ///< flat_memory: CPU time of the last tenth of the scenes / of the second tenth
+  std::size_t parts = 0, resting = 0;
+  std::string device;
+  bool survived() const { return failures.empty(); }
+};
+
+/// The request of a case as YAML: what the solver is asked for, with model files relative to where it will lie.
+std::string request_text(const Case& c, const std::string& solver);
+
+/// Reads the YAML as the command line would (`directory`: where it lies) and runs it in this process.
+Outcome run_here(const std::string& yaml, const std::string& directory, const Expect& expect);
+
+struct Limits {
+  double cpu_s = 300.0;  ///< a case that takes longer hangs; no measure of speed
+};
+
+/// The same in a process of its own: a crash, a hang or a growing heap touches no other case.
+Outcome run_apart(const std::string& yaml, const std::string& directory, const Expect& expect, const Limits& limits);
+
+}  // namespace bin_scenes::stress
