@@ -1,6 +1,9 @@
 #include "bin_scenes/part/cache.hpp"
 
+#include <fcntl.h>
 #include <pwd.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -23,11 +27,8 @@ struct Header {
   char digest[64] = {};  // SHA-256 in hex
 };
 
-std::string digest_of(const std::string& name, const Bytes& bytes) {
-  Bytes all(name.begin(), name.end());
-  all.push_back(0);
-  all.insert(all.end(), bytes.begin(), bytes.end());
-  return sha256_hex(all.data(), all.size());
+std::string digest_of(const std::string& name, const void* data, std::size_t size) {
+  return Sha256().add(name.c_str(), name.size() + 1).add(data, size).hex();
 }
 
 std::string file_name(const std::string& kind, const std::string& key) {
@@ -56,24 +57,44 @@ std::string Cache::directory() const {
   return (fs::path(home) / ".cache" / "bin_scenes").string();
 }
 
-std::optional<Bytes> Cache::read(const std::string& kind, const std::string& key) const {
+CachedBytes::CachedBytes(void* mapping, std::size_t length, std::size_t before)
+    : mapping_(mapping),
+      length_(length),
+      data_(static_cast<const std::uint8_t*>(mapping) + before),
+      size_(length - before) {}
+
+CachedBytes::CachedBytes(CachedBytes&& other) noexcept
+    : mapping_(std::exchange(other.mapping_, nullptr)),
+      length_(other.length_),
+      data_(other.data_),
+      size_(other.size_) {}
+
+CachedBytes::~CachedBytes() {
+  if (mapping_) munmap(mapping_, length_);
+}
+
+std::optional<CachedBytes> Cache::read(const std::string& kind, const std::string& key) const {
   const std::string folder = directory();
   if (folder.empty()) return std::nullopt;
   const std::string name = file_name(kind, key);
-  std::ifstream file(fs::path(folder) / name, std::ios::binary | std::ios::ate);
-  if (!file) return std::nullopt;
-  const std::streamoff length = file.tellg();
+  const int descriptor = open((fs::path(folder) / name).c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return std::nullopt;
+  struct stat status;
+  const bool whole = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+                     static_cast<std::size_t>(status.st_size) >= sizeof(Header);
+  const std::size_t length = whole ? static_cast<std::size_t>(status.st_size) : 0;
+  // Safe from writers: they put a new file in place, and never change one.
+  void* mapping = whole ? mmap(nullptr, length, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0) : MAP_FAILED;
+  close(descriptor);
+  if (mapping == MAP_FAILED) return std::nullopt;
+  CachedBytes bytes(mapping, length, sizeof(Header));
   Header header;
   const Header expected;
-  file.seekg(0);
-  if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return std::nullopt;
-  if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) return std::nullopt;
-  if (length < 0 || header.size != static_cast<std::uint64_t>(length) - sizeof header) return std::nullopt;
-  Bytes bytes(header.size);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
+  std::memcpy(&header, mapping, sizeof header);
+  if (std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0 || header.size != bytes.size() ||
+      digest_of(name, bytes.data(), bytes.size()) != std::string(header.digest, sizeof header.digest)) {
     return std::nullopt;
   }
-  if (digest_of(name, bytes) != std::string(header.digest, sizeof header.digest)) return std::nullopt;
   return bytes;
 }
 
@@ -94,7 +115,7 @@ void Cache::write(const std::string& kind, const std::string& key, const Bytes& 
 
   Header header;
   header.size = bytes.size();
-  digest_of(name, bytes).copy(header.digest, sizeof header.digest);
+  digest_of(name, bytes.data(), bytes.size()).copy(header.digest, sizeof header.digest);
   std::ofstream file(temporary, std::ios::binary);
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -45,7 +45,7 @@ class ByteWriter {
 /// After running over the end every read gives zeros, and ok() is false.
 class ByteReader {
  public:
-  explicit ByteReader(const Bytes& bytes) : bytes_(bytes) {}
+  explicit ByteReader(const CachedBytes& bytes) : bytes_(bytes) {}
 
   template <class T>
   void get(T& value) {
@@ -78,7 +78,7 @@ class ByteReader {
   bool complete() const { return ok_ && at_ == bytes_.size(); }
 
  private:
-  const Bytes& bytes_;
+  const CachedBytes& bytes_;
   std::size_t at_ = 0;
   bool ok_ = true;
 };

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <vector>
 
 namespace bin_scenes {
 namespace {
@@ -24,13 +27,26 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+/// Of a file's contents; nothing if it is none that load_mesh would read.
+std::optional<std::string> digest_of(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return std::nullopt;
+  if (std::filesystem::file_size(path, failed) > kMaxModelFileSize || failed) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> piece(std::size_t{1} << 18);
+  Sha256 digest;
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
+    digest.add(piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof()) return std::nullopt;
+  return digest.hex();
+}
+
 /// Everything the loaded mesh depends on; empty if the file cannot be read (load_mesh then says why).
 std::string load_key(const std::string& path, const std::string& extension, const LoadOptions& o) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) return {};
-  return sha256_hex(bytes) + " " + extension + " " + (o.unit ? name_of(*o.unit) : "own") + " " + key_text(o.scale) +
+  const std::optional<std::string> digest = digest_of(path);
+  if (!digest) return {};
+  return *digest + " " + extension + " " + (o.unit ? name_of(*o.unit) : "own") + " " + key_text(o.scale) +
          key_text(o.weld) + key_text(o.max_hole) + (o.thickness ? key_text(*o.thickness) : "solid ") +
          (o.require_closed ? "closed" : "open");
 }

@@ -39,10 +39,13 @@ const T& proxy(PartModel::State& state, PartModel::State::Made<T>& made, const c
 }
 
 std::string key_of(const Mesh& mesh) {
-  ByteWriter out;
-  put(out, mesh);
-  const Bytes bytes = out.take();
-  return sha256_hex(bytes.data(), bytes.size());
+  const std::uint64_t vertices = mesh.vertices.size(), triangles = mesh.triangles.size();
+  return Sha256()
+      .add(&vertices, sizeof vertices)
+      .add(mesh.vertices.data(), vertices * sizeof(Vec3))
+      .add(&triangles, sizeof triangles)
+      .add(mesh.triangles.data(), triangles * sizeof(Triangle))
+      .hex();
 }
 
 }  // namespace

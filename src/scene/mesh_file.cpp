@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/scene/mesh_loader.hpp"
 #include "collada.hpp"
 #include "contained.hpp"
 
@@ -27,7 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t max_file_size = std::uintmax_t{1} << 30;
 constexpr std::size_t max_triangles = 20'000'000;  // 2 GB in memory
 const char* const formats = "give an STL, OBJ, PLY, DAE or OFF file";
 
@@ -42,9 +42,9 @@ std::string read_bytes(const std::string& path) {
   if (status.type() != fs::file_type::regular) throw input_error("is not a regular file", path, formats);
   const std::uintmax_t size = fs::file_size(path, failed);
   if (!failed && size == 0) throw input_error("the file is empty", path, "export the model again");
-  if (!failed && size > max_file_size) {
+  if (!failed && size > kMaxModelFileSize) {
     throw input_error("the file has " + std::to_string(size >> 20) + " MiB, more than the " +
-                          std::to_string(max_file_size >> 20) + " MiB that are read",
+                          std::to_string(kMaxModelFileSize >> 20) + " MiB that are read",
                       path, "reduce the mesh; a part of a pile needs at most some 100,000 triangles");
   }
   std::ifstream file(path, std::ios::binary);

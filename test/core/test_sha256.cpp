@@ -14,6 +14,7 @@ TEST(Sha256, KnownDigests) {
 
 TEST(Sha256, BytesAreBytes) {
   const char zeros[] = {'a', '\0', 'b'};
+  EXPECT_EQ(Sha256().add("a", 1).add(nullptr, 0).add("bc", 2).hex(), sha256_hex("abc"));
   EXPECT_EQ(sha256_hex(zeros, 3), sha256_hex(std::string("a\0b", 3)));
   EXPECT_NE(sha256_hex(zeros, 3), sha256_hex("a"));
 }

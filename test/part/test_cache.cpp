@@ -124,7 +124,7 @@ TEST_F(CacheTest, TwoProcessesWritingAtOnceDoNoHarm) {
   for (int round = 0; round < rounds; ++round) {
     cache_.write("field", "key", contents(round));
     const auto bytes = cache_.read("field", "key");
-    whole = whole && bytes && !bytes->empty() && *bytes == contents(bytes->front());
+    whole = whole && bytes && bytes->size() > 0 && *bytes == contents(bytes->data()[0]);
   }
   if (child == 0) _exit(whole ? 0 : 1);
   int status = 0;

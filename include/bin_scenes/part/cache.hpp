@@ -5,6 +5,7 @@
 
 #include "bin_scenes/core/sha256.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,13 +15,35 @@ namespace bin_scenes {
 
 using Bytes = std::vector<std::uint8_t>;
 
+/// What a cache file holds, mapped into memory: nothing is copied that is not read.
+class CachedBytes {
+ public:
+  CachedBytes(const CachedBytes&) = delete;
+  CachedBytes(CachedBytes&& other) noexcept;
+  ~CachedBytes();
+
+  const std::uint8_t* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  friend bool operator==(const CachedBytes& a, const Bytes& b) {
+    return std::equal(a.data_, a.data_ + a.size_, b.begin(), b.end());
+  }
+
+ private:
+  friend class Cache;
+  CachedBytes(void* mapping, std::size_t length, std::size_t before);
+  void* mapping_;
+  std::size_t length_;
+  const std::uint8_t* data_;
+  std::size_t size_;
+};
+
 class Cache {
  public:
   static Cache& global();  ///< BIN_SCENES_CACHE=off switches it off
 
   std::string directory() const;
   /// Contents stored under `key` if whole and undamaged.
-  std::optional<Bytes> read(const std::string& kind, const std::string& key) const;
+  std::optional<CachedBytes> read(const std::string& kind, const std::string& key) const;
   void write(const std::string& kind, const std::string& key, const Bytes& bytes) const;
 };
 

@@ -7,11 +7,15 @@
 #include "bin_scenes/scene/report.hpp"
 #include "bin_scenes/scene/request.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace bin_scenes {
+
+/// Bytes of a model file; larger ones are refused.
+constexpr std::uintmax_t kMaxModelFileSize = std::uintmax_t{1} << 30;
 
 struct LoadOptions {
   std::optional<Unit> unit;          ///< none: metres (or the file's own unit where the format states one, as DAE does)

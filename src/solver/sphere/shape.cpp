@@ -1,13 +1,75 @@
 #include "solver/sphere/shape.hpp"
 
+#include "solver/sphere/point_grid.hpp"
+
 #include <algorithm>
-#include <map>
+#include <array>
+#include <future>
 #include <numeric>
-#include <set>
 
 namespace bin_scenes::sphere {
 
 namespace {
+
+/// An edge of the mesh and how its faces meet there.
+struct Fold {
+  std::uint32_t a, b;                ///< a < b
+  std::array<std::size_t, 2> faces;  ///< where there are two of them, as in a closed mesh
+  bool closed;
+  double cosine;  ///< of the angle between the normals; -1 where there are not two
+  bool convex;
+};
+
+/// All edges over which the surface bends by more than `angle`, in order of (a, b).
+std::vector<Fold> folds_of(const Mesh& mesh, double angle) {
+  struct Side {
+    std::uint32_t b;
+    std::size_t face;
+  };
+  const auto each_side = [&](auto&& visit) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int e = 0; e < 3; ++e) {
+        const auto [a, b] = std::minmax(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]);
+        visit(a, Side{b, t});
+      }
+  };
+  // Sides by their lower vertex, one vertex after the other: sorting them all takes several times as long.
+  std::vector<std::size_t> last(mesh.vertices.size() + 1, 0);
+  each_side([&](std::uint32_t a, const Side&) { ++last[a + 1]; });
+  std::partial_sum(last.begin(), last.end(), last.begin());
+  std::vector<Side> sides(last.back());
+  each_side([&](std::uint32_t a, const Side& side) { sides[last[a]++] = side; });
+  std::vector<Vec3> normals(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = mesh.area_vector(t).normalized();
+
+  std::vector<Fold> folds;
+  const double flat = std::cos(angle);
+  std::size_t first = 0;
+  for (std::uint32_t a = 0; a < mesh.vertices.size(); ++a) {
+    std::stable_sort(sides.begin() + first, sides.begin() + last[a],
+                     [](const Side& x, const Side& y) { return x.b < y.b; });
+    for (std::size_t next; first < last[a]; first = next) {
+      next = first + 1;
+      while (next < last[a] && sides[next].b == sides[first].b) ++next;
+      const std::uint32_t b = sides[first].b;
+      Fold fold{a, b, {}, false, -1.0, true};
+      if (next - first == 2) {
+        const std::size_t f0 = sides[first].face, f1 = sides[first + 1].face;
+        fold.closed = true;
+        fold.faces = {f0, f1};
+        fold.cosine = normals[f0].dot(normals[f1]);
+        if (fold.cosine > flat) continue;
+        // Convex: the far corner of one face lies behind the other face.
+        std::uint32_t far = mesh.triangles[f1][0];
+        for (const std::uint32_t v : mesh.triangles[f1])
+          if (v != a && v != b) far = v;
+        fold.convex = normals[f0].dot(mesh.vertices[far] - mesh.vertices[a]) < 0;
+      }
+      folds.push_back(fold);
+    }
+  }
+  return folds;
+}
 
 /// A sharp convex edge of the mesh.
 struct SharpEdge {
@@ -17,11 +79,11 @@ struct SharpEdge {
 
 struct SharpEdges {
   std::vector<SharpEdge> convex;
-  std::set<std::uint32_t> saddles;  ///< vertices at which a concave edge ends too
+  std::vector<bool> saddles;  ///< by vertex: whether a concave edge ends there, too
 };
 
 /// Directions between the normals of both faces of an edge, as bounds: across the edge into each face, and along it.
-Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::vector<std::size_t>& faces) {
+Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::array<std::size_t, 2>& faces) {
   Cone cone;
   const Vec3 along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
   for (const std::size_t face : faces) {
@@ -37,32 +99,20 @@ Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::ve
   return cone;
 }
 
-/// Edges over which the surface bends outwards by more than `angle`. Concave edges cannot touch first.
-SharpEdges sharp_edges(const Mesh& mesh, double angle) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int e = 0; e < 3; ++e) {
-      const std::uint32_t a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
-      sides[std::minmax(a, b)].push_back(t);
-    }
+/// The folds by more than `angle`. Concave edges cannot touch first.
+SharpEdges sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle) {
   SharpEdges sharp;
-  for (const auto& [ends, faces] : sides) {
-    if (faces.size() != 2) {
-      sharp.convex.push_back({ends.first, ends.second, Cone{}});
-      continue;
-    }
-    const Vec3 n0 = mesh.area_vector(faces[0]).normalized(), n1 = mesh.area_vector(faces[1]).normalized();
-    if (n0.dot(n1) > std::cos(angle)) continue;
-    // Convex: the far corner of one face lies behind the other face.
-    const auto& other = mesh.triangles[faces[1]];
-    std::uint32_t far = other[0];
-    for (const std::uint32_t v : other)
-      if (v != ends.first && v != ends.second) far = v;
-    if (n0.dot(mesh.vertices[far] - mesh.vertices[ends.first]) < 0) {
-      sharp.convex.push_back({ends.first, ends.second, edge_cone(mesh, ends.first, ends.second, faces)});
+  sharp.saddles.resize(mesh.vertices.size());
+  sharp.convex.reserve(folds.size());
+  const double least = std::cos(angle);
+  for (const Fold& fold : folds) {
+    if (fold.cosine > least) continue;
+    if (!fold.closed) {
+      sharp.convex.push_back({fold.a, fold.b, Cone{}});
+    } else if (fold.convex) {
+      sharp.convex.push_back({fold.a, fold.b, edge_cone(mesh, fold.a, fold.b, fold.faces)});
     } else {
-      sharp.saddles.insert(ends.first);
-      sharp.saddles.insert(ends.second);
+      sharp.saddles[fold.a] = sharp.saddles[fold.b] = true;
     }
   }
   return sharp;
@@ -102,15 +152,25 @@ Cone corner_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<const
 /// Sharp edges cut in pieces no longer than `spacing`; corners appear once.
 Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   Draft draft;
-  std::map<std::uint32_t, std::vector<const SharpEdge*>> around;
-  for (const SharpEdge& edge : sharp.convex) {
-    around[edge.a].push_back(&edge);
-    around[edge.b].push_back(&edge);
+  draft.nodes.reserve(2 * sharp.convex.size());
+  draft.cones.reserve(2 * sharp.convex.size());
+  draft.edges.reserve(2 * sharp.convex.size());
+  // The edges at each vertex, one vertex after the other.
+  std::vector<std::size_t> last(mesh.vertices.size() + 1, 0);
+  for (const SharpEdge& edge : sharp.convex)
+    for (const std::uint32_t v : {edge.a, edge.b}) ++last[v + 1];
+  std::partial_sum(last.begin(), last.end(), last.begin());
+  std::vector<const SharpEdge*> around(last.back());
+  for (const SharpEdge& edge : sharp.convex)
+    for (const std::uint32_t v : {edge.a, edge.b}) around[last[v]++] = &edge;
+  std::vector<std::uint32_t> corner(mesh.vertices.size());
+  std::vector<const SharpEdge*> edges;
+  std::size_t first = 0;
+  for (std::uint32_t v = 0; v < corner.size(); first = last[v++]) {
+    if (first == last[v]) continue;
+    edges.assign(around.begin() + first, around.begin() + last[v]);
+    corner[v] = draft.add(mesh.vertices[v], sharp.saddles[v] ? Cone{} : corner_cone(mesh, v, edges));
   }
-  std::map<std::uint32_t, std::uint32_t> corner;
-  for (const auto& [vertex, edges] : around)
-    corner[vertex] =
-        draft.add(mesh.vertices[vertex], sharp.saddles.count(vertex) ? Cone{} : corner_cone(mesh, vertex, edges));
   for (const SharpEdge& edge : sharp.convex) {
     const Vec3 a = mesh.vertices[edge.a], b = mesh.vertices[edge.b];
     const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
@@ -125,19 +185,30 @@ Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   return draft;
 }
 
-/// Cone of a point on a face: as far around its normal as the normals of its neighbours on the same face lean.
-Cone face_cone(const SurfaceSample& sample, const std::vector<SurfaceSample>& all, double sharp_angle) {
-  const double near = 2.0 * sample.spacing, least = std::cos(sharp_angle);
-  double most = 1;
-  for (const SurfaceSample& other : all) {
-    if ((other.point - sample.point).squaredNorm() > near * near) continue;
-    const double lean = other.normal.dot(sample.normal);
-    if (lean > least) most = std::min(most, lean);
+/// Cones of points on faces: as far around the normal as the normals of neighbours on the same face lean.
+std::vector<Cone> face_cones(const std::vector<SurfaceSample>& samples, double sharp_angle) {
+  std::vector<Vec3> points;
+  double spacing = 0;
+  for (const SurfaceSample& sample : samples) {
+    points.push_back(sample.point);
+    spacing += sample.spacing / static_cast<double>(samples.size());
   }
-  Cone cone;
-  cone.axis = sample.normal.cast<float>();
-  cone.spread = static_cast<float>(std::acos(std::min(1.0, most)));
-  return cone;
+  const PointGrid grid(points, 2.0 * spacing);
+  const double least = std::cos(sharp_angle);
+  std::vector<Cone> cones;
+  for (const SurfaceSample& sample : samples) {
+    double most = 1;
+    grid.any_within(sample.point, 2.0 * sample.spacing, [&](std::size_t i) {
+      const double lean = samples[i].normal.dot(sample.normal);
+      if (lean > least) most = std::min(most, lean);
+      return false;
+    });
+    Cone cone;
+    cone.axis = sample.normal.cast<float>();
+    cone.spread = static_cast<float>(std::acos(std::min(1.0, most)));
+    cones.push_back(cone);
+  }
+  return cones;
 }
 
 /// Halves [first, last) of the order along the longest side of its bounds until a run fits a cluster, so that each
@@ -180,22 +251,25 @@ void lay_out(Samples& samples) {
                                                samples.clusters[std::min(i, samples.clusters.size() - 1)].center);
 }
 
-Samples clustered(const Draft& draft, const Vec3& center, double spacing) {
+Samples clustered(Draft draft, const Vec3& center, double spacing) {
   std::vector<std::uint32_t> order(draft.nodes.size());
   std::iota(order.begin(), order.end(), 0u);
   kd_order(draft.nodes, order, 0, order.size());
   std::vector<std::uint32_t> place(order.size());
   Samples samples;
   samples.spacing = static_cast<float>(spacing);
+  samples.nodes.reserve(order.size());
+  samples.cones.reserve(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = static_cast<std::uint32_t>(i);
     samples.nodes.push_back((draft.nodes[order[i]] - center).cast<float>());
     samples.cones.push_back(draft.cones[order[i]]);
   }
-  for (Edge e : draft.edges) {
-    Edge placed{place[e.a], place[e.b], 0, e.cone};
-    if (placed.a > placed.b) std::swap(placed.a, placed.b);
-    samples.edges.push_back(placed);
+  samples.edges = std::move(draft.edges);
+  for (Edge& edge : samples.edges) {
+    edge.a = place[edge.a];
+    edge.b = place[edge.b];
+    if (edge.a > edge.b) std::swap(edge.a, edge.b);
   }
   std::sort(samples.edges.begin(), samples.edges.end(),
             [](const Edge& x, const Edge& y) { return std::make_pair(x.a, x.b) < std::make_pair(y.a, y.b); });
@@ -228,10 +302,21 @@ Samples clustered(const Draft& draft, const Vec3& center, double spacing) {
   return samples;
 }
 
-double total_length(const Mesh& mesh, const SharpEdges& sharp) {
-  double length = 0;
-  for (const SharpEdge& e : sharp.convex) length += (mesh.vertices[e.a] - mesh.vertices[e.b]).norm();
-  return length;
+struct EdgeSum {
+  std::size_t count = 0;
+  double length = 0;  ///< m
+};
+
+/// Of what sharp_edges would find.
+EdgeSum sum_of_sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle) {
+  EdgeSum sum;
+  const double least = std::cos(angle);
+  for (const Fold& fold : folds) {
+    if (fold.cosine > least || !fold.convex) continue;
+    ++sum.count;
+    sum.length += (mesh.vertices[fold.a] - mesh.vertices[fold.b]).norm();
+  }
+  return sum;
 }
 
 /// Radius of the ball a tessellated ball stands for: all its vertices lie on it and no face cuts deep below; else 0.
@@ -260,28 +345,28 @@ Samples ball_samples(float radius) {
 }
 
 /// About `count` nodes: half of them on sharp edges where there are such, the others on faces.
-Samples make_samples(const PartModel& part, int count, double sharp_angle) {
+Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
-  SharpEdges sharp = sharp_edges(mesh, sharp_angle);
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
   // Where the nodes would stand too far apart to stand for them, they belong to a curved face.
   constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
-  while ((sharp.convex.size() > static_cast<std::size_t>(2 * count) ||
-          total_length(mesh, sharp) > edge_share * count * longest_piece * part.diagonal()) &&
+  EdgeSum sum = sum_of_sharp_edges(mesh, folds, sharp_angle);
+  while ((sum.count > static_cast<std::size_t>(2 * count) ||
+          sum.length > edge_share * count * longest_piece * part.diagonal()) &&
          sharp_angle < 0.8)
-    sharp = sharp_edges(mesh, sharp_angle *= 1.3);
-  const double spacing = std::max(total_length(mesh, sharp) / (edge_share * count), 0.004 * part.diagonal());
-  Draft draft = edge_draft(mesh, sharp, spacing);
+    sum = sum_of_sharp_edges(mesh, folds, sharp_angle *= 1.3);
+  const double spacing = std::max(sum.length / (edge_share * count), 0.004 * part.diagonal());
+  Draft draft = edge_draft(mesh, sharp_edges(mesh, folds, sharp_angle), spacing);
   // Some of these fall on edges that have their nodes.
   const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));
   // Face nodes, but for those that stand on a sharp edge already covered.
+  const PointGrid on_edges(draft.nodes, 0.5 * spacing);
   std::vector<SurfaceSample> on_faces;
-  for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples) {
-    const auto near = [&](const Vec3& node) { return (node - sample.point).norm() < 0.5 * spacing; };
-    if (std::none_of(draft.nodes.begin(), draft.nodes.end(), near)) on_faces.push_back(sample);
-  }
-  for (const SurfaceSample& sample : on_faces) draft.add(sample.point, face_cone(sample, on_faces, sharp_angle));
-  Samples made = clustered(draft, part.mass().center, spacing);
+  for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples)
+    if (!on_edges.any_within(sample.point, 0.5 * spacing, [](std::size_t) { return true; })) on_faces.push_back(sample);
+  const std::vector<Cone> cones = face_cones(on_faces, sharp_angle);
+  for (std::size_t i = 0; i < on_faces.size(); ++i) draft.add(on_faces[i].point, cones[i]);
+  Samples made = clustered(std::move(draft), part.mass().center, spacing);
   for (const SurfaceSample& sample : on_faces)
     made.face_spacing += static_cast<float>(sample.spacing / on_faces.size());
   for (const Cone& cone : made.cones)
@@ -313,6 +398,10 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   }
   // A sheet thinner than a cell has no inside: others would pass through it.
   if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
+  constexpr double coarse_angle = 0.5, fine_angle = 0.15;
+  const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
+  std::future<Samples> fine_samples =
+      std::async(std::launch::async, [&] { return make_samples(part, folds, fine, fine_angle); });
   const DistanceField& field = part.field({field_cell});
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);
@@ -324,8 +413,8 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
 
-  shape.coarse = make_samples(part, coarse, 0.5);
-  shape.fine = make_samples(part, fine, 0.15);
+  shape.coarse = make_samples(part, folds, coarse, coarse_angle);
+  shape.fine = fine_samples.get();
   return shape;
 }
 
