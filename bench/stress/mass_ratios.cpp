@@ -50,16 +50,13 @@ Case flight(double ratio) {
 
 /// Why cases of a ratio fail today.
 Known known_at(double ratio) {
-  const char* edges =
-      "faces that meet edge on edge: contact normals at an edge come from a grid and lean, so that the "
-      "upper cube walks off";
   const char* sweeps = "a step's sub-steps and sweeps carry no such ratio: the light part is pressed through";
   Known known;
-  if (ratio >= 10) known["sphere: heavy cube on a light one"] = ratio < 1000 ? edges : sweeps;
-  if (ratio >= 100)
-    known["bullet: heavy cube on a light one"] = ratio < 1000 ? "rocks by more than rest allows" : sweeps;
+  if (ratio <= 10) known["sphere: they meet in free flight"] = blow;
+  if (ratio >= 100) known["sphere: heavy cube on a light one"] = sweeps;
+  if (ratio >= 100) known["bullet: heavy cube on a light one"] = ratio < 1000 ? trembles : sweeps;
   if (ratio >= 1000) known["sphere: heavy cube dropped on light angles"] = sweeps;
-  if (ratio >= 1000) known["bullet: heavy cube dropped on light angles"] = sweeps;
+  if (ratio >= 10000) known["bullet: heavy cube dropped on light angles"] = sweeps;
   return known;
 }
 

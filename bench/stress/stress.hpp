@@ -44,6 +44,13 @@ struct Case {
 /// A case that is known to fail, by "solver: case name", and why. Everything else failing is a regression.
 using Known = std::map<std::string, std::string>;
 
+/// Causes that more than one theme meets.
+inline const char* const trembles = "trembles or creeps by more than rest allows";
+inline const char* const restarted =
+    "stands when the run goes on; the re-run begins without the contact forces that held it";
+inline const char* const blow =
+    "a blow turns each body about a lever that is up to a step's way off the one it is struck at";
+
 struct Row {
   std::string theme, name;
   std::vector<std::string> solvers;  ///< of "sphere", "bullet", "thesis"
