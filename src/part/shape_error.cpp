@@ -53,6 +53,32 @@ ShapeError errors(const MeshQuery& query, const Distances& to_mesh, double proxy
   return error;
 }
 
+/// Distances at places of which each is near the one before: the distance there bounds the next one, and within it no
+/// surface is crossed, so that inside remains inside.
+class DistanceWalk {
+ public:
+  explicit DistanceWalk(const MeshQuery& query) : query_(query) {}
+
+  double go_to(const Vec3& p) {
+    const double way = (p - place_).norm();
+    known_ = known_ && way < distance_;
+    distance_ = query_.nearest(p, (1.0 + 1e-9) * (distance_ + way)).distance;
+    place_ = p;
+    return distance_;
+  }
+  bool inside() {
+    if (!known_) inside_ = query_.inside(place_);
+    known_ = true;
+    return inside_;
+  }
+
+ private:
+  const MeshQuery& query_;
+  Vec3 place_ = Vec3::Zero();
+  double distance_ = std::numeric_limits<double>::infinity();
+  bool known_ = false, inside_ = false;
+};
+
 /// Spheres by place: which of them are near a point.
 class SphereGrid {
  public:
@@ -214,13 +240,14 @@ ShapeError shape_error(const ConvexHulls& set, const MeshQuery& query) {
   const double diagonal = query.mesh().bounds().diagonal();
   std::vector<HullPlanes> planes;
   Distances to_mesh;
+  DistanceWalk walk(query);
   for (const Mesh& hull : set.hulls) {
     planes.emplace_back(hull);
     for (const SurfacePoint& s : dense_surface_points(hull, kStep * diagonal)) {
       // Faces inside the solid are where two hulls meet: nothing touches them. Outside they may be covered by another
       // hull, which then sticks out further.
-      const double distance = query.nearest(s.point).distance;
-      if (distance < 1e-4 * diagonal || !query.inside(s.point)) to_mesh.add(distance, s.weight);
+      const double distance = walk.go_to(s.point);
+      if (distance < 1e-4 * diagonal || !walk.inside()) to_mesh.add(distance, s.weight);
     }
   }
   return errors(query, to_mesh, union_volume(set.hulls), [&](const Vec3& p) { return distance_to_union(planes, p); });
