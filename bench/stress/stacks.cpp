@@ -32,6 +32,10 @@ std::vector<Row> stacks(bool soak) {
       for (const char* part : {"cubes", "plates", "rings"}) row.known[std::string("sphere: ") + part] = edges;
   for (Row& row : rows)
     if (row.name != "of 2") row.known["bullet: rings"] = trembles;
+  if (soak) {
+    rows[3].known["bullet: cubes"] = trembles;
+    rows[3].known["bullet: plates"] = "the sweeps of a step do not carry fifty";
+  }
   if (!soak) {  // rest takes long to say of so many: a quarter of a second must pass without a fall
     rows.push_back(
         {"stack", "of 50", both, {stack("cubes", "cube", cube(0.05), 0.05, 50)}, {{"sphere: cubes", edges}}});
