@@ -60,15 +60,14 @@ GPU_STRUCTS_BEGIN
 struct SphereSettingsBlock {
   float time_step;         // s
   uint sub_steps;
-  float contact_rate;      // Hz, of soft contacts
-  float damping_ratio;
   float push_speed;        // d per second
-  float slop, margin, recycle, rest_move;  // d
+  float margin, recycle, rest_move;  // d
   float restitution_speed; // m/s
   float rest_window;       // s
   uint candidates;         // kept per invocation of find_contacts
   uint contact_groups;     // groups that take jobs at once
-  uint unused0, unused1, unused2;
+  uint unused0, unused1;
+  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d)
 };
 
 struct SphereWorld {
@@ -82,7 +81,7 @@ struct SphereWorld {
 struct SphereProgress {
   uint steps_left, steps, overflow, need;    // need: pairs or candidates that did not fit
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
-  uint fine, ordered, unused0, unused1;      // samples in use, manifolds to solve
+  uint fine, pressed, ordered, unused0;      // samples in use, stiff contacts, manifolds to solve
   // Counters, since the host last looked.
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
@@ -178,7 +177,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 64 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 96, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 96, "std430");
 static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 32, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

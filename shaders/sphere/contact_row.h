@@ -72,26 +72,23 @@ void warm_start(uint at, inout Side a, inout Side b) {
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
 }
 
-vec3 turn_minus_one(vec4 q, vec3 r) {
-  vec3 t = 2.0 * cross(q.xyz, r);
-  return q.w * t + cross(q.xyz, t);
-}
+// Way of a point of the body since contacts were found, to first order in the turn.
+vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
 
 // Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly (implicit spring of frequency
-// contact_rate over a step h); without, the velocity that pushing left is taken back (relaxation).
+// softness.x over a step h); without, the velocity that pushing left is taken back (relaxation).
 void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
   SphereRow row = rows[at];
   vec3 normal = row.normal.xyz;
-  vec3 way = b.moved + turn_minus_one(b.turned, row.rb.xyz) - a.moved - turn_minus_one(a.turned, row.ra.xyz);
-  float separation = row.ra.w + dot(way, normal), bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
+  float separation = row.ra.w + dot(way_of(b, row.rb.xyz) - way_of(a, row.ra.xyz), normal), bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
   if (separation > 0.0) {
     bias = separation / h;  // speculative: may close the distance, no more
   } else if (push) {
-    float omega = 6.2831853 * settings.contact_rate, a1 = 2.0 * settings.damping_ratio + h * omega, a2 = h * omega * a1;
+    float omega = 6.2831853 * softness.x, a1 = 2.0 * softness.y + h * omega, a2 = h * omega * a1;
     impulse_scale = 1.0 / (1.0 + a2);
     mass_scale = a2 * impulse_scale;
     float d = world.gravity.w;
-    bias = max(omega / a1 * min(0.0, separation + settings.slop * d), -settings.push_speed * d);
+    bias = max(omega / a1 * min(0.0, separation + softness.z * d), -settings.push_speed * d);
   }
   float vn = dot(relative_velocity(row, a, b), normal);
   float total = max(row.impulse.x - row.normal.w * mass_scale * (vn + bias) - impulse_scale * row.impulse.x, 0.0);

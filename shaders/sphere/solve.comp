@@ -21,31 +21,31 @@ layout(std430, binding = BIND_ROWS) buffer Rows { SphereRow rows[]; };
 shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
 shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
 shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found
-shared vec4 turned[SPHERE_MAX_BODIES];    // quaternion, since then
+shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce;
 
 SphereWorld world;
 uint ordered, list;
+vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d)
 
 #include "sphere/body.h"
 
 // A body as one manifold sees it.
 struct Side {
-  vec3 v, w, moved;
-  vec4 turned;
+  vec3 v, w, moved, turned;
   float inverse_mass;
   vec3 tensor, tensor_mixed;
 };
 
 Side side_of(uint body) {
-  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, vec3(0.0), vec3(0.0));
+  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
   if (body == SPHERE_GROUND) return s;
   uint i = body - world.bodies.x;
   s.v = velocity[i].xyz;
   s.w = spin[i].xyz;
   s.moved = moved[i].xyz;
-  s.turned = turned[i];
+  s.turned = turned[i].xyz;
   s.inverse_mass = velocity[i].w;
   if (s.inverse_mass > 0.0) {
     s.tensor = tensors[body].diagonal.xyz;
@@ -83,7 +83,7 @@ void begin_bodies() {
     velocity[i] = moving ? vec4(states[body].velocity.xyz, bodies[body].material.x) : vec4(0.0);
     spin[i] = moving ? vec4(states[body].spin.xyz, 0.0) : vec4(0.0);
     moved[i] = vec4(0.0);
-    turned[i] = vec4(0.0, 0.0, 0.0, 1.0);
+    turned[i] = vec4(0.0);
   }
 }
 
@@ -104,7 +104,7 @@ void integrate_velocities(float h) {
     if (velocity[i].w > 0.0) {
       uint body = world.bodies.x + i;
       velocity[i].xyz += h * world.gravity.xyz;
-      spin[i].xyz = gyrated(spin[i].xyz, quat_multiply(turned[i], states[body].orientation), bodies[body], h);
+      spin[i].xyz = gyrated(spin[i].xyz, states[body].orientation, bodies[body], h);
     }
   barrier();
 }
@@ -114,7 +114,9 @@ void integrate_positions(float h) {
     if (velocity[i].w > 0.0) {
       moved[i].xyz += h * velocity[i].xyz;
       if (spin[i].w == 0.0) moved[i].xyz -= 0.5 * h * h * world.gravity.xyz;  // touched by nothing: exactly the parabola
-      turned[i] = normalize(quat_multiply(quat_of_turn(h * spin[i].xyz), turned[i]));
+      turned[i].xyz += h * spin[i].xyz;
+      uint body = world.bodies.x + i;
+      states[body].orientation = normalize(quat_multiply(quat_of_turn(h * spin[i].xyz), states[body].orientation));
     }
   barrier();
 }
@@ -188,7 +190,6 @@ void keep_bodies() {
     if (velocity[i].w > 0.0) {
       uint body = world.bodies.x + i;
       states[body].position.xyz += moved[i].xyz;
-      states[body].orientation = normalize(quat_multiply(turned[i], states[body].orientation));
       states[body].velocity.xyz = velocity[i].xyz;
       states[body].spin.xyz = spin[i].xyz;
       if (spin[i].w == 0.0) ++falling;
@@ -201,6 +202,7 @@ void main() {
   world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   ordered = progress[w].ordered;
+  softness = progress[w].pressed != 0u ? settings.stiff : settings.soft;
   list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];

@@ -159,8 +159,8 @@ void visit(Visitor& v, SphereSettings& s) {
   v.field({"time_step", "s", "one collision detection each; larger is faster and lets thin parts interlock"},
           s.time_step);
   v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
-  v.field({"coarse_samples", "", "surface samples per part while pouring"}, s.coarse_samples);
-  v.field({"fine_samples", "", "surface samples per part while settling; more = less penetration, linear cost"},
+  v.field({"coarse_samples", "", "surface samples per part while pouring, at least: thin parts get more"}, s.coarse_samples);
+  v.field({"fine_samples", "", "surface samples per part while settling, at least; more = less penetration, linear cost"},
           s.fine_samples);
   v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
           s.field_cell);

@@ -10,6 +10,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
+constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed for the rest of it
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 double largest_diagonal(const WorldDef& world) {
@@ -100,7 +101,8 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
     start_grid();
   else
     start_rain();
-  if (!entering) settle_if_slow();  // a heap that goes on would sink or stir on coarser shapes than it rested on
+  goes_on_ = !entering && all_slow();
+  if (goes_on_) enter(Phase::press);  // a heap that goes on from rest would sink on softer or coarser contacts
   fresh_ = true;
 }
 
@@ -226,6 +228,23 @@ bool PourWorld::all_rest() const {
   return true;
 }
 
+bool PourWorld::all_slow() const {
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return false;
+  return true;
+}
+
+bool PourWorld::all_still(double seconds) const {
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && rest_.still(b, time_) < seconds) return false;
+  return true;
+}
+
+void PourWorld::enter(Phase phase) {
+  phase_ = phase;
+  solver_.set_phase(id_, phase);
+}
+
 void PourWorld::let_in() {
   if (waiting_.empty()) return;
   std::vector<Rain::Obstacle> obstacles;
@@ -267,33 +286,35 @@ void PourWorld::cut_walls() {
   id_ = lower;
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
-  if (settling_) solver_.set_phase(id_, Phase::settle);
+  solver_.set_phase(id_, phase_);
 }
 
 void PourWorld::look() {
   judge();
   let_in();
-  settle_if_slow();
+  if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
+  const double calm = calm_share * plan_.request.pour.rest_window;
+  if (phase_ == Phase::settle && all_still(calm)) enter(Phase::press);
+  // Stiff contacts take little out of rocking: not for what gets under way, nor for a start that was not at rest.
+  const bool started_moving = goes_on_ && time_ >= calm && !all_still(0.5 * calm);
+  if (phase_ == Phase::press && (!all_slow() || started_moving)) enter(Phase::settle);
+  if (time_ >= calm) goes_on_ = false;
 }
 
-void PourWorld::settle_if_slow() {
-  if (settling_ || !waiting_.empty()) return;
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return;
-  settling_ = true;
-  solver_.set_phase(id_, Phase::settle);
+void PourWorld::settle() {
+  enter(Phase::settle);
   if (!walls_cut_) cut_walls();
   rest_ = RestWatch(states_.size());  // what rested on coarser shapes, or leant on a wall that is gone, may move again
 }
 
 bool PourWorld::over() const {
   if (plan_.request.seconds) return false;  // steps_left() decides
-  return (waiting_.empty() && settling_ && all_rest()) || time_ >= plan_.request.pour.limit;
+  return (waiting_.empty() && phase_ == Phase::press && all_rest()) || time_ >= plan_.request.pour.limit;
 }
 
 Progress PourWorld::progress() const {
   Progress progress;
-  progress.phase = settling_ ? "settle" : "pour";
+  progress.phase = phase_ == Phase::pour ? "pour" : "settle";
   progress.scene = index_;
   progress.parts = states_.size();
   for (std::size_t b = 0; b < states_.size(); ++b) {

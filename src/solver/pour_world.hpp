@@ -54,11 +54,14 @@ class PourWorld {
   void start_rain();
   void let_in();
   void cut_walls();
-  void settle_if_slow();
+  void settle();
   bool outside(const Vec3& center) const;
   bool slow(std::size_t body) const;
   double top() const;
   bool all_rest() const;
+  bool all_slow() const;
+  bool all_still(double seconds) const;
+  void enter(Phase phase);
 
   const PourPlan& plan_;
   Solver& solver_;
@@ -67,7 +70,9 @@ class PourWorld {
   Random random_;
   double time_ = 0.0;
   std::uint64_t earlier_steps_ = 0;  ///< of a world left behind when the walls were cut
-  bool fresh_ = false, settling_ = false, walls_cut_ = true;
+  Phase phase_ = Phase::pour;
+  bool fresh_ = false, walls_cut_ = true;
+  bool goes_on_ = false;  ///< from given poses that may be at rest; not decided yet
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first

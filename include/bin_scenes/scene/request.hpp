@@ -99,7 +99,7 @@ struct ThesisSettings {
 struct SphereSettings {
   double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
-  int coarse_samples = 400;        ///< per part while pouring
+  int coarse_samples = 200;        ///< per part while pouring, at least; thin parts get more
   int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost
   double field_cell = 0.004;       ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
   /// Where it runs. automatic: on the GPU if there is one, else the same passes as plain C++; a software GL is slower.

@@ -22,6 +22,8 @@ class RestWatch {
   /// Looks at a body at `time`. `center`: its centre of mass.
   void look(std::size_t body, double time, const Vec3& center, const Quat& orientation, const Limits& limits);
   bool resting(std::size_t body) const { return bodies_[body].resting; }
+  /// Seconds for which a body has stayed so far.
+  double still(std::size_t body, double time) const { return bodies_[body].seen ? time - bodies_[body].since : 0.0; }
 
  private:
   struct Body {

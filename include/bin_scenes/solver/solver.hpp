@@ -43,8 +43,9 @@ struct WorldDef {
 
 using WorldId = std::size_t;
 
-/// Pouring tolerates coarse shapes; settling must be exact. A solver may ignore the hint.
-enum class Phase { pour, settle };
+/// Pouring tolerates coarse shapes; settling must be exact; once everything lies still, contacts are pressed out as stiff
+/// as they can be, for what overlaps then would overlap for good. A solver may ignore the hint.
+enum class Phase { pour, settle, press };
 
 class Solver {
  public:

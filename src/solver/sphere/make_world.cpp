@@ -3,6 +3,7 @@
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace bin_scenes::sphere {
@@ -81,6 +82,19 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still = 0;
   b.still_x = b.x;
   b.still_q = b.q;
+}
+
+void set_phase(World& world, Phase phase) {
+  const bool fine = phase != Phase::pour, pressed = phase == Phase::press;
+  if (fine == world.fine && pressed == world.pressed) return;
+  if (fine != world.fine)
+    for (Manifold& m : world.manifolds) m.found = false;  // node numbers mean other points now
+  for (Body& b : world.bodies) {
+    b.asleep = false;
+    b.still = 0;
+  }
+  world.fine = fine;
+  world.pressed = pressed;
 }
 
 BodyState state_of(const World& world, std::size_t body) {

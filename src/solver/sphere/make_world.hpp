@@ -20,6 +20,9 @@ std::vector<Flag> flags_of(const World& world);
 /// Puts a body where the state says, awake.
 void place(World& world, std::size_t body, const BodyState& state);
 
+/// Exact samples from Phase::settle on, stiff contacts in Phase::press. A change wakes all bodies.
+void set_phase(World& world, Phase phase);
+
 /// Pose of the model frame and velocity; NaN position for a body that was never placed.
 BodyState state_of(const World& world, std::size_t body);
 

@@ -112,7 +112,9 @@ void slide(const Samples& samples, const Field& own, const Carry& carry, std::si
     there -= off * normal_there;
     const Vec3f carried = carry(there);
     const float deeper = depth(carried, slope);
-    if (deeper >= distance) {  // past the deepest point
+    // Past the deepest point, over the rim of the face, or where another node stands.
+    if (deeper >= distance || std::abs(own.sample(there)) > 0.1f * own.cell ||
+        (there - samples.nodes[node]).norm() > samples.face_spacing) {
       way_per_angle *= 0.5f;
       continue;
     }

@@ -374,6 +374,13 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   return made;
 }
 
+constexpr double coarse_per_patch = 0.35;  ///< samples per square as wide as the part is thick, while pouring
+constexpr int most_samples = 6000;         ///< of a sheet as thin as paper: more would cost more than they find
+
+int at_least(int count, double wanted) {
+  return std::max(count, static_cast<int>(std::min<double>(wanted, most_samples)));
+}
+
 constexpr double cells_through = 1.5;  ///< of the field, through the thinnest part: two nodes see its inside
 
 }  // namespace
@@ -398,10 +405,13 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   }
   // A sheet thinner than a cell has no inside: others would pass through it.
   if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
+  // Between samples farther apart than a thin part is thick, a part slips in unseen and is then caught inside.
+  const double patches = mass.area / (shape.thickness * shape.thickness);
+  const int coarse_count = at_least(coarse, coarse_per_patch * patches), fine_count = at_least(fine, patches);
   constexpr double coarse_angle = 0.5, fine_angle = 0.15;
   const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
   std::future<Samples> fine_samples =
-      std::async(std::launch::async, [&] { return make_samples(part, folds, fine, fine_angle); });
+      std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle); });
   const DistanceField& field = part.field({field_cell});
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);
@@ -413,7 +423,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
 
-  shape.coarse = make_samples(part, folds, coarse, coarse_angle);
+  shape.coarse = make_samples(part, folds, coarse_count, coarse_angle);
   shape.fine = fine_samples.get();
   return shape;
 }

@@ -77,17 +77,7 @@ class SphereSolver final : public Solver {
     w.bodies[body].present = false;
   }
 
-  void set_phase(WorldId id, Phase phase) override {
-    World& w = slots_[id]->world;
-    const bool fine = phase == Phase::settle;
-    if (w.fine == fine) return;
-    w.fine = fine;
-    for (Manifold& m : w.manifolds) m.found = false;  // node numbers mean other points now
-    for (Body& b : w.bodies) {
-      b.asleep = false;
-      b.still = 0;
-    }
-  }
+  void set_phase(WorldId id, Phase phase) override { sphere::set_phase(slots_[id]->world, phase); }
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "step");

@@ -16,19 +16,25 @@
 
 namespace bin_scenes::sphere {
 
+/// How contacts give way.
+struct Softness {
+  float hertz_share;    ///< contact frequency / sub-step rate; lower = piles sag, higher = less is lost while rocking
+  float damping_ratio;  ///< of soft contacts; below 1 they ring
+  float slop;           ///< d left overlapping, so that contacts persist
+};
+
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's diagonal d.
 struct Settings {
-  float time_step = 1.0f / 400;       ///< one collision detection
-  int sub_steps = 4;                  ///< contact solves per time step; stiffness of contacts grows with its square
-  float contact_hertz_share = 0.25f;  ///< contact frequency / sub-step rate; lower = piles sag, higher = jitter
-  float damping_ratio = 10.0f;        ///< of soft contacts; below 1 they ring
-  float push_speed = 4.0f;            ///< d per second at which overlap is pushed out; higher = popping
-  float slop = 2e-4f;                 ///< d left overlapping, so that contacts persist
-  float margin = 4e-3f;               ///< d: contacts are kept while closer than this, plus the way of one step
-  float recycle = 1e-3f;              ///< d: contacts of a pair are reused until it moved this far
-  float restitution_speed = 0.05f;    ///< m/s: slower approaches do not bounce
-  float rest_window = 0.1f;           ///< s over which a sleeping body must have stayed
-  float rest_move = 1e-4f;            ///< d within which it must have stayed
+  float time_step = 1.0f / 400;         ///< one collision detection
+  int sub_steps = 4;                    ///< contact solves per time step; stiffness of contacts grows with its square
+  Softness soft{0.25f, 10.0f, 2e-4f};   ///< of contacts while bodies move: takes the energy out of rocking
+  Softness stiff{0.35f, 10.0f, 1e-4f};  ///< of contacts while they are pressed: leaves no overlap
+  float push_speed = 4.0f;              ///< d per second at which overlap is pushed out; higher = popping
+  float margin = 4e-3f;                 ///< d: contacts are kept while closer than this, plus the way of one step
+  float recycle = 1e-3f;                ///< d: contacts of a pair are reused until it moved this far
+  float restitution_speed = 0.05f;      ///< m/s: slower approaches do not bounce
+  float rest_window = 0.1f;             ///< s over which a sleeping body must have stayed
+  float rest_move = 1e-4f;              ///< d within which it must have stayed
 };
 
 struct Body {
@@ -40,14 +46,11 @@ struct Body {
   // What the solver touches.
   Vec3f x = Vec3f::Zero(), v = Vec3f::Zero(), w = Vec3f::Zero();
   Quatf q = Quatf::Identity();
-  Vec3f dx = Vec3f::Zero();            ///< moved since contacts were found
   Mat3f rotation = Mat3f::Identity();  ///< of q when contacts were found
-  Mat3f turn = Mat3f::Identity();      ///< turned since then
   Mat3f world_inverse_inertia = Mat3f::Zero();
   // Bookkeeping.
   bool present = false, asleep = false;
-  bool free = false;  ///< nothing near it in this step
-  float still = 0;    ///< s within rest_move of the reference pose
+  float still = 0;  ///< s within rest_move of the reference pose
   Vec3f still_x = Vec3f::Zero();
   Quatf still_q = Quatf::Identity();
 
@@ -64,10 +67,7 @@ struct Contact {
   std::uint32_t feature = 0;  ///< bit 31: sample of b against field of a; bit 30: edge; rest: node, edge or plane
   float normal_impulse = 0;
   Vec3f friction_impulse = Vec3f::Zero();  ///< on b, world frame
-  // Of the current step.
-  Vec3f normal = Vec3f::Zero(), ra = normal, rb = normal, t1 = normal, t2 = normal;
-  float separation = 0, normal_mass = 0, tangent_mass = 0, approach = 0, prepared_approach = 0, max_impulse = 0,
-        gap = 0, f1 = 0, f2 = 0;
+  Vec3f normal = Vec3f::Zero();            ///< of the last solve, world frame
 };
 
 struct Manifold {
@@ -101,7 +101,8 @@ struct World {
   float wall_top = 0;
   float ground_friction = 0.5f, ground_restitution = 0;
   Vec3f gravity = Vec3f(0, 0, -9.81f);
-  bool fine = false;
+  bool fine = false;                          ///< exact samples
+  bool pressed = false;                       ///< stiff contacts
   float smallest_diagonal = 0, thinnest = 0;  ///< m, of the parts
   float whole_step = 0;                       ///< s: Settings::time_step while nothing is fast
   int cuts = 1;                               ///< whole steps for one of the request: small parts need short ones
@@ -117,7 +118,7 @@ struct World {
 // The passes, in order of a step.
 void find_pairs(World& world);                ///< broad_phase.cpp: candidates, manifolds carried over by key
 void find_contacts(World& world);             ///< narrow_phase.cpp: samples against fields, reduced, impulses matched
-void color_manifolds(World& world);           ///< contact_solver.cpp: no two manifolds of a color share a moving body
+void color_manifolds(World& world);           ///< coloring.cpp: no two manifolds of a color share a moving body
 void solve(World& world);                     ///< contact_solver.cpp: sub-steps, moves the bodies
 void update_sleep(World& world);              ///< islands.cpp
 void wake(World& world, std::uint32_t body);  ///< and the bodies it rests with

@@ -119,6 +119,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress.pairs = static_cast<gpu::uint>(image.pairs.size());
   progress.free_slots = static_cast<gpu::uint>(free);
   progress.fine = world.fine ? 1 : 0;
+  progress.pressed = world.pressed ? 1 : 0;
   upload_progress(slot, progress);
   return slot;
 }

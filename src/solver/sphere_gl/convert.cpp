@@ -46,10 +46,12 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   gpu::SphereSettingsBlock out{};
   out.time_step = s.time_step;
   out.sub_steps = static_cast<gpu::uint>(s.sub_steps);
-  out.contact_rate = s.contact_hertz_share * static_cast<float>(s.sub_steps) / s.time_step;
-  out.damping_ratio = s.damping_ratio;
+  const auto softness = [&](const Softness& c) -> gpu::vec4 {
+    return {c.hertz_share * static_cast<float>(s.sub_steps) / s.time_step, c.damping_ratio, c.slop, 0};
+  };
+  out.soft = softness(s.soft);
+  out.stiff = softness(s.stiff);
   out.push_speed = s.push_speed;
-  out.slop = s.slop;
   out.margin = s.margin;
   out.recycle = s.recycle;
   out.rest_move = s.rest_move;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 namespace bin_scenes::sphere {
@@ -220,6 +221,60 @@ TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {
   EXPECT_NEAR(span.upper.y(), 0.03, 0.001);
 }
 
+/// A strip of sheet bent to two thirds of a circle: outer radius `outer`, `sheet` thick, `width` along z (m).
+Mesh bent_strip(double outer, double sheet, double width, int pieces) {
+  Mesh mesh;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = 4.2 * i / pieces;
+    for (const double r : {outer - sheet, outer})
+      for (const double z : {-0.5 * width, 0.5 * width})
+        mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  const auto last = static_cast<std::uint32_t>(4 * pieces);
+  for (std::uint32_t i = 0; i < last; i += 4) {
+    quad(i, i + 1, i + 5, i + 4);      // inside
+    quad(i + 2, i + 6, i + 7, i + 3);  // outside
+    quad(i, i + 4, i + 6, i + 2);      // below
+    quad(i + 1, i + 3, i + 7, i + 5);  // above
+  }
+  quad(0, 2, 3, 1);
+  quad(last, last + 1, last + 3, last + 2);
+  return mesh;
+}
+
+// A contact that slides to the deepest point of a curved face must stop at the face's rim: beyond it nothing can touch.
+// The lowest vertex is 0.02 mm deep, and so no contact is deeper.
+TEST(NarrowPhase, NoContactOfABentStripIsDeeperThanItsLowestVertex) {
+  const PartModelPtr part = PartModel::from_mesh(bent_strip(0.013, 0.001, 0.01, 24), "strip");
+  ASSERT_GT(part->mass().volume, 0);
+  const Shape shape = make_shape(*part, 200, 1000, 0.004);
+  World world = world_of_boxes(shape, 1);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  Random random(7, 0, Stream::probe);
+  Body& strip = world.bodies[0];
+  std::size_t contacts = 0;
+  for (int i = 0; i < 200; ++i) {
+    strip.q = random.orientation().cast<float>();
+    float lowest = 0;
+    for (const Vec3& v : part->mesh().vertices)
+      lowest = std::min(lowest, (strip.q * (v.cast<float>() - shape.center)).z());
+    strip.x = Vec3f(0, 0, -lowest - 2e-5f);
+    world.manifolds.clear();
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    for (const Contact& c : world.manifolds[0].contacts) {
+      EXPECT_GT((strip.x + strip.q * c.anchor_a).z(), -2.5e-5f) << i;
+      ++contacts;
+    }
+  }
+  EXPECT_GT(contacts, 400u);
+}
+
 TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.04, 0.02}, 0.02);
@@ -245,6 +300,35 @@ TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
   std::size_t with_contacts = 0;
   for (const Manifold& m : world.manifolds) with_contacts += !m.contacts.empty();
   EXPECT_EQ(ordered, with_contacts);
+}
+
+// One soft contact gives way by g / omega^2 under a weight, beyond the overlap that is left alone (slop); several share.
+TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.06});
+  World world = world_of_boxes(shape, 1);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  world.fine = true;
+  world.settings.sub_steps = 2;
+  world.settings.rest_window = 100;  // it must not fall asleep on the way
+  world.bodies[0].x = Vec3f(0, 0, 0.03f);
+  const auto depth_after = [&](float seconds) {
+    for (int k = 0; k < std::lround(seconds / world.settings.time_step); ++k) step(world);
+    return 0.03f - world.bodies[0].x.z();
+  };
+  const auto deepest = [&](const Softness& s) {
+    const float rate = world.settings.sub_steps / world.settings.time_step;
+    const float omega = 2.0f * static_cast<float>(M_PI) * s.hertz_share * rate;
+    return s.slop * shape.diagonal + 9.81f / (omega * omega);
+  };
+  const Softness &soft = world.settings.soft, &stiff = world.settings.stiff;
+  const float settled = depth_after(1.0f);
+  EXPECT_GT(settled, soft.slop * shape.diagonal);
+  EXPECT_LT(settled, deepest(soft));
+  world.pressed = true;
+  const float pressed = depth_after(0.3f);
+  EXPECT_GT(pressed, stiff.slop * shape.diagonal);
+  EXPECT_LT(pressed, deepest(stiff));
 }
 
 TEST(Sleep, AnIslandSleepsAsOneAndATouchWakesIt) {
