@@ -233,9 +233,13 @@ void stability_tables(Run& out) {
                         {"tighter voxels", false, 0.75, "3"},
                         {"both", true, 0.75, ""}};
   std::vector<int> tried = {1, 2, 3, 4, 5, 6, 8, 10, 20, 40};
-  if (out.quick()) tried = {1, 3, 6, 10};
+  std::vector<double> sizes = {1.0, 0.05};  // m
+  if (out.quick()) {
+    tried = {1, 3, 6, 10};
+    sizes = {1.0};
+  }
   const std::size_t bodies = out.quick() ? 12 : 64;
-  for (const double size : {1.0, 0.05})
+  for (const double size : sizes)
     for (const Case& c : cases) {
       const auto row = [&] { return key("stability", c.name).key("cube_m", size); };
       int least = 0;
