@@ -10,13 +10,19 @@ namespace bin_scenes {
 
 namespace {
 
-// Bytes by order of magnitude: the estimate has to catch requests that cannot fit, not to count to the last byte.
+// Bytes, set by the peak of whole runs (heaps of 64 to 2000 parts, on llvmpipe): the estimate has to catch requests
+// that cannot fit, not to count to the last byte.
+constexpr double kProgram = 60e6;            // the tool with its libraries and threads
+constexpr double kDevice = 75e6;             // an OpenGL context; of a software device, which lives in this process
 constexpr double kPerTriangle = 400.0;       // mesh, tree over it, copies on the device
 constexpr double kPerBody = 2000.0;          // state, definition, history of rest, report
-constexpr double kPerSample = 64.0;          // contact sample or sphere with its normal
+constexpr double kPerSample = 64.0;          // contact sample with its normal
 constexpr double kContactsPerBody = 8 * 12;  // touching neighbours times contacts kept with each
 constexpr double kPerContact = 160.0;
-constexpr double kPerPixel = 64.0;  // depth, label, normal, intensity, and the cloud while it is written
+constexpr double kPerHull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double kPerSphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
+constexpr double kPerSphereContact = 24.0;  // of its capacity
+constexpr double kPerPixel = 140.0;         // depth, label, normal, intensity, on the device and here
 
 double field_bytes(const PartModel& part, double relative_cell) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -32,13 +38,18 @@ double model_bytes(const Request& request, const PartModel& part) {
   return bytes + field_bytes(part, solver.sphere.field_cell) + kPerSample * solver.sphere.fine_samples;
 }
 
-double body_bytes(const Request& request) {
+/// One body of this part; null: one of a part that is not loaded yet.
+double body_bytes(const Request& request, const PartModel* part) {
   const SolverSettings& solver = request.solver;
-  if (solver.type == SolverType::bullet || solver.preset == SolverSettings::Preset::standard) {
-    return kPerBody + kContactsPerBody * kPerContact;
+  if (solver.type == SolverType::bullet) {
+    HullOptions options;  // the solver needs the same hulls next
+    options.max_error = solver.bullet.hull_error;
+    options.max_hulls = solver.bullet.max_hulls;
+    return kPerBody + kPerHull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }
+  if (solver.preset == SolverSettings::Preset::standard) return kPerBody + kContactsPerBody * kPerContact;
   const double spheres = 6.0 * std::pow(solver.thesis.voxels / solver.thesis.tightness, 2);
-  return kPerBody + spheres * (kPerSample + 16.0 * solver.thesis.contacts_per_sphere);
+  return kPerBody + spheres * (kPerSphere + kPerSphereContact * solver.thesis.contacts_per_sphere);
 }
 
 std::string in_megabytes(double bytes) {
@@ -50,22 +61,27 @@ std::string in_megabytes(double bytes) {
 }  // namespace
 
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
-  const double bodies = body_bytes(request) * static_cast<double>(request.part_count());
+  double bodies = 0.0;
+  for (std::size_t line = 0; line < request.parts.size(); ++line) {
+    const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
+    bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
+  }
   double pixels = 0.0;
   for (const Sensor& sensor : request.sensors) pixels += kPerPixel * sensor.width * static_cast<double>(sensor.height);
   double models = 0.0;
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) {
     models += model_bytes(request, *part);
   }
-  double grid = 0.0;
-  if (request.solver.type == SolverType::sphere && request.solver.preset == SolverSettings::Preset::thesis) {
-    grid = 8.0 * std::pow(request.solver.thesis.grid_size, 3);
-  }
-  const double total = bodies + pixels + models + grid;
+  const bool thesis =
+      request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
+  const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
+  const double program = kProgram + (thesis || !request.sensors.empty() ? kDevice : 0.0);
+  const double total = program + bodies + pixels + models + grid;
   if (total > request.memory_budget) {
     throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(bodies) +
                           ", models " + in_megabytes(models) + ", grid " + in_megabytes(grid) + ", images " +
-                          in_megabytes(pixels) + "), the budget is " + in_megabytes(request.memory_budget),
+                          in_megabytes(pixels) + ", program and device " + in_megabytes(program) + "), the budget is " +
+                          in_megabytes(request.memory_budget),
                       "memory_budget", "ask for fewer parts or pixels, or raise memory_budget");
   }
   return total;

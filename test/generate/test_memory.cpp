@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace bin_scenes {
 namespace {
 
@@ -16,9 +18,9 @@ Request request(std::size_t count) {
 }
 
 TEST(Memory, GrowsWithPartsPixelsAndSettings) {
-  const double few = estimate_memory(request(100), {});
-  EXPECT_GT(few, 1e5);
-  EXPECT_NEAR(estimate_memory(request(200), {}), 2 * few, 1e-6 * few);
+  const double none = estimate_memory(request(0), {}), few = estimate_memory(request(100), {});
+  EXPECT_GT(few, none + 1e5);
+  EXPECT_NEAR(estimate_memory(request(200), {}) - few, few - none, 1e-6 * few);
   Request seen = request(100);
   seen.sensors.emplace_back();
   EXPECT_GT(estimate_memory(seen, {}), few + 640 * 480 * 20.0);
@@ -26,6 +28,21 @@ TEST(Memory, GrowsWithPartsPixelsAndSettings) {
   const double with_model = estimate_memory(request(100), {box});
   EXPECT_GT(with_model, few);
   EXPECT_EQ(estimate_memory(request(100), {box, box}), with_model) << "a shared model counts once";
+}
+
+/// Bullet keeps contacts by pairs of hulls: a heap of concave parts takes far more than one of boxes.
+TEST(Memory, CountsHulls) {
+  const auto grows_by = [](const PartModelPtr& part) {
+    Request some = request(100), more = request(200);
+    some.solver.type = more.solver.type = SolverType::bullet;
+    return estimate_memory(more, {part}) - estimate_memory(some, {part});
+  };
+  const char* models = std::getenv("BIN_SCENES_MODELS");
+  if (!models) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
+  LoadOptions load;
+  load.unit = Unit::millimetre;
+  EXPECT_GT(grows_by(PartModel::load(std::string(models) + "/channel_u.stl", load)),
+            2.0 * grows_by(PartModel::from_mesh(box_mesh(0.05), "box")));
 }
 
 TEST(Memory, AboveTheBudgetIsRefusedWithTheFigure) {
