@@ -33,6 +33,7 @@
 #define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_MAX_CONTACTS 16      // per pair, after reduction
+#define SPHERE_MAX_COARSE_CONTACTS 8  // the same on coarse samples
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
@@ -66,7 +67,8 @@ struct SphereSettingsBlock {
   float rest_window;       // s
   uint candidates;         // kept per invocation of find_contacts
   uint contact_groups;     // groups that take jobs at once
-  uint unused0, unused1;
+  float coarse_recycle;    // d: `recycle` on coarse samples
+  uint unused0;
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d)
 };
 

@@ -145,7 +145,7 @@ void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, u
     return;
   }
   ++tested;
-  if (recyclable(manifolds[world.pairs.x + pair.slot], pair)) {
+  if (recyclable(manifolds[world.pairs.x + pair.slot], pair, progress[w].fine != 0u)) {
     ++recycled;
     return;
   }

@@ -34,10 +34,10 @@ float size_of(SpherePair pair) {
   return pair.b == SPHERE_GROUND ? size : min(size, shapes[bodies[pair.b].ids.x].box_half.w);
 }
 
-// Whether the pair has hardly moved since its contacts were found.
-bool recyclable(SphereManifold manifold, SpherePair pair) {
+// Whether the pair has hardly moved since its contacts were found, on fine samples or on coarse ones.
+bool recyclable(SphereManifold manifold, SpherePair pair, bool fine) {
   if (manifold.state.z == 0u) return false;
-  float size = size_of(pair), limit = settings.recycle * size;
+  float size = size_of(pair), limit = (fine ? settings.recycle : settings.coarse_recycle) * size;
   vec3 position;
   vec4 orientation;
   relative_pose(pair, position, orientation);

@@ -95,7 +95,7 @@ uint depth_key(float separation) {
 
 // The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
 // preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
-uint reduce(float size) {
+uint reduce(float size, uint most) {
   uint key = 0u, best = 0u;
   for (uint k = 0u; k < mine; ++k) {
     SphereCandidate c = candidates[candidate_place(k)];
@@ -107,7 +107,7 @@ uint reduce(float size) {
   }
   uint n = 0u;
   while (choose(n, key, best)) {
-    if (++n == SPHERE_MAX_CONTACTS) break;
+    if (++n == most) break;
     key = 0u;
     vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u].xyz;
     for (uint k = 0u; k < mine; ++k) {
@@ -173,7 +173,8 @@ void finish_candidates(SpherePair pair, uint slot) {
   }
   if (lost) any_lost = 1u;
   atomicAdd(found_count, mine);
-  uint count = reduce(size_of(pair));
+  bool fine = progress[world_index].fine != 0u;
+  uint count = reduce(size_of(pair), fine ? SPHERE_MAX_CONTACTS : SPHERE_MAX_COARSE_CONTACTS);
   carry_impulses(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);

@@ -6,6 +6,9 @@
 #include "bin_scenes/solver/spawn.hpp"
 #include "solver/fixture.hpp"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 namespace bin_scenes::testing {
 
 namespace {
@@ -77,6 +80,15 @@ TEST(Pour, SceneDependsOnSeedAndIndexAlone) {
   Request other = request;
   other.seed = 1;
   EXPECT_NE(poured(other, {1})[0].report.state_hash, alone.report.state_hash);
+}
+
+TEST(Pour, ThreadsChangeNothing) {
+  const Request request = request_of(60);
+  const auto hash_with = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return tbb::task_arena(threads).execute([&] { return poured(request, {0})[0].report.state_hash; });
+  };
+  EXPECT_EQ(hash_with(1), hash_with(4));
 }
 
 TEST(Pour, TracingChangesNothingButTells) {

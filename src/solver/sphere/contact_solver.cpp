@@ -1,6 +1,10 @@
 #include "solver/sphere/contact_rows.hpp"
 #include "solver/sphere/world.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 
 namespace bin_scenes::sphere {
@@ -18,7 +22,19 @@ Spring spring(const Softness& s, float h) {
   return {omega / a1, a2 * a3, a3};
 }
 
-constexpr int bounce_sweeps = 12;  ///< a face that strikes flat shares its blow among many contacts
+constexpr std::size_t blocks_per_task = 32;  ///< fewer = more handing over; more = threads wait for the last one
+constexpr int bounce_sweeps = 12;            ///< a face that strikes flat shares its blow among many contacts
+
+/// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
+/// step, whose solve would take the same scratch memory.
+template <class Work>
+void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+    });
+  });
+}
 
 /// What a step's solve works on. Kept between steps for its memory alone.
 struct Scratch {
@@ -51,7 +67,7 @@ class ContactSolver {
  private:
   void prepare_motions();
   const Mat3f& world_inverse_inertia(std::uint32_t body) const;
-  ContactRows rows_of(Contact& c, const Manifold& m, Block& block) const;
+  ContactRows rows_of(Contact& c, const Manifold& m, const Block& block) const;
   void solve_normal(ContactRows& c, Motion& a, Motion& b, bool push) const;
   void solve_friction(ContactRows& c, float friction, Motion& a, Motion& b) const;
   bool struck(const ContactRows& c) const;
@@ -92,7 +108,7 @@ const Mat3f& ContactSolver::world_inverse_inertia(std::uint32_t body) const {
   return motions_[body].inverse_mass > 0 ? world_.bodies[body].world_inverse_inertia : none;
 }
 
-ContactRows ContactSolver::rows_of(Contact& c, const Manifold& m, Block& block) const {
+ContactRows ContactSolver::rows_of(Contact& c, const Manifold& m, const Block& block) const {
   const Body& a = world_.bodies[m.a];
   const Body* b = m.b == ground ? nullptr : &world_.bodies[m.b];
   const bool field_of_a = c.feature >> 31;
@@ -118,17 +134,21 @@ ContactRows ContactSolver::rows_of(Contact& c, const Manifold& m, Block& block) 
 void ContactSolver::prepare() {
   prepare_motions();
   blocks_.clear();
-  rows_.clear();
   const auto no_body = static_cast<std::uint32_t>(world_.bodies.size());
+  std::uint32_t rows = 0;
   for (const std::uint32_t i : world_.order) {
-    Manifold& m = world_.manifolds[i];
-    const auto first = static_cast<std::uint32_t>(rows_.size());
-    Block block{i, m.a, m.b == ground ? no_body : m.b, first, first, m.friction, m.restitution};
-    for (Contact& c : m.contacts) rows_.push_back(rows_of(c, m, block));
-    block.last = static_cast<std::uint32_t>(rows_.size());
-    motions_[block.a].free = motions_[block.b].free = false;
-    blocks_.push_back(block);
+    const Manifold& m = world_.manifolds[i];
+    const std::uint32_t first = rows;
+    rows += static_cast<std::uint32_t>(m.contacts.size());
+    blocks_.push_back({i, m.a, m.b == ground ? no_body : m.b, first, rows, m.friction, m.restitution});
+    motions_[m.a].free = motions_[blocks_.back().b].free = false;
   }
+  rows_.resize(rows);
+  for_each_in_parallel(blocks_.size(), blocks_per_task, [&](std::size_t i) {
+    const Block& block = blocks_[i];
+    Manifold& m = world_.manifolds[block.manifold];
+    for (std::size_t k = 0; k < m.contacts.size(); ++k) rows_[block.first + k] = rows_of(m.contacts[k], m, block);
+  });
   for (const Motion& motion : motions_) world_.counters.free_steps += motion.free;
 }
 

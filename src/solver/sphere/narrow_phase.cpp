@@ -1,5 +1,9 @@
 #include "solver/sphere/world.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 
 namespace bin_scenes::sphere {
@@ -15,6 +19,7 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
+constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
 constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;
 
 /// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope
@@ -197,17 +202,17 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
 }
 
 /// Samples of both bodies against the other's field.
-void candidates_of_pair(World& world, const Manifold& m, float margin, Candidates& out) {
+void candidates_of_pair(const World& world, const Manifold& m, float margin, Counters& counters, Candidates& out) {
   const Body &a = world.bodies[m.a], &b = world.bodies[m.b];
   const Shape &sa = *world.shapes[a.shape], &sb = *world.shapes[b.shape];
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
-  test_samples(world.samples(a), sa.field, sb.field, world.samples(b), a_to_b, margin, world.counters,
+  test_samples(world.samples(a), sa.field, sb.field, world.samples(b), a_to_b, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - world.samples(a).radius * g;
                  out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature});
                });
-  test_samples(world.samples(b), sb.field, sa.field, world.samples(a), b_to_a, margin, world.counters,
+  test_samples(world.samples(b), sb.field, sa.field, world.samples(a), b_to_a, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - world.samples(b).radius * g;
                  out.push_back({surface - d * g, surface, g, d, feature | side_b});
@@ -237,22 +242,22 @@ float plane_distance(const World& world, const Plane& plane, const Vec3f& p, Vec
 }
 
 /// Samples of a body against walls and floor.
-void candidates_of_ground(World& world, const Manifold& m, float margin, Candidates& out) {
+void candidates_of_ground(const World& world, const Manifold& m, float margin, Counters& counters, Candidates& out) {
   const Body& a = world.bodies[m.a];
   const Samples& samples = world.samples(a);
   const Mat3f back = a.rotation.transpose();
   const Carry carry{a.rotation, a.x};
-  world.counters.nodes_possible += samples.nodes.size();
+  counters.nodes_possible += samples.nodes.size();
   for (std::size_t k = 0; k < world.planes.size(); ++k) {
     const Plane& plane = world.planes[k];
     const auto depth = [&](const Vec3f& p, Vec3f& out) { return plane_distance(world, plane, p, out); };
     for (std::size_t c = 0; c < samples.clusters.size(); ++c) {
-      ++world.counters.clusters_tested;
+      ++counters.clusters_tested;
       const Vec3f center = a.x + a.rotation * samples.clusters[c].center;
       if (plane.normal.dot(center) - plane.offset > samples.clusters[c].radius + samples.radius + samples.sag + margin)
         continue;
       const std::size_t last = std::min(samples.nodes.size(), (c + 1) * cluster_size);
-      world.counters.nodes_tested += last - c * cluster_size;
+      counters.nodes_tested += last - c * cluster_size;
       for (std::size_t i = c * cluster_size; i < last; ++i) {
         Vec3f p = carry(samples.nodes[i]), up;
         float d = plane_distance(world, plane, p, up) - samples.radius;
@@ -270,7 +275,7 @@ void candidates_of_ground(World& world, const Manifold& m, float margin, Candida
 /// The few contacts that stand for all: the deepest, then again and again the one farthest from those chosen, in
 /// position and normal alike, deep ones preferred; contacts of the last step have a small advantage, so that the
 /// choice does not flicker.
-void reduce(const Candidates& candidates, const Manifold& old, float size, std::vector<int>& chosen) {
+void reduce(const Candidates& candidates, const Manifold& old, float size, int most, std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
   static thread_local std::vector<float> apart, advantage;
@@ -287,7 +292,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, std::
   for (std::size_t i = 1; i < candidates.size(); ++i)
     if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
   const float least = 1e-3f * size;
-  while (static_cast<int>(chosen.size()) < max_contacts) {
+  while (static_cast<int>(chosen.size()) < most) {
     chosen.push_back(next);
     const Candidate& c = candidates[next];
     apart[next] = -1;
@@ -365,49 +370,63 @@ RelativePose relative_pose(const Body& a, const Body* b) {
 /// Whether the pair has hardly moved since its contacts were found.
 bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
-  const float limit = world.settings.recycle * size;
+  const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   return (now.x - m.found_x).squaredNorm() < limit * limit && half_turn * size < limit;
 }
 
-}  // namespace
-
-void find_contacts(World& world) {
+/// Contacts of one pair, found anew or recycled. Touches nothing but the manifold and the counters.
+void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   static thread_local Candidates candidates;
   static thread_local std::vector<int> chosen;
   static thread_local std::vector<Contact> fresh;
-  for (Manifold& m : world.manifolds) {
-    const Body& a = world.bodies[m.a];
-    const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
-    if (!a.moves() && !(b && b->moves())) continue;
-    ++world.counters.pairs;
-    const Shape& sa = *world.shapes[a.shape];
-    const float size = b ? std::min(sa.diagonal, world.shapes[b->shape]->diagonal) : sa.diagonal;
-    const RelativePose pose = relative_pose(a, b);
-    if (recyclable(world, m, pose, size)) {
-      ++world.counters.pairs_recycled;
-    } else {
-      const float dt = world.settings.time_step;
-      const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
-      const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
-      const float margin = world.settings.margin * size + (v.norm() + spin + world.gravity.norm() * dt) * dt;
-      candidates.clear();
-      if (b)
-        candidates_of_pair(world, m, margin, candidates);
-      else
-        candidates_of_ground(world, m, margin, candidates);
-      reduce(candidates, m, size, chosen);
-      world.counters.dropped += candidates.size() - chosen.size();
-      fresh.clear();
-      for (const int i : chosen) fresh.push_back(contact_of(candidates[i], a, b));
-      carry_impulses(m.contacts, fresh, world.samples(a).spacing);
-      m.contacts.assign(fresh.begin(), fresh.end());
-      m.found = true;
-      m.found_x = pose.x;
-      m.found_q = pose.q;
-    }
-    world.counters.contacts += m.contacts.size();
+  const Body& a = world.bodies[m.a];
+  const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
+  if (!a.moves() && !(b && b->moves())) return;
+  ++counters.pairs;
+  const Shape& sa = *world.shapes[a.shape];
+  const float size = b ? std::min(sa.diagonal, world.shapes[b->shape]->diagonal) : sa.diagonal;
+  const RelativePose pose = relative_pose(a, b);
+  if (recyclable(world, m, pose, size)) {
+    ++counters.pairs_recycled;
+  } else {
+    const float dt = world.settings.time_step;
+    const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
+    const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
+    const float margin = world.settings.margin * size + (v.norm() + spin + world.gravity.norm() * dt) * dt;
+    candidates.clear();
+    if (b)
+      candidates_of_pair(world, m, margin, counters, candidates);
+    else
+      candidates_of_ground(world, m, margin, counters, candidates);
+    reduce(candidates, m, size, world.fine ? max_contacts : max_coarse_contacts, chosen);
+    counters.dropped += candidates.size() - chosen.size();
+    fresh.clear();
+    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], a, b));
+    carry_impulses(m.contacts, fresh, world.samples(a).spacing);
+    m.contacts.assign(fresh.begin(), fresh.end());
+    m.found = true;
+    m.found_x = pose.x;
+    m.found_q = pose.q;
   }
+  counters.contacts += m.contacts.size();
+}
+
+}  // namespace
+
+/// Pairs share nothing but what they read, so that threads cannot change a result.
+void find_contacts(World& world) {
+  world.counters +=
+      tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
+        return tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, world.manifolds.size(), pairs_per_task), Counters{},
+            [&](const tbb::blocked_range<std::size_t>& range, Counters counters) {
+              for (std::size_t i = range.begin(); i < range.end(); ++i)
+                find_contacts_of(world, world.manifolds[i], counters);
+              return counters;
+            },
+            [](Counters a, const Counters& b) { return a += b; });
+      });
 }
 
 }  // namespace bin_scenes::sphere

@@ -3,10 +3,12 @@
 #include "bin_scenes/core/error.hpp"
 #include "solver/sphere/make_world.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <thread>
 
 namespace bin_scenes {
 
@@ -83,15 +85,10 @@ class SphereSolver final : public Solver {
     StageTimer timer(profile_, "step");
     const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
     // Worlds share nothing, so that threads cannot change a result.
-    const std::size_t threads = std::min<std::size_t>(worlds.size(), std::max(1u, std::thread::hardware_concurrency()));
-    const auto run = [&](std::size_t first) {
-      for (std::size_t i = first; i < worlds.size(); i += threads)
-        for (int k = 0; k < steps * slots_[worlds[i]]->world.cuts; ++k) step_in_cuts(slots_[worlds[i]]->world);
-    };
-    std::vector<std::thread> pool;
-    for (std::size_t t = 1; t < threads; ++t) pool.emplace_back(run, t);
-    run(0);
-    for (std::thread& t : pool) t.join();
+    tbb::parallel_for(std::size_t{0}, worlds.size(), [&](std::size_t i) {
+      World& world = slots_[worlds[i]]->world;
+      for (int k = 0; k < steps * world.cuts; ++k) step_in_cuts(world);
+    });
     return steps * settings_.time_step;
   }
 
@@ -109,7 +106,7 @@ class SphereSolver final : public Solver {
     return out;
   }
 
-  std::size_t worlds_at_once() const override { return std::max(1u, std::thread::hardware_concurrency()); }
+  std::size_t worlds_at_once() const override { return tbb::this_task_arena::max_concurrency(); }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return slots_[id]->world.counters.steps; }
   std::vector<Flag> flags(WorldId id) const override { return flags_of(slots_[id]->world); }

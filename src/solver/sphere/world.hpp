@@ -32,6 +32,7 @@ struct Settings {
   float push_speed = 4.0f;              ///< d per second at which overlap is pushed out; higher = popping
   float margin = 4e-3f;                 ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;                ///< d: contacts of a pair are reused until it moved this far
+  float coarse_recycle = 3e-3f;         ///< d: the same on coarse samples, where precision is not wanted yet
   float restitution_speed = 0.05f;      ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;             ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;              ///< d within which it must have stayed
@@ -58,6 +59,7 @@ struct Body {
 };
 
 constexpr int max_contacts = 16;               ///< per pair, after reduction
+constexpr int max_coarse_contacts = 8;         ///< the same on coarse samples
 constexpr std::uint32_t ground = 0xffffffffu;  ///< body index of the bin's walls and floor
 
 /// One point of a manifold. Anchors are in body frames, so that a recycled contact follows both bodies.
@@ -91,6 +93,13 @@ struct Plane {
 struct Counters {
   std::uint64_t steps = 0, free_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0, groups_tested = 0,
                 clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0, dropped = 0;
+
+  Counters& operator+=(const Counters& c) {
+    steps += c.steps, free_steps += c.free_steps, pairs += c.pairs, pairs_recycled += c.pairs_recycled;
+    pairs_asleep += c.pairs_asleep, groups_tested += c.groups_tested, clusters_tested += c.clusters_tested;
+    nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts, dropped += c.dropped;
+    return *this;
+  }
 };
 
 struct World {

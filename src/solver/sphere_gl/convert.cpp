@@ -6,7 +6,8 @@ namespace bin_scenes::sphere_gl {
 
 using namespace sphere;
 
-static_assert(max_contacts == SPHERE_MAX_CONTACTS, "the pass keeps as many as the twin");
+static_assert(max_contacts == SPHERE_MAX_CONTACTS && max_coarse_contacts == SPHERE_MAX_COARSE_CONTACTS,
+              "the pass keeps as many as the twin");
 
 namespace {
 
@@ -54,6 +55,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.push_speed = s.push_speed;
   out.margin = s.margin;
   out.recycle = s.recycle;
+  out.coarse_recycle = s.coarse_recycle;
   out.rest_move = s.rest_move;
   out.restitution_speed = s.restitution_speed;
   out.rest_window = s.rest_window;
