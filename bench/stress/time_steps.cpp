@@ -35,7 +35,6 @@ std::vector<Row> time_steps(bool soak) {
       row.known["bullet: 40 cubes"] = "the heap lies higher, so that the bin is full";
       if (soak) row.known["bullet: rings"] = trembles;
     }
-    if (hertz == 60 || hertz == 240) row.known["sphere: rings"] = restarted;
     if (hertz == 480) row.known["bullet: rings"] = restarted;
     rows.push_back(row);
   }
