@@ -23,6 +23,7 @@ struct Expect {
   bool rests = true;          ///< every part must come to rest; false: it may also be said to move
   bool all_in = true;         ///< every part must have found room
   std::size_t escapes = 0;    ///< so many parts must leave the bin, no more, no fewer
+  bool spills = false;        ///< parts above the rim may fall off it: `escapes` does not count
   double penetration = 0.02;  ///< largest overlap of a pair, or of a part and the bin / smaller diagonal
   double energy = 0.02;       ///< energy gained / energy put in (drops from start to floor, start velocities)
   double momentum = std::numeric_limits<double>::infinity();  ///< change / sum of |momenta|; same of angular momentum

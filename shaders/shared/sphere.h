@@ -69,7 +69,7 @@ struct SphereSettingsBlock {
   uint contact_groups;     // groups that take jobs at once
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint unused0;
-  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d)
+  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d), sub-steps in place of one
 };
 
 struct SphereWorld {
@@ -149,10 +149,10 @@ struct SphereManifold {
 };
 
 struct SphereContact {
-  vec4 anchor_a;     // on the surface of a, body axes; w: normal impulse
+  vec4 anchor_a;     // on the surface of a, body axes; w: normal force (N)
   vec4 anchor_b;     // w: feature (bits)
   vec4 normal;       // from a to b, in the frame of the body whose field gave it
-  vec4 friction;     // impulse on b, world axes
+  vec4 friction;     // force on b (N), world axes
 };
 
 struct SphereCandidate {

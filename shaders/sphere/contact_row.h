@@ -54,7 +54,7 @@ SphereRow prepared_row(SphereContact contact, SpherePair pair, Side a, Side b) {
   // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
   row.rb = vec4(rb, min(mass_along(t1, ra, rb, a, b), mass_along(t2, ra, rb, a, b)));
   row.normal = vec4(normal, mass_along(normal, ra, rb, a, b));
-  row.impulse = vec4(contact.anchor_a.w, dot(contact.friction.xyz, t1), dot(contact.friction.xyz, t2), 0.0);
+  row.impulse = sub_step() * vec4(contact.anchor_a.w, dot(contact.friction.xyz, t1), dot(contact.friction.xyz, t2), 0.0);
   float approach = dot(relative_velocity(row, a, b), normal);
   row.bounce = vec4(approach, approach, 0.0, 0.0);
   return row;
@@ -88,7 +88,7 @@ void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
     impulse_scale = 1.0 / (1.0 + a2);
     mass_scale = a2 * impulse_scale;
     float d = world.gravity.w;
-    bias = max(omega / a1 * min(0.0, separation + softness.z * d), -settings.push_speed * d);
+    bias = max(omega / a1 * min(0.0, separation + softness.z * d), -settings.push_speed / softness.w * d);
   }
   float vn = dot(relative_velocity(row, a, b), normal);
   float total = max(row.impulse.x - row.normal.w * mass_scale * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
@@ -112,7 +112,7 @@ void solve_friction(uint at, float friction, inout Side a, inout Side b) {
 // Whether a contact was struck fast enough to bounce: pressed, or closed by a blow that its neighbours took.
 bool struck(SphereRow row) {
   if (row.bounce.x > -settings.restitution_speed) return false;
-  return row.impulse.w > 0.0 || row.bounce.z < -row.bounce.x * settings.time_step / float(settings.sub_steps);
+  return row.impulse.w > 0.0 || row.bounce.z < -row.bounce.x * sub_step();
 }
 
 void bounce(uint at, float restitution, inout Side a, inout Side b) {

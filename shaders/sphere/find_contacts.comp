@@ -1,5 +1,5 @@
 // A group takes one pair after the other from the list of jobs: samples of each body against the field of the other,
-// bounding spheres first, edges by descent, then the few contacts that stand for all, with the impulses of the last
+// bounding spheres first, edges by descent, then the few contacts that stand for all, with the forces of the last
 // step. An invocation keeps the candidates it finds; choices go by depth and spread, ties by feature, so that neither
 // the order of arrival nor who tested what matters. Twin: find_contacts().
 #include "shared/sphere.h"

@@ -7,7 +7,7 @@ shared SphereContact old[SPHERE_MAX_CONTACTS];
 shared uint old_count, old_found;
 shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS], chosen_normal[SPHERE_MAX_CONTACTS];  // w: separation
 shared uint chosen_feature[SPHERE_MAX_CONTACTS];
-shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose impulses it takes
+shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose forces it takes
 shared uint source_taken[SPHERE_MAX_CONTACTS];
 shared uint highest[2], highest_feature[2];      // take turns
 shared uint found_count, any_lost;
@@ -130,7 +130,7 @@ uint reduce(float size, uint most) {
 }
 
 // Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
-void carry_impulses(uint count, float near, mat3 ra, mat3 rb, bool ground) {
+void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   uint i = gl_LocalInvocationIndex;
   if (i < count) {
     chosen_source[i] = NO_SOURCE;
@@ -175,7 +175,7 @@ void finish_candidates(SpherePair pair, uint slot) {
   atomicAdd(found_count, mine);
   bool fine = progress[world_index].fine != 0u;
   uint count = reduce(size_of(pair), fine ? SPHERE_MAX_CONTACTS : SPHERE_MAX_COARSE_CONTACTS);
-  carry_impulses(count, samples_of(pair.a).size.y, ra, rb, ground);
+  carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
     return;

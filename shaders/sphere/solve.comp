@@ -27,7 +27,9 @@ shared uint any_bounce;
 
 SphereWorld world;
 uint ordered, list;
-vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d)
+vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
+
+float sub_step() { return settings.time_step / (float(settings.sub_steps) * softness.w); }
 
 #include "sphere/body.h"
 
@@ -167,7 +169,7 @@ void restitute() {
   for (uint k = 0u; k < BOUNCE_SWEEPS; ++k) sweep(BOUNCE, 0.0);
 }
 
-void keep_impulses() {
+void keep_forces() {
   FOR_OWN_MANIFOLDS(o) {
     SpherePair pair = pair_at(o);
     uint slot = world.pairs.x + pair.slot, n = manifolds[slot].state.x, presses = 0u;
@@ -176,8 +178,9 @@ void keep_impulses() {
       SphereRow row = rows[row_place(o, i)];
       if (bounced && struck(row)) row.impulse = vec4(0.0);  // a blow is over: it must not warm-start the next step
       uint at = slot * SPHERE_MAX_CONTACTS + i;
-      contacts[at].anchor_a.w = row.impulse.x;
-      contacts[at].friction = vec4(row.impulse.y * tangent_1(row.normal.xyz) + row.impulse.z * tangent_2(row.normal.xyz), 0.0);
+      contacts[at].anchor_a.w = row.impulse.x / sub_step();
+      contacts[at].friction =
+          vec4(row.impulse.y * tangent_1(row.normal.xyz) + row.impulse.z * tangent_2(row.normal.xyz), 0.0) / sub_step();
       if (row.impulse.x > 0.0) presses = 1u;
     }
     manifolds[slot].state.y = presses;
@@ -210,8 +213,8 @@ void main() {
   barrier();
   prepare();
   barrier();
-  float h = settings.time_step / float(settings.sub_steps);
-  for (uint k = 0u; k < settings.sub_steps; ++k) {
+  float h = sub_step();
+  for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
     integrate_velocities(h);
     sweep(WARM_START, h);
     sweep(PUSH, h);
@@ -219,6 +222,6 @@ void main() {
     sweep(RELAX, h);
   }
   restitute();
-  keep_impulses();
+  keep_forces();
   keep_bodies();
 }

@@ -49,14 +49,15 @@ class ContactSolver {
   ContactSolver(World& world, Scratch& scratch)
       : world_(world),
         settings_(world.settings),
-        h_(settings_.time_step / settings_.sub_steps),
-        softness_(world.pressed ? settings_.stiff : settings_.soft),
+        h_(settings_.time_step / static_cast<float>(world.sub_steps())),
+        softness_(world.softness()),
         spring_(spring(softness_, h_)),
+        push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         blocks_(scratch.blocks),
         rows_(scratch.rows) {}
 
-  void prepare();         ///< rows from contacts, with the impulses of the last step
+  void prepare();         ///< rows from contacts, with the forces of the last step
   void accelerate();      ///< gravity, gyroscopic term
   void warm_start();      ///< impulses of the last sub-step again
   void sweep(bool push);  ///< one round of Gauss-Seidel over all contacts; `push` lets overlap out
@@ -78,6 +79,7 @@ class ContactSolver {
   const float h_;
   const Softness& softness_;
   const Spring spring_;
+  const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<Block>& blocks_;
   std::vector<ContactRows>& rows_;
@@ -120,9 +122,9 @@ ContactRows ContactSolver::rows_of(Contact& c, const Manifold& m, const Block& b
   const float inverse_masses = motion_a.inverse_mass + motion_b.inverse_mass;
   const auto row = [&](const Vec3f& along) { return row_along(along, ra, rb, inverse_a, inverse_b, inverse_masses); };
   ContactRows rows{row(c.normal), row(t1), row(t2)};
-  rows.normal.impulse = c.normal_impulse;
-  rows.t1.impulse = c.friction_impulse.dot(t1);
-  rows.t2.impulse = c.friction_impulse.dot(t2);
+  rows.normal.impulse = h_ * c.normal_force;
+  rows.t1.impulse = h_ * c.friction_force.dot(t1);
+  rows.t2.impulse = h_ * c.friction_force.dot(t2);
   // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
   rows.t1.effective_mass = rows.t2.effective_mass = std::min(rows.t1.effective_mass, rows.t2.effective_mass);
   rows.separation = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
@@ -199,7 +201,7 @@ void ContactSolver::solve_normal(ContactRows& c, Motion& a, Motion& b, bool push
   if (separation > 0) {
     bias = separation / h_;  // speculative: may close the distance, no more
   } else if (push) {
-    bias = std::max(spring_.bias_rate * std::min(0.0f, separation + softness_.slop * d), -settings_.push_speed * d);
+    bias = std::max(spring_.bias_rate * std::min(0.0f, separation + softness_.slop * d), -push_speed_ * d);
     mass_scale = spring_.mass_scale;
     impulse_scale = spring_.impulse_scale;
   }
@@ -285,9 +287,9 @@ void ContactSolver::finish() {
     Manifold& m = world_.manifolds[block.manifold];
     for (std::size_t i = 0; i < m.contacts.size(); ++i) {
       const ContactRows& rows = rows_[block.first + i];
-      m.contacts[i].normal_impulse = rows.normal.impulse;
-      m.contacts[i].friction_impulse =
-          (rows.t1.impulse * rows.t1.direction + rows.t2.impulse * rows.t2.direction).head<3>();
+      m.contacts[i].normal_force = rows.normal.impulse / h_;
+      m.contacts[i].friction_force =
+          (rows.t1.impulse * rows.t1.direction + rows.t2.impulse * rows.t2.direction).head<3>() / h_;
     }
   }
   for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
@@ -304,7 +306,7 @@ void solve(World& world) {
   static thread_local Scratch scratch;
   ContactSolver solver(world, scratch);
   solver.prepare();
-  for (int k = 0; k < world.settings.sub_steps; ++k) {
+  for (int k = 0; k < world.sub_steps(); ++k) {
     solver.accelerate();
     solver.warm_start();
     solver.sweep(true);

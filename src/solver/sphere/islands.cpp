@@ -15,7 +15,7 @@ class Islands {
     for (const Manifold& m : world.manifolds) {
       if (m.b == ground || world.bodies[m.a].inverse_mass == 0 || world.bodies[m.b].inverse_mass == 0) continue;
       const bool presses =
-          std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_impulse > 0; });
+          std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
       if (presses) join(m.a, m.b);
     }
   }

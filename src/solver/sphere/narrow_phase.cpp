@@ -322,8 +322,8 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, int m
 void carry_impulses(const std::vector<Contact>& old, std::vector<Contact>& fresh, float near) {
   std::array<bool, max_contacts> taken{}, warm{};
   const auto take = [&](std::size_t i, std::size_t k) {
-    fresh[i].normal_impulse = old[k].normal_impulse;
-    fresh[i].friction_impulse = old[k].friction_impulse;
+    fresh[i].normal_force = old[k].normal_force;
+    fresh[i].friction_force = old[k].friction_force;
     taken[k] = warm[i] = true;
   };
   for (std::size_t i = 0; i < fresh.size(); ++i)

@@ -48,7 +48,8 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.time_step = s.time_step;
   out.sub_steps = static_cast<gpu::uint>(s.sub_steps);
   const auto softness = [&](const Softness& c) -> gpu::vec4 {
-    return {c.hertz_share * static_cast<float>(s.sub_steps) / s.time_step, c.damping_ratio, c.slop, 0};
+    return {c.hertz_share * static_cast<float>(s.sub_steps * c.refinement) / s.time_step, c.damping_ratio, c.slop,
+            static_cast<float>(c.refinement)};
   };
   out.soft = softness(s.soft);
   out.stiff = softness(s.stiff);
@@ -78,9 +79,9 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     std::uint32_t presses = 0;
     for (std::size_t i = 0; i < SPHERE_MAX_CONTACTS; ++i) {
       const Contact c = i < m.contacts.size() ? m.contacts[i] : Contact{};
-      if (c.normal_impulse > 0) presses = 1;
-      image.contacts.push_back({vec4(c.anchor_a, c.normal_impulse), vec4(c.anchor_b, float_of(c.feature)),
-                                vec4(c.local_normal), vec4(c.friction_impulse)});
+      if (c.normal_force > 0) presses = 1;
+      image.contacts.push_back({vec4(c.anchor_a, c.normal_force), vec4(c.anchor_b, float_of(c.feature)),
+                                vec4(c.local_normal), vec4(c.friction_force)});
     }
     image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, 0},
                                vec4(m.found_x),
@@ -112,8 +113,8 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
       c.anchor_b = vec3(g.anchor_b);
       c.local_normal = vec3(g.normal);
       c.feature = word_of(g.anchor_b.w);
-      c.normal_impulse = g.anchor_a.w;
-      c.friction_impulse = vec3(g.friction);
+      c.normal_force = g.anchor_a.w;
+      c.friction_force = vec3(g.friction);
     }
     out.push_back(m);
   }

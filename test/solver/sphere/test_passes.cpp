@@ -317,16 +317,25 @@ TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
     return 0.03f - world.bodies[0].x.z();
   };
   const auto deepest = [&](const Softness& s) {
-    const float rate = world.settings.sub_steps / world.settings.time_step;
+    const float rate = world.settings.sub_steps * s.refinement / world.settings.time_step;
     const float omega = 2.0f * static_cast<float>(M_PI) * s.hertz_share * rate;
     return s.slop * shape.diagonal + 9.81f / (omega * omega);
   };
   const Softness &soft = world.settings.soft, &stiff = world.settings.stiff;
+  const auto held = [&] {
+    float force = 0;
+    for (const Contact& c : world.manifolds.at(0).contacts) force += c.normal_force;
+    return force * world.bodies[0].inverse_mass / 9.81f;  // of its weight
+  };
   const float settled = depth_after(1.0f);
+  EXPECT_NEAR(held(), 1.0f, 1e-3f);
   EXPECT_GT(settled, soft.slop * shape.diagonal);
   EXPECT_LT(settled, deepest(soft));
   world.pressed = true;
+  step(world);  // shorter sub-steps take over the forces: it is neither dropped nor thrown
+  EXPECT_NEAR(held(), 1.0f, 0.05f);
   const float pressed = depth_after(0.3f);
+  EXPECT_NEAR(held(), 1.0f, 1e-3f);
   EXPECT_GT(pressed, stiff.slop * shape.diagonal);
   EXPECT_LT(pressed, deepest(stiff));
 }
