@@ -56,6 +56,7 @@ Known known_at(double ratio) {
   if (ratio >= 100) known["sphere: heavy cube on a light one"] = sweeps;
   if (ratio >= 100) known["bullet: heavy cube on a light one"] = ratio < 1000 ? trembles : sweeps;
   if (ratio >= 1000) known["sphere: heavy cube dropped on light angles"] = sweeps;
+  if (ratio == 100) known["bullet: heavy cube dropped on light angles"] = trembles;
   if (ratio >= 10000) known["bullet: heavy cube dropped on light angles"] = sweeps;
   return known;
 }
