@@ -318,8 +318,8 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, int m
   }
 }
 
-/// Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
-void carry_impulses(const std::vector<Contact>& old, std::vector<Contact>& fresh, float near) {
+/// Forces of the last step's contacts: by feature, else from the nearest with a like normal.
+void carry_forces(const std::vector<Contact>& old, std::vector<Contact>& fresh, float near) {
   std::array<bool, max_contacts> taken{}, warm{};
   const auto take = [&](std::size_t i, std::size_t k) {
     fresh[i].normal_force = old[k].normal_force;
@@ -403,7 +403,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
     for (const int i : chosen) fresh.push_back(contact_of(candidates[i], a, b));
-    carry_impulses(m.contacts, fresh, world.samples(a).spacing);
+    carry_forces(m.contacts, fresh, world.samples(a).spacing);
     m.contacts.assign(fresh.begin(), fresh.end());
     m.found = true;
     m.found_x = pose.x;

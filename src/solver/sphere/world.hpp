@@ -26,17 +26,17 @@ struct Softness {
 
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's diagonal d.
 struct Settings {
-  float time_step = 1.0f / 400;         ///< one collision detection
-  int sub_steps = 4;                    ///< contact solves per time step; stiffness of contacts grows with its square
+  float time_step = 1.0f / 400;           ///< one collision detection
+  int sub_steps = 4;                      ///< contact solves per time step; stiffness of contacts grows with its square
   Softness soft{0.25f, 10.0f, 2e-4f, 1};  ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
-  float push_speed = 4.0f;              ///< d per second at which overlap is pushed out, over refinement; higher = popping
-  float margin = 4e-3f;                 ///< d: contacts are kept while closer than this, plus the way of one step
-  float recycle = 1e-3f;                ///< d: contacts of a pair are reused until it moved this far
-  float coarse_recycle = 3e-3f;         ///< d: the same on coarse samples, where precision is not wanted yet
-  float restitution_speed = 0.05f;      ///< m/s: slower approaches do not bounce
-  float rest_window = 0.1f;             ///< s over which a sleeping body must have stayed
-  float rest_move = 1e-4f;              ///< d within which it must have stayed
+  float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
+  float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
+  float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
+  float coarse_recycle = 3e-3f;     ///< d: the same on coarse samples, where precision is not wanted yet
+  float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
+  float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
+  float rest_move = 1e-4f;          ///< d within which it must have stayed
 };
 
 struct Body {
@@ -68,9 +68,9 @@ struct Contact {
   Vec3f anchor_a = Vec3f::Zero(), anchor_b = Vec3f::Zero();  ///< on the surfaces of a and b (body frames)
   Vec3f local_normal = Vec3f::Zero();  ///< from a to b, in the frame of the body whose field gave it
   std::uint32_t feature = 0;  ///< bit 31: sample of b against field of a; bit 30: edge; rest: node, edge or plane
-  float normal_force = 0;                ///< N, not an impulse: the next sub-step may be of another length
+  float normal_force = 0;     ///< N, not an impulse: the next sub-step may be of another length
   Vec3f friction_force = Vec3f::Zero();  ///< N, on b, world frame
-  Vec3f normal = Vec3f::Zero();            ///< of the last solve, world frame
+  Vec3f normal = Vec3f::Zero();          ///< of the last solve, world frame
 };
 
 struct Manifold {

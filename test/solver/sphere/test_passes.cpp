@@ -302,7 +302,8 @@ TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
   EXPECT_EQ(ordered, with_contacts);
 }
 
-// One soft contact gives way by g / omega^2 under a weight, beyond the overlap that is left alone (slop); several share.
+// One soft contact gives way by g / omega^2 under a weight, beyond the overlap that is left alone (slop); several
+// share.
 TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.06});
