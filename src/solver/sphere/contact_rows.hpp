@@ -1,66 +1,84 @@
-/// A contact as the solver works on it: one row of the Jacobian for each of its three directions, with all that an
-/// impulse needs laid out in whole registers.
+/// Contacts as the solver works on them: four at a time, one of each of four manifolds that share no moving body.
 #pragma once
 
-#include "solver/sphere/math.hpp"
+#include "solver/sphere/lanes.hpp"
+#include "solver/sphere/world.hpp"
 
-#include <cstdint>
+#include <array>
+#include <vector>
 
 namespace bin_scenes::sphere {
 
-using Vec4f = Eigen::Vector4f;  ///< a vector of three and an unused lane that stays 0
+/// How a body moves while contacts are solved (world frame): x, y, z and a fourth value.
+struct alignas(64) Motion {
+  Lanes v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = nothing moves it in this step
+  Lanes w{};       ///< rad/s
+  Lanes moved{};   ///< m since contacts were found
+  Lanes turned{};  ///< rotation vector since contacts were found
 
-inline Vec4f padded(const Vec3f& v) {
-  return {v.x(), v.y(), v.z(), 0.0f};
-}
-
-/// How a body moves while contacts are solved.
-struct Motion {
-  Vec4f v = Vec4f::Zero(), w = Vec4f::Zero();           ///< m/s and rad/s, world frame
-  Vec4f moved = Vec4f::Zero(), turned = Vec4f::Zero();  ///< since contacts were found (m, rotation vector)
-  float inverse_mass = 0;                               ///< 0: nothing moves it in this step
-  bool free = false;                                    ///< moves, and nothing is near it
+  float inverse_mass() const { return v[3]; }
 };
 
-/// J v and M^-1 J^T of one direction. Arms and direction hold for a whole time step.
-struct Row {
-  Vec4f direction;           ///< of the impulse on b; a gets the opposite
-  Vec4f moment_a, moment_b;  ///< arm x direction
-  Vec4f turn_a, turn_b;      ///< spin that a unit impulse gives
-  float effective_mass, impulse;
-
-  /// Speed of b's point away from a's (m/s).
-  float speed(const Motion& a, const Motion& b) const { return along(a.v, a.w, b.v, b.w); }
-  /// Way that b's point went away from a's since contacts were found (m), to first order in the turn.
-  float way(const Motion& a, const Motion& b) const { return along(a.moved, a.turned, b.moved, b.turned); }
-
-  void push(float amount, Motion& a, Motion& b) const {
-    const Vec4f linear = amount * direction;
-    a.v -= a.inverse_mass * linear;
-    a.w -= amount * turn_a;
-    b.v += b.inverse_mass * linear;
-    b.w += amount * turn_b;
-  }
-
- private:
-  float along(const Vec4f& va, const Vec4f& wa, const Vec4f& vb, const Vec4f& wb) const {
-    return (direction.cwiseProduct(vb - va) + moment_b.cwiseProduct(wb) - moment_a.cwiseProduct(wa)).sum();
-  }
-};
-
-/// The rows of one contact.
+/// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
+/// nothing.
 struct ContactRows {
-  Row normal, t1, t2;
-  float separation = 0;                       ///< when contacts were found (m)
-  float approach = 0, prepared_approach = 0;  ///< speed before the step's impulses, m/s; negative = closing
-  float max_impulse = 0, gap = 0;             ///< largest normal impulse; separation at the last look
+  LaneVec normal, tangent;              ///< the second tangent is normal x tangent
+  LaneVec ra, rb;                       ///< from the centres of mass, world frame; hold for a whole time step (m)
+  Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
+  Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
+  Lanes separation{};                                  ///< when contacts were found (m)
+  Lanes approach{}, prepared_approach{};               ///< speed before the step's impulses, m/s; negative = closing
+  Lanes max_impulse{}, gap{};                          ///< largest normal impulse; separation at the last look
 };
 
-/// The rows of one manifold.
-struct Block {
-  std::uint32_t manifold, a, b;  ///< b = number of bodies: the ground
-  std::uint32_t first, last;     ///< rows
-  float friction, restitution;
+/// Four manifolds of one color. Empty lanes name the ground for both bodies.
+struct Bundle {
+  std::array<std::uint32_t, lane_count> manifold{}, a{}, b{};
+  int lanes = 0;              ///< in use
+  std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
+  Lanes friction{}, restitution{};
+  LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
 };
+
+/// The velocities of a bundle's bodies, in registers while its contacts are solved.
+struct Velocities {
+  LaneVec va, wa, vb, wb;
+  Lanes inverse_mass_a{}, inverse_mass_b{};
+
+  /// Of b's point away from a's (m/s).
+  LaneVec at(const ContactRows& c) const { return vb + cross(wb, c.rb) - va - cross(wa, c.ra); }
+
+  /// `impulse` on b (N s), its opposite on a.
+  void push(const LaneVec& impulse, const ContactRows& c, const Bundle& bundle) {
+    va = va - inverse_mass_a * impulse;
+    wa = wa - bundle.inverse_inertia_a * cross(c.ra, impulse);
+    vb = vb + inverse_mass_b * impulse;
+    wb = wb + bundle.inverse_inertia_b * cross(c.rb, impulse);
+  }
+};
+
+/// Ways of a bundle's bodies since contacts were found.
+struct Ways {
+  LaneVec moved_a, turned_a, moved_b, turned_b;
+
+  /// That b's point went away from a's along the normal (m), to first order in the turn.
+  Lanes along(const ContactRows& c) const {
+    return dot(c.normal, moved_b + cross(turned_b, c.rb) - moved_a - cross(turned_a, c.ra));
+  }
+};
+
+/// Gathers the bodies of `bundle`.
+Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions);
+Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions);
+/// Puts the velocities back. The ground and what cannot move get what they had.
+void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions);
+
+/// The manifolds of a world in bundles, in order of color; the longest of a color first, so that lanes are filled.
+void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows);
+/// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
+/// seconds. Also notes the contacts' normals in world axes.
+void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
+/// Back into the contacts, as forces.
+void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 
 }  // namespace bin_scenes::sphere

@@ -1,0 +1,148 @@
+#include "solver/sphere/contact_rows.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
+
+/// A vector of each of four bodies: all x, all y, all z; the fourth values into `rest`.
+LaneVec gather(const std::array<std::uint32_t, lane_count>& bodies, const std::vector<Motion>& motions,
+               Lanes Motion::*vector, Lanes& rest) {
+  LaneVec out{motions[bodies[0]].*vector, motions[bodies[1]].*vector, motions[bodies[2]].*vector};
+  rest = motions[bodies[3]].*vector;
+  transpose(out.x, out.y, out.z, rest);
+  return out;
+}
+
+LaneVec gather(const std::array<std::uint32_t, lane_count>& bodies, const std::vector<Motion>& motions,
+               Lanes Motion::*vector) {
+  Lanes rest;
+  return gather(bodies, motions, vector, rest);
+}
+
+void scatter(LaneVec in, Lanes rest, const std::array<std::uint32_t, lane_count>& bodies, Lanes Motion::*vector,
+             std::vector<Motion>& motions) {
+  transpose(in.x, in.y, in.z, rest);
+  motions[bodies[0]].*vector = in.x;
+  motions[bodies[1]].*vector = in.y;
+  motions[bodies[2]].*vector = in.z;
+  motions[bodies[3]].*vector = rest;
+}
+
+void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, float h) {
+  const bool field_of_a = c.feature >> 31;
+  c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
+  const Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
+  const Vec3f t1 = c.normal.unitOrthogonal();
+  rows.normal.set(lane, c.normal);
+  rows.tangent.set(lane, t1);
+  rows.ra.set(lane, ra);
+  rows.rb.set(lane, rb);
+  rows.normal_impulse[lane] = h * c.normal_force;
+  rows.t1_impulse[lane] = h * c.friction_force.dot(t1);
+  rows.t2_impulse[lane] = h * c.friction_force.dot(c.normal.cross(t1));
+  rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
+}
+
+/// Mass that an impulse along `direction` meets at the contact; 0 in empty lanes.
+Lanes effective_mass(const LaneVec& direction, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
+  const LaneVec moment_a = cross(c.ra, direction), moment_b = cross(c.rb, direction);
+  const Lanes k = inverse_masses + dot(moment_a, bundle.inverse_inertia_a * moment_a) +
+                  dot(moment_b, bundle.inverse_inertia_b * moment_b);
+  const Lanes used = dot(direction, direction);
+  return (used > 0.5f) & (k > 0.0f) ? 1.0f / k : all_lanes(0);
+}
+
+}  // namespace
+
+Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  Velocities out;
+  out.va = gather(bundle.a, motions, &Motion::v, out.inverse_mass_a);
+  out.wa = gather(bundle.a, motions, &Motion::w);
+  out.vb = gather(bundle.b, motions, &Motion::v, out.inverse_mass_b);
+  out.wb = gather(bundle.b, motions, &Motion::w);
+  return out;
+}
+
+Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  return {gather(bundle.a, motions, &Motion::moved), gather(bundle.a, motions, &Motion::turned),
+          gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
+}
+
+void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions) {
+  scatter(velocities.va, velocities.inverse_mass_a, bundle.a, &Motion::v, motions);
+  scatter(velocities.wa, Lanes{}, bundle.a, &Motion::w, motions);
+  scatter(velocities.vb, velocities.inverse_mass_b, bundle.b, &Motion::v, motions);
+  scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
+}
+
+void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows) {
+  static thread_local std::vector<std::uint32_t> order;
+  order = world.order;
+  const auto contacts = [&](std::uint32_t manifold) { return world.manifolds[manifold].contacts.size(); };
+  const auto longer = [&](std::uint32_t i, std::uint32_t k) {
+    return contacts(i) != contacts(k) ? contacts(i) > contacts(k) : i < k;
+  };
+  const auto no_body = static_cast<std::uint32_t>(world.bodies.size());
+  std::uint32_t row = 0;
+  bundles.clear();
+  for (std::size_t color = 0; color + 1 < world.color_start.size(); ++color) {
+    const std::uint32_t begin = world.color_start[color], end = world.color_start[color + 1];
+    std::sort(order.begin() + begin, order.begin() + end, longer);
+    const std::uint32_t most = color == shared_color ? 1 : lane_count;
+    for (std::uint32_t i = begin; i < end; i += most) {
+      Bundle& bundle = bundles.emplace_back();
+      bundle.a.fill(no_body);
+      bundle.b.fill(no_body);
+      bundle.lanes = static_cast<int>(std::min(most, end - i));
+      std::copy_n(order.begin() + i, bundle.lanes, bundle.manifold.begin());
+      bundle.first = row;
+      bundle.last = row += static_cast<std::uint32_t>(contacts(order[i]));
+    }
+  }
+  rows.resize(row);
+}
+
+void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
+             std::vector<ContactRows>& rows) {
+  std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});
+  for (int lane = 0; lane < bundle.lanes; ++lane) {
+    Manifold& m = world.manifolds[bundle.manifold[lane]];
+    const Body& a = world.bodies[m.a];
+    const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
+    bundle.a[lane] = m.a;
+    if (b) bundle.b[lane] = m.b;
+    bundle.friction[lane] = m.friction;
+    bundle.restitution[lane] = m.restitution;
+    if (motions[m.a].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
+    if (b && motions[m.b].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
+    for (std::size_t k = 0; k < m.contacts.size(); ++k) set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, h);
+  }
+  const Velocities velocities = velocities_of(bundle, motions);
+  const Lanes inverse_masses = velocities.inverse_mass_a + velocities.inverse_mass_b;
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    ContactRows& c = rows[i];
+    c.normal_mass = effective_mass(c.normal, c, bundle, inverse_masses);
+    // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
+    c.tangent_mass = min(effective_mass(c.tangent, c, bundle, inverse_masses),
+                         effective_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
+    c.approach = c.prepared_approach = dot(c.normal, velocities.at(c));
+  }
+}
+
+void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world) {
+  for (int lane = 0; lane < bundle.lanes; ++lane) {
+    std::vector<Contact>& contacts = world.manifolds[bundle.manifold[lane]].contacts;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const ContactRows& c = rows[bundle.first + k];
+      const Vec3f t1 = c.tangent.at(lane), t2 = c.normal.at(lane).cross(t1);
+      contacts[k].normal_force = c.normal_impulse[lane] / h;
+      contacts[k].friction_force = (c.t1_impulse[lane] * t1 + c.t2_impulse[lane] * t2) / h;
+    }
+  }
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,91 @@
+/// Arithmetic on four values at once, by the vector types of GCC and Clang (SSE, NEON): +, -, *, comparisons and ?:
+/// work lane by lane. Each lane computes what a single float would, so that a result does not depend on its neighbours.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace bin_scenes::sphere {
+
+using Lanes = float __attribute__((vector_size(16)));
+using LaneMask = std::int32_t __attribute__((vector_size(16)));  ///< of a comparison: -1 = true, 0 = false
+constexpr int lane_count = 4;
+
+inline Lanes all_lanes(float x) {
+  return Lanes{x, x, x, x};
+}
+inline Lanes min(Lanes a, Lanes b) {
+  return a < b ? a : b;
+}
+inline Lanes max(Lanes a, Lanes b) {
+  return a > b ? a : b;
+}
+inline Lanes sqrt(Lanes a) {
+  Lanes root;
+  Eigen::Map<Eigen::Array4f>(reinterpret_cast<float*>(&root)) =
+      Eigen::Map<const Eigen::Array4f>(reinterpret_cast<const float*>(&a)).sqrt();
+  return root;
+}
+inline bool any(LaneMask m) {
+  return (m[0] | m[1] | m[2] | m[3]) != 0;
+}
+
+/// Four vectors of three.
+struct LaneVec {
+  Lanes x{}, y{}, z{};
+
+  void set(int lane, const Eigen::Vector3f& v) {
+    x[lane] = v.x();
+    y[lane] = v.y();
+    z[lane] = v.z();
+  }
+  Eigen::Vector3f at(int lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
+inline LaneVec operator+(const LaneVec& a, const LaneVec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline LaneVec operator-(const LaneVec& a, const LaneVec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline LaneVec operator*(Lanes s, const LaneVec& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline Lanes dot(const LaneVec& a, const LaneVec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline LaneVec cross(const LaneVec& a, const LaneVec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Four symmetric 3 x 3 matrices.
+struct LaneSymmetric {
+  Lanes xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+
+  void set(int lane, const Eigen::Matrix3f& m) {
+    xx[lane] = m(0, 0);
+    yy[lane] = m(1, 1);
+    zz[lane] = m(2, 2);
+    xy[lane] = m(0, 1);
+    xz[lane] = m(0, 2);
+    yz[lane] = m(1, 2);
+  }
+};
+
+inline LaneVec operator*(const LaneSymmetric& m, const LaneVec& v) {
+  return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+          m.xz * v.x + m.yz * v.y + m.zz * v.z};
+}
+
+/// Rows become columns: four vectors of (x, y, z, w) into all x, all y, all z, all w, and back.
+inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+}  // namespace bin_scenes::sphere
