@@ -47,13 +47,18 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body
   rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
 }
 
-/// Mass that an impulse along `direction` meets at the contact; 0 in empty lanes.
-Lanes effective_mass(const LaneVec& direction, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
-  const LaneVec moment_a = cross(c.ra, direction), moment_b = cross(c.rb, direction);
-  const Lanes k = inverse_masses + dot(moment_a, bundle.inverse_inertia_a * moment_a) +
-                  dot(moment_b, bundle.inverse_inertia_b * moment_b);
-  const Lanes used = dot(direction, direction);
-  return (used > 0.5f) & (k > 0.0f) ? 1.0f / k : all_lanes(0);
+/// Mass that an impulse along `direction` meets; 0 in empty lanes.
+Lanes effective_mass(const LaneVec& direction, Lanes inverse_masses, const LaneVec& moment_a, const LaneVec& turn_a,
+                     const LaneVec& moment_b, const LaneVec& turn_b) {
+  const Lanes k = inverse_masses + dot(moment_a, turn_a) + dot(moment_b, turn_b);
+  const LaneMask used = dot(direction, direction) > 0.5f;
+  return used & (k > 0.0f) ? 1.0f / k : all_lanes(0);
+}
+
+Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
+  const LaneVec moment_a = cross(c.ra, tangent), moment_b = cross(c.rb, tangent);
+  return effective_mass(tangent, inverse_masses, moment_a, bundle.inverse_inertia_a * moment_a, moment_b,
+                        bundle.inverse_inertia_b * moment_b);
 }
 
 }  // namespace
@@ -125,11 +130,15 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   const Lanes inverse_masses = velocities.inverse_mass_a + velocities.inverse_mass_b;
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
-    c.normal_mass = effective_mass(c.normal, c, bundle, inverse_masses);
+    c.moment_a = cross(c.ra, c.normal);
+    c.moment_b = cross(c.rb, c.normal);
+    c.turn_a = bundle.inverse_inertia_a * c.moment_a;
+    c.turn_b = bundle.inverse_inertia_b * c.moment_b;
+    c.normal_mass = effective_mass(c.normal, inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
     // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
-    c.tangent_mass = min(effective_mass(c.tangent, c, bundle, inverse_masses),
-                         effective_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
-    c.approach = c.prepared_approach = dot(c.normal, velocities.at(c));
+    c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
+                         tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
+    c.approach = c.prepared_approach = velocities.along_normal(c);
   }
 }
 

@@ -22,7 +22,8 @@ struct alignas(64) Motion {
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
-  LaneVec normal, tangent;              ///< the second tangent is normal x tangent
+  LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
+  LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
   LaneVec ra, rb;                       ///< from the centres of mass, world frame; hold for a whole time step (m)
   Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
@@ -48,12 +49,24 @@ struct Velocities {
   /// Of b's point away from a's (m/s).
   LaneVec at(const ContactRows& c) const { return vb + cross(wb, c.rb) - va - cross(wa, c.ra); }
 
+  /// The same along the normal.
+  Lanes along_normal(const ContactRows& c) const {
+    return dot(c.normal, vb - va) + dot(c.moment_b, wb) - dot(c.moment_a, wa);
+  }
+
   /// `impulse` on b (N s), its opposite on a.
   void push(const LaneVec& impulse, const ContactRows& c, const Bundle& bundle) {
     va = va - inverse_mass_a * impulse;
     wa = wa - bundle.inverse_inertia_a * cross(c.ra, impulse);
     vb = vb + inverse_mass_b * impulse;
     wb = wb + bundle.inverse_inertia_b * cross(c.rb, impulse);
+  }
+  /// The same along the normal.
+  void push_along_normal(Lanes impulse, const ContactRows& c) {
+    va = va - (inverse_mass_a * impulse) * c.normal;
+    wa = wa - impulse * c.turn_a;
+    vb = vb + (inverse_mass_b * impulse) * c.normal;
+    wb = wb + impulse * c.turn_b;
   }
 };
 
@@ -63,7 +76,7 @@ struct Ways {
 
   /// That b's point went away from a's along the normal (m), to first order in the turn.
   Lanes along(const ContactRows& c) const {
-    return dot(c.normal, moved_b + cross(turned_b, c.rb) - moved_a - cross(turned_a, c.ra));
+    return dot(c.normal, moved_b - moved_a) + dot(c.moment_b, turned_b) - dot(c.moment_a, turned_a);
   }
 };
 

@@ -78,7 +78,7 @@ class ContactSolver {
 
  private:
   void prepare_motions();
-  void solve_normal(ContactRows& c, const Bundle& bundle, Velocities& u, Lanes separation, bool push) const;
+  void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
   void solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
   LaneMask bouncing(const Bundle& bundle) const;
@@ -150,7 +150,7 @@ void ContactSolver::warm_start() {
       // What is about to strike gains speed until it does, but no more than gravity gives in a step.
       const LaneMask strikes = (c.approach < -settings_.restitution_speed) & (c.max_impulse == 0.0f);
       if (any(strikes)) {
-        const Lanes fastest = max(dot(c.normal, u.at(c)), c.prepared_approach - speed_gain);
+        const Lanes fastest = max(u.along_normal(c), c.prepared_approach - speed_gain);
         c.approach = strikes ? min(c.approach, fastest) : c.approach;
       }
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
@@ -161,8 +161,7 @@ void ContactSolver::warm_start() {
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, const Bundle& bundle, Velocities& u, Lanes separation,
-                                 bool push) const {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const {
   const float d = world_.smallest_diagonal;
   const LaneMask apart = separation > 0.0f;
   Lanes bias = apart ? separation / h_ : all_lanes(0);  // speculative: may close the distance, no more
@@ -173,12 +172,12 @@ void ContactSolver::solve_normal(ContactRows& c, const Bundle& bundle, Velocitie
     mass_scale = apart ? mass_scale : all_lanes(spring_.mass_scale);
     impulse_scale = apart ? impulse_scale : all_lanes(spring_.impulse_scale);
   }
-  const Lanes before = c.normal_impulse, speed = dot(c.normal, u.at(c));
+  const Lanes before = c.normal_impulse, speed = u.along_normal(c);
   const Lanes change = -c.normal_mass * mass_scale * (speed + bias) - impulse_scale * before;
   c.normal_impulse = max(before + change, all_lanes(0));
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   c.gap = separation;
-  u.push((c.normal_impulse - before) * c.normal, c, bundle);
+  u.push_along_normal(c.normal_impulse - before, c);
 }
 
 /// Coulomb's cone: both directions at once.
@@ -200,7 +199,7 @@ void ContactSolver::sweep(bool push) {
     Velocities u = velocities_of(bundle, motions_);
     const Ways ways = ways_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-      solve_normal(rows_[i], bundle, u, rows_[i].separation + ways.along(rows_[i]), push);
+      solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) solve_friction(rows_[i], bundle, u);
     store(u, bundle, motions_);
   }
@@ -237,9 +236,9 @@ void ContactSolver::bounce(const Bundle& bundle, LaneMask lanes) {
     ContactRows& c = rows_[i];
     const LaneMask bounces = lanes & struck(c);
     if (!any(bounces)) continue;
-    const Lanes before = c.normal_impulse, wanted = dot(c.normal, u.at(c)) + bundle.restitution * c.approach;
+    const Lanes before = c.normal_impulse, wanted = u.along_normal(c) + bundle.restitution * c.approach;
     c.normal_impulse = bounces ? max(before - c.normal_mass * wanted, all_lanes(0)) : before;
-    u.push((c.normal_impulse - before) * c.normal, c, bundle);
+    u.push_along_normal(c.normal_impulse - before, c);
   }
   store(u, bundle, motions_);
 }
