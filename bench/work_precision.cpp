@@ -1,13 +1,7 @@
 /// Work-precision diagram: error of the final scene over scene time, each solver over its settings, on parts whose
 /// exact convex pieces are known, so that other engines get the exact shape and the referee judges all alike.
-#include "bin_scenes/core/error.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "framework/benchmark.hpp"
-#include "framework/isolated.hpp"
-#include "framework/statistics.hpp"
-#include "peers/peer.hpp"
-#include "referee.hpp"
-#include "runs.hpp"
+#include "judged.hpp"
 
 #include <cmath>
 
@@ -18,22 +12,19 @@ namespace {
 struct Setting {
   std::string solver, sleeping, varied, value;
   std::function<void(Request&)> apply;  ///< on the request; none for a peer
-  PeerSettings peer;
+  std::optional<PeerSettings> peer;
 };
 
 std::vector<Setting> settings(bool quick) {
   std::vector<Setting> all;
   const auto add = [&](const std::string& solver, const std::string& varied, double value,
                        const std::function<void(SolverSettings&)>& change) {
-    all.push_back({solver,
-                   "yes",
-                   varied,
-                   Row::text(value),
+    all.push_back({solver, "yes", varied, Row::text(value),
                    [=](Request& request) {
                      choose_solver(request, solver);
                      change(request.solver);
                    },
-                   {}});
+                   std::nullopt});
   };
   const SphereSettings sphere;
   const BulletSettings bullet;
@@ -76,51 +67,17 @@ std::vector<Setting> settings(bool quick) {
     }
   }
   for (const double rate : quick ? std::vector<double>{240} : std::vector<double>{100, 240, 1000}) {
-    for (const char* engine : {"ode", "dart"}) {
+    for (const char* engine : {"bullet_stock", "ode", "dart"}) {
       if (std::string(engine) == "dart" && rate > 240) continue;  // its dense systems take minutes a scene as it is
-      Setting peer{engine, "no", "time_step", Row::text(1.0 / rate), {}, {}};
-      peer.peer.engine = engine;
-      peer.peer.time_step = 1.0 / rate;
-      peer.peer.iterations = 50;
+      const bool stock = std::string(engine) == "bullet_stock";
+      Setting peer{engine, stock ? "yes" : "no", "time_step", Row::text(1.0 / rate), {}, PeerSettings{}};
+      peer.peer->engine = engine;
+      peer.peer->time_step = 1.0 / rate;
+      peer.peer->iterations = stock ? 10 : 50;
       all.push_back(peer);
     }
   }
   return all;
-}
-
-/// Median, 95th percentile and largest drift as the referee sees it, of a scene written to `path`.
-Row drift_row(const std::string& path, const Request& request) {
-  const std::vector<PartModelPtr> parts = load_parts(request);
-  std::vector<Pieces> pieces;
-  for (const PartLine& line : request.parts)
-    pieces.push_back(read_pieces(Run::pieces(line.model.substr(0, line.model.find('.'))), 1e-3));
-  Scene scene = read_scene_json(path);
-  const Drift drift = referee_drift(scene, request, parts, pieces);
-  return Row()
-      .measure("drift_median_rel", median(drift.moved))
-      .measure("drift_p95_rel", quantile(drift.moved, 0.95))
-      .measure("drift_max_rel", quantile(drift.moved, 1.0))
-      .measure("turn_p95_deg", quantile(drift.turned, 0.95));
-}
-
-/// One scene: poured in one process, judged by the referee in another (both set globals of Bullet).
-Row one_scene(Run& out, const Setting& setting, const Request& request, const std::string& part, double limit_cpu_s) {
-  const std::string path = out.scratch() + "/scene.json";
-  Isolated poured = isolated(
-      [&] {
-        const auto make = [&](const std::vector<PartModelPtr>&) {
-          PeerSettings peer = setting.peer;
-          peer.pieces = {read_pieces(Run::pieces(part), 1e-3)};
-          return make_peer(peer);
-        };
-        const Poured result = setting.apply ? pour_timed(request) : pour_timed(request, make);
-        write_text(path, scene_json(result.scene, request));
-        return figures_of(result);
-      },
-      limit_cpu_s);
-  if (!poured.good) return poured.row;
-  const Isolated judged = isolated([&] { return drift_row(path, request); }, 600.0);
-  return poured.row.append(judged.row);
 }
 
 bool dominates(const Row& a, const Row& b, const std::string& error) {
@@ -170,7 +127,8 @@ void run(Run& out) {
         Request request = bin_of(pile.part, pile.count);
         request.seed = static_cast<std::uint64_t>(seed);
         if (setting.apply) setting.apply(request);
-        scenes.push_back(one_scene(out, setting, request, pile.part, out.quick() ? 20.0 : 60.0));
+        scenes.push_back(
+            judged_scene(out.scratch(), request, pile.part, setting.peer, {out.quick() ? 20.0 : 60.0, true}));
         if (scenes.back().at("scenes").empty()) break;
       }
       row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes));

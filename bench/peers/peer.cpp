@@ -21,6 +21,7 @@ class PeerSolver final : public Solver {
     slot.in.assign(def.bodies.size(), false);
     slot.last.resize(def.bodies.size());
     for (BodyState& state : slot.last) state.pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (settings_.engine == "bullet_stock") slot.world = make_bullet_world(slot.def, settings_);
 #ifdef BIN_SCENES_BENCH_ODE
     if (settings_.engine == "ode") slot.world = make_ode_world(slot.def, settings_);
 #endif
@@ -101,6 +102,7 @@ class PeerSolver final : public Solver {
 
 std::vector<std::string> peers_built() {
   return {
+      "bullet_stock",
 #ifdef BIN_SCENES_BENCH_ODE
       "ode",
 #endif

@@ -1,5 +1,5 @@
 /// Other engines behind this project's Solver interface: the same pour, the same start poses, the same verdict on rest,
-/// on the parts' exact convex pieces. Each engine runs with the settings its own manual gives for piles; lengths are
+/// on the parts' exact convex pieces. ODE and DART run with the settings their own manuals give for piles; lengths are
 /// scaled so that a part's diagonal is 1, masses so that a part weighs 1, since their tolerances are plain numbers.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace bin_scenes::bench {
 
 struct PeerSettings {
-  std::string engine;  ///< "ode", "dart"
+  std::string engine;  ///< "bullet_stock", "ode", "dart"
   double time_step = 0.01;
   int iterations = 20;         ///< sweeps of the contact solver per step
   std::vector<Pieces> pieces;  ///< by part of the world (m)
@@ -35,6 +35,7 @@ std::vector<std::string> peers_built();
 /// Throws an input Error for an engine that is not built, or for pieces that it has no shape for.
 std::unique_ptr<Solver> make_peer(const PeerSettings& settings);
 
+std::unique_ptr<PeerWorld> make_bullet_world(const WorldDef& def, const PeerSettings& settings);
 std::unique_ptr<PeerWorld> make_ode_world(const WorldDef& def, const PeerSettings& settings);
 std::unique_ptr<PeerWorld> make_dart_world(const WorldDef& def, const PeerSettings& settings);
 
