@@ -21,7 +21,7 @@ struct Pile {
   int judged;        ///< seeds that the referee sees
   int bullet_seeds;  ///< poured by stock Bullet as well
 };
-constexpr Pile piles[] = {{"channel_u", 10, 3},  {"ring_24", 3, 3},    {"bolt_hex", 10, 3}, {"bracket_l", 0, 0},
+constexpr Pile piles[] = {{"channel_u", 10, 2},  {"ring_24", 3, 1},    {"bolt_hex", 10, 2}, {"bracket_l", 0, 0},
                           {"clip_spring", 0, 0}, {"conrod", 0, 0},     {"gear_spur", 0, 0}, {"mug", 0, 0},
                           {"nut_hex", 0, 0},     {"pipe_elbow", 0, 0}, {"pipe_tee", 0, 0},  {"teapot", 0, 0},
                           {"washer", 0, 0}};

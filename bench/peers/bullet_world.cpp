@@ -11,8 +11,7 @@ namespace bin_scenes::bench {
 
 namespace {
 
-constexpr double wall = 0.2;      ///< m, thickness of floor and walls
-constexpr double margin = 0.002;  ///< m, around each hull
+constexpr double wall = 0.2;  ///< m, thickness of floor and walls
 
 btVector3 to_bt(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
@@ -42,7 +41,7 @@ struct PartShape {
     for (const std::vector<Vec3>& piece : pieces) {
       hulls.push_back(std::make_unique<btConvexHullShape>());
       for (const Vec3& vertex : piece) hulls.back()->addPoint(to_bt(vertex), false);
-      hulls.back()->setMargin(margin);
+      hulls.back()->setMargin(bullet_stock_margin);
       hulls.back()->recalcLocalAabb();
       compound.addChildShape(principal.inverse(), hulls.back().get());
     }

@@ -29,6 +29,8 @@ class PeerWorld {
   virtual BodyState state(std::size_t body) const = 0;  ///< of a body that is in
 };
 
+constexpr double bullet_stock_margin = 0.002;  ///< m around each hull: what rests, rests so far above the floor
+
 /// Names of the engines that this build has.
 std::vector<std::string> peers_built();
 

@@ -111,6 +111,7 @@ void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<
   rows.resize(row);
 }
 
+BIN_SCENES_WIDE
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
              std::vector<ContactRows>& rows) {
   std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});

@@ -141,6 +141,7 @@ void ContactSolver::accelerate() {
   }
 }
 
+BIN_SCENES_WIDE
 void ContactSolver::warm_start() {
   const float speed_gain = world_.gravity.norm() * settings_.time_step;
   for (const Bundle& bundle : bundles_) {
@@ -194,6 +195,7 @@ void ContactSolver::solve_friction(ContactRows& c, const Bundle& bundle, Velocit
   c.t2_impulse = f2;
 }
 
+BIN_SCENES_WIDE
 void ContactSolver::sweep(bool push) {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);

@@ -1,15 +1,9 @@
 #include "solver/sphere/field.hpp"
 
+#include "solver/sphere/lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-// The compiler makes one version for any x86-64 and one for AVX2, and the machine picks at load time. Neither fuses
-// multiply and add, so both give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define BIN_SCENES_WIDE
-#endif
 
 namespace bin_scenes::sphere {
 

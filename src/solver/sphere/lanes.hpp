@@ -6,6 +6,14 @@
 
 #include <cstdint>
 
+/// Before a function: the compiler makes one version for any x86-64 and one for AVX2, and the machine picks at load
+/// time. Neither fuses multiply and add, so both give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define BIN_SCENES_WIDE
+#endif
+
 namespace bin_scenes::sphere {
 
 using Lanes = float __attribute__((vector_size(16)));
