@@ -20,19 +20,24 @@ bool closed(const Mesh& mesh) {
   return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
-/// Deepest vertex behind floor and walls; walls end at the rim.
+/// Deepest vertex behind floor and walls. A wall is solid outwards without end, up to the rim: the way out of it is
+/// back into the bin or up over the rim, whichever is shorter.
 Penetration behind_walls(const Mesh& part, const Pose& pose, const Bin& bin) {
   Penetration worst;
-  const auto consider = [&](double depth, const Vec3& inwards, const Vec3& x) {
-    if (depth > worst.depth) worst = {depth, -inwards, x};
+  const auto consider = [&](double depth, const Vec3& out, const Vec3& x) {
+    if (depth > worst.depth) worst = {depth, -out, x};
   };
   for (const Vec3& vertex : part.vertices) {
     const Vec3 x = pose * vertex;
     consider(-x.z(), Vec3::UnitZ(), x);
-    if (bin.kind != Bin::Kind::box || x.z() >= bin.inner_size.z()) continue;
+    if (bin.kind != Bin::Kind::box) continue;
+    const double below_rim = bin.inner_size.z() - x.z();
     for (int axis = 0; axis < 2; ++axis) {
-      const double side = x[axis] < 0.0 ? -1.0 : 1.0;
-      consider(side * x[axis] - 0.5 * bin.inner_size[axis], -side * Vec3::Unit(axis), x);
+      const double side = x[axis] < 0.0 ? -1.0 : 1.0, behind = side * x[axis] - 0.5 * bin.inner_size[axis];
+      if (behind < below_rim)
+        consider(behind, -side * Vec3::Unit(axis), x);
+      else if (behind > 0.0)
+        consider(below_rim, Vec3::UnitZ(), x);
     }
   }
   return worst;

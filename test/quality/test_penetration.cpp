@@ -165,6 +165,7 @@ TEST(BinPenetration, FloorWallsAndRim) {
   EXPECT_NEAR(in_bin(at(0.152, 0, 0.1)), 0.002, exact);
   EXPECT_NEAR(in_bin(at(0, -0.104, 0.1)), 0.004, exact);
   EXPECT_EQ(in_bin(at(0.2, 0, 0.251)), 0.0) << "above the rim there is no wall";
+  EXPECT_NEAR(in_bin(at(0.2, 0, 0.249)), 0.001, exact) << "what lies on the rim is lifted off it, not drawn in";
   bin.kind = Bin::Kind::floor;
   EXPECT_NEAR(in_bin(at(5, 0, 0.049)), 0.001, exact);
   EXPECT_EQ(in_bin(at(5, 0, 0.05)), 0.0);

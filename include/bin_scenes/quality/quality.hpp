@@ -19,8 +19,9 @@ struct Penetration {
 };
 Penetration penetration(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b);
 
-/// Of a placed mesh into walls and floor of the bin (depth only counts below the rim; walls have no outer side).
-/// A mesh bin is judged like a part if it is closed; an open one is a sheet, solid on the side away from the part.
+/// Of a placed mesh into walls and floor of the bin (a wall is solid outwards without end, up to the rim; the way out
+/// is back into the bin or up over the rim, whichever is shorter). A mesh bin is judged like a part if it is closed; an
+/// open one is a sheet, solid on the side away from the part.
 Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& bin, const MeshQuery* bin_mesh);
 
 /// Shortest distance between two placed meshes (0 if they touch or overlap), up to `limit`.
