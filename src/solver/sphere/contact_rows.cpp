@@ -8,30 +8,6 @@ namespace {
 
 constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
 
-/// A vector of each of four bodies: all x, all y, all z; the fourth values into `rest`.
-LaneVec gather(const std::array<std::uint32_t, lane_count>& bodies, const std::vector<Motion>& motions,
-               Lanes Motion::*vector, Lanes& rest) {
-  LaneVec out{motions[bodies[0]].*vector, motions[bodies[1]].*vector, motions[bodies[2]].*vector};
-  rest = motions[bodies[3]].*vector;
-  transpose(out.x, out.y, out.z, rest);
-  return out;
-}
-
-LaneVec gather(const std::array<std::uint32_t, lane_count>& bodies, const std::vector<Motion>& motions,
-               Lanes Motion::*vector) {
-  Lanes rest;
-  return gather(bodies, motions, vector, rest);
-}
-
-void scatter(LaneVec in, Lanes rest, const std::array<std::uint32_t, lane_count>& bodies, Lanes Motion::*vector,
-             std::vector<Motion>& motions) {
-  transpose(in.x, in.y, in.z, rest);
-  motions[bodies[0]].*vector = in.x;
-  motions[bodies[1]].*vector = in.y;
-  motions[bodies[2]].*vector = in.z;
-  motions[bodies[3]].*vector = rest;
-}
-
 void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, float h) {
   const bool field_of_a = c.feature >> 31;
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
@@ -62,27 +38,6 @@ Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& b
 }
 
 }  // namespace
-
-Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions) {
-  Velocities out;
-  out.va = gather(bundle.a, motions, &Motion::v, out.inverse_mass_a);
-  out.wa = gather(bundle.a, motions, &Motion::w);
-  out.vb = gather(bundle.b, motions, &Motion::v, out.inverse_mass_b);
-  out.wb = gather(bundle.b, motions, &Motion::w);
-  return out;
-}
-
-Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions) {
-  return {gather(bundle.a, motions, &Motion::moved), gather(bundle.a, motions, &Motion::turned),
-          gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
-}
-
-void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions) {
-  scatter(velocities.va, velocities.inverse_mass_a, bundle.a, &Motion::v, motions);
-  scatter(velocities.wa, Lanes{}, bundle.a, &Motion::w, motions);
-  scatter(velocities.vb, velocities.inverse_mass_b, bundle.b, &Motion::v, motions);
-  scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
-}
 
 void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows) {
   static thread_local std::vector<std::uint32_t> order;
@@ -140,6 +95,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
                          tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
     c.approach = c.prepared_approach = velocities.along_normal(c);
+    bundle.striking |= any(c.approach <= -world.settings.restitution_speed);
   }
 }
 

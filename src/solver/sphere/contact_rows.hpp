@@ -1,4 +1,4 @@
-/// Contacts as the solver works on them: four at a time, one of each of four manifolds that share no moving body.
+/// Contacts as the solver works on them: eight at a time, one of each of eight manifolds that share no moving body.
 #pragma once
 
 #include "solver/sphere/lanes.hpp"
@@ -11,10 +11,10 @@ namespace bin_scenes::sphere {
 
 /// How a body moves while contacts are solved (world frame): x, y, z and a fourth value.
 struct alignas(64) Motion {
-  Lanes v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = nothing moves it in this step
-  Lanes w{};       ///< rad/s
-  Lanes moved{};   ///< m since contacts were found
-  Lanes turned{};  ///< rotation vector since contacts were found
+  Quad v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = nothing moves it in this step
+  Quad w{};       ///< rad/s
+  Quad moved{};   ///< m since contacts were found
+  Quad turned{};  ///< rotation vector since contacts were found
 
   float inverse_mass() const { return v[3]; }
 };
@@ -32,10 +32,14 @@ struct ContactRows {
   Lanes max_impulse{}, gap{};                          ///< largest normal impulse; separation at the last look
 };
 
-/// Four manifolds of one color. Empty lanes name the ground for both bodies.
+using LaneBodies = std::array<std::uint32_t, lane_count>;
+
+/// Eight manifolds of one color. Empty lanes name the ground for both bodies.
 struct Bundle {
-  std::array<std::uint32_t, lane_count> manifold{}, a{}, b{};
+  LaneBodies a{}, b{};
+  std::array<std::uint32_t, lane_count> manifold{};
   int lanes = 0;              ///< in use
+  bool striking = false;      ///< some contact closes at Settings::restitution_speed
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
@@ -80,11 +84,50 @@ struct Ways {
   }
 };
 
-/// Gathers the bodies of `bundle`.
-Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions);
-Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions);
-/// Puts the velocities back. The ground and what cannot move get what they had.
-void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions);
+/// A vector of each of the bodies of eight lanes; the fourth values into `fourth`.
+inline LaneVec gather(const LaneBodies& bodies, const std::vector<Motion>& motions, Quad Motion::*vector,
+                      Lanes& fourth) {
+  Quad q[lane_count];
+  for (int lane = 0; lane < lane_count; ++lane) q[lane] = motions[bodies[lane]].*vector;
+  transpose(q[0], q[1], q[2], q[3]);
+  transpose(q[4], q[5], q[6], q[7]);
+  fourth = join(q[3], q[7]);
+  return {join(q[0], q[4]), join(q[1], q[5]), join(q[2], q[6])};
+}
+inline LaneVec gather(const LaneBodies& bodies, const std::vector<Motion>& motions, Quad Motion::*vector) {
+  Lanes fourth;
+  return gather(bodies, motions, vector, fourth);
+}
+inline void scatter(const LaneVec& v, Lanes fourth, const LaneBodies& bodies, Quad Motion::*vector,
+                    std::vector<Motion>& motions) {
+  Quad q[lane_count] = {low_half(v.x),  low_half(v.y),  low_half(v.z),  low_half(fourth),
+                        high_half(v.x), high_half(v.y), high_half(v.z), high_half(fourth)};
+  transpose(q[0], q[1], q[2], q[3]);
+  transpose(q[4], q[5], q[6], q[7]);
+  for (int lane = 0; lane < lane_count; ++lane) motions[bodies[lane]].*vector = q[lane];
+}
+
+inline Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  Velocities out;
+  out.va = gather(bundle.a, motions, &Motion::v, out.inverse_mass_a);
+  out.wa = gather(bundle.a, motions, &Motion::w);
+  out.vb = gather(bundle.b, motions, &Motion::v, out.inverse_mass_b);
+  out.wb = gather(bundle.b, motions, &Motion::w);
+  return out;
+}
+
+inline Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  return {gather(bundle.a, motions, &Motion::moved), gather(bundle.a, motions, &Motion::turned),
+          gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
+}
+
+/// Puts velocities back. The ground and what cannot move get what they had.
+inline void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions) {
+  scatter(velocities.va, velocities.inverse_mass_a, bundle.a, &Motion::v, motions);
+  scatter(velocities.wa, Lanes{}, bundle.a, &Motion::w, motions);
+  scatter(velocities.vb, velocities.inverse_mass_b, bundle.b, &Motion::v, motions);
+  scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
+}
 
 /// The manifolds of a world in bundles, in order of color; the longest of a color first, so that lanes are filled.
 void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows);

@@ -36,12 +36,12 @@ void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& w
   });
 }
 
-Lanes padded(const Vec3f& v, float fourth = 0) {
-  return Lanes{v.x(), v.y(), v.z(), fourth};
+Quad padded(const Vec3f& v, float fourth = 0) {
+  return Quad{v.x(), v.y(), v.z(), fourth};
 }
 
-Vec3f vector_of(Lanes l) {
-  return {l[0], l[1], l[2]};
+Vec3f vector_of(Quad q) {
+  return {q[0], q[1], q[2]};
 }
 
 /// What a step's solve works on. Kept between steps for its memory alone.
@@ -61,6 +61,7 @@ class ContactSolver {
         h_(settings_.time_step / static_cast<float>(world.sub_steps())),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
+        gravity_gain_(world.gravity.norm() * settings_.time_step),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         free_(scratch.free),
@@ -78,6 +79,7 @@ class ContactSolver {
 
  private:
   void prepare_motions();
+  void approach_grows(ContactRows& c, const Velocities& u) const;
   void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
   void solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
@@ -89,7 +91,8 @@ class ContactSolver {
   const float h_;
   const Softness& softness_;
   const Spring spring_;
-  const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
+  const float gravity_gain_;  ///< speed that gravity gives in a time step (m/s)
+  const float push_speed_;    ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
   std::vector<Bundle>& bundles_;
@@ -121,7 +124,7 @@ void ContactSolver::prepare() {
 /// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
 /// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
 void ContactSolver::accelerate() {
-  const Lanes gain = padded(h_ * world_.gravity);
+  const Quad gain = padded(h_ * world_.gravity);
   for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
     Motion& motion = motions_[i];
     if (motion.inverse_mass() == 0) continue;
@@ -141,19 +144,20 @@ void ContactSolver::accelerate() {
   }
 }
 
+/// What is about to strike gains speed until it does, but no more than gravity gives in a step.
+void ContactSolver::approach_grows(ContactRows& c, const Velocities& u) const {
+  const LaneMask strikes = (c.approach < -settings_.restitution_speed) & (c.max_impulse == 0.0f);
+  const Lanes fastest = max(u.along_normal(c), c.prepared_approach - gravity_gain_);
+  c.approach = strikes ? min(c.approach, fastest) : c.approach;
+}
+
 BIN_SCENES_WIDE
 void ContactSolver::warm_start() {
-  const float speed_gain = world_.gravity.norm() * settings_.time_step;
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
       ContactRows& c = rows_[i];
-      // What is about to strike gains speed until it does, but no more than gravity gives in a step.
-      const LaneMask strikes = (c.approach < -settings_.restitution_speed) & (c.max_impulse == 0.0f);
-      if (any(strikes)) {
-        const Lanes fastest = max(u.along_normal(c), c.prepared_approach - speed_gain);
-        c.approach = strikes ? min(c.approach, fastest) : c.approach;
-      }
+      if (bundle.striking) approach_grows(c, u);
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }
@@ -208,7 +212,7 @@ void ContactSolver::sweep(bool push) {
 }
 
 void ContactSolver::move() {
-  const Lanes parabola = padded(0.5f * h_ * h_ * world_.gravity);
+  const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
   for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
     Motion& motion = motions_[i];
     if (motion.inverse_mass() == 0) continue;
@@ -253,7 +257,8 @@ void ContactSolver::restitute() {
   static thread_local std::vector<Bounce> blows;
   blows.clear();
   for (const Bundle& bundle : bundles_)
-    if (const LaneMask lanes = bouncing(bundle); any(lanes)) blows.push_back({&bundle, lanes});
+    if (bundle.striking)
+      if (const LaneMask lanes = bouncing(bundle); any(lanes)) blows.push_back({&bundle, lanes});
   for (int k = 0; k < bounce_sweeps; ++k)
     for (const Bounce& b : blows) bounce(*b.bundle, b.lanes);
   for (const Bounce& b : blows)  // a blow is over: it must not warm-start the next step

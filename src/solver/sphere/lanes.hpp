@@ -6,22 +6,22 @@
 
 #include <cstdint>
 
-/// Before a function: the compiler makes one version for any x86-64 and one for AVX2, and the machine picks at load
-/// time. Neither fuses multiply and add, so both give the same bits.
+/// Before a function, with all that it calls: the compiler makes one version for any x86-64 and one for AVX2, and the
+/// machine picks at load time. Neither fuses multiply and add, so both give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default")))
+#define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default"), flatten))
 #else
 #define BIN_SCENES_WIDE
 #endif
 
 namespace bin_scenes::sphere {
 
-using Lanes = float __attribute__((vector_size(16)));
-using LaneMask = std::int32_t __attribute__((vector_size(16)));  ///< of a comparison: -1 = true, 0 = false
-constexpr int lane_count = 4;
+using Lanes = float __attribute__((vector_size(32), aligned(32)));
+using LaneMask = std::int32_t __attribute__((vector_size(32), aligned(32)));  ///< of a comparison: -1 = true, 0 = false
+constexpr int lane_count = 8;
 
 inline Lanes all_lanes(float x) {
-  return Lanes{x, x, x, x};
+  return Lanes{x, x, x, x, x, x, x, x};
 }
 inline Lanes min(Lanes a, Lanes b) {
   return a < b ? a : b;
@@ -31,15 +31,17 @@ inline Lanes max(Lanes a, Lanes b) {
 }
 inline Lanes sqrt(Lanes a) {
   Lanes root;
-  Eigen::Map<Eigen::Array4f>(reinterpret_cast<float*>(&root)) =
-      Eigen::Map<const Eigen::Array4f>(reinterpret_cast<const float*>(&a)).sqrt();
+  Eigen::Map<Eigen::Array<float, lane_count, 1>>(reinterpret_cast<float*>(&root)) =
+      Eigen::Map<const Eigen::Array<float, lane_count, 1>>(reinterpret_cast<const float*>(&a)).sqrt();
   return root;
 }
 inline bool any(LaneMask m) {
-  return (m[0] | m[1] | m[2] | m[3]) != 0;
+  std::int32_t some = 0;
+  for (int lane = 0; lane < lane_count; ++lane) some |= m[lane];
+  return some != 0;
 }
 
-/// Four vectors of three.
+/// Eight vectors of three.
 struct LaneVec {
   Lanes x{}, y{}, z{};
 
@@ -67,7 +69,7 @@ inline LaneVec cross(const LaneVec& a, const LaneVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Four symmetric 3 x 3 matrices.
+/// Eight symmetric 3 x 3 matrices.
 struct LaneSymmetric {
   Lanes xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 
@@ -86,14 +88,26 @@ inline LaneVec operator*(const LaneSymmetric& m, const LaneVec& v) {
           m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
+/// One vector of three with a fourth value, as bodies keep them.
+using Quad = float __attribute__((vector_size(16)));
+
 /// Rows become columns: four vectors of (x, y, z, w) into all x, all y, all z, all w, and back.
-inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+inline void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5), ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Quad cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5), cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
   a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
   b = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
   c = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+inline Lanes join(Quad low, Quad high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline Quad low_half(Lanes a) {
+  return __builtin_shufflevector(a, a, 0, 1, 2, 3);
+}
+inline Quad high_half(Lanes a) {
+  return __builtin_shufflevector(a, a, 4, 5, 6, 7);
 }
 
 }  // namespace bin_scenes::sphere
