@@ -83,12 +83,13 @@ void wake(World& world, std::uint32_t body) {
 }
 
 void step(World& world) {
+  ++world.counters.steps;
+  if (std::none_of(world.bodies.begin(), world.bodies.end(), [](const Body& b) { return b.moves(); })) return;
   find_pairs(world);
   find_contacts(world);
   color_manifolds(world);
   solve(world);
   update_sleep(world);
-  ++world.counters.steps;
 }
 
 }  // namespace bin_scenes::sphere
