@@ -68,7 +68,7 @@ struct SphereSettingsBlock {
   uint candidates;         // kept per invocation of find_contacts
   uint contact_groups;     // groups that take jobs at once
   float coarse_recycle;    // d: `recycle` on coarse samples
-  uint unused0;
+  uint sweeps;             // over all contacts before bodies move, and again after
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d), sub-steps in place of one
 };
 

@@ -217,9 +217,9 @@ void main() {
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
     integrate_velocities(h);
     sweep(WARM_START, h);
-    sweep(PUSH, h);
+    for (uint i = 0u; i < settings.sweeps; ++i) sweep(PUSH, h);
     integrate_positions(h);
-    sweep(RELAX, h);
+    for (uint i = 0u; i < settings.sweeps; ++i) sweep(RELAX, h);
   }
   restitute();
   keep_forces();

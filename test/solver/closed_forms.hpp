@@ -57,6 +57,10 @@ TEST_P(ClosedForms, FreeTumblingKeepsEnergyAndAngularMomentum) {
   EXPECT_LT(result.spin, 1e-3);
 }
 
+TEST_P(ClosedForms, AStackOfTenStands) {
+  EXPECT_LT(stack_drift(lab(), 3.0), 1e-3);
+}
+
 TEST_P(ClosedForms, ManyContactsAtOnceDoNotMultiplyTheImpulse) {
   const Rods speeds = meet_along_rods(lab());
   EXPECT_NEAR(speeds.first, 0.0, 0.01);

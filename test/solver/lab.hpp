@@ -98,12 +98,14 @@ class Lab {
   }
   BodyState& start(std::size_t body) { return starts_[body]; }
 
+  void begin(Phase phase) {
+    world_ = solver_->add_world(def_);
+    for (std::size_t b = 0; b < starts_.size(); ++b) solver_->insert(world_, b, starts_[b]);
+    solver_->set_phase(world_, phase);
+    begun_ = true;
+  }
   void simulate(double seconds) {
-    if (!begun_) {
-      world_ = solver_->add_world(def_);
-      for (std::size_t b = 0; b < starts_.size(); ++b) solver_->insert(world_, b, starts_[b]);
-      begun_ = true;
-    }
+    if (!begun_) begin(Phase::pour);
     time_ += solver_->advance({world_}, seconds);
   }
   double time() const { return time_; }

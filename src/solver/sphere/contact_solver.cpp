@@ -289,9 +289,9 @@ void solve(World& world) {
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.accelerate();
     solver.warm_start();
-    solver.sweep(true);
+    for (int i = 0; i < world.settings.sweeps; ++i) solver.sweep(true);
     solver.move();
-    solver.sweep(false);
+    for (int i = 0; i < world.settings.sweeps; ++i) solver.sweep(false);
   }
   solver.restitute();
   solver.finish();

@@ -26,10 +26,11 @@ struct Softness {
 
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's diagonal d.
 struct Settings {
-  float time_step = 1.0f / 400;           ///< one collision detection
-  int sub_steps = 4;                      ///< contact solves per time step; stiffness of contacts grows with its square
-  Softness soft{0.25f, 10.0f, 2e-4f, 1};  ///< of contacts while bodies move: takes the energy out of rocking
-  Softness stiff{0.35f, 10.0f, 5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
+  float time_step = 1.0f / 400;  ///< one collision detection
+  int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
+  int sweeps = 2;  ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
+  Softness soft{0.25f, 10.0f, 2e-4f, 1};   ///< of contacts while bodies move: takes the energy out of rocking
+  Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far

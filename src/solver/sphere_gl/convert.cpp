@@ -51,6 +51,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
     return {c.hertz_share * static_cast<float>(s.sub_steps * c.refinement) / s.time_step, c.damping_ratio, c.slop,
             static_cast<float>(c.refinement)};
   };
+  out.sweeps = static_cast<gpu::uint>(s.sweeps);
   out.soft = softness(s.soft);
   out.stiff = softness(s.stiff);
   out.push_speed = s.push_speed;
