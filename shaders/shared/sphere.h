@@ -75,7 +75,7 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  vec4 gravity;   // m/s2; w: diagonal of the smallest part
+  vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end
 };
 
@@ -125,7 +125,7 @@ struct SphereSamples {
 struct SphereShape {
   SphereSamples coarse, fine;
   vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass
-  vec4 box_half;     // w: diagonal
+  vec4 box_half;     // w: size (m)
   vec4 origin;       // of the field's grid; w: cell
   vec4 field;        // 1 / cell, padding, radius if the part is a ball
   uvec4 grid;        // values along x, y, z; first value

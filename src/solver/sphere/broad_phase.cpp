@@ -14,7 +14,7 @@ struct Bounds {
 
 /// Way the surface of a body may move in one step, and the distance at which contacts are kept.
 float reach(const World& world, const Body& b) {
-  const float base = 0.5f * world.settings.margin * world.shapes[b.shape]->diagonal;
+  const float base = 0.5f * world.settings.margin * world.shapes[b.shape]->size;
   if (!b.moves()) return base;
   return base +
          (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius + world.gravity.norm() * world.settings.time_step) *

@@ -35,7 +35,7 @@ class Islands {
 
 void note_motion(const World& world, Body& b) {
   const Shape& s = *world.shapes[b.shape];
-  const float limit = world.settings.rest_move * s.diagonal;
+  const float limit = world.settings.rest_move * s.size;
   const float turned = 2.0f * (b.still_q.conjugate() * b.q).vec().norm() * s.radius;
   if ((b.x - b.still_x).norm() > limit || turned > limit) {
     b.still = 0;

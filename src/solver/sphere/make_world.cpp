@@ -60,7 +60,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   }
   w.smallest_diagonal = w.thinnest = std::numeric_limits<float>::max();
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
-  for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->diagonal);
+  for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->size);
   w.cuts = step_cuts(settings.time_step, def.gravity.norm(), w.smallest_diagonal);
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   return w;

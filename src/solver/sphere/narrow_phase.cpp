@@ -385,7 +385,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   if (!a.moves() && !(b && b->moves())) return;
   ++counters.pairs;
   const Shape& sa = *world.shapes[a.shape];
-  const float size = b ? std::min(sa.diagonal, world.shapes[b->shape]->diagonal) : sa.diagonal;
+  const float size = b ? std::min(sa.size, world.shapes[b->shape]->size) : sa.size;
   const RelativePose pose = relative_pose(a, b);
   if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;

@@ -383,15 +383,25 @@ int at_least(int count, double wanted) {
 
 constexpr double cells_through = 1.5;  ///< of the field, through the thinnest part: two nodes see its inside
 
+constexpr double thin = 50.0;  ///< thicknesses; a part longer than that meets others as one of that size would
+
+/// m. The margin of contacts of a needle 1:200, as a share of its diagonal, is nearly its thickness: contacts kept,
+/// pushed apart and reused over such lengths make it tremble. An open bin has no thickness.
+double size_at_contacts(const PartModel& part) {
+  const MassProperties& mass = part.mass();
+  const double thickness = 2.0 * mass.volume / mass.area;
+  return part.load_report().closed ? std::min(part.diagonal(), thin * thickness) : part.diagonal();
+}
+
 }  // namespace
 
 Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell) {
   Shape shape;
   const MassProperties& mass = part.mass();
   shape.center = mass.center.cast<float>();
-  shape.diagonal = static_cast<float>(part.diagonal());
   shape.radius = static_cast<float>(part.radius());
   shape.thickness = static_cast<float>(2.0 * mass.volume / mass.area);
+  shape.size = static_cast<float>(size_at_contacts(part));
   shape.volume = static_cast<float>(mass.volume);
   shape.unit_inertia = (mass.inertia / mass.volume).cast<float>();
   const Aabb box = part.mesh().bounds();

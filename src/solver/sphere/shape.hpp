@@ -54,8 +54,8 @@ struct Shape {
   Vec3f center = Vec3f::Zero();      ///< centre of mass in the model frame
   Vec3f box_center = Vec3f::Zero();  ///< of the bounding box, body frame
   Vec3f box_half = Vec3f::Zero();
-  float radius = 0;  ///< largest node distance from the centre of mass
-  float diagonal = 0;
+  float radius = 0;     ///< largest node distance from the centre of mass
+  float size = 0;       ///< m that lengths at contacts follow from: the diagonal, at most 50 thicknesses
   float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
   float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame

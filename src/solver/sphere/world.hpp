@@ -24,7 +24,7 @@ struct Softness {
   int refinement;       ///< sub-steps in place of one; overlap under load falls with its square, cost rises with it
 };
 
-/// Settings as the passes use them (m, s); lengths follow from the smallest part's diagonal d.
+/// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
@@ -114,7 +114,7 @@ struct World {
   Vec3f gravity = Vec3f(0, 0, -9.81f);
   bool fine = false;                          ///< exact samples
   bool pressed = false;                       ///< stiff contacts
-  float smallest_diagonal = 0, thinnest = 0;  ///< m, of the parts
+  float smallest_diagonal = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                       ///< s: Settings::time_step while nothing is fast
   int cuts = 1;                               ///< whole steps for one of the request: small parts need short ones
 

@@ -67,7 +67,7 @@ std::uint32_t ShapeTable::index_of(const sphere::Shape& shape) {
   out.coarse = add(shape.coarse);
   out.fine = add(shape.fine);
   out.box_center = vec4(shape.box_center, shape.radius);
-  out.box_half = vec4(shape.box_half, shape.diagonal);
+  out.box_half = vec4(shape.box_half, shape.size);
   out.origin = vec4(field.origin, field.cell);
   out.field = {field.inverse_cell, field.padding, field.ball, 0};
   const std::size_t values = field.values ? std::size_t(field.nx) * field.ny * field.nz : 0;

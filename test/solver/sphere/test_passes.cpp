@@ -27,7 +27,7 @@ Shape box_shape(PartModelPtr& part, const Vec3& size, double cell = 0.01) {
 World world_of_boxes(const Shape& shape, std::size_t count) {
   World world;
   world.shapes = {&shape};
-  world.smallest_diagonal = shape.diagonal;
+  world.smallest_diagonal = shape.size;
   for (std::size_t i = 0; i < count; ++i) {
     Body b;
     b.inverse_mass = 1.0f;
@@ -37,6 +37,14 @@ World world_of_boxes(const Shape& shape, std::size_t count) {
     world.bodies.push_back(b);
   }
   return world;
+}
+
+TEST(Shape, AThinPartMeetsOthersAsOneOfFiftyThicknesses) {
+  PartModelPtr cube, needle;
+  EXPECT_FLOAT_EQ(box_shape(cube, Vec3::Constant(0.05)).size, 0.05f * std::sqrt(3.0f));
+  const Shape shape = box_shape(needle, Vec3(0.2, 0.001, 0.001));
+  EXPECT_NEAR(shape.thickness, 5e-4f, 5e-6f);  // 2 volume / area
+  EXPECT_FLOAT_EQ(shape.size, 50.0f * shape.thickness);
 }
 
 TEST(Shape, FieldOfABoxIsItsDistanceAwayFromKinks) {
@@ -320,7 +328,7 @@ TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
   const auto deepest = [&](const Softness& s) {
     const float rate = world.settings.sub_steps * s.refinement / world.settings.time_step;
     const float omega = 2.0f * static_cast<float>(M_PI) * s.hertz_share * rate;
-    return s.slop * shape.diagonal + 9.81f / (omega * omega);
+    return s.slop * shape.size + 9.81f / (omega * omega);
   };
   const Softness &soft = world.settings.soft, &stiff = world.settings.stiff;
   const auto held = [&] {
@@ -330,14 +338,14 @@ TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
   };
   const float settled = depth_after(1.0f);
   EXPECT_NEAR(held(), 1.0f, 1e-3f);
-  EXPECT_GT(settled, soft.slop * shape.diagonal);
+  EXPECT_GT(settled, soft.slop * shape.size);
   EXPECT_LT(settled, deepest(soft));
   world.pressed = true;
   step(world);  // shorter sub-steps take over the forces: it is neither dropped nor thrown
   EXPECT_NEAR(held(), 1.0f, 0.05f);
   const float pressed = depth_after(0.3f);
   EXPECT_NEAR(held(), 1.0f, 1e-3f);
-  EXPECT_GT(pressed, stiff.slop * shape.diagonal);
+  EXPECT_GT(pressed, stiff.slop * shape.size);
   EXPECT_LT(pressed, deepest(stiff));
 }
 
