@@ -29,13 +29,13 @@ std::vector<Row> time_steps(bool soak) {
     const std::size_t count = soak || hertz < 1000 ? 10 : 4;  // fine steps take their time
     row.cases.push_back(poured("angles", "angle", angle(0.05, 0.01, 0.03), count, step));
     row.cases.push_back(poured("rings", "ring", ring(0.018, 0.0275, 0.012), count, step));
-    if (soak) row.cases.push_back(poured("40 cubes", "cube_30", cube(0.03), 40, step));
-    if (hertz <= 240 && hertz != 30) row.known["sphere: 40 cubes"] = restarted;
-    if (hertz == 2000) {
-      row.known["bullet: 40 cubes"] = "the heap lies higher, so that the bin is full";
-      if (soak) row.known["bullet: rings"] = trembles;
+    if (soak) {
+      row.cases.push_back(poured("40 cubes", "cube_30", cube(0.03), 40, step));
+      // As high as the others it takes 38 to 40 of them, as they happen to fall.
+      row.cases.back().request.bin.inner_size.z() = 0.16;
     }
-    if (hertz == 480) row.known["bullet: rings"] = restarted;
+    if (soak && hertz == 2000) row.known["bullet: rings"] = trembles;
+    if (hertz == 1000) row.known["bullet: angles"] = restarted;
     rows.push_back(row);
   }
   return rows;
