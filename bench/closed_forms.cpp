@@ -136,6 +136,7 @@ void run(Run& out) {
       if (solver == "sphere/thesis" && !form.thesis) continue;
       std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> fits;
       for (const double rate : rates) {
+        if (!out.wanted(Row().key("solver", solver).key("time_step_s", 1.0 / rate))) continue;
         Row failure;
         const std::vector<Value> values = measured(form, solver, 1.0 / rate, failure);
         if (values.empty()) out.row(Row().key("solver", solver).key("time_step_s", 1.0 / rate).append(failure));

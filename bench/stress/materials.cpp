@@ -55,7 +55,6 @@ std::vector<Row> materials(bool soak) {
   restitution.cases.back().expect.rests = false;
   restitution.cases.back().request.pour.limit = 3.0;
   restitution.cases.push_back(elastic_balls());
-  restitution.known["bullet: balls that lose nothing"] = "several blows in one step are returned as if each came alone";
   rows.push_back(restitution);
 
   Row gravity{"material", "gravity", both, {floating()}, {}};

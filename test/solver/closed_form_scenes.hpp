@@ -139,12 +139,13 @@ inline Tumble tumble(Lab lab) {
   return result;
 }
 
-/// Ten boxes on each other for `seconds`: largest displacement of any / edge.
-inline double stack_drift(Lab lab, double seconds) {
+/// Ten boxes on each other for `seconds`, turned by `heading` about the vertical: largest displacement of any / edge.
+inline double stack_drift(Lab lab, double seconds, double heading = 0.0) {
   const double edge = 0.04;
   const PartModelPtr cube = box(Vec3::Constant(edge));
   const auto start = [&](int i) { return Vec3(0, 0, (i + 0.5) * edge); };
-  for (int i = 0; i < 10; ++i) lab.place(cube, start(i), Quat::Identity(), material(0.5));
+  const Quat turned(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
+  for (int i = 0; i < 10; ++i) lab.place(cube, start(i), turned, material(0.5));
   lab.begin(Phase::press);  // as every scene ends
   lab.simulate(seconds);
   double most = 0.0;

@@ -31,17 +31,52 @@ struct NearestPoints : public btDiscreteCollisionDetectorInterface::Result {
   }
 };
 
-/// Passes contact points on and remembers the deepest.
+/// The corners of the patch in which two faces lie against each other.
 struct Patch : public btDiscreteCollisionDetectorInterface::Result {
-  explicit Patch(btManifoldResult& result) : out(result) {}
-  btManifoldResult& out;
-  btScalar deepest = BT_LARGE_FLOAT;
+  struct Corner {
+    btVector3 point;
+    btScalar depth;
+  };
+  btVector3 normal{0, 0, 0};
+  btAlignedObjectArray<Corner> corners;
 
   void setShapeIdentifiersA(int, int) override {}
   void setShapeIdentifiersB(int, int) override {}
-  void addContactPoint(const btVector3& normal, const btVector3& point, btScalar depth) override {
-    out.addContactPoint(normal, point, depth);
-    deepest = std::min(deepest, depth);
+  void addContactPoint(const btVector3& normal_on_b, const btVector3& point, btScalar depth) override {
+    normal = normal_on_b;
+    corners.push_back({point, depth});
+  }
+
+  /// Keeps the four corners that span the most: the outermost, the one farthest from it, and the farthest on either
+  /// side of the line between them. A manifold holds four points and lets every further one push out another: the
+  /// crossings of edges that almost coincide took the places of corners in turn, each time without its impulse.
+  void spread() {
+    constexpr int most = MANIFOLD_CACHE_SIZE;
+    if (corners.size() <= most) return;
+    btVector3 middle(0, 0, 0);
+    for (int i = 0; i < corners.size(); ++i) middle += corners[i].point / btScalar(corners.size());
+    const auto choose = [&](int place, const auto& measure) {
+      int best = place;
+      for (int i = place + 1; i < corners.size(); ++i)
+        if (measure(corners[i].point) > measure(corners[best].point)) best = i;
+      corners.swap(place, best);
+    };
+    choose(0, [&](const btVector3& p) { return p.distance2(middle); });
+    choose(1, [&](const btVector3& p) { return p.distance2(corners[0].point); });
+    const btVector3 across = normal.cross(corners[1].point - corners[0].point), origin = corners[0].point;
+    choose(2, [&](const btVector3& p) { return across.dot(p - origin); });
+    choose(3, [&](const btVector3& p) { return -across.dot(p - origin); });
+    corners.resizeNoInitialize(most);
+  }
+
+  /// Distance of the deepest corner.
+  btScalar pass_on(btManifoldResult& result) const {
+    btScalar deepest = BT_LARGE_FLOAT;
+    for (int i = 0; i < corners.size(); ++i) {
+      result.addContactPoint(normal, corners[i].point, corners[i].depth);
+      deepest = std::min(deepest, corners[i].depth);
+    }
+    return deepest;
   }
 };
 
@@ -88,14 +123,16 @@ void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCo
   gjk.getClosestPoints(input, nearest, nullptr);
 
   if (nearest.found && nearest.distance <= reach) {
-    Patch patch(*result);
+    Patch patch;
     if (const auto* faces_a = faces(shape_a), *faces_b = faces(shape_b); faces_a && faces_b)
       btPolyhedralContactClipping::clipHullAgainstHull(nearest.normal, *faces_a, *faces_b, input.m_transformA,
                                                        input.m_transformB, nearest.distance, reach, clipped_a_,
                                                        clipped_b_, patch);
+    patch.spread();
+    const btScalar deepest = patch.pass_on(*result);
     // GJK's own point lies anywhere in a patch and would push a corner out of the four a manifold keeps, another one
     // every step; it is needed only where the patch misses it (an edge on an edge).
-    if (patch.deepest > nearest.distance + 0.1 * reach)
+    if (deepest > nearest.distance + 0.1 * reach)
       result->addContactPoint(nearest.normal, nearest.point, nearest.distance);
   }
   if (own_manifold_) result->refreshContactPoints();
