@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 namespace {
-constexpr int kWidth = 20;                        ///< a line longer than 80 columns would wrap, and stay
+constexpr int kWidth = 20;                        ///< characters; leaves room for the text in 80 columns
 constexpr std::chrono::milliseconds kPause(100);  ///< between two updates: a terminal is slow
 }  // namespace
 
@@ -24,10 +24,12 @@ void ProgressBar::show(const Progress& progress) {
   shown_ = true;
   const int full = static_cast<int>(progress.fraction * kWidth);
   const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
-  std::fprintf(stderr, "\r\033[K[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
+  // Without wrapping (?7l), so that a narrow terminal cuts the line and has but one to clear.
+  std::fprintf(stderr, "\r\033[K\033[?7l[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
   if (progress.simulated_s > 0) {  // other phases know nothing of rest
     std::fprintf(stderr, ": %zu of %zu parts at rest, %.2f s", progress.resting, progress.parts, progress.simulated_s);
   }
+  std::fputs("\033[?7h", stderr);
   std::fflush(stderr);
 }
 

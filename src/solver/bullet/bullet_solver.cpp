@@ -44,10 +44,14 @@ class BulletSolver : public Solver {
     const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
     for (const WorldId id : worlds) {
       bullet::World& world = at(id);
-      const std::uint64_t steps_before = world.steps(), rows_before = world.contact_rows();
+      const bullet::World::Counters before = world.counters();
       world.advance(steps);
-      profile_.count("bullet_steps", world.steps() - steps_before);
-      profile_.count("bullet_contacts", world.contact_rows() - rows_before);
+      const bullet::World::Counters& after = world.counters();
+      profile_.count("steps", after.steps - before.steps);
+      profile_.count("body_steps_in_free_fall", after.free_falls - before.free_falls);
+      profile_.count("body_steps_asleep", after.asleep - before.asleep);
+      profile_.count("pairs", after.pairs - before.pairs);
+      profile_.count("contacts", after.contacts - before.contacts);
     }
     return steps * settings_.time_step;
   }
@@ -55,7 +59,7 @@ class BulletSolver : public Solver {
   std::vector<BodyState> states(WorldId world) const override { return at(world).states(); }
   std::vector<bool> asleep(WorldId world) const override { return at(world).asleep(); }
   double step_size() const override { return settings_.time_step; }
-  std::uint64_t steps(WorldId world) const override { return at(world).steps(); }
+  std::uint64_t steps(WorldId world) const override { return at(world).counters().steps; }
   const Profile& profile() const override { return profile_; }
   std::vector<Flag> flags(WorldId world) const override { return at(world).flags(); }
   std::string name() const override { return "bullet"; }

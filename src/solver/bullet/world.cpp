@@ -238,8 +238,23 @@ void World::advance(int steps) {
     const double dt = time_step_ / n;
     // A sub-step takes two sweeps; cutting a step does not make sub-steps any shorter than they are.
     world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
-    for (int k = 0; k < n; ++k) world_.stepSimulation(dt, 0);
-    steps_ += static_cast<std::uint64_t>(n);
+    for (int k = 0; k < n; ++k) {
+      world_.stepSimulation(dt, 0);
+      count();
+    }
+  }
+}
+
+void World::count() {
+  ++counters_.steps;
+  counters_.contacts = contact_solver_.rows;
+  counters_.pairs += static_cast<std::uint64_t>(broadphase_.getOverlappingPairCache()->getNumOverlappingPairs());
+  for (const auto& body : bodies_) {
+    if (!body->rigid || body->def->fixed) continue;
+    if (!body->rigid->isActive())
+      ++counters_.asleep;
+    else if (!body->motion.touches)
+      ++counters_.free_falls;
   }
 }
 

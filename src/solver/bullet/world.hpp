@@ -36,8 +36,11 @@ class World {
 
   std::vector<BodyState> states() const;
   std::vector<bool> asleep() const;
-  std::uint64_t steps() const { return steps_; }
-  std::uint64_t contact_rows() const { return contact_solver_.rows; }
+  /// Sums over steps, for the profile.
+  struct Counters {
+    std::uint64_t steps = 0, free_falls = 0, asleep = 0, pairs = 0, contacts = 0;
+  };
+  const Counters& counters() const { return counters_; }
   std::vector<Flag> flags() const;
 
  private:
@@ -45,6 +48,7 @@ class World {
   void add_static(btCollisionShape* shape, const btTransform& pose);
   void add_walls(double wall_height);
   int cuts() const;
+  void count();
   btTransform body_transform(const Body& body, const Pose& pose) const;
 
   WorldDef def_;
@@ -62,7 +66,7 @@ class World {
   MeshShape bin_mesh_;
   std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
   std::vector<std::unique_ptr<btRigidBody>> walls_;
-  std::uint64_t steps_ = 0;
+  Counters counters_;
 };
 
 }  // namespace bin_scenes::bullet

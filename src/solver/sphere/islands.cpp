@@ -69,6 +69,7 @@ void update_sleep(World& world) {
     }
     if (!sleep && b.asleep) b.still = 0;
     b.asleep = sleep;
+    world.counters.asleep_steps += sleep;
   }
 }
 

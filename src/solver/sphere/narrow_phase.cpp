@@ -399,6 +399,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
       candidates_of_pair(world, m, margin, counters, candidates);
     else
       candidates_of_ground(world, m, margin, counters, candidates);
+    if (candidates.empty()) ++counters.pairs_culled;
     reduce(candidates, m, size, world.fine ? max_contacts : max_coarse_contacts, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();

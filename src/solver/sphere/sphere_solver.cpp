@@ -135,9 +135,11 @@ class SphereSolver final : public Solver {
   static void add(Profile& p, const Counters& c) {
     p.count("steps", c.steps);
     p.count("body_steps_in_free_fall", c.free_steps);
+    p.count("body_steps_asleep", c.asleep_steps);
     p.count("pairs", c.pairs);
     p.count("pairs_recycled", c.pairs_recycled);
     p.count("pairs_asleep", c.pairs_asleep);
+    p.count("pairs_culled", c.pairs_culled);
     p.count("groups_tested", c.groups_tested);
     p.count("clusters_tested", c.clusters_tested);
     p.count("nodes_tested", c.nodes_tested);
