@@ -69,7 +69,6 @@ void update_sleep(World& world) {
     }
     if (!sleep && b.asleep) b.still = 0;
     b.asleep = sleep;
-    world.counters.asleep_steps += sleep;
   }
 }
 
@@ -85,7 +84,12 @@ void wake(World& world, std::uint32_t body) {
 
 void step(World& world) {
   ++world.counters.steps;
-  if (std::none_of(world.bodies.begin(), world.bodies.end(), [](const Body& b) { return b.moves(); })) return;
+  bool any_moves = false;
+  for (const Body& b : world.bodies) {
+    any_moves |= b.moves();
+    world.counters.asleep_steps += b.present && b.asleep;
+  }
+  if (!any_moves) return;
   find_pairs(world);
   find_contacts(world);
   color_manifolds(world);
