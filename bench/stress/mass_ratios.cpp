@@ -54,8 +54,8 @@ Known known_at(double ratio) {
   Known known;
   if (ratio <= 10) known["sphere: they meet in free flight"] = blow;
   if (ratio >= 100) known["sphere: heavy cube on a light one"] = sweeps;
-  if (ratio >= 1000) known["bullet: heavy cube on a light one"] = sweeps;
-  if (ratio >= 1000) known["sphere: heavy cube dropped on light angles"] = sweeps;
+  if (ratio >= 10000)
+    known["bullet: heavy cube on a light one"] = known["sphere: heavy cube dropped on light angles"] = sweeps;
   if (ratio >= 10000) known["bullet: heavy cube dropped on light angles"] = sweeps;
   return known;
 }

@@ -70,7 +70,6 @@ std::vector<Row> overlaps(bool soak) {
         "the two, and opposite ways make energy";
     if (percent >= 10) row.known["sphere: 27 cubes in a lattice"] = nearest;
     if (percent >= 50) row.known["sphere: two cubes side by side"] = nearest;
-    if (percent == 2 || percent == 25) row.known["bullet: 27 cubes in a lattice"] = trembles;
     rows.push_back(row);
   }
   return rows;

@@ -27,14 +27,12 @@ std::vector<Row> stacks(bool soak) {
   }
   const char* high = "sways until it falls: the sweeps of a sub-step leave forces behind what moves";
   for (Row& row : rows) {
-    if (row.name == "of 2") continue;
-    const bool ten = row.name == "of 10";
-    if (!ten) row.known["sphere: cubes"] = high;
-    row.known["sphere: plates"] = row.known["sphere: rings"] = ten ? sways : high;
+    if (row.name == "of 2" || row.name == "of 10") continue;
+    row.known["sphere: cubes"] = row.known["sphere: plates"] = row.known["sphere: rings"] = high;
     row.known["bullet: rings"] = trembles;
   }
   if (soak) {
-    rows[3].known["bullet: cubes"] = trembles;
+    rows[2].known["bullet: plates"] = trembles;
     rows[3].known["bullet: plates"] = "the sweeps of a step do not carry fifty";
   }
   if (!soak) {  // rest takes long to say of so many: a quarter of a second must pass without a fall
