@@ -93,7 +93,12 @@ std::vector<Row> random_requests(bool soak) {
   Row heaps{"random", "heaps", both, {}, {}}, flights{"random", "free flights", both, {}, {}};
   for (std::uint64_t seed = 0; seed < (soak ? 60 : 8); ++seed) heaps.cases.push_back(heap(seed));
   for (std::uint64_t seed = 0; seed < (soak ? 60 : 6); ++seed) flights.cases.push_back(flight(seed));
-  flights.known["sphere: flight 2"] = flights.known["sphere: flight 4"] = blow;
+  for (const int seed : {2, 4, 8, 9, 12, 16, 17, 20, 21, 23, 28, 30, 31, 33, 39, 43, 47, 50, 51, 52, 55, 56, 59})
+    flights.known["sphere: flight " + std::to_string(seed)] = blow;
+  for (const int seed : {12, 43}) flights.known["bullet: flight " + std::to_string(seed)] = blow;
+  for (const char* solver : {"sphere", "bullet"})
+    heaps.known[std::string(solver) + ": heap 58"] =
+        "a grid is poured under gravity tilted by 25 degrees: two parts leave over the rim";
   return {heaps, flights};
 }
 
