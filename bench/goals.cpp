@@ -26,8 +26,9 @@ constexpr Pile piles[] = {{"channel_u", 10, 2},  {"ring_24", 3, 1},    {"bolt_he
                           {"nut_hex", 0, 0},     {"pipe_elbow", 0, 0}, {"pipe_tee", 0, 0},  {"teapot", 0, 0},
                           {"washer", 0, 0}};
 
-/// 1 if a scene is at rest, whole, and within every goal that was measured.
+/// 1 if a scene is at rest, whole, and within every goal that was measured; a referee that failed has not agreed.
 int meets(const Row& scene) {
+  if (!scene.at("status").empty()) return 0;
   if (scene.at("at_rest") != "1" || scene.at("escaped") != "0") return 0;
   return std::none_of(std::begin(goals), std::end(goals),
                       [&](const Goal& goal) { return scene.number(goal.column) > goal.limit; });

@@ -88,6 +88,7 @@ struct SphereProgress {
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
+  uint asleep_steps, pairs_culled, unused1, unused2;
 };
 
 struct SphereBody {
@@ -179,7 +180,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 96, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 112, "std430");
 static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 32, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

@@ -7,6 +7,10 @@ bool moves(uint body) {
   return (states[body].flags.x & (SPHERE_PRESENT | SPHERE_ASLEEP)) == SPHERE_PRESENT && bodies[body].material.x > 0.0;
 }
 
+bool sleeps(uint body) {
+  return (states[body].flags.x & (SPHERE_PRESENT | SPHERE_ASLEEP)) == (SPHERE_PRESENT | SPHERE_ASLEEP);
+}
+
 // Present, but nothing that this step moves.
 bool waits(uint body) { return present(body) && !moves(body); }
 

@@ -125,7 +125,7 @@ void retire(SphereWorld world, uint i, uint page, uint list) {
       free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = pairs[list + p].slot;
 }
 
-uint recycled = 0u, tested = 0u, asleep = 0u;
+uint recycled = 0u, tested = 0u, asleep = 0u, sleepers = 0u;
 
 // Appends the pair of i with b; `p` walks the old pairs of i.
 void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, uint old_list, uint list, uint at) {
@@ -161,7 +161,10 @@ void main() {
   uint page = progress[w].page, count = world.bodies.y;
   uint old_list = list_of(world, page), list = list_of(world, page ^ 1u);
 
-  for (uint i = thread; i < count; i += SPHERE_GROUP) find_box(world, i);
+  for (uint i = thread; i < count; i += SPHERE_GROUP) {
+    find_box(world, i);
+    if (sleeps(world.bodies.x + i)) ++sleepers;
+  }
   barrier();
   for (uint item = thread; item < count * world.bodies.z; item += SPHERE_GROUP) {
     uint i = item / world.bodies.z, k = item % world.bodies.z;
@@ -199,6 +202,7 @@ void main() {
   atomicAdd(progress[w].pairs_tested, tested);
   atomicAdd(progress[w].pairs_recycled, recycled);
   atomicAdd(progress[w].pairs_asleep, asleep);
+  atomicAdd(progress[w].asleep_steps, sleepers);
   barrier();  // all have read progress
   if (thread == 0u) {
     progress[w].page = page ^ 1u;

@@ -129,7 +129,7 @@ uint reduce(float size, uint most) {
   return n;
 }
 
-// Impulses of the last step's contacts: by feature, else from the nearest with a like normal.
+// Forces of the last step's contacts: by feature, else from the nearest with a like normal.
 void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   uint i = gl_LocalInvocationIndex;
   if (i < count) {
@@ -203,5 +203,6 @@ void finish_candidates(SpherePair pair, uint slot) {
     relative_pose(pair, position, orientation);
     manifolds[slot] = SphereManifold(uvec4(count, 0u, 1u, 0u), vec4(position, 0.0), orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
+    if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
   }
 }

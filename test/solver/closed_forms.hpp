@@ -8,6 +8,7 @@
 namespace bin_scenes::testing {
 
 class ClosedForms : public SolverTest {};
+class Stacks : public SolverTest {};  ///< long; one heading is in ClosedForms already
 
 TEST_P(ClosedForms, FreeFallIsAParabola) {
   const Fall error = free_fall(lab());
@@ -57,8 +58,27 @@ TEST_P(ClosedForms, FreeTumblingKeepsEnergyAndAngularMomentum) {
   EXPECT_LT(result.spin, 1e-3);
 }
 
-TEST_P(ClosedForms, AStackOfTenStands) {
-  for (const double heading : {0.0, 0.3, 0.7}) EXPECT_LT(stack_drift(lab(), 3.0, heading), 1e-3) << heading;
+// Turned: faces then coincide only to rounding, and Bullet's patches have more corners than a manifold holds.
+TEST_P(ClosedForms, AStackOfTenDriftsLessThanAThousandthInThirtySeconds) {
+  EXPECT_LT(stack_drift(lab(), 30.0, 0.3), 1e-3);
+}
+
+TEST_P(Stacks, OfTenDriftLessThanAThousandthInThirtySeconds) {
+  for (const double heading : {0.0, 0.7}) EXPECT_LT(stack_drift(lab(), 30.0, heading), 1e-3) << heading;
+}
+
+TEST_P(ClosedForms, CountersTellFreeFallFromContactAndSleep) {
+  Lab fall = lab();
+  fall.place(box(Vec3::Constant(0.04)), Vec3(0, 0, 0.07));
+  const auto count = [&](const char* name) { return fall.solver().profile().counters.at(name); };
+  fall.simulate(0.05);  // it falls by 12 mm of 50 mm
+  EXPECT_EQ(count("body_steps_in_free_fall"), count("steps"));
+  EXPECT_EQ(count("contacts"), 0u);
+  fall.simulate(1.95);
+  EXPECT_GT(count("contacts"), 0u);
+  EXPECT_GT(count("pairs"), 0u);
+  EXPECT_GT(count("body_steps_asleep"), 0u);
+  EXPECT_LT(count("body_steps_in_free_fall") + count("body_steps_asleep"), count("steps"));
 }
 
 TEST_P(ClosedForms, ManyContactsAtOnceDoNotMultiplyTheImpulse) {

@@ -86,7 +86,7 @@ void find_pairs(World& world) {
   }
   std::sort(found.begin(), found.end());
 
-  // Merge with the manifolds of the last step: impulses and recyclable contacts live on under the same key.
+  // Merge with the manifolds of the last step: forces and recyclable contacts live on under the same key.
   world.previous.swap(world.manifolds);
   world.manifolds.clear();
   std::size_t old = 0;

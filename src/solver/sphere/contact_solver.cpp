@@ -167,7 +167,7 @@ void ContactSolver::warm_start() {
 
 /// Sequential impulse, accumulated and clamped.
 void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const {
-  const float d = world_.smallest_diagonal;
+  const float d = world_.smallest_size;
   const LaneMask apart = separation > 0.0f;
   Lanes bias = apart ? separation / h_ : all_lanes(0);  // speculative: may close the distance, no more
   Lanes mass_scale = all_lanes(1), impulse_scale = all_lanes(0);

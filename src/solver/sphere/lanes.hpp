@@ -1,5 +1,6 @@
-/// Arithmetic on four values at once, by the vector types of GCC and Clang (SSE, NEON): +, -, *, comparisons and ?:
-/// work lane by lane. Each lane computes what a single float would, so that a result does not depend on its neighbours.
+/// Arithmetic on eight values at once, by the vector types of GCC and Clang: +, -, *, comparisons and ?: work lane by
+/// lane. Each lane computes what a single float would, so that a result does not depend on its neighbours. Eight,
+/// though SSE and NEON hold four: a contact waits for the result of the one before, and a second four fill the wait.
 #pragma once
 
 #include <Eigen/Core>

@@ -58,17 +58,17 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
     w.bodies.push_back(make_body(*w.shapes[index], index, bin));
     place(w, w.bodies.size() - 1, {def.bin.pose, {}});
   }
-  w.smallest_diagonal = w.thinnest = std::numeric_limits<float>::max();
+  w.smallest_size = w.thinnest = std::numeric_limits<float>::max();
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
-  for (const Shape* s : w.shapes) w.smallest_diagonal = std::min(w.smallest_diagonal, s->size);
-  w.cuts = step_cuts(settings.time_step, def.gravity.norm(), w.smallest_diagonal);
+  for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
+  w.cuts = step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size);
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   return w;
 }
 
 std::vector<Flag> flags_of(const World& world) {
   if (world.cuts == 1) return {};
-  return {step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_diagonal)};
+  return {step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_size)};
 }
 
 void place(World& world, std::size_t body, const BodyState& state) {

@@ -3,7 +3,7 @@
 /// runs beside it.
 ///
 ///   bodies ──find_pairs──► pairs ──find_contacts──► manifolds ──color──► solve ──► bodies
-///                            └ kept over steps: impulses (warm start), contacts of pairs that hardly move (recycled)
+///                            └ kept over steps: forces (warm start), contacts of pairs that hardly move (recycled)
 ///
 /// Poses are of the centre of mass, in single precision, relative to the world's origin.
 #pragma once
@@ -29,7 +29,7 @@ struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
   int sweeps = 2;  ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
-  Softness soft{0.25f, 10.0f, 2e-4f, 1};   ///< of contacts while bodies move: takes the energy out of rocking
+  Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
@@ -115,11 +115,11 @@ struct World {
   float wall_top = 0;
   float ground_friction = 0.5f, ground_restitution = 0;
   Vec3f gravity = Vec3f(0, 0, -9.81f);
-  bool fine = false;                          ///< exact samples
-  bool pressed = false;                       ///< stiff contacts
-  float smallest_diagonal = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
-  float whole_step = 0;                       ///< s: Settings::time_step while nothing is fast
-  int cuts = 1;                               ///< whole steps for one of the request: small parts need short ones
+  bool fine = false;                      ///< exact samples
+  bool pressed = false;                   ///< stiff contacts
+  float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
+  float whole_step = 0;                   ///< s: Settings::time_step while nothing is fast
+  int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones
 
   std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
   std::vector<std::uint32_t> order;           ///< manifolds by color
@@ -133,7 +133,7 @@ struct World {
 
 // The passes, in order of a step.
 void find_pairs(World& world);                ///< broad_phase.cpp: candidates, manifolds carried over by key
-void find_contacts(World& world);             ///< narrow_phase.cpp: samples against fields, reduced, impulses matched
+void find_contacts(World& world);             ///< narrow_phase.cpp: samples against fields, reduced, forces matched
 void color_manifolds(World& world);           ///< coloring.cpp: no two manifolds of a color share a moving body
 void solve(World& world);                     ///< contact_solver.cpp: sub-steps, moves the bodies
 void update_sleep(World& world);              ///< islands.cpp

@@ -94,7 +94,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   make_room();
 
   gpu::SphereWorld& w = host_worlds_[slot];
-  w.gravity = vec4(world.gravity, world.smallest_diagonal);
+  w.gravity = vec4(world.gravity, world.smallest_size);
   w.ground = {world.ground_friction, world.ground_restitution, world.wall_top, 0};
   upload_world(slot);
   std::vector<gpu::SpherePlane> planes;

@@ -1,13 +1,15 @@
 /// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
 /// shaders/sphere/<name>.comp, its method here, its timer, and its twin on the CPU (solver/sphere/world.hpp).
 ///
-///     shapes      | part 0: nodes, edges, clusters, field | part 1 | ...           shared by all worlds, never change
-///     bodies      | world 0 ............... | world 1 ...... | ...                  states, tensors, ranges alike
-///     pairs       | world 0: page 0, page 1 | world 1: page 0, page 1 | ...         take turns, sorted by (a, b)
-///     manifolds   | world 0: capacity slots | world 1 | ...                         a pair keeps its slot while it
-///     lasts contacts    | slot 0: 16 | slot 1: 16 | ...                                   impulses and anchors over
-///     steps rows        | world 0: contact 0 of all manifolds by color, contact 1 | ...   of one step jobs        |
-///     pairs whose contacts are to be found, of all worlds |
+// clang-format off
+///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
+///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, ranges alike
+///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
+///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
+///     contacts   | slot 0: 16 | slot 1: 16 | ...                         forces and anchors over steps
+///     rows       | world 0: contact 0 of all manifolds by color, 1 | ... of one step
+///     jobs       | pairs whose contacts are to be found, of all worlds |
+// clang-format on
 ///
 /// A step is five dispatches, however many worlds run:
 ///

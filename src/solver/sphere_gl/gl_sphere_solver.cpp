@@ -196,9 +196,11 @@ class GlSphereSolver final : public Solver {
   /// Moves the counters of a world to the profile.
   void count(gpu::SphereProgress& p) {
     profile_.count("body_steps_in_free_fall", p.free_steps);
+    profile_.count("body_steps_asleep", p.asleep_steps);
     profile_.count("pairs", p.pairs_tested);
     profile_.count("pairs_recycled", p.pairs_recycled);
     profile_.count("pairs_asleep", p.pairs_asleep);
+    profile_.count("pairs_culled", p.pairs_culled);
     profile_.count("clusters_tested", p.clusters_tested);
     profile_.count("nodes_tested", p.nodes_tested);
     profile_.count("nodes_possible", p.nodes_possible + (std::uint64_t{p.nodes_possible_high} << 32));
@@ -208,7 +210,8 @@ class GlSphereSolver final : public Solver {
     profile_.count("coloring_rounds", p.coloring_rounds);
     profile_.count("steps", p.steps);
     p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
-        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds = 0;
+        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds =
+            p.asleep_steps = p.pairs_culled = 0;
   }
 
   /// Brings the states of all worlds that ran to the host, in one read.

@@ -27,7 +27,7 @@ Shape box_shape(PartModelPtr& part, const Vec3& size, double cell = 0.01) {
 World world_of_boxes(const Shape& shape, std::size_t count) {
   World world;
   world.shapes = {&shape};
-  world.smallest_diagonal = shape.size;
+  world.smallest_size = shape.size;
   for (std::size_t i = 0; i < count; ++i) {
     Body b;
     b.inverse_mass = 1.0f;
