@@ -28,7 +28,6 @@
 #define BIND_CANDIDATES 20
 #define BIND_COLORS 21
 #define BIND_ORDER 22
-#define BIND_ROWS 23
 
 #define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
@@ -55,6 +54,7 @@
 // SphereProgress.overflow: the world waits, as it was before the step, until the host has made room.
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
+#define SPHERE_CONTACT_OVERFLOW 4u
 
 GPU_STRUCTS_BEGIN
 
@@ -75,20 +75,23 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
+  uvec4 contacts; // first, capacity
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end
 };
 
 // What the steps of a world leave behind; the host reads it every few steps.
 struct SphereProgress {
-  uint steps_left, steps, overflow, need;    // need: pairs or candidates that did not fit
+  uint steps_left, steps, overflow, need;    // need: pairs of the step that did not fit
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
-  uint fine, pressed, ordered, unused0;      // samples in use, stiff contacts, manifolds to solve
+  uint fine, pressed, ordered;               // samples in use, stiff contacts, manifolds to solve
+  uint missing_contacts;                     // that found no place
+  uint free_contacts, released_contacts;     // places on the stack; given up since, at the stack's far end
   // Counters, since the host last looked.
+  uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
-  uint asleep_steps, pairs_culled, unused1, unused2;
 };
 
 struct SphereBody {
@@ -108,8 +111,9 @@ struct SphereState {
   uvec4 flags;       // bits; label of the island
 };
 
-struct SphereTensor {  // inverse inertia, world axes, when contacts were found
-  vec4 diagonal, mixed;
+struct SphereTensor {  // when contacts were found
+  vec4 diagonal, mixed;  // inverse inertia, world axes
+  vec4 orientation;      // xyzw, body -> world
 };
 
 struct SpherePlane {
@@ -144,31 +148,23 @@ struct SpherePair {
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, presses, found
+  uvec4 state;       // contacts, presses (in the solve: bounces), found, place of the first contact
   vec4 found_position;     // of b in the frame of a when contacts were found
   vec4 found_orientation;
 };
 
 struct SphereContact {
-  vec4 anchor_a;     // on the surface of a, body axes; w: normal force (N)
+  vec4 anchor_a;     // on the surface of a, body axes; w: place of the manifold's next contact (bits)
   vec4 anchor_b;     // w: feature (bits)
-  vec4 normal;       // from a to b, in the frame of the body whose field gave it
-  vec4 friction;     // force on b (N), world axes
+  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: mass along it
+  vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, largest
+  vec4 bounce;       // approach speed, the same when prepared, mass across; w: entry of the stack of free places (bits)
 };
 
 struct SphereCandidate {
   vec4 on_a;         // frame of a; w: separation
   vec4 normal;       // a -> b, frame of a; w: distance to the nearest chosen candidate
   uvec4 feature;     // y: 1 = was a contact in the last step
-};
-
-// A contact in world terms, for the sub-steps of one step.
-struct SphereRow {
-  vec4 ra;           // w: separation
-  vec4 rb;           // w: tangent mass
-  vec4 normal;       // w: normal mass
-  vec4 impulse;      // normal, two of friction, largest normal
-  vec4 bounce;       // approach speed, the same when prepared, gap
 };
 
 struct SphereStatus {  // stands before the list of jobs
@@ -180,11 +176,11 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 64 && sizeof(SphereProgress) == 112, "std430");
-static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 32, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 112, "std430");
+static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
-static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48 && sizeof(SphereRow) == 80, "std430");
+static_assert(sizeof(SphereContact) == 80 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");
 }  // namespace bin_scenes::gpu
 #endif

@@ -1,4 +1,4 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, States, Rows, a `world`, struct Side and
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, struct Side and
 // shared/rotation.h.
 
 const uint BOUNCE_SWEEPS = 12u;
@@ -19,15 +19,23 @@ float restitution_of(SpherePair pair) {
   return max(bodies[pair.a].material.z, pair.b == SPHERE_GROUND ? world.ground.y : bodies[pair.b].material.z);
 }
 
-vec3 relative_velocity(SphereRow row, Side a, Side b) {
-  return b.v + cross(b.w, row.rb.xyz) - a.v - cross(a.w, row.ra.xyz);
+// A contact in world terms. Made from the contact whenever it is touched: kept, it would take as many bytes again.
+struct Row {
+  vec3 ra, rb, normal;
+  float separation, normal_mass, tangent_mass;
+  float approach, first_approach;
+  vec4 impulse;  // normal, two of friction, largest normal
+};
+
+vec3 relative_velocity(Row row, Side a, Side b) {
+  return b.v + cross(b.w, row.rb) - a.v - cross(a.w, row.ra);
 }
 
-void apply(SphereRow row, vec3 impulse, inout Side a, inout Side b) {
+void apply(Row row, vec3 impulse, inout Side a, inout Side b) {
   a.v -= a.inverse_mass * impulse;
-  a.w -= tensor_times(a, cross(row.ra.xyz, impulse));
+  a.w -= tensor_times(a, cross(row.ra, impulse));
   b.v += b.inverse_mass * impulse;
-  b.w += tensor_times(b, cross(row.rb.xyz, impulse));
+  b.w += tensor_times(b, cross(row.rb, impulse));
 }
 
 float mass_along(vec3 direction, vec3 ra, vec3 rb, Side a, Side b) {
@@ -36,51 +44,55 @@ float mass_along(vec3 direction, vec3 ra, vec3 rb, Side a, Side b) {
   return k > 0.0 ? 1.0 / k : 0.0;
 }
 
-SphereRow prepared_row(SphereContact contact, SpherePair pair, Side a, Side b) {
-  bool ground = pair.b == SPHERE_GROUND;
-  vec3 ra = rotate(states[pair.a].orientation, contact.anchor_a.xyz), rb = contact.anchor_b.xyz, b_position = vec3(0.0);
-  vec3 normal = contact.normal.xyz;
-  if (!ground) {
-    rb = rotate(states[pair.b].orientation, rb);
-    b_position = states[pair.b].position.xyz;
-  }
-  if ((floatBitsToUint(contact.anchor_b.w) & SPHERE_SIDE_B) != 0u)
-    normal = rotate(states[pair.a].orientation, normal);
-  else if (!ground)
-    normal = rotate(states[pair.b].orientation, normal);
-  vec3 t1 = tangent_1(normal), t2 = tangent_2(normal);
-  SphereRow row;
-  row.ra = vec4(ra, dot(b_position + rb - states[pair.a].position.xyz - ra, normal));
-  // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
-  row.rb = vec4(rb, min(mass_along(t1, ra, rb, a, b), mass_along(t2, ra, rb, a, b)));
-  row.normal = vec4(normal, mass_along(normal, ra, rb, a, b));
-  row.impulse = sub_step() * vec4(contact.anchor_a.w, dot(contact.friction.xyz, t1), dot(contact.friction.xyz, t2), 0.0);
-  float approach = dot(relative_velocity(row, a, b), normal);
-  row.bounce = vec4(approach, approach, 0.0, 0.0);
+Row row_of(SphereContact c, Side a, Side b) {
+  Row row;
+  row.ra = rotate(a.orientation, c.anchor_a.xyz);
+  row.rb = rotate(b.orientation, c.anchor_b.xyz);
+  bool of_a = (floatBitsToUint(c.anchor_b.w) & SPHERE_SIDE_B) != 0u;
+  row.normal = rotate(of_a ? a.orientation : b.orientation, c.normal.xyz);
+  row.separation = dot(b.position + row.rb - a.position - row.ra, row.normal);
+  row.normal_mass = c.normal.w;
+  row.approach = c.bounce.x;
+  row.first_approach = c.bounce.y;
+  row.tangent_mass = c.bounce.z;
+  row.impulse = c.force;
   return row;
 }
 
+void prepare(uint at, Side a, Side b) {
+  Row row = row_of(contacts[at], a, b);
+  vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
+  contacts[at].normal.w = mass_along(row.normal, row.ra, row.rb, a, b);
+  float approach = dot(relative_velocity(row, a, b), row.normal);
+  // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
+  contacts[at].bounce.xyz = vec3(approach, approach, min(mass_along(t1, row.ra, row.rb, a, b),
+                                                         mass_along(t2, row.ra, row.rb, a, b)));
+  contacts[at].force = sub_step() * vec4(row.impulse.x, dot(friction, t1), dot(friction, t2), 0.0);
+}
+
 void warm_start(uint at, inout Side a, inout Side b) {
-  SphereRow row = rows[at];
+  Row row = row_of(contacts[at], a, b);
   // What is about to strike gains speed until it does, but no more than gravity gives in a step.
-  if (row.bounce.x < -settings.restitution_speed && row.impulse.w == 0.0) {
-    float vn = dot(relative_velocity(row, a, b), row.normal.xyz);
-    rows[at].bounce.x =
-        min(row.bounce.x, max(vn, row.bounce.y - length(world.gravity.xyz) * settings.time_step));
+  if (row.approach < -settings.restitution_speed && row.impulse.w == 0.0) {
+    float vn = dot(relative_velocity(row, a, b), row.normal);
+    contacts[at].bounce.x =
+        min(row.approach, max(vn, row.first_approach - length(world.gravity.xyz) * settings.time_step));
   }
-  vec3 normal = row.normal.xyz;
+  vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
 }
 
 // Way of a point of the body since contacts were found, to first order in the turn.
 vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
+float separation_of(Row row, Side a, Side b) {
+  return row.separation + dot(way_of(b, row.rb) - way_of(a, row.ra), row.normal);
+}
 
 // Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly (implicit spring of frequency
 // softness.x over a step h); without, the velocity that pushing left is taken back (relaxation).
 void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
-  SphereRow row = rows[at];
-  vec3 normal = row.normal.xyz;
-  float separation = row.ra.w + dot(way_of(b, row.rb.xyz) - way_of(a, row.ra.xyz), normal), bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
+  Row row = row_of(contacts[at], a, b);
+  float separation = separation_of(row, a, b), bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
   if (separation > 0.0) {
     bias = separation / h;  // speculative: may close the distance, no more
   } else if (push) {
@@ -90,38 +102,46 @@ void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
     float d = world.gravity.w;
     bias = max(omega / a1 * min(0.0, separation + softness.z * d), -settings.push_speed / softness.w * d);
   }
-  float vn = dot(relative_velocity(row, a, b), normal);
-  float total = max(row.impulse.x - row.normal.w * mass_scale * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
-  apply(row, (total - row.impulse.x) * normal, a, b);
-  rows[at].impulse.x = total;
-  rows[at].impulse.w = max(row.impulse.w, total);
-  rows[at].bounce.z = separation;
+  float vn = dot(relative_velocity(row, a, b), row.normal);
+  float total = max(row.impulse.x - row.normal_mass * mass_scale * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
+  apply(row, (total - row.impulse.x) * row.normal, a, b);
+  contacts[at].force.x = total;
+  contacts[at].force.w = max(row.impulse.w, total);
 }
 
 void solve_friction(uint at, float friction, inout Side a, inout Side b) {
-  SphereRow row = rows[at];
-  vec3 t1 = tangent_1(row.normal.xyz), t2 = tangent_2(row.normal.xyz), v = relative_velocity(row, a, b);
-  vec2 f = row.impulse.yz - row.rb.w * vec2(dot(v, t1), dot(v, t2));
+  Row row = row_of(contacts[at], a, b);
+  vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), v = relative_velocity(row, a, b);
+  vec2 f = row.impulse.yz - row.tangent_mass * vec2(dot(v, t1), dot(v, t2));
   float most = friction * row.impulse.x, size = length(f);
   if (size > most) f *= most / size;
   vec2 change = f - row.impulse.yz;
   apply(row, change.x * t1 + change.y * t2, a, b);
-  rows[at].impulse.yz = f;
+  contacts[at].force.yz = f;
 }
 
 // Whether a contact was struck fast enough to bounce: pressed, or closed by a blow that its neighbours took.
-bool struck(SphereRow row) {
-  if (row.bounce.x > -settings.restitution_speed) return false;
-  return row.impulse.w > 0.0 || row.bounce.z < -row.bounce.x * sub_step();
+bool struck(Row row, Side a, Side b) {
+  if (row.approach > -settings.restitution_speed) return false;
+  return row.impulse.w > 0.0 || separation_of(row, a, b) < -row.approach * sub_step();
 }
 
 void bounce(uint at, float restitution, inout Side a, inout Side b) {
-  SphereRow row = rows[at];
-  if (!struck(row)) return;
-  float vn = dot(relative_velocity(row, a, b), row.normal.xyz);
-  float total = max(row.impulse.x - row.normal.w * (vn + restitution * row.bounce.x), 0.0);
-  apply(row, (total - row.impulse.x) * row.normal.xyz, a, b);
-  rows[at].impulse.x = total;
+  Row row = row_of(contacts[at], a, b);
+  if (!struck(row, a, b)) return;
+  float vn = dot(relative_velocity(row, a, b), row.normal);
+  float total = max(row.impulse.x - row.normal_mass * (vn + restitution * row.approach), 0.0);
+  apply(row, (total - row.impulse.x) * row.normal, a, b);
+  contacts[at].force.x = total;
+}
+
+// Back to forces; returns whether the contact presses. A blow is over: it must not warm-start the next step.
+bool keep_force(uint at, bool bounced, Side a, Side b) {
+  Row row = row_of(contacts[at], a, b);
+  if (bounced && struck(row, a, b)) row.impulse = vec4(0.0);
+  vec3 friction = row.impulse.y * tangent_1(row.normal) + row.impulse.z * tangent_2(row.normal);
+  contacts[at].force = vec4(row.impulse.x, friction) / sub_step();
+  return row.impulse.x > 0.0;
 }
 
 // The gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the kinetic energy

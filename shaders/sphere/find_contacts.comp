@@ -36,6 +36,7 @@ SphereSamples samples_of(uint body) {
   return progress[world_index].fine != 0u ? shapes[shape].fine : shapes[shape].coarse;
 }
 
+#include "sphere/contact_place.h"
 #include "sphere/reduce.h"
 
 shared uint job;
@@ -201,15 +202,15 @@ void main() {
     if (job >= status.jobs) return;
     SpherePair pair = pairs[jobs[job]];
     world_index = bodies[pair.a].ids.y;
-    uint slot = worlds[world_index].pairs.x + pair.slot;
+    SphereWorld world = worlds[world_index];
     clusters_tested = nodes_tested = 0u;
-    begin_candidates(slot);
+    begin_candidates(world, pair.slot);
     float margin = margin_of(pair);
     if (pair.b == SPHERE_GROUND)
       test_ground(pair, margin);
     else
       test_pair(pair, margin);
-    finish_candidates(pair, slot);
+    finish_candidates(world, pair);
     atomicAdd(progress[world_index].clusters_tested, clusters_tested);
     atomicAdd(progress[world_index].nodes_tested, nodes_tested);
     barrier();  // shared memory is free for the next pair

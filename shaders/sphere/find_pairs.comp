@@ -20,18 +20,20 @@ layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };  // pai
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) coherent buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) coherent buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
 
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/pair_list.h"
+#include "sphere/contact_place.h"
 
 shared vec4 box_center[SPHERE_MAX_BODIES];  // w: margin
 shared vec4 box_half[SPHERE_MAX_BODIES];    // margin included, negative: absent; w: 1 = moves
 shared uint on_ground[SPHERE_MAX_BODIES];
 shared uint first_pair[SPHERE_MAX_BODIES];
 shared uint partial[SPHERE_GROUP];
-shared uint free_top;
+shared uint free_top, free_contact_top;
 
 void find_box(SphereWorld world, uint i) {
   uint body = world.bodies.x + i;
@@ -44,6 +46,7 @@ void find_box(SphereWorld world, uint i) {
   mat3 tensor = r * symmetric(fixed_part.inverse_inertia, fixed_part.inverse_inertia_mixed) * transpose(r);
   tensors[body].diagonal = vec4(tensor[0][0], tensor[1][1], tensor[2][2], 0.0);
   tensors[body].mixed = vec4(tensor[0][1], tensor[0][2], tensor[1][2], 0.0);
+  tensors[body].orientation = states[body].orientation;
 
   vec4 center = shapes[fixed_part.ids.x].box_center, half_size = shapes[fixed_part.ids.x].box_half;
   float margin = reach(world, body, center.w, half_size.w);
@@ -120,9 +123,23 @@ uint scan_counts(uint count) {
 
 void retire(SphereWorld world, uint i, uint page, uint list) {
   uvec2 old = range_of(world.bodies.x + i, page);
-  for (uint p = old.x; p < old.y; ++p)
-    if (!kept(world, i, pairs[list + p].b))
-      free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = pairs[list + p].slot;
+  for (uint p = old.x; p < old.y; ++p) {
+    if (kept(world, i, pairs[list + p].b)) continue;
+    uint slot = pairs[list + p].slot, n = manifolds[world.pairs.x + slot].state.x;
+    free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = slot;
+    uint top = atomicAdd(free_contact_top, n);
+    for (uint k = 0u, at = first_contact(world, slot); k < n; ++k, at = next_contact(world, at))
+      set_free_place(world, top + k, at - world.contacts.x);
+  }
+}
+
+// Puts the places that the last find_contacts gave up on the stack. Those that lie where the stack will reach stay.
+void take_back_places(SphereWorld world, uint w) {
+  uint top = progress[w].free_contacts, released = progress[w].released_contacts;
+  uint moving = min(released, world.contacts.y - released - top);
+  for (uint n = gl_LocalInvocationIndex; n < moving; n += SPHERE_GROUP)
+    set_free_place(world, top + n, free_place(world, released_entry(world, n)));
+  if (gl_LocalInvocationIndex == 0u) free_contact_top = top + released;
 }
 
 uint recycled = 0u, tested = 0u, asleep = 0u, sleepers = 0u;
@@ -185,6 +202,9 @@ void main() {
     return;
   }
 
+  take_back_places(world, w);
+  memoryBarrierBuffer();
+  barrier();
   for (uint i = thread; i < count; i += SPHERE_GROUP) retire(world, i, page, old_list);
   memoryBarrierBuffer();
   barrier();
@@ -208,6 +228,8 @@ void main() {
     progress[w].page = page ^ 1u;
     progress[w].pairs = total;
     progress[w].free_slots = free_top;
+    progress[w].free_contacts = free_contact_top;
+    progress[w].released_contacts = 0u;
     progress[w].refresh = 0u;
   }
 }

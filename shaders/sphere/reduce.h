@@ -1,16 +1,18 @@
 // Candidates of one pair, found by all invocations of a group, and the few of them that become contacts. Needs the
-// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index and samples_of().
+// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of() and
+// sphere/contact_place.h.
 
 const float FAR = 3.4e38;
 
 shared SphereContact old[SPHERE_MAX_CONTACTS];
+shared uint place[SPHERE_MAX_CONTACTS];  // of the old contacts, then of the new ones
 shared uint old_count, old_found;
 shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS], chosen_normal[SPHERE_MAX_CONTACTS];  // w: separation
 shared uint chosen_feature[SPHERE_MAX_CONTACTS];
 shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose forces it takes
 shared uint source_taken[SPHERE_MAX_CONTACTS];
 shared uint highest[2], highest_feature[2];      // take turns
-shared uint found_count, any_lost;
+shared uint found_count, any_lost, no_room;
 const uint NO_SOURCE = 0xffffffffu;
 
 uint mine;  // candidates of this invocation
@@ -23,20 +25,26 @@ uint candidate_place(uint k) {
   return (gl_WorkGroupID.x * settings.candidates + k) * SPHERE_GROUP + gl_LocalInvocationIndex;
 }
 
-void begin_candidates(uint slot) {
+void begin_candidates(SphereWorld world, uint slot) {
   uint thread = gl_LocalInvocationIndex;
   mine = 0u;
   lost = false;
-  uint count = manifolds[slot].state.x;
+  SphereManifold manifold = manifolds[world.pairs.x + slot];
+  uint count = manifold.state.x;
   if (thread == 0u) {
     old_count = count;
-    old_found = manifolds[slot].state.z;
+    old_found = manifold.state.z;
     highest[0] = 0u;
     highest_feature[0] = NO_SOURCE;
-    found_count = any_lost = 0u;
+    found_count = any_lost = no_room = 0u;
+    for (uint i = 0u, at = manifold.state.w; i < count; ++i) {
+      place[i] = at;
+      at = floatBitsToUint(contacts[world.contacts.x + at].anchor_a.w);
+    }
   }
+  barrier();
   if (thread < count) {
-    old[thread] = contacts[slot * SPHERE_MAX_CONTACTS + thread];
+    old[thread] = contacts[world.contacts.x + place[thread]];
     source_taken[thread] = 0u;
   }
   barrier();
@@ -161,7 +169,24 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   barrier();
 }
 
-void finish_candidates(SpherePair pair, uint slot) {
+// Places for `count` contacts where there were old_count; false if there are too few.
+bool take_places(SphereWorld world, uint count) {
+  for (uint i = count; i < old_count; ++i) {
+    uint n = atomicAdd(progress[world_index].released_contacts, 1u);
+    set_free_place(world, released_entry(world, n), place[i]);
+  }
+  if (count <= old_count) return true;
+  uint more = count - old_count, top = atomicAdd(progress[world_index].free_contacts, 0u - more);
+  if (int(top) < int(more)) {  // below 0 while others that were refused have not put theirs back
+    atomicAdd(progress[world_index].free_contacts, more);
+    atomicAdd(progress[world_index].missing_contacts, more);
+    return false;
+  }
+  for (uint i = 0u; i < more; ++i) place[old_count + i] = free_place(world, top - 1u - i);
+  return true;
+}
+
+void finish_candidates(SphereWorld world, SpherePair pair) {
   uint thread = gl_LocalInvocationIndex;
   bool ground = pair.b == SPHERE_GROUND;
   SphereState a = states[pair.a];
@@ -180,28 +205,30 @@ void finish_candidates(SpherePair pair, uint slot) {
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
     return;
   }
+  if (thread == 0u && !take_places(world, count)) {
+    atomicOr(progress[world_index].overflow, SPHERE_CONTACT_OVERFLOW);
+    no_room = 1u;
+  }
+  barrier();
+  if (no_room != 0u) return;
   if (thread < count) {
     vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
     vec3 on_b = a.position.xyz + ra * (on_a + chosen_on_a[thread].w * normal);
     if (!ground) on_b = (on_b - b_position) * rb;
     // The normal turns with the body whose field it comes from.
     if ((chosen_feature[thread] & SPHERE_SIDE_B) == 0u) normal = ground ? ra * normal : (ra * normal) * rb;
-    SphereContact contact;
-    contact.anchor_a = vec4(on_a, 0.0);
-    contact.anchor_b = vec4(on_b, uintBitsToFloat(chosen_feature[thread]));
-    contact.normal = vec4(normal, 0.0);
-    contact.friction = vec4(0.0);
-    if (chosen_source[thread] != NO_SOURCE) {
-      contact.anchor_a.w = old[chosen_source[thread]].anchor_a.w;
-      contact.friction = old[chosen_source[thread]].friction;
-    }
-    contacts[slot * SPHERE_MAX_CONTACTS + thread] = contact;
+    uint at = world.contacts.x + place[thread], source = chosen_source[thread];
+    contacts[at].anchor_a = vec4(on_a, thread + 1u < count ? uintBitsToFloat(place[thread + 1u]) : 0.0);
+    contacts[at].anchor_b = vec4(on_b, uintBitsToFloat(chosen_feature[thread]));
+    contacts[at].normal = vec4(normal, 0.0);
+    contacts[at].force = source != NO_SOURCE ? old[source].force : vec4(0.0);
   }
   if (thread == 0u) {
     vec3 position;
     vec4 orientation;
     relative_pose(pair, position, orientation);
-    manifolds[slot] = SphereManifold(uvec4(count, 0u, 1u, 0u), vec4(position, 0.0), orientation);
+    manifolds[world.pairs.x + pair.slot] =
+        SphereManifold(uvec4(count, 0u, 1u, place[0]), vec4(position, 0.0), orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
     if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
   }

@@ -16,7 +16,6 @@ layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manif
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
-layout(std430, binding = BIND_ROWS) buffer Rows { SphereRow rows[]; };
 
 shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
 shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
@@ -35,19 +34,23 @@ float sub_step() { return settings.time_step / (float(settings.sub_steps) * soft
 
 // A body as one manifold sees it.
 struct Side {
-  vec3 v, w, moved, turned;
+  vec3 v, w, moved, turned, position;
+  vec4 orientation;
   float inverse_mass;
   vec3 tensor, tensor_mixed;
 };
 
 Side side_of(uint body) {
-  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, vec3(0.0),
+                vec3(0.0));
   if (body == SPHERE_GROUND) return s;
   uint i = body - world.bodies.x;
   s.v = velocity[i].xyz;
   s.w = spin[i].xyz;
   s.moved = moved[i].xyz;
   s.turned = turned[i].xyz;
+  s.position = states[body].position.xyz;
+  s.orientation = tensors[body].orientation;
   s.inverse_mass = velocity[i].w;
   if (s.inverse_mass > 0.0) {
     s.tensor = tensors[body].diagonal.xyz;
@@ -63,9 +66,9 @@ void keep_side(uint body, Side s) {
   spin[i].xyz = s.w;
 }
 
+#include "sphere/contact_place.h"
 #include "sphere/contact_row.h"
 
-uint row_place(uint o, uint i) { return world.pairs.x * SPHERE_MAX_CONTACTS + i * ordered + o; }
 SpherePair pair_at(uint o) { return pairs[list + order[world.pairs.x + o]]; }
 
 // The manifolds of color c that are this invocation's in every sweep: nobody else touches their rows. The last color is
@@ -89,13 +92,16 @@ void begin_bodies() {
   }
 }
 
-void prepare() {
+#define FOR_CONTACTS(at, slot)                                                                           \
+  for (uint i = 0u, n = manifolds[world.pairs.x + slot].state.x, at = first_contact(world, slot); i < n; \
+       ++i, at = next_contact(world, at))
+
+void prepare_contacts() {
   FOR_OWN_MANIFOLDS(o) {
     SpherePair pair = pair_at(o);
-    uint slot = world.pairs.x + pair.slot, n = manifolds[slot].state.x;
     Side a = side_of(pair.a), b = side_of(pair.b);
-    for (uint i = 0u; i < n; ++i)
-      rows[row_place(o, i)] = prepared_row(contacts[slot * SPHERE_MAX_CONTACTS + i], pair, a, b);
+    FOR_CONTACTS(at, pair.slot) prepare(at, a, b);
+    manifolds[world.pairs.x + pair.slot].state.y = 0u;
     spin[pair.a - world.bodies.x].w = 1.0;  // all that come here write the same
     if (pair.b != SPHERE_GROUND) spin[pair.b - world.bodies.x].w = 1.0;
   }
@@ -130,17 +136,16 @@ void sweep(uint kind, float h) {
   for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) {
     for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c)) {
       SpherePair pair = pair_at(o);
-      uint n = manifolds[world.pairs.x + pair.slot].state.x;
-      if (kind == BOUNCE && rows[row_place(o, 0u)].bounce.w == 0.0) continue;
+      if (kind == BOUNCE && manifolds[world.pairs.x + pair.slot].state.y == 0u) continue;
       Side a = side_of(pair.a), b = side_of(pair.b);
-      if (kind == WARM_START)
-        for (uint i = 0u; i < n; ++i) warm_start(row_place(o, i), a, b);
-      else if (kind == BOUNCE)
-        for (uint i = 0u; i < n; ++i) bounce(row_place(o, i), restitution_of(pair), a, b);
-      else {
-        for (uint i = 0u; i < n; ++i) solve_normal(row_place(o, i), h, kind == PUSH, a, b);
+      if (kind == WARM_START) {
+        FOR_CONTACTS(at, pair.slot) warm_start(at, a, b);
+      } else if (kind == BOUNCE) {
+        FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
+      } else {
+        FOR_CONTACTS(at, pair.slot) solve_normal(at, h, kind == PUSH, a, b);
         float friction = friction_of(pair);
-        for (uint i = 0u; i < n; ++i) solve_friction(row_place(o, i), friction, a, b);
+        FOR_CONTACTS(at, pair.slot) solve_friction(at, friction, a, b);
       }
       keep_side(pair.a, a);
       if (pair.b != SPHERE_GROUND) keep_side(pair.b, b);
@@ -156,11 +161,11 @@ void restitute() {
   FOR_OWN_MANIFOLDS(o) {
     SpherePair pair = pair_at(o);
     if (restitution_of(pair) == 0.0) continue;
-    uint n = manifolds[world.pairs.x + pair.slot].state.x;
-    for (uint i = 0u; i < n; ++i) {
-      SphereRow row = rows[row_place(o, i)];
-      if (row.impulse.w == 0.0 || !struck(row)) continue;
-      rows[row_place(o, 0u)].bounce.w = 1.0;
+    Side a = side_of(pair.a), b = side_of(pair.b);
+    FOR_CONTACTS(at, pair.slot) {
+      Row row = row_of(contacts[at], a, b);
+      if (row.impulse.w == 0.0 || !struck(row, a, b)) continue;
+      manifolds[world.pairs.x + pair.slot].state.y = 1u;
       any_bounce = 1u;
     }
   }
@@ -172,18 +177,11 @@ void restitute() {
 void keep_forces() {
   FOR_OWN_MANIFOLDS(o) {
     SpherePair pair = pair_at(o);
-    uint slot = world.pairs.x + pair.slot, n = manifolds[slot].state.x, presses = 0u;
-    bool bounced = rows[row_place(o, 0u)].bounce.w == 1.0;
-    for (uint i = 0u; i < n; ++i) {
-      SphereRow row = rows[row_place(o, i)];
-      if (bounced && struck(row)) row.impulse = vec4(0.0);  // a blow is over: it must not warm-start the next step
-      uint at = slot * SPHERE_MAX_CONTACTS + i;
-      contacts[at].anchor_a.w = row.impulse.x / sub_step();
-      contacts[at].friction =
-          vec4(row.impulse.y * tangent_1(row.normal.xyz) + row.impulse.z * tangent_2(row.normal.xyz), 0.0) / sub_step();
-      if (row.impulse.x > 0.0) presses = 1u;
-    }
-    manifolds[slot].state.y = presses;
+    bool bounced = manifolds[world.pairs.x + pair.slot].state.y == 1u;
+    Side a = side_of(pair.a), b = side_of(pair.b);
+    uint presses = 0u;
+    FOR_CONTACTS(at, pair.slot) if (keep_force(at, bounced, a, b)) presses = 1u;
+    manifolds[world.pairs.x + pair.slot].state.y = presses;
   }
 }
 
@@ -211,7 +209,7 @@ void main() {
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
   begin_bodies();
   barrier();
-  prepare();
+  prepare_contacts();
   barrier();
   float h = sub_step();
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {

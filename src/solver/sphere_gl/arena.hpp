@@ -1,7 +1,9 @@
 /// Where regions of a growing buffer lie: first fit. A region's place never matters to a result.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 
 namespace bin_scenes::sphere_gl {
@@ -16,8 +18,18 @@ class Arena {
       at = first + length;
     }
     if (count > 0) taken_[at] = count;
-    if (at + count > size_) size_ = at + count;
+    size_ = std::max(size_, at + count);
     return at;
+  }
+  /// Makes a region larger where it lies; false if another one lies behind it too near.
+  bool extend(std::size_t first, std::size_t count) {
+    const auto region = taken_.find(first);
+    if (region == taken_.end()) return false;
+    const auto behind = std::next(region);
+    if (behind != taken_.end() && behind->first < first + count) return false;
+    region->second = count;
+    size_ = std::max(size_, first + count);
+    return true;
   }
   void give(std::size_t first) { taken_.erase(first); }
   std::size_t size() const { return size_; }  ///< elements ever in use

@@ -17,13 +17,28 @@ std::size_t groups_at_once() {
   return gl::Device::current().software() ? 8 : 2048;
 }
 
+/// Grows by an eighth at least: few copies, little room that is never used.
 template <class T>
 void at_least(gl::Buffer<T>& buffer, std::size_t count) {
-  if (buffer.size() < count || buffer.size() == 0) buffer.grow(std::max<std::size_t>({count, 2 * buffer.size(), 1}));
+  if (buffer.size() < count || buffer.size() == 0)
+    buffer.grow(std::max<std::size_t>({count, buffer.size() + buffer.size() / 8, 1}));
+}
+
+/// Room for what a list needs now and, most likely, in the steps to come.
+std::size_t grown(std::size_t old, std::size_t need) {
+  return std::max(old + old / 8, need + need / 8) + 1;
 }
 
 template <class T>
 void move_within(gl::Buffer<T>& buffer, std::size_t from, std::size_t to, std::size_t count) {
+  if (from == to || count == 0) return;
+  if (from < to + count && to < from + count) {  // a copy within a buffer may not overlap
+    gl::Storage aside("sphere.aside");
+    aside.allocate(count * sizeof(T));
+    aside.copy_from(buffer.storage(), from * sizeof(T), 0, count * sizeof(T));
+    buffer.storage().copy_from(aside, 0, to * sizeof(T), count * sizeof(T));
+    return;
+  }
   buffer.storage().copy_from(buffer.storage(), from * sizeof(T), to * sizeof(T), count * sizeof(T));
 }
 
@@ -60,8 +75,7 @@ void Batch::make_room() {
   at_least(pairs_, 2 * pairs);
   at_least(free_, pairs);
   at_least(manifolds_, pairs);
-  at_least(contacts_, SPHERE_MAX_CONTACTS * pairs);
-  at_least(rows_, SPHERE_MAX_CONTACTS * pairs);
+  at_least(contacts_, contact_arena_.size());
   at_least(order_, pairs);
   if (jobs_.size() < status_words + pairs) {
     at_least(jobs_, status_words + pairs);
@@ -83,10 +97,14 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   r.words = (r.bodies + 31) / 32;
   r.planes = world.planes.size();
   r.capacity = std::max(capacity_.pairs * r.bodies, world.manifolds.size());
+  std::size_t contacts = 0;
+  for (const sphere::Manifold& m : world.manifolds) contacts += m.contacts.size();
+  r.contacts = std::max(capacity_.contacts * r.bodies, contacts);
   r.first_body = body_arena_.take(r.bodies);
   r.first_word = word_arena_.take(r.bodies * r.words);
   r.first_plane = plane_arena_.take(r.planes);
   r.first_pair = pair_arena_.take(r.capacity);
+  r.first_contact = contact_arena_.take(r.contacts);
   const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
@@ -106,11 +124,10 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   bodies_.upload(r.first_body, bodies.data(), bodies.size());
   upload_states(slot, world);
 
-  const ManifoldImage image = to_gpu(world, static_cast<gpu::uint>(r.first_body));
+  ManifoldImage image = to_gpu(world, static_cast<gpu::uint>(r.first_body));
   ranges_.upload(r.first_body, image.ranges.data(), r.bodies);
   pairs_.upload(2 * r.first_pair, image.pairs.data(), image.pairs.size());
   manifolds_.upload(r.first_pair, image.manifolds.data(), image.manifolds.size());
-  contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
   const std::size_t free = r.capacity - image.pairs.size();
   std::vector<gpu::uint> slots(free);
   for (std::size_t i = 0; i < free; ++i) slots[i] = static_cast<gpu::uint>(r.capacity - 1 - i);
@@ -118,6 +135,11 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress = {};
   progress.pairs = static_cast<gpu::uint>(image.pairs.size());
   progress.free_slots = static_cast<gpu::uint>(free);
+  progress.free_contacts = static_cast<gpu::uint>(r.contacts - contacts);
+  image.contacts.resize(r.contacts);
+  for (std::size_t k = 0; contacts + k < r.contacts; ++k)
+    image.contacts[k].bounce.w = float_of(static_cast<std::uint32_t>(contacts + k));
+  contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
   progress.fine = world.fine ? 1 : 0;
   progress.pressed = world.pressed ? 1 : 0;
   upload_progress(slot, progress);
@@ -129,6 +151,7 @@ void Batch::upload_world(Slot slot) {
   const auto word = [](std::size_t n) { return static_cast<gpu::uint>(n); };
   host_worlds_[slot].bodies = {word(r.first_body), word(r.bodies), word(r.words), word(r.first_word)};
   host_worlds_[slot].pairs = {word(r.first_pair), word(r.capacity), word(r.first_plane), word(r.planes)};
+  host_worlds_[slot].contacts = {word(r.first_contact), word(r.contacts), 0, 0};
   worlds_.upload(slot, &host_worlds_[slot], 1);
 }
 
@@ -138,6 +161,7 @@ void Batch::remove(Slot slot) {
   word_arena_.give(r.first_word);
   plane_arena_.give(r.first_plane);
   pair_arena_.give(r.first_pair);
+  contact_arena_.give(r.first_contact);
   slots_.give(slot);
 }
 
@@ -183,20 +207,45 @@ std::vector<gpu::SphereProgress> Batch::requested_progress() {
 void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
   Region& r = regions_[slot];
   const std::size_t old_first = r.first_pair, old = r.capacity;
-  r.capacity = std::max<std::size_t>(2 * old, progress.need + progress.need / 4);
-  r.first_pair = pair_arena_.take(r.capacity);  // the old region is given back when its contents are away
+  r.capacity = grown(old, progress.need);
+  const bool stays = pair_arena_.extend(old_first, r.capacity);
+  if (!stays) r.first_pair = pair_arena_.take(r.capacity);  // the old region is given back when its contents are away
   make_room();
-  for (std::size_t page = 0; page < 2; ++page)
-    move_within(pairs_, 2 * old_first + page * old, 2 * r.first_pair + page * r.capacity, old);
+  if (progress.page == 0)
+    move_within(pairs_, 2 * old_first, 2 * r.first_pair, progress.pairs);
+  else
+    move_within(pairs_, 2 * old_first + old, 2 * r.first_pair + r.capacity, progress.pairs);
   move_within(manifolds_, old_first, r.first_pair, old);
-  move_within(contacts_, SPHERE_MAX_CONTACTS * old_first, SPHERE_MAX_CONTACTS * r.first_pair,
-              SPHERE_MAX_CONTACTS * old);
   move_within(free_, old_first, r.first_pair, progress.free_slots);
   std::vector<gpu::uint> fresh(r.capacity - old);
   std::iota(fresh.begin(), fresh.end(), static_cast<gpu::uint>(old));
   free_.upload(r.first_pair + progress.free_slots, fresh.data(), fresh.size());
   progress.free_slots += static_cast<gpu::uint>(fresh.size());
-  pair_arena_.give(old_first);
+  if (!stays) pair_arena_.give(old_first);
+  upload_world(slot);
+}
+
+void Batch::grow_contacts(Slot slot, gpu::SphereProgress& progress) {
+  Region& r = regions_[slot];
+  const std::size_t old_first = r.first_contact, old = r.contacts, free = progress.free_contacts,
+                    released = progress.released_contacts;
+  std::vector<gpu::SphereContact> contacts = contacts_.download(old_first, old);
+  read_back_ += old * sizeof(gpu::SphereContact);
+  r.contacts = grown(old, old - free + progress.missing_contacts);
+  std::vector<gpu::uint> stack;
+  for (std::size_t k = 0; k < free; ++k) stack.push_back(word_of(contacts[k].bounce.w));
+  for (std::size_t k = 0; k < released; ++k) stack.push_back(word_of(contacts[old - 1 - k].bounce.w));
+  for (std::size_t k = old; k < r.contacts; ++k) stack.push_back(static_cast<gpu::uint>(k));
+  contacts.resize(r.contacts);
+  for (std::size_t k = 0; k < stack.size(); ++k) contacts[k].bounce.w = float_of(stack[k]);
+  progress.free_contacts = static_cast<gpu::uint>(stack.size());
+  progress.released_contacts = progress.missing_contacts = 0;
+  if (!contact_arena_.extend(old_first, r.contacts)) {
+    contact_arena_.give(old_first);
+    r.first_contact = contact_arena_.take(r.contacts);
+  }
+  make_room();
+  contacts_.upload(r.first_contact, contacts.data(), r.contacts);
   upload_world(slot);
 }
 
@@ -218,7 +267,7 @@ void Batch::download(Slot slot, sphere::World& world) const {
   ManifoldImage image;
   image.pairs = pairs_.download(2 * r.first_pair + progress.page * r.capacity, progress.pairs);
   image.manifolds = manifolds_.download(r.first_pair, r.capacity);
-  image.contacts = contacts_.download(SPHERE_MAX_CONTACTS * r.first_pair, SPHERE_MAX_CONTACTS * r.capacity);
+  image.contacts = contacts_.download(r.first_contact, r.contacts);
   world.manifolds = to_cpu(image, world, static_cast<std::uint32_t>(r.first_body));
 }
 
@@ -250,7 +299,6 @@ void Batch::bind() const {
   candidates_.bind(BIND_CANDIDATES);
   colors_.bind(BIND_COLORS);
   order_.bind(BIND_ORDER);
-  rows_.bind(BIND_ROWS);
 }
 
 void Batch::find_pairs() {
@@ -297,9 +345,13 @@ std::size_t Batch::bytes() const {
        {&settings_.storage(), &running_.storage(), &worlds_.storage(), &progress_.storage(), &planes_.storage(),
         &bodies_.storage(), &states_.storage(), &tensors_.storage(), &near_.storage(), &ranges_.storage(),
         &pairs_.storage(), &free_.storage(), &manifolds_.storage(), &contacts_.storage(), &jobs_.storage(),
-        &candidates_.storage(), &colors_.storage(), &order_.storage(), &rows_.storage()})
+        &candidates_.storage(), &colors_.storage(), &order_.storage()})
     sum += s->bytes();
   return sum;
+}
+
+std::size_t Batch::bytes_shared() const {
+  return shapes_.bytes() + settings_.storage().bytes() + candidates_.storage().bytes();
 }
 
 }  // namespace bin_scenes::sphere_gl

@@ -6,8 +6,7 @@
 ///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, ranges alike
 ///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
 ///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
-///     contacts   | slot 0: 16 | slot 1: 16 | ...                         forces and anchors over steps
-///     rows       | world 0: contact 0 of all manifolds by color, 1 | ... of one step
+///     contacts   | world 0: capacity places | world 1 | ...             a chain a manifold, the solve's rows in it
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
 // clang-format on
 ///
@@ -54,8 +53,9 @@ class Batch {
   void request_progress();
   std::vector<gpu::SphereProgress> requested_progress();
 
-  /// Room for more pairs of a world that had too little, from its progress; contents are kept.
+  /// Room for more pairs or contacts of a world that had too little, from its progress; contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
+  void grow_contacts(Slot slot, gpu::SphereProgress& progress);
   /// Room for twice the candidates per pair of bodies.
   void grow_candidates();
 
@@ -79,12 +79,13 @@ class Batch {
   gl::Timer& timer() { return timer_; }
   std::uint64_t dispatches() const { return dispatches_; }
   std::uint64_t bytes_read_back() const { return read_back_; }
-  std::size_t bytes() const;  ///< of all buffers on the device
+  std::size_t bytes() const;         ///< of all buffers on the device
+  std::size_t bytes_shared() const;  ///< of these, what does not grow with bodies: shapes, and what groups work with
 
  private:
   struct Region {
-    std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_plane = 0,
-                planes = 0;
+    std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_contact = 0,
+                contacts = 0, first_plane = 0, planes = 0;
   };
   void make_room();
   void upload_world(Slot slot);
@@ -92,7 +93,7 @@ class Batch {
 
   std::vector<Region> regions_;
   std::vector<gpu::SphereWorld> host_worlds_;
-  Arena slots_, body_arena_, word_arena_, pair_arena_, plane_arena_;
+  Arena slots_, body_arena_, word_arena_, pair_arena_, contact_arena_, plane_arena_;
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
   std::size_t running_count_ = 0, contact_groups_ = 1;
@@ -128,7 +129,6 @@ class Batch {
   gl::Buffer<gpu::SphereCandidate> candidates_{"sphere.candidates"};
   gl::Buffer<gpu::uint> colors_{"sphere.colors"};
   gl::Buffer<gpu::uint> order_{"sphere.order"};
-  gl::Buffer<gpu::SphereRow> rows_{"sphere.rows"};
 };
 
 }  // namespace bin_scenes::sphere_gl

@@ -17,6 +17,9 @@ gpu::vec4 diagonal(const Mat3f& m) {
 gpu::vec4 mixed(const Mat3f& m) {
   return {m(0, 1), m(0, 2), m(1, 2), 0};
 }
+gpu::vec4 force_of(const Contact& c) {
+  return {c.normal_force, c.friction_force.x(), c.friction_force.y(), c.friction_force.z()};
+}
 
 }  // namespace
 
@@ -77,14 +80,18 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     if (range.y == 0) range.x = range.z = p;
     range.y = range.w = p + 1;
     image.pairs.push_back({first_body + m.a, m.b == ground ? SPHERE_GROUND : first_body + m.b, p, 0});
+    const auto first = static_cast<std::uint32_t>(image.contacts.size());
     std::uint32_t presses = 0;
-    for (std::size_t i = 0; i < SPHERE_MAX_CONTACTS; ++i) {
-      const Contact c = i < m.contacts.size() ? m.contacts[i] : Contact{};
+    for (const Contact& c : m.contacts) {
       if (c.normal_force > 0) presses = 1;
-      image.contacts.push_back({vec4(c.anchor_a, c.normal_force), vec4(c.anchor_b, float_of(c.feature)),
-                                vec4(c.local_normal), vec4(c.friction_force)});
+      const auto next = static_cast<std::uint32_t>(image.contacts.size() + 1);
+      image.contacts.push_back({vec4(c.anchor_a, float_of(next)),
+                                vec4(c.anchor_b, float_of(c.feature)),
+                                vec4(c.local_normal),
+                                force_of(c),
+                                {}});
     }
-    image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, 0},
+    image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, first},
                                vec4(m.found_x),
                                vec4(m.found_q)});
   }
@@ -107,15 +114,16 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     const bool on_ground = m.b == ground;
     m.friction = std::sqrt(a.friction * (on_ground ? world.ground_friction : world.bodies[m.b].friction));
     m.restitution = std::max(a.restitution, on_ground ? world.ground_restitution : world.bodies[m.b].restitution);
-    for (std::size_t i = 0; i < m.contacts.size(); ++i) {
-      const gpu::SphereContact& g = image.contacts[pair.slot * SPHERE_MAX_CONTACTS + i];
-      Contact& c = m.contacts[i];
+    std::uint32_t place = from.state.w;
+    for (Contact& c : m.contacts) {
+      const gpu::SphereContact& g = image.contacts[place];
+      place = word_of(g.anchor_a.w);
       c.anchor_a = vec3(g.anchor_a);
       c.anchor_b = vec3(g.anchor_b);
       c.local_normal = vec3(g.normal);
       c.feature = word_of(g.anchor_b.w);
-      c.normal_force = g.anchor_a.w;
-      c.friction_force = vec3(g.friction);
+      c.normal_force = g.force.x;
+      c.friction_force = {g.force.y, g.force.z, g.force.w};
     }
     out.push_back(m);
   }

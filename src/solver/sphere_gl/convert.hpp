@@ -44,7 +44,7 @@ gpu::SpherePlane to_gpu(const sphere::Plane& plane);
 struct ManifoldImage {
   std::vector<gpu::SpherePair> pairs;
   std::vector<gpu::SphereManifold> manifolds;  ///< by slot
-  std::vector<gpu::SphereContact> contacts;    ///< SPHERE_MAX_CONTACTS a slot
+  std::vector<gpu::SphereContact> contacts;    ///< chains, see shaders/sphere/contact_place.h
   std::vector<gpu::uvec4> ranges;              ///< by body; both pages alike
 };
 ManifoldImage to_gpu(const sphere::World& world, std::uint32_t first_body);

@@ -137,6 +137,7 @@ class GlSphereSolver final : public Solver {
     shown_.count("gl_dispatches", batch_.dispatches());
     shown_.count("gl_bytes_read_back", batch_.bytes_read_back());
     shown_.count("gl_bytes_held", batch_.bytes());
+    shown_.count("gl_bytes_shared", batch_.bytes_shared());
     return shown_;
   }
 
@@ -185,6 +186,7 @@ class GlSphereSolver final : public Solver {
       r.progress.overflow = 0;
       if (overflow) profile_.count("steps_repeated");
       if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
+      if (overflow & SPHERE_CONTACT_OVERFLOW) batch_.grow_contacts(r.slot, r.progress);
       candidates = candidates || overflow & SPHERE_CANDIDATE_OVERFLOW;
       left = std::max<std::uint64_t>(left, r.progress.steps_left);
       if (overflow) batch_.upload_progress(r.slot, r.progress);

@@ -9,7 +9,8 @@ namespace bin_scenes {
 namespace sphere_gl {
 /// First sizes of lists that grow; too small costs a repeated step, no result.
 struct Capacity {
-  std::size_t pairs = 6;       ///< of bodies near each other, per body of a world
+  std::size_t pairs = 4;       ///< of bodies near each other, per body of a world
+  std::size_t contacts = 12;   ///< per body of a world
   std::size_t candidates = 8;  ///< contacts to choose from, per invocation of a group
 };
 }  // namespace sphere_gl

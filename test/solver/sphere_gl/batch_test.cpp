@@ -96,6 +96,7 @@ TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
 TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   Capacity small;
   small.pairs = 1;
+  small.contacts = 1;
   small.candidates = 1;
   EXPECT_EQ(fallen(1, small), fallen(1));
   const auto solver = make_gl_sphere_solver(coarse(), small);

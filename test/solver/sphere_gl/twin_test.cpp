@@ -125,6 +125,7 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
     if (!progress.overflow) return progress;
     batch.update_sleep();  // empties the list of jobs
     if (progress.overflow & SPHERE_PAIR_OVERFLOW) batch.grow_pairs(slot, progress);
+    if (progress.overflow & SPHERE_CONTACT_OVERFLOW) batch.grow_contacts(slot, progress);
     if (progress.overflow & SPHERE_CANDIDATE_OVERFLOW) batch.grow_candidates();
     progress.overflow = 0;
     batch.upload_progress(slot, progress);
