@@ -176,11 +176,17 @@ bool take_places(SphereWorld world, uint count) {
     set_free_place(world, released_entry(world, n), place[i]);
   }
   if (count <= old_count) return true;
-  uint more = count - old_count, top = atomicAdd(progress[world_index].free_contacts, 0u - more);
-  if (int(top) < int(more)) {  // below 0 while others that were refused have not put theirs back
-    atomicAdd(progress[world_index].free_contacts, more);
-    atomicAdd(progress[world_index].missing_contacts, more);
-    return false;
+  // Compared and swapped: subtracted and put back, a refusal would for a while hide places from others, and then offer
+  // them what somebody took.
+  uint more = count - old_count, top = progress[world_index].free_contacts;
+  for (;;) {
+    if (top < more) {
+      atomicAdd(progress[world_index].missing_contacts, more);
+      return false;
+    }
+    uint seen = atomicCompSwap(progress[world_index].free_contacts, top, top - more);
+    if (seen == top) break;
+    top = seen;
   }
   for (uint i = 0u; i < more; ++i) place[old_count + i] = free_place(world, top - 1u - i);
   return true;
