@@ -30,6 +30,8 @@
 #define BIND_ORDER 22
 
 #define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
+#define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
+                                    // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_MAX_CONTACTS 16      // per pair, after reduction
 #define SPHERE_MAX_COARSE_CONTACTS 8  // the same on coarse samples
@@ -66,7 +68,7 @@ struct SphereSettingsBlock {
   float restitution_speed; // m/s
   float rest_window;       // s
   uint candidates;         // kept per invocation of find_contacts
-  uint contact_groups;     // groups that take jobs at once
+  uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and again after
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d), sub-steps in place of one

@@ -196,10 +196,11 @@ float margin_of(SpherePair pair) {
 }
 
 void main() {
-  for (;;) {
+  take_room();
+  for (uint n = 0u; n < SPHERE_GROUP_JOBS; ++n) {
     if (gl_LocalInvocationIndex == 0u) job = atomicAdd(status.next_job, 1u);
     barrier();
-    if (job >= status.jobs) return;
+    if (job >= status.jobs) break;
     SpherePair pair = pairs[jobs[job]];
     world_index = bodies[pair.a].ids.y;
     SphereWorld world = worlds[world_index];
@@ -215,4 +216,5 @@ void main() {
     atomicAdd(progress[world_index].nodes_tested, nodes_tested);
     barrier();  // shared memory is free for the next pair
   }
+  leave_room();
 }

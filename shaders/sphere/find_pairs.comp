@@ -168,7 +168,7 @@ void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, u
   }
   uint job = atomicAdd(status.jobs, 1u);
   jobs[job] = list + at;
-  if (job < settings.contact_groups) atomicMax(status.groups.x, job + 1u);
+  atomicMax(status.groups.x, job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u);
 }
 
 void main() {

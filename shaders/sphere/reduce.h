@@ -20,9 +20,23 @@ bool lost;
 
 uint feature_of(SphereContact contact) { return floatBitsToUint(contact.anchor_b.w); }
 
+// Rooms for the candidates of a group lie behind a word for each that says whether it is in use.
+shared uint room;
+
+void take_room() {
+  if (gl_LocalInvocationIndex == 0u) {
+    room = gl_WorkGroupID.x % settings.contact_groups;
+    while (atomicExchange(candidates[room].feature.x, 1u) == 1u) room = (room + 1u) % settings.contact_groups;
+  }
+  barrier();
+}
+void leave_room() {
+  if (gl_LocalInvocationIndex == 0u) atomicExchange(candidates[room].feature.x, 0u);
+}
+
 // Side by side for neighbours, so that a group's reads are one.
 uint candidate_place(uint k) {
-  return (gl_WorkGroupID.x * settings.candidates + k) * SPHERE_GROUP + gl_LocalInvocationIndex;
+  return settings.contact_groups + (room * settings.candidates + k) * SPHERE_GROUP + gl_LocalInvocationIndex;
 }
 
 void begin_candidates(SphereWorld world, uint slot) {

@@ -57,6 +57,9 @@ Batch::Batch(const Capacity& capacity)
       solve_(pass("solve")),
       update_sleep_(pass("update_sleep")) {
   settings_block_.candidates = static_cast<gpu::uint>(capacity.candidates);
+  const std::vector<gpu::SphereCandidate> unused(contact_groups_, gpu::SphereCandidate{});
+  at_least(candidates_, unused.size());
+  candidates_.upload(0, unused.data(), unused.size());
 }
 
 void Batch::make_room() {
@@ -82,7 +85,7 @@ void Batch::make_room() {
     const gpu::SphereStatus none{0, 0, 0, 0, {0, 1, 1, 0}};
     jobs_.storage().write(0, &none, sizeof none);
   }
-  at_least(candidates_, contact_groups_ * settings_block_.candidates * SPHERE_GROUP);
+  at_least(candidates_, contact_groups_ * (1 + settings_block_.candidates * SPHERE_GROUP));
   bound_ = false;
 }
 
@@ -261,14 +264,19 @@ std::vector<gpu::SphereState> Batch::states() const {
 
 void Batch::download(Slot slot, sphere::World& world) const {
   const Region& r = regions_[slot];
-  const gpu::SphereProgress progress = progress_.download(slot, 1)[0];
   const std::vector<gpu::SphereState> states = states_.download(r.first_body, r.bodies);
   for (std::size_t i = 0; i < r.bodies; ++i) read_state(states[i], world.bodies[i]);
+  world.manifolds = to_cpu(manifolds(slot), world, static_cast<std::uint32_t>(r.first_body));
+}
+
+ManifoldImage Batch::manifolds(Slot slot) const {
+  const Region& r = regions_[slot];
+  const gpu::SphereProgress progress = progress_.download(slot, 1)[0];
   ManifoldImage image;
   image.pairs = pairs_.download(2 * r.first_pair + progress.page * r.capacity, progress.pairs);
   image.manifolds = manifolds_.download(r.first_pair, r.capacity);
   image.contacts = contacts_.download(r.first_contact, r.contacts);
-  world.manifolds = to_cpu(image, world, static_cast<std::uint32_t>(r.first_body));
+  return image;
 }
 
 void Batch::run(const std::vector<Slot>& slots) {

@@ -62,8 +62,9 @@ class Batch {
   /// States of all bodies of all worlds; those of a slot begin at first_body().
   std::vector<gpu::SphereState> states() const;
   std::size_t first_body(Slot slot) const { return regions_[slot].first_body; }
-  /// Everything of one world, for tests.
+  /// Everything of one world, for tests; and its manifolds as they lie on the device.
   void download(Slot slot, sphere::World& world) const;
+  ManifoldImage manifolds(Slot slot) const;
 
   /// Worlds that the passes work on from now on.
   void run(const std::vector<Slot>& slots);

@@ -161,6 +161,39 @@ TEST_F(TwinTest, FindContactsChoosesThoseOfTheTwin) {
   }
 }
 
+/// How often each place for a contact is had by a manifold, or said to be free.
+std::vector<int> owners(const ManifoldImage& image, const gpu::SphereProgress& progress) {
+  std::vector<int> count(image.contacts.size(), 0);
+  for (const gpu::SpherePair& pair : image.pairs) {
+    const gpu::SphereManifold& m = image.manifolds[pair.slot];
+    for (std::uint32_t k = 0, at = m.state.w; k < m.state.x; ++k, at = word_of(image.contacts[at].anchor_a.w))
+      ++count.at(at);
+  }
+  const auto entry = [&](std::size_t k) { return word_of(image.contacts[k].bounce.w); };
+  for (std::size_t k = 0; k < progress.free_contacts; ++k) ++count.at(entry(k));
+  for (std::size_t k = 0; k < progress.released_contacts; ++k) ++count.at(entry(image.contacts.size() - 1 - k));
+  return count;
+}
+
+TEST_F(TwinTest, APlaceForAContactHasOneOwner) {
+  for (const std::size_t contacts : {1, 12}) {
+    Capacity capacity;
+    capacity.contacts = contacts;
+    capacity.pairs = contacts;
+    Batch batch(capacity);
+    World world = heap().world(200, 6, 0.1);
+    const Batch::Slot slot = load(batch, world);
+    for (int step = 0; step < 3; ++step) {
+      const gpu::SphereProgress progress = find_all(batch, slot);
+      const std::vector<int> count = owners(batch.manifolds(slot), progress);
+      ASSERT_EQ(std::count(count.begin(), count.end(), 1), static_cast<std::ptrdiff_t>(count.size())) << step;
+      batch.color_manifolds();
+      batch.solve();
+      batch.update_sleep();
+    }
+  }
+}
+
 /// Takes colors and order from the device.
 void take_order(World& world) {
   world.order.clear();
