@@ -40,6 +40,13 @@
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
+// Sweeps of the solve over all manifolds.
+#define SWEEP_WARM_START 0u
+#define SWEEP_PUSH 1u
+#define SWEEP_RELAX 2u
+#define SWEEP_BOUNCE 3u
+#define SPHERE_BOUNCE_SWEEPS 12u
+
 // Normal cone of a node (w, bits) or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are;
 // 0 = all directions, SPHERE_AXIS = one axis with its spread in w.
 #define SPHERE_AXIS 7u

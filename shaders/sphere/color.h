@@ -1,4 +1,6 @@
-// Colors of manifolds.
+// Colors of manifolds: what one invocation does with one of them. Whoever includes this says where lowest_of(i),
+// used_low_of(i) and used_high_of(i) lie, i counted in the world: the lowest key among the uncolored manifolds of a body,
+// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, and sphere/body.h.
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = 0xffffffffu;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
 
@@ -17,3 +19,45 @@ uint lowest_free(uvec2 used) {
 }
 
 uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec2(0u, 1u << (color - 32u)); }
+
+bool to_solve(SpherePair pair) { return moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b); }
+
+// Returns the contacts to solve.
+uint begin_color(SphereWorld world, uint p) {
+  uint n = to_solve(pairs[p]) ? manifolds[world.pairs.x + pairs[p].slot].state.x : 0u;
+  pairs[p].color = n > 0u ? UNCOLORED : NOT_SOLVED;
+  return n;
+}
+
+// Makes a manifold's key known to its bodies; false if it has its color.
+bool bid(SphereWorld world, uint p) {
+  SpherePair pair = pairs[p];
+  if (pair.color != UNCOLORED) return false;
+  uint key = hashed_key(pair, world.bodies.x);
+  if (moves(pair.a)) atomicMin(lowest_of(pair.a - world.bodies.x), key);
+  if (pair.b != SPHERE_GROUND && moves(pair.b)) atomicMin(lowest_of(pair.b - world.bodies.x), key);
+  return true;
+}
+
+// Takes a color if no other uncolored manifold of both bodies has a lower key; returns it, else UNCOLORED.
+uint take_color(SphereWorld world, uint p) {
+  SpherePair pair = pairs[p];
+  uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
+  bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
+  if (a_moves && lowest_of(a) != key || b_moves && lowest_of(b) != key) return UNCOLORED;
+  uvec2 used = uvec2(0u);
+  if (a_moves) used |= uvec2(used_low_of(a), used_high_of(a));
+  if (b_moves) used |= uvec2(used_low_of(b), used_high_of(b));
+  uint color = lowest_free(used);
+  used = color_bit(color);
+  if (a_moves) {
+    used_low_of(a) |= used.x;
+    used_high_of(a) |= used.y;
+  }
+  if (b_moves) {
+    used_low_of(b) |= used.x;
+    used_high_of(b) |= used.y;
+  }
+  pairs[p].color = color;
+  return color;
+}

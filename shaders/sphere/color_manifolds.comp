@@ -17,13 +17,16 @@ layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManif
 layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
 
-#include "sphere/body.h"
-#include "sphere/color.h"
-
 shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
 shared uint members[SPHERE_COLORS], starts[SPHERE_COLORS + 1];
 shared uint left[2];  // uncolored manifolds, take turns
 shared uint contact_count;
+
+#define lowest_of(i) lowest[i]
+#define used_low_of(i) used_low[i]
+#define used_high_of(i) used_high[i]
+#include "sphere/body.h"
+#include "sphere/color.h"
 
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
@@ -37,13 +40,7 @@ void main() {
   if (thread < 2u) left[thread] = 0u;
   barrier();
   uint own_contacts = 0u;
-  for (uint p = thread; p < count; p += SPHERE_GROUP) {
-    SpherePair pair = pairs[list + p];
-    uint n = manifolds[world.pairs.x + pair.slot].state.x;
-    bool solved = n > 0u && (moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b));
-    pairs[list + p].color = solved ? UNCOLORED : NOT_SOLVED;
-    if (moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b)) own_contacts += n;
-  }
+  for (uint p = thread; p < count; p += SPHERE_GROUP) own_contacts += begin_color(world, list + p);
   atomicAdd(contact_count, own_contacts);
 
   uint rounds = 0u;
@@ -52,37 +49,14 @@ void main() {
     for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) lowest[i] = 0xffffffffu;
     if (thread == 0u) left[turn ^ 1u] = 0u;
     barrier();
-    for (uint p = thread; p < count; p += SPHERE_GROUP) {
-      SpherePair pair = pairs[list + p];
-      if (pair.color != UNCOLORED) continue;
-      uint key = hashed_key(pair, world.bodies.x);
-      if (moves(pair.a)) atomicMin(lowest[pair.a - world.bodies.x], key);
-      if (pair.b != SPHERE_GROUND && moves(pair.b)) atomicMin(lowest[pair.b - world.bodies.x], key);
-      left[turn] = 1u;
-    }
+    for (uint p = thread; p < count; p += SPHERE_GROUP)
+      if (bid(world, list + p)) left[turn] = 1u;
     barrier();
     if (left[turn] == 0u) break;
     for (uint p = thread; p < count; p += SPHERE_GROUP) {
-      SpherePair pair = pairs[list + p];
-      if (pair.color != UNCOLORED) continue;
-      uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
-      bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
-      if (a_moves && lowest[a] != key || b_moves && lowest[b] != key) continue;
-      uvec2 used = uvec2(0u);
-      if (a_moves) used |= uvec2(used_low[a], used_high[a]);
-      if (b_moves) used |= uvec2(used_low[b], used_high[b]);
-      uint color = lowest_free(used);
-      used = color_bit(color);
-      if (a_moves) {
-        used_low[a] |= used.x;
-        used_high[a] |= used.y;
-      }
-      if (b_moves) {
-        used_low[b] |= used.x;
-        used_high[b] |= used.y;
-      }
-      pairs[list + p].color = color;
-      atomicAdd(members[color], 1u);
+      if (pairs[list + p].color != UNCOLORED) continue;
+      uint color = take_color(world, list + p);
+      if (color != UNCOLORED) atomicAdd(members[color], 1u);
     }
     barrier();
   }

@@ -1,8 +1,6 @@
 // One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, struct Side and
 // shared/rotation.h.
 
-const uint BOUNCE_SWEEPS = 12u;
-
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
 vec3 tangent_1(vec3 n) {

@@ -27,9 +27,12 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs
 #include "sphere/pair.h"
 #include "sphere/pair_list.h"
 #include "sphere/contact_place.h"
+#include "sphere/oriented_box.h"
+#include "sphere/box.h"
+#include "sphere/pair_job.h"
 
-shared vec4 box_center[SPHERE_MAX_BODIES];  // w: margin
-shared vec4 box_half[SPHERE_MAX_BODIES];    // margin included, negative: absent; w: 1 = moves
+shared vec4 box_center[SPHERE_MAX_BODIES];
+shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box
 shared uint on_ground[SPHERE_MAX_BODIES];
 shared uint first_pair[SPHERE_MAX_BODIES];
 shared uint partial[SPHERE_GROUP];
@@ -37,42 +40,23 @@ shared uint free_top, free_contact_top;
 
 void find_box(SphereWorld world, uint i) {
   uint body = world.bodies.x + i;
-  on_ground[i] = 0u;
-  box_half[i] = vec4(-1e30, -1e30, -1e30, 0.0);
-  box_center[i] = vec4(0.0);
-  if (!present(body)) return;
-  SphereBody fixed_part = bodies[body];
-  mat3 r = rotation_of(states[body].orientation);
-  mat3 tensor = r * symmetric(fixed_part.inverse_inertia, fixed_part.inverse_inertia_mixed) * transpose(r);
-  tensors[body].diagonal = vec4(tensor[0][0], tensor[1][1], tensor[2][2], 0.0);
-  tensors[body].mixed = vec4(tensor[0][1], tensor[0][2], tensor[1][2], 0.0);
-  tensors[body].orientation = states[body].orientation;
-
-  vec4 center = shapes[fixed_part.ids.x].box_center, half_size = shapes[fixed_part.ids.x].box_half;
-  float margin = reach(world, body, center.w, half_size.w);
-  vec3 middle = states[body].position.xyz + r * center.xyz;
-  vec3 extent = magnitudes(r) * half_size.xyz + margin;
-  bool moving = moves(body);
-  box_center[i] = vec4(middle, margin);
-  box_half[i] = vec4(extent, moving ? 1.0 : 0.0);
-  if (!moving) return;
-  for (uint k = 0u; k < world.pairs.w; ++k) {
-    vec4 plane = planes[world.pairs.z + k].plane;
-    if (dot(plane.xyz, middle) - dot(abs(plane.xyz), extent) < plane.w) on_ground[i] = 1u;
-  }
+  Box box = box_of(world, body);
+  if (present(body)) tensors[body] = tensor_of(body);
+  box_center[i] = box.center;
+  box_half[i] = box.half_size;
+  on_ground[i] = box.half_size.w == 2.0 ? 1u : 0u;
 }
 
-bool boxes_meet(SphereWorld world, uint i, uint j) {
-  if (any(greaterThan(abs(box_center[i].xyz - box_center[j].xyz), box_half[i].xyz + box_half[j].xyz))) return false;
-  if (box_half[i].w + box_half[j].w == 0.0) return false;
-  return !oriented_boxes_apart(world.bodies.x + i, world.bodies.x + j, box_center[i].w + box_center[j].w);
+bool near_each_other(SphereWorld world, uint i, uint j) {
+  return boxes_meet(world.bodies.x + i, Box(box_center[i], box_half[i]), world.bodies.x + j,
+                    Box(box_center[j], box_half[j]));
 }
 
 // Bodies near body i with numbers in word k of its row of bits.
 uint near_word(SphereWorld world, uint i, uint k) {
   uint word = 0u;
   for (uint j = max(32u * k, i + 1u); j < min(32u * k + 32u, world.bodies.y); ++j)
-    if (boxes_meet(world, i, j)) word |= 1u << (j & 31u);
+    if (near_each_other(world, i, j)) word |= 1u << (j & 31u);
   return word;
 }
 
@@ -127,22 +111,9 @@ void retire(SphereWorld world, uint i, uint page, uint list) {
     if (kept(world, i, pairs[list + p].b)) continue;
     uint slot = pairs[list + p].slot, n = manifolds[world.pairs.x + slot].state.x;
     free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = slot;
-    uint top = atomicAdd(free_contact_top, n);
-    for (uint k = 0u, at = first_contact(world, slot); k < n; ++k, at = next_contact(world, at))
-      set_free_place(world, top + k, at - world.contacts.x);
+    give_places(world, slot, atomicAdd(free_contact_top, n), n);
   }
 }
-
-// Puts the places that the last find_contacts gave up on the stack. Those that lie where the stack will reach stay.
-void take_back_places(SphereWorld world, uint w) {
-  uint top = progress[w].free_contacts, released = progress[w].released_contacts;
-  uint moving = min(released, world.contacts.y - released - top);
-  for (uint n = gl_LocalInvocationIndex; n < moving; n += SPHERE_GROUP)
-    set_free_place(world, top + n, free_place(world, released_entry(world, n)));
-  if (gl_LocalInvocationIndex == 0u) free_contact_top = top + released;
-}
-
-uint recycled = 0u, tested = 0u, asleep = 0u, sleepers = 0u;
 
 // Appends the pair of i with b; `p` walks the old pairs of i.
 void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, uint old_list, uint list, uint at) {
@@ -156,19 +127,7 @@ void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, u
     manifolds[world.pairs.x + pair.slot].state = uvec4(0u);
   }
   pairs[list + at] = pair;
-  bool awake = moves(pair.a) || b != SPHERE_GROUND && moves(b);
-  if (!awake) {
-    ++asleep;
-    return;
-  }
-  ++tested;
-  if (recyclable(manifolds[world.pairs.x + pair.slot], pair, progress[w].fine != 0u)) {
-    ++recycled;
-    return;
-  }
-  uint job = atomicAdd(status.jobs, 1u);
-  jobs[job] = list + at;
-  atomicMax(status.groups.x, job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u);
+  enlist(world, w, pair, list + at);
 }
 
 void main() {
@@ -202,7 +161,10 @@ void main() {
     return;
   }
 
-  take_back_places(world, w);
+  uint contact_top = progress[w].free_contacts, released = progress[w].released_contacts;
+  for (uint n = thread; n < places_to_move(world, contact_top, released); n += SPHERE_GROUP)
+    take_back_place(world, contact_top, n);
+  if (thread == 0u) free_contact_top = contact_top + released;
   memoryBarrierBuffer();
   barrier();
   for (uint i = thread; i < count; i += SPHERE_GROUP) retire(world, i, page, old_list);
@@ -219,10 +181,7 @@ void main() {
     if (on_ground[i] == 1u) adopt(world, w, i, SPHERE_GROUND, p, old, old_list, list, at++);
     set_range(world.bodies.x + i, page ^ 1u, uvec2(first_pair[i], at));
   }
-  atomicAdd(progress[w].pairs_tested, tested);
-  atomicAdd(progress[w].pairs_recycled, recycled);
-  atomicAdd(progress[w].pairs_asleep, asleep);
-  atomicAdd(progress[w].asleep_steps, sleepers);
+  count_pairs(w);
   barrier();  // all have read progress
   if (thread == 0u) {
     progress[w].page = page ^ 1u;

@@ -9,17 +9,6 @@ float reach(SphereWorld world, uint body, float radius, float diagonal) {
                  length(world.gravity.xyz) * dt) * dt;
 }
 
-// Separating axis test on the six face normals.
-bool oriented_boxes_apart(uint a, uint b, float margin) {
-  mat3 ra = rotation_of(states[a].orientation), rb = rotation_of(states[b].orientation);
-  vec3 ca = shapes[bodies[a].ids.x].box_center.xyz, ha = shapes[bodies[a].ids.x].box_half.xyz;
-  vec3 cb = shapes[bodies[b].ids.x].box_center.xyz, hb = shapes[bodies[b].ids.x].box_half.xyz;
-  vec3 d = (states[b].position.xyz + rb * cb) - (states[a].position.xyz + ra * ca);
-  mat3 size = magnitudes(transpose(ra) * rb);
-  vec3 gap_a = abs(d * ra) - ha - size * hb, gap_b = abs(d * rb) - hb - ha * size;
-  return any(greaterThan(max(gap_a, gap_b), vec3(margin)));
-}
-
 // Pose of b in the frame of a; on the ground: of a in the bin's.
 void relative_pose(SpherePair pair, out vec3 position, out vec4 orientation) {
   position = states[pair.a].position.xyz;

@@ -1,5 +1,7 @@
 // Where the lists of pairs lie. Needs the binding Ranges.
 
+const uint NO_SLOT = 0xffffffffu;  // of a manifold, yet
+
 // First pair of a world's list; each world has two that take turns.
 uint list_of(SphereWorld world, uint page) { return 2u * world.pairs.x + page * world.pairs.y; }
 uvec2 range_of(uint body, uint page) { return page == 0u ? ranges[body].xy : ranges[body].zw; }

@@ -33,8 +33,10 @@ std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason)
   const SolverSettings& settings = request.solver;
   if (settings.preset == SolverSettings::Preset::thesis) return std::make_unique<ThesisSolver>(settings.thesis);
   const std::size_t bodies = request.part_count() + (request.bin.kind == Bin::Kind::mesh ? 1 : 0);
-  return on_gpu(settings.sphere, bodies, reason) ? make_gl_sphere_solver(settings.sphere)
-                                                 : make_sphere_solver(settings.sphere);
+  if (!on_gpu(settings.sphere, bodies, reason)) return make_sphere_solver(settings.sphere);
+  sphere_gl::Capacity capacity;
+  capacity.bodies = bodies;
+  return make_gl_sphere_solver(settings.sphere, capacity);
 }
 
 }  // namespace

@@ -46,6 +46,21 @@ gl::Program pass(const char* name) {
   return gl::Program::compute(std::string("sphere/") + name + ".comp");
 }
 
+/// What the passes over many groups need to know of a world.
+LargeWorld large_world(const sphere::World& world, std::size_t slot) {
+  LargeWorld large;
+  large.world = static_cast<gpu::uint>(slot);
+  large.bodies = world.bodies.size();
+  large.restitution = world.ground_restitution > 0;
+  for (const sphere::Body& b : world.bodies) {
+    large.restitution = large.restitution || b.restitution > 0;
+    if (b.inverse_mass > 0)
+      large.smallest_cell = std::max(large.smallest_cell, 2 * world.shapes[b.shape]->box_half.norm());
+  }
+  if (large.smallest_cell == 0) large.smallest_cell = 1;  // nothing moves
+  return large;
+}
+
 }  // namespace
 
 Batch::Batch(const Capacity& capacity)
@@ -97,7 +112,8 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   }
   Region& r = regions_[slot];
   r.bodies = world.bodies.size();
-  r.words = (r.bodies + 31) / 32;
+  r.large = r.bodies > capacity_.group_bodies ? large_world(world, slot) : LargeWorld{};
+  r.words = r.large.bodies > 0 ? 0 : (r.bodies + 31) / 32;
   r.planes = world.planes.size();
   r.capacity = std::max(capacity_.pairs * r.bodies, world.manifolds.size());
   std::size_t contacts = 0;
@@ -113,6 +129,10 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   settings_block_.candidates = candidates;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
   make_room();
+  if (r.large.bodies > 0) {
+    if (!large_) large_ = std::make_unique<LargePasses>(capacity_);
+    large_->make_room(r.bodies);
+  }
 
   gpu::SphereWorld& w = host_worlds_[slot];
   w.gravity = vec4(world.gravity, world.smallest_size);
@@ -180,6 +200,7 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
 }
 
 void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
+  regions_[slot].pressed = progress.pressed != 0;
   progress_.upload(slot, &progress, 1);
 }
 
@@ -280,18 +301,40 @@ ManifoldImage Batch::manifolds(Slot slot) const {
 }
 
 void Batch::run(const std::vector<Slot>& slots) {
-  std::vector<gpu::uint> list(slots.begin(), slots.end());
+  std::vector<gpu::uint> list;
+  running_large_.clear();
+  for (const Slot slot : slots) {
+    const Region& r = regions_[slot];
+    if (r.large.bodies == 0) {
+      list.push_back(static_cast<gpu::uint>(slot));
+      continue;
+    }
+    running_large_.push_back(r.large);
+    running_large_.back().sub_steps = sub_steps(r);
+    running_large_.back().sweeps = settings_block_.sweeps;
+  }
   running_.upload(0, list.data(), list.size());
   running_count_ = list.size();
+  at_turn_ = running_count_ == 0 && !running_large_.empty() ? &running_large_.front() : nullptr;
   settings_.upload(0, &settings_block_, 1);
   if (!bound_) bind();
 }
 
-void Batch::bind() const {
-  shapes_.bind();
+unsigned Batch::sub_steps(const Region& r) const {
+  const gpu::vec4& softness = r.pressed ? settings_block_.stiff : settings_block_.soft;
+  return settings_block_.sub_steps * static_cast<unsigned>(softness.w);
+}
+
+void Batch::bind_first() const {
   settings_.bind(BIND_SETTINGS);
   running_.bind(BIND_RUNNING);
   worlds_.bind(BIND_WORLDS);
+}
+
+void Batch::bind() const {
+  shapes_.bind();
+  if (large_) large_->bind();
+  bind_first();
   progress_.bind(BIND_PROGRESS);
   planes_.bind(BIND_PLANES);
   bodies_.bind(BIND_BODIES);
@@ -311,6 +354,7 @@ void Batch::bind() const {
 
 void Batch::find_pairs() {
   gl::Stage stage(timer_, "find_pairs");
+  if (at_turn_) return large_->find_pairs(*at_turn_, [this] { bind_first(); });
   gl::dispatch_groups(find_pairs_, running_count_);
   ++dispatches_;
 }
@@ -323,23 +367,35 @@ void Batch::find_contacts() {
 
 void Batch::color_manifolds() {
   gl::Stage stage(timer_, "color_manifolds");
+  if (at_turn_) return large_->color_manifolds(*at_turn_);
   gl::dispatch_groups(color_manifolds_, running_count_);
   ++dispatches_;
 }
 
 void Batch::solve() {
   gl::Stage stage(timer_, "solve");
+  if (at_turn_) return large_->solve(*at_turn_);
   gl::dispatch_groups(solve_, running_count_);
   ++dispatches_;
 }
 
 void Batch::update_sleep() {
   gl::Stage stage(timer_, "update_sleep");
+  if (at_turn_) return large_->update_sleep(*at_turn_);
   gl::dispatch_groups(update_sleep_, running_count_);
   ++dispatches_;
 }
 
 void Batch::step() {
+  at_turn_ = nullptr;
+  if (running_count_ > 0) step_at_turn();
+  for (const LargeWorld& world : running_large_) {
+    at_turn_ = &world;
+    step_at_turn();
+  }
+}
+
+void Batch::step_at_turn() {
   find_pairs();
   find_contacts();
   color_manifolds();
@@ -347,8 +403,12 @@ void Batch::step() {
   update_sleep();
 }
 
+std::uint64_t Batch::dispatches() const {
+  return dispatches_ + (large_ ? large_->dispatches() : 0);
+}
+
 std::size_t Batch::bytes() const {
-  std::size_t sum = shapes_.bytes();
+  std::size_t sum = shapes_.bytes() + (large_ ? large_->bytes() : 0);
   for (const gl::Storage* s :
        {&settings_.storage(), &running_.storage(), &worlds_.storage(), &progress_.storage(), &planes_.storage(),
         &bodies_.storage(), &states_.storage(), &tensors_.storage(), &near_.storage(), &ranges_.storage(),

@@ -16,7 +16,8 @@
 ///     group/world   group/pair       group/world        group/world   group/world
 ///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
-/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it
+/// run without leaving the group. A world of more bodies than a group holds takes a step by itself, with passes of many
+/// dispatches (large_world.hpp). A world that has done its steps, or for whose pairs there is no room, is left as it
 /// is until the host has looked.
 #pragma once
 
@@ -26,6 +27,7 @@
 #include "solver/sphere_gl/arena.hpp"
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
+#include "solver/sphere_gl/large_world.hpp"
 #include "solver/sphere_gl/shape_table.hpp"
 
 #include <memory>
@@ -70,7 +72,7 @@ class Batch {
   void run(const std::vector<Slot>& slots);
   void step();
 
-  // The passes in their order.
+  // The passes in their order, for what is at turn: at first the worlds of one group each, or the first large one.
   void find_pairs();
   void find_contacts();
   void color_manifolds();
@@ -78,7 +80,7 @@ class Batch {
   void update_sleep();
 
   gl::Timer& timer() { return timer_; }
-  std::uint64_t dispatches() const { return dispatches_; }
+  std::uint64_t dispatches() const;
   std::uint64_t bytes_read_back() const { return read_back_; }
   std::size_t bytes() const;         ///< of all buffers on the device
   std::size_t bytes_shared() const;  ///< of these, what does not grow with bodies: shapes, and what groups work with
@@ -87,22 +89,30 @@ class Batch {
   struct Region {
     std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_contact = 0,
                 contacts = 0, first_plane = 0, planes = 0;
+    bool pressed = false;
+    LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();
   void upload_world(Slot slot);
   void bind() const;
+  void bind_first() const;
+  void step_at_turn();
+  unsigned sub_steps(const Region& r) const;
 
   std::vector<Region> regions_;
   std::vector<gpu::SphereWorld> host_worlds_;
   Arena slots_, body_arena_, word_arena_, pair_arena_, contact_arena_, plane_arena_;
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
-  std::size_t running_count_ = 0, contact_groups_ = 1;
+  std::size_t running_count_ = 0, contact_groups_ = 1;  ///< worlds of one group each
+  std::vector<LargeWorld> running_large_;
+  const LargeWorld* at_turn_ = nullptr;  ///< none: the worlds of one group each
   std::uint64_t dispatches_ = 0;
   mutable std::uint64_t read_back_ = 0;
   bool bound_ = false;
 
   gl::Program find_pairs_, find_contacts_, color_manifolds_, solve_, update_sleep_;
+  std::unique_ptr<LargePasses> large_;
   gl::Timer timer_;
   struct Look {
     std::unique_ptr<gl::ReadBack> back;

@@ -32,11 +32,12 @@ struct Resident {
 
 class GlSphereSolver final : public Solver {
  public:
-  GlSphereSolver(const SphereSettings& settings, const Capacity& capacity) : settings_(settings), batch_(capacity) {}
+  GlSphereSolver(const SphereSettings& settings, const Capacity& capacity)
+      : settings_(settings), bodies_(capacity.bodies), batch_(capacity) {}
 
   WorldId add_world(const WorldDef& def) override {
-    if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > SPHERE_MAX_BODIES)
-      throw input_error("the sphere solver takes up to " + std::to_string(SPHERE_MAX_BODIES) +
+    if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())
+      throw input_error("the sphere solver takes up to " + std::to_string(most_gl_bodies()) +
                             " bodies per world on the GPU, asked for " + std::to_string(def.bodies.size()),
                         "solver.sphere.device", "set solver.sphere.device: cpu");
     gl::Device::current().make_current();
@@ -124,7 +125,10 @@ class GlSphereSolver final : public Solver {
     return out;
   }
 
-  std::size_t worlds_at_once() const override { return gl::Device::current().software() ? 4 : 256; }
+  std::size_t worlds_at_once() const override {
+    const std::size_t most = gl::Device::current().software() ? 4 : 256;
+    return std::clamp<std::size_t>(most * SPHERE_MAX_BODIES / std::max<std::size_t>(bodies_, 1), 1, most);
+  }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
   std::vector<Flag> flags(WorldId id) const override { return sphere::flags_of(world(id).world); }
@@ -248,6 +252,7 @@ class GlSphereSolver final : public Solver {
     std::unique_ptr<sphere::Shape> shape;
   };
   SphereSettings settings_;
+  std::size_t bodies_;  ///< expected in a world
   std::map<const PartModel*, Entry> shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
@@ -259,7 +264,7 @@ class GlSphereSolver final : public Solver {
 }  // namespace
 
 std::size_t most_gl_bodies() {
-  return SPHERE_MAX_BODIES;
+  return 65536;  // keys of pairs (shaders/sphere/color.h)
 }
 
 std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, const Capacity& capacity) {

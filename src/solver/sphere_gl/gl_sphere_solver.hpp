@@ -7,11 +7,15 @@
 namespace bin_scenes {
 
 namespace sphere_gl {
-/// First sizes of lists that grow; too small costs a repeated step, no result.
+/// Sizes that cost time, no result. Lists grow: too small a one costs a repeated step.
 struct Capacity {
-  std::size_t pairs = 4;       ///< of bodies near each other, per body of a world
-  std::size_t contacts = 12;   ///< per body of a world
-  std::size_t candidates = 8;  ///< contacts to choose from, per invocation of a group
+  std::size_t pairs = 4;           ///< of bodies near each other, per body of a world
+  std::size_t contacts = 12;       ///< per body of a world
+  std::size_t candidates = 8;      ///< contacts to choose from, per invocation of a group
+  std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
+  std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
+  std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
+  std::size_t colors = 16;  ///< of a large world that have dispatches of their own, a sweep; others share a group
 };
 }  // namespace sphere_gl
 

@@ -105,6 +105,16 @@ TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   EXPECT_GT(solver->profile().counters.at("steps_repeated"), 1u);
 }
 
+TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
+  Capacity spread;
+  spread.group_bodies = 0;
+  EXPECT_EQ(fallen(2, spread), fallen(2));
+  // Rounds and colors that have no dispatch of their own share one group; lists that are full grow.
+  spread.rounds = spread.colors = 1;
+  spread.pairs = spread.contacts = spread.candidates = 1;
+  EXPECT_EQ(fallen(2, spread), fallen(2));
+}
+
 TEST(SphereGlBatch, PrintsHash) {  // for the test below, in a process of its own
   if (!std::getenv("BIN_SCENES_TEST_PRINT_HASH")) GTEST_SKIP() << "runs inside another test";
   std::printf("hash %016llx\n", static_cast<unsigned long long>(fallen(1)));

@@ -69,7 +69,36 @@ struct Heap {
   }
 };
 
-class TwinTest : public ::testing::Test {
+/// How a world is laid out on the device. Each layout runs the same tests.
+struct Layout {
+  std::string name;
+  Capacity capacity;
+  std::size_t scale;  ///< of the number of bodies
+};
+
+Layout one_group() {
+  return {"OneGroup", {}, 1};
+}
+Layout many_groups() {
+  Capacity spread;
+  spread.group_bodies = 0;
+  return {"ManyGroups", spread, 1};
+}
+Layout shared_rest() {  // rounds and colors beyond the first have no dispatches of their own
+  Capacity spread;
+  spread.group_bodies = 0;
+  spread.rounds = 1;
+  spread.colors = 2;
+  return {"SharedRest", spread, 1};
+}
+Layout full_group() {
+  return {"FullGroup", {}, 9};
+}
+Layout large_world() {  // more bodies than one group holds
+  return {"LargeWorld", {}, 12};
+}
+
+class SphereGl : public ::testing::Test {
  protected:
   void SetUp() override { gl::Device::current().make_current(); }
 
@@ -88,6 +117,19 @@ class TwinTest : public ::testing::Test {
   }
 };
 
+class TwinTest : public SphereGl, public ::testing::WithParamInterface<Layout> {
+ protected:
+  /// As dense a heap of more bodies, where the layout asks for them.
+  static World heap_of(std::size_t bodies, std::uint64_t seed, double spread = 0.1) {
+    const std::size_t scale = GetParam().scale;
+    return heap().world(scale * bodies, seed, spread * std::cbrt(scale));
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Layouts, TwinTest,
+                         ::testing::Values(one_group(), many_groups(), shared_rest(), full_group(), large_world()),
+                         [](const auto& info) { return info.param.name; });
+
 /// What `batch` makes of a world, with `world` for all that it does not hold.
 World downloaded(const Batch& batch, Batch::Slot slot, const World& world) {
   World out = world;
@@ -102,9 +144,9 @@ Keys keys(const World& world) {
   return out;
 }
 
-TEST_F(TwinTest, FindPairsFindsThoseOfTheTwinInTheirOrder) {
-  Batch batch;
-  World world = heap().world(70, 1, 0.16);
+TEST_P(TwinTest, FindPairsFindsThoseOfTheTwinInTheirOrder) {
+  Batch batch(GetParam().capacity);
+  World world = heap_of(70, 1, 0.16);
   world.bodies[9].present = false;
   world.bodies[11].asleep = world.bodies[12].asleep = true;
   const Batch::Slot slot = load(batch, world);
@@ -132,9 +174,10 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
   }
 }
 
-TEST_F(TwinTest, FindContactsChoosesThoseOfTheTwin) {
+TEST_P(TwinTest, FindContactsChoosesThoseOfTheTwin) {
+  if (GetParam().scale > 1) GTEST_SKIP() << "the pass is the same";
   for (const bool fine : {false, true}) {
-    Batch batch;
+    Batch batch(GetParam().capacity);
     World world = heap().world(40, 2);
     world.fine = fine;
     const Batch::Slot slot = load(batch, world);
@@ -175,22 +218,20 @@ std::vector<int> owners(const ManifoldImage& image, const gpu::SphereProgress& p
   return count;
 }
 
-TEST_F(TwinTest, APlaceForAContactHasOneOwner) {
-  for (const std::size_t contacts : {1, 12}) {
-    Capacity capacity;
-    capacity.contacts = contacts;
-    capacity.pairs = contacts;
-    Batch batch(capacity);
-    World world = heap().world(200, 6, 0.1);
-    const Batch::Slot slot = load(batch, world);
-    for (int step = 0; step < 3; ++step) {
-      const gpu::SphereProgress progress = find_all(batch, slot);
-      const std::vector<int> count = owners(batch.manifolds(slot), progress);
-      ASSERT_EQ(std::count(count.begin(), count.end(), 1), static_cast<std::ptrdiff_t>(count.size())) << step;
-      batch.color_manifolds();
-      batch.solve();
-      batch.update_sleep();
-    }
+TEST_P(TwinTest, APlaceForAContactHasOneOwner) {
+  if (GetParam().scale > 1) GTEST_SKIP() << "the passes are the same";
+  Capacity capacity = GetParam().capacity;
+  capacity.contacts = capacity.pairs = 1;  // grows
+  Batch batch(capacity);
+  const World world = heap().world(180, 6);  // more pairs than one group finds contacts for
+  const Batch::Slot slot = load(batch, world);
+  for (int step = 0; step < 3; ++step) {
+    const gpu::SphereProgress progress = find_all(batch, slot);
+    const std::vector<int> count = owners(batch.manifolds(slot), progress);
+    ASSERT_EQ(std::count(count.begin(), count.end(), 1), static_cast<std::ptrdiff_t>(count.size())) << step;
+    batch.color_manifolds();
+    batch.solve();
+    batch.update_sleep();
   }
 }
 
@@ -209,9 +250,9 @@ void take_order(World& world) {
   }
 }
 
-TEST_F(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
-  Batch batch;
-  World world = heap().world(60, 3);
+TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
+  Batch batch(GetParam().capacity);
+  World world = heap_of(60, 3);
   world.bodies[20].asleep = true;
   const Batch::Slot slot = load(batch, world);
   find_all(batch, slot);
@@ -248,38 +289,88 @@ TEST_F(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
   EXPECT_EQ(batch.progress()[slot].ordered, colored);
 }
 
-// Pressed contacts solve in shorter sub-steps.
-class SolveTwinTest : public TwinTest, public ::testing::WithParamInterface<bool> {};
+TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
+  for (const bool pressed : {false, true}) {  // pressed contacts solve in shorter sub-steps
+    SCOPED_TRACE(pressed);
+    Batch batch(GetParam().capacity);
+    World world = heap_of(40, 4);
+    world.pressed = pressed;
+    world.bodies[20].asleep = true;
+    const Batch::Slot slot = load(batch, world);
+    find_all(batch, slot);
+    batch.color_manifolds();
+    batch.download(slot, world);
+    take_order(world);
+    batch.solve();
+    solve(world);
+    const World seen = downloaded(batch, slot, world);
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const Body &mine = seen.bodies[i], &twin = world.bodies[i];
+      if (!twin.moves()) continue;
+      EXPECT_LT((mine.x - twin.x).norm(), 1e-6f) << i;
+      EXPECT_LT((mine.v - twin.v).norm(), 1e-4f) << i;
+      EXPECT_LT((mine.w - twin.w).norm(), 1e-2f) << i;
+      EXPECT_LT((mine.q.conjugate() * twin.q).vec().norm(), 1e-5f) << i;
+    }
+    const float h = world.settings.time_step / static_cast<float>(world.sub_steps());
+    for (std::size_t m = 0; m < world.manifolds.size(); ++m)
+      for (std::size_t i = 0; i < world.manifolds[m].contacts.size(); ++i)
+        EXPECT_NEAR(h * seen.manifolds[m].contacts[i].normal_force, h * world.manifolds[m].contacts[i].normal_force,
+                    2e-5f);
+  }
+}
 
-TEST_P(SolveTwinTest, MovesBodiesAsTheTwinDoes) {
-  Batch batch;
-  World world = heap().world(40, 4);
-  world.pressed = GetParam();
-  world.bodies[20].asleep = true;
+/// As many bodies as one group may hold, after some steps by one group and by many.
+TEST_F(SphereGl, StepsAreTheSameInOneGroupAndInMany) {
+  std::vector<World> seen;
+  const World world = heap().world(360, 6, 0.1 * std::cbrt(9.0));
+  for (const Layout& layout : {one_group(), many_groups(), shared_rest()}) {
+    Batch batch(layout.capacity);
+    const Batch::Slot slot = load(batch, world);
+    for (int steps = 0; steps < 3;) {
+      find_all(batch, slot);
+      batch.color_manifolds();
+      batch.solve();
+      batch.update_sleep();
+      steps = static_cast<int>(batch.progress()[slot].steps);
+    }
+    seen.push_back(downloaded(batch, slot, world));
+  }
+  for (std::size_t k = 1; k < seen.size(); ++k)
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const Body &one = seen[0].bodies[i], &many = seen[k].bodies[i];
+      EXPECT_TRUE(one.x == many.x && one.q.coeffs() == many.q.coeffs() && one.v == many.v && one.w == many.w)
+          << k << ' ' << i;
+    }
+}
+
+TEST_P(TwinTest, UpdateSleepSettlesWhomTheTwinSettles) {
+  Batch batch(GetParam().capacity);
+  World world = heap_of(40, 5, 0.13);
   const Batch::Slot slot = load(batch, world);
   find_all(batch, slot);
   batch.color_manifolds();
-  batch.download(slot, world);
-  take_order(world);
   batch.solve();
-  solve(world);
-  const World seen = downloaded(batch, slot, world);
+  batch.download(slot, world);
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    const Body &mine = seen.bodies[i], &twin = world.bodies[i];
-    if (!twin.moves()) continue;
-    EXPECT_LT((mine.x - twin.x).norm(), 1e-6f) << i;
-    EXPECT_LT((mine.v - twin.v).norm(), 1e-4f) << i;
-    EXPECT_LT((mine.w - twin.w).norm(), 1e-2f) << i;
-    EXPECT_LT((mine.q.conjugate() * twin.q).vec().norm(), 1e-5f) << i;
+    Body& b = world.bodies[i];
+    b.still_x = b.x;
+    b.still_q = b.q;
+    b.still = i % 17 == 8 ? 0.0f : 1.0f;
+    b.asleep = i % 13 == 4;
   }
-  const float h = world.settings.time_step / static_cast<float>(world.sub_steps());
-  for (std::size_t m = 0; m < world.manifolds.size(); ++m)
-    for (std::size_t i = 0; i < world.manifolds[m].contacts.size(); ++i)
-      EXPECT_NEAR(h * seen.manifolds[m].contacts[i].normal_force, h * world.manifolds[m].contacts[i].normal_force,
-                  2e-5f);
+  batch.upload_states(slot, world);
+  batch.update_sleep();
+  update_sleep(world);
+  const World seen = downloaded(batch, slot, world);
+  std::size_t asleep = 0;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    EXPECT_EQ(seen.bodies[i].asleep, world.bodies[i].asleep) << i;
+    asleep += world.bodies[i].asleep;
+  }
+  EXPECT_GT(asleep, 0u);
+  EXPECT_LT(asleep, world.bodies.size() - 1);
 }
-
-INSTANTIATE_TEST_SUITE_P(Pressed, SolveTwinTest, ::testing::Bool());
 
 }  // namespace
 }  // namespace bin_scenes::sphere_gl

@@ -1,0 +1,13 @@
+// Labels of islands: the way up to the lowest body of an island, shortened as it is walked. Needs the binding Work.
+#define label_of(i) work[i].lowest[0]
+#define restless_of(i) work[i].lowest[1]
+
+uint root_of(uint i) {
+  for (;;) {
+    uint up = label_of(i);
+    if (up == i) return i;
+    uint above = label_of(up);
+    if (above != up) atomicMin(label_of(i), above);
+    i = up;
+  }
+}

@@ -1,0 +1,78 @@
+// One group: the rounds of coloring that had no dispatches of their own, then where each color begins.
+#include "shared/sphere_large.h"
+#include "shared/dispatch.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
+layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
+layout(std430, binding = BIND_WORK) coherent buffer Work { SphereWork work[]; };
+
+uniform uint coloring_round;   // the first that had none
+uniform uint spread_colors;    // with a dispatch of their own
+
+shared uint left;
+
+#define lowest_of(i) work[i].lowest[0]
+#define used_low_of(i) work[i].used_low
+#define used_high_of(i) work[i].used_high
+#include "sphere/body.h"
+#include "sphere/color.h"
+#include "sphere/large/large_world.h"
+
+void rendezvous() {
+  memoryBarrierBuffer();
+  barrier();
+}
+
+void color_what_is_left(SphereWorld world, uint count) {
+  for (;;) {
+    for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP) work[i].lowest[0] = 0xffffffffu;
+    if (gl_LocalInvocationIndex == 0u) left = 0u;
+    rendezvous();
+    for (uint p = gl_LocalInvocationIndex; p < count; p += SPHERE_GROUP)
+      if (bid(world, large.list + p)) left = 1u;
+    rendezvous();
+    if (left == 0u) return;
+    if (gl_LocalInvocationIndex == 0u) atomicAdd(progress[large_world].coloring_rounds, 1u);
+    for (uint p = gl_LocalInvocationIndex; p < count; p += SPHERE_GROUP) {
+      if (pairs[large.list + p].color != UNCOLORED) continue;
+      uint color = take_color(world, large.list + p);
+      if (color != UNCOLORED) atomicAdd(large.members[color], 1u);
+    }
+    rendezvous();
+  }
+}
+
+void main() {
+  SphereWorld world = worlds[large_world];
+  if (idle()) return;
+  uint count = progress[large_world].pairs;
+  if (large.round_groups[coloring_round].x != 0u) color_what_is_left(world, count);
+  if (gl_LocalInvocationIndex != 0u) return;
+  uint sum = 0u, colors = 0u;
+  for (uint c = 0u; c < SPHERE_COLORS; ++c) {
+    uint members = large.members[c];
+    color_starts[large_world * (SPHERE_COLORS + 1u) + c] = large.next[c] = sum;
+    if (members > 0u) colors = c + 1u;
+    if (c < spread_colors)
+      large.color_groups[c] = uvec4(folded_groups((members + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
+    // Manifolds without a color of their own are solved one by one, so their order counts.
+    if (c == LAST_COLOR && members > 0u)
+      for (uint p = 0u, at = sum; p < count; ++p)
+        if (pairs[large.list + p].color == LAST_COLOR) order[world.pairs.x + at++] = p;
+    sum += members;
+  }
+  color_starts[large_world * (SPHERE_COLORS + 1u) + SPHERE_COLORS] = sum;
+  progress[large_world].ordered = sum;
+  progress[large_world].colors += colors;
+  large.manifold_groups = uvec4(folded_groups((sum + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
+  large.rest_groups.x = colors > spread_colors ? 1u : 0u;
+}

@@ -1,0 +1,74 @@
+// What the solve of a large world does with its manifolds, an invocation each: all of them, or those of one color, which
+// share no moving body. REST: one group does the colors that have no dispatch of their own, one after the other.
+// Twin: solve().
+#ifdef REST
+#define SHARED coherent
+#else
+#define SHARED
+#endif
+#include "shared/sphere_large.h"
+#include "shared/dispatch.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_STATES) SHARED buffer States { SphereState states[]; };
+layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
+layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
+layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
+layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
+layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
+layout(std430, binding = BIND_MOTIONS) SHARED buffer Motions { SphereMotion motions[]; };
+
+uniform uint stage, color;
+
+#define velocity_of(i) states[world.bodies.x + (i)].velocity
+#define spin_of(i) states[world.bodies.x + (i)].spin
+#define moved_of(i) motions[i].moved
+#define turned_of(i) motions[i].turned
+#include "sphere/body.h"
+#include "sphere/solve_parts.h"
+#include "sphere/large/large_world.h"
+
+uint start_of(uint c) { return color_starts[large_world * (SPHERE_COLORS + 1u) + c]; }
+
+#ifdef REST
+// The last color is that of manifolds which share bodies: one invocation takes them in order.
+void sweep_rest() {
+  for (uint c = color; c < SPHERE_COLORS; ++c) {
+    bool alone = c == SPHERE_COLORS - 1u;
+    uint stride = alone ? 1u : SPHERE_GROUP, end = start_of(c + 1u);
+    if (!alone || gl_LocalInvocationIndex == 0u)
+      for (uint o = start_of(c) + gl_LocalInvocationIndex; o < end; o += stride) solve_manifold(o, stage, sub_step());
+    memoryBarrierBuffer();
+    barrier();
+  }
+}
+#endif
+
+void main() {
+  world = worlds[large_world];
+  if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
+  softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
+  list = large.list;
+#ifdef REST
+  sweep_rest();
+#else
+  bool sweeps = stage <= SWEEP_BOUNCE;
+  uint o = thread_index() + (sweeps ? start_of(color) : 0u);
+  if (o >= (sweeps ? start_of(color + 1u) : progress[large_world].ordered)) return;
+  if (sweeps)
+    solve_manifold(o, stage, sub_step());
+  else if (stage == MANIFOLDS_PREPARE)
+    prepare_manifold(o);
+  else if (stage == MANIFOLDS_KEEP)
+    keep_forces(o);
+  else if (bounces(o))
+    large.bounced = 1u;
+#endif
+}

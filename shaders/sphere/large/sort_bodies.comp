@@ -1,0 +1,48 @@
+// Sorts the bodies of a large world by cell: counted first, put in place when the counts are summed up. Which of a
+// cell's bodies comes first never matters. Bodies larger than a cell go to the end of the list, by themselves.
+#include "shared/sphere_large.h"
+#include "shared/dispatch.h"
+
+layout(local_size_x = SPHERE_GROUP) in;
+
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
+layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
+layout(std430, binding = BIND_BOXES) readonly buffer Boxes { SphereBox boxes[]; };
+layout(std430, binding = BIND_CELL_COUNTS) buffer CellCounts { uint cell_counts[]; };
+layout(std430, binding = BIND_CELL_STARTS) readonly buffer CellStarts { uint cell_starts[]; };
+layout(std430, binding = BIND_SORTED) writeonly buffer Sorted { uint sorted[]; };
+
+#include "sphere/contact_place.h"
+#include "sphere/large/large_world.h"
+#include "sphere/large/cell.h"
+
+uniform bool counting;
+
+void main() {
+  uint i = thread_index();
+  if (idle()) return;
+  SphereWorld world = worlds[large_world];
+  uint top = progress[large_world].free_contacts, released = progress[large_world].released_contacts;
+  if (counting) {
+    uint moving = places_to_move(world, top, released);
+    for (uint n = i; n < moving; n += gl_NumWorkGroups.x * gl_NumWorkGroups.y * SPHERE_GROUP) take_back_place(world, top, n);
+  } else if (i == 0u) {
+    progress[large_world].free_contacts = top + released;
+    progress[large_world].released_contacts = 0u;
+  }
+  if (i >= world.bodies.y) return;
+  SphereBox box = boxes[i];
+  if (box.half_size.x < 0.0) return;  // absent
+  if (!fits_cell(box)) {
+    if (!counting) sorted[world.bodies.y - 1u - atomicAdd(large.big, 1u)] = i;
+    return;
+  }
+  uint bucket = bucket_of(cell_of(box));
+  if (counting)
+    atomicAdd(cell_counts[bucket], 1u);
+  else
+    sorted[cell_starts[bucket] + atomicAdd(cell_counts[bucket], 0xffffffffu) - 1u] = i;  // leaves the counts at 0
+}

@@ -1,0 +1,24 @@
+// Whether the boxes of two bodies meet. Needs the bindings Bodies, States, Shapes, and sphere/body.h.
+
+struct Box {
+  vec4 center;     // w: margin
+  vec4 half_size;  // margin included, negative: absent; w: 0 = nothing moves it, 1 = moves, 2 = moves near the ground
+};
+
+// Separating axis test on the six face normals.
+bool oriented_boxes_apart(uint a, uint b, float margin) {
+  mat3 ra = rotation_of(states[a].orientation), rb = rotation_of(states[b].orientation);
+  vec3 ca = shapes[bodies[a].ids.x].box_center.xyz, ha = shapes[bodies[a].ids.x].box_half.xyz;
+  vec3 cb = shapes[bodies[b].ids.x].box_center.xyz, hb = shapes[bodies[b].ids.x].box_half.xyz;
+  vec3 d = (states[b].position.xyz + rb * cb) - (states[a].position.xyz + ra * ca);
+  mat3 size = magnitudes(transpose(ra) * rb);
+  vec3 gap_a = abs(d * ra) - ha - size * hb, gap_b = abs(d * rb) - hb - ha * size;
+  return any(greaterThan(max(gap_a, gap_b), vec3(margin)));
+}
+
+bool boxes_meet(uint a, Box box_a, uint b, Box box_b) {
+  if (any(greaterThan(abs(box_a.center.xyz - box_b.center.xyz), box_a.half_size.xyz + box_b.half_size.xyz)))
+    return false;
+  if (box_a.half_size.w + box_b.half_size.w == 0.0) return false;
+  return !oriented_boxes_apart(a, b, box_a.center.w + box_b.center.w);
+}
