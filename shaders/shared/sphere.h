@@ -64,6 +64,7 @@
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_CONTACT_OVERFLOW 4u
+#define SPHERE_NO_PLACE 0xffffffffu
 
 GPU_STRUCTS_BEGIN
 
@@ -95,7 +96,8 @@ struct SphereProgress {
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
   uint fine, pressed, ordered;               // samples in use, stiff contacts, manifolds to solve
   uint missing_contacts;                     // that found no place
-  uint free_contacts, released_contacts;     // places on the stack; given up since, at the stack's far end
+  uint free_contact;                         // first of the chain of places that nobody has
+  uint released_contact, last_released;      // ends of the chain of places given up since
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -165,9 +167,9 @@ struct SphereManifold {
 struct SphereContact {
   vec4 anchor_a;     // on the surface of a, body axes; w: place of the manifold's next contact (bits)
   vec4 anchor_b;     // w: feature (bits)
-  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: mass along it
-  vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, largest
-  vec4 bounce;       // approach speed, the same when prepared, mass across; w: entry of the stack of free places (bits)
+  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: approach speed, in the solve
+  vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
+                     // 1 once it has pressed, before that the approach speed when prepared if there was any, below 0
 };
 
 struct SphereCandidate {
@@ -185,11 +187,11 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 112, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 116, "std430");
 static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
-static_assert(sizeof(SphereContact) == 80 && sizeof(SphereCandidate) == 48, "std430");
+static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");
 }  // namespace bin_scenes::gpu
 #endif

@@ -1,34 +1,31 @@
-// Places of contacts. A manifold's contacts are a chain through the contacts of its world; places that nobody has are on
-// a stack. Which place a contact gets never matters to a result. The stack's entry k is a word of contact k, whoever
-// has that: a buffer of its own would be the 17th of find_contacts, and 16 is what drivers grant. find_contacts takes
-// places and gives others up, all at once, so what it gives up waits at the far end until find_pairs has the stack to
-// itself. Needs the bindings Manifolds and Contacts.
+// Places of contacts. A manifold's contacts are a chain through those of its world, and so are the places that nobody
+// has. Which place a contact gets never matters to a result. find_contacts takes places and gives others up, all at
+// once: what it gives up is a chain of its own until find_pairs joins the two, so that a place taken from one end of a
+// chain is never put back while another group still looks at it. Needs the bindings Progress, Manifolds and Contacts.
 
 uint first_contact(SphereWorld world, uint slot) {
   return world.contacts.x + manifolds[world.pairs.x + slot].state.w;
 }
+uint place_after(SphereWorld world, uint place) { return floatBitsToUint(contacts[world.contacts.x + place].anchor_a.w); }
 uint next_contact(SphereWorld world, uint contact) {
   return world.contacts.x + floatBitsToUint(contacts[contact].anchor_a.w);
 }
-
-uint free_place(SphereWorld world, uint entry) {
-  return floatBitsToUint(contacts[world.contacts.x + entry].bounce.w);
-}
-void set_free_place(SphereWorld world, uint entry, uint place) {
-  contacts[world.contacts.x + entry].bounce.w = uintBitsToFloat(place);
-}
-uint released_entry(SphereWorld world, uint n) { return world.contacts.y - 1u - n; }
-
-// Puts the contacts of a manifold on the stack from entry `top` on.
-void give_places(SphereWorld world, uint slot, uint top, uint count) {
-  for (uint k = 0u, at = first_contact(world, slot); k < count; ++k, at = next_contact(world, at))
-    set_free_place(world, top + k, at - world.contacts.x);
+void link_places(SphereWorld world, uint place, uint next) {
+  contacts[world.contacts.x + place].anchor_a.w = uintBitsToFloat(next);
 }
 
-// What the last find_contacts gave up comes back to the stack; entries that lie where the stack will reach stay.
-uint places_to_move(SphereWorld world, uint top, uint released) {
-  return min(released, world.contacts.y - released - top);
+// find_pairs, one invocation, before any manifold is retired: what find_contacts gave up is free again.
+void take_back_places(SphereWorld world, uint w) {
+  if (progress[w].released_contact == SPHERE_NO_PLACE) return;
+  link_places(world, progress[w].last_released, progress[w].free_contact);
+  progress[w].free_contact = progress[w].released_contact;
+  progress[w].released_contact = SPHERE_NO_PLACE;
 }
-void take_back_place(SphereWorld world, uint top, uint n) {
-  set_free_place(world, top + n, free_place(world, released_entry(world, n)));
+
+// find_pairs: the places of a manifold's contacts are free.
+void retire_places(SphereWorld world, uint w, uint slot) {
+  uint count = manifolds[world.pairs.x + slot].state.x, first = manifolds[world.pairs.x + slot].state.w, last = first;
+  if (count == 0u) return;
+  for (uint k = 1u; k < count; ++k) last = place_after(world, last);
+  link_places(world, last, atomicExchange(progress[w].free_contact, first));
 }

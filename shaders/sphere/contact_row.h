@@ -20,9 +20,9 @@ float restitution_of(SpherePair pair) {
 // A contact in world terms. Made from the contact whenever it is touched: kept, it would take as many bytes again.
 struct Row {
   vec3 ra, rb, normal;
-  float separation, normal_mass, tangent_mass;
-  float approach, first_approach;
-  vec4 impulse;  // normal, two of friction, largest normal
+  float separation;
+  float approach;
+  vec4 impulse;  // as in SphereContact.force
 };
 
 vec3 relative_velocity(Row row, Side a, Side b) {
@@ -36,8 +36,8 @@ void apply(Row row, vec3 impulse, inout Side a, inout Side b) {
   b.w += tensor_times(b, cross(row.rb, impulse));
 }
 
-float mass_along(vec3 direction, vec3 ra, vec3 rb, Side a, Side b) {
-  vec3 ta = cross(ra, direction), tb = cross(rb, direction);
+float mass_along(vec3 direction, Row row, Side a, Side b) {
+  vec3 ta = cross(row.ra, direction), tb = cross(row.rb, direction);
   float k = a.inverse_mass + b.inverse_mass + dot(ta, tensor_times(a, ta)) + dot(tb, tensor_times(b, tb));
   return k > 0.0 ? 1.0 / k : 0.0;
 }
@@ -49,10 +49,7 @@ Row row_of(SphereContact c, Side a, Side b) {
   bool of_a = (floatBitsToUint(c.anchor_b.w) & SPHERE_SIDE_B) != 0u;
   row.normal = rotate(of_a ? a.orientation : b.orientation, c.normal.xyz);
   row.separation = dot(b.position + row.rb - a.position - row.ra, row.normal);
-  row.normal_mass = c.normal.w;
-  row.approach = c.bounce.x;
-  row.first_approach = c.bounce.y;
-  row.tangent_mass = c.bounce.z;
+  row.approach = c.normal.w;
   row.impulse = c.force;
   return row;
 }
@@ -60,21 +57,18 @@ Row row_of(SphereContact c, Side a, Side b) {
 void prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
-  contacts[at].normal.w = mass_along(row.normal, row.ra, row.rb, a, b);
   float approach = dot(relative_velocity(row, a, b), row.normal);
-  // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
-  contacts[at].bounce.xyz = vec3(approach, approach, min(mass_along(t1, row.ra, row.rb, a, b),
-                                                         mass_along(t2, row.ra, row.rb, a, b)));
-  contacts[at].force = sub_step() * vec4(row.impulse.x, dot(friction, t1), dot(friction, t2), 0.0);
+  contacts[at].normal.w = approach;
+  contacts[at].force =
+      vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), min(approach, 0.0));
 }
 
 void warm_start(uint at, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   // What is about to strike gains speed until it does, but no more than gravity gives in a step.
-  if (row.approach < -settings.restitution_speed && row.impulse.w == 0.0) {
+  if (row.approach < -settings.restitution_speed && row.impulse.w <= 0.0) {
     float vn = dot(relative_velocity(row, a, b), row.normal);
-    contacts[at].bounce.x =
-        min(row.approach, max(vn, row.first_approach - length(world.gravity.xyz) * settings.time_step));
+    contacts[at].normal.w = min(row.approach, max(vn, row.impulse.w - length(world.gravity.xyz) * settings.time_step));
   }
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
@@ -101,16 +95,19 @@ void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
     bias = max(omega / a1 * min(0.0, separation + softness.z * d), -settings.push_speed / softness.w * d);
   }
   float vn = dot(relative_velocity(row, a, b), row.normal);
-  float total = max(row.impulse.x - row.normal_mass * mass_scale * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
+  float mass = mass_scale * mass_along(row.normal, row, a, b);
+  float total = max(row.impulse.x - mass * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
   apply(row, (total - row.impulse.x) * row.normal, a, b);
   contacts[at].force.x = total;
-  contacts[at].force.w = max(row.impulse.w, total);
+  if (total > 0.0) contacts[at].force.w = 1.0;
 }
 
 void solve_friction(uint at, float friction, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), v = relative_velocity(row, a, b);
-  vec2 f = row.impulse.yz - row.tangent_mass * vec2(dot(v, t1), dot(v, t2));
+  // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
+  float mass = min(mass_along(t1, row, a, b), mass_along(t2, row, a, b));
+  vec2 f = row.impulse.yz - mass * vec2(dot(v, t1), dot(v, t2));
   float most = friction * row.impulse.x, size = length(f);
   if (size > most) f *= most / size;
   vec2 change = f - row.impulse.yz;
@@ -128,7 +125,8 @@ void bounce(uint at, float restitution, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   if (!struck(row, a, b)) return;
   float vn = dot(relative_velocity(row, a, b), row.normal);
-  float total = max(row.impulse.x - row.normal_mass * (vn + restitution * row.approach), 0.0);
+  float mass = mass_along(row.normal, row, a, b);
+  float total = max(row.impulse.x - mass * (vn + restitution * row.approach), 0.0);
   apply(row, (total - row.impulse.x) * row.normal, a, b);
   contacts[at].force.x = total;
 }

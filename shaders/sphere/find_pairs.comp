@@ -36,7 +36,7 @@ shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box
 shared uint on_ground[SPHERE_MAX_BODIES];
 shared uint first_pair[SPHERE_MAX_BODIES];
 shared uint partial[SPHERE_GROUP];
-shared uint free_top, free_contact_top;
+shared uint free_top;
 
 void find_box(SphereWorld world, uint i) {
   uint body = world.bodies.x + i;
@@ -105,13 +105,13 @@ uint scan_counts(uint count) {
   return total;
 }
 
-void retire(SphereWorld world, uint i, uint page, uint list) {
+void retire(SphereWorld world, uint w, uint i, uint page, uint list) {
   uvec2 old = range_of(world.bodies.x + i, page);
   for (uint p = old.x; p < old.y; ++p) {
     if (kept(world, i, pairs[list + p].b)) continue;
-    uint slot = pairs[list + p].slot, n = manifolds[world.pairs.x + slot].state.x;
+    uint slot = pairs[list + p].slot;
     free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = slot;
-    give_places(world, slot, atomicAdd(free_contact_top, n), n);
+    retire_places(world, w, slot);
   }
 }
 
@@ -161,13 +161,10 @@ void main() {
     return;
   }
 
-  uint contact_top = progress[w].free_contacts, released = progress[w].released_contacts;
-  for (uint n = thread; n < places_to_move(world, contact_top, released); n += SPHERE_GROUP)
-    take_back_place(world, contact_top, n);
-  if (thread == 0u) free_contact_top = contact_top + released;
+  if (thread == 0u) take_back_places(world, w);
   memoryBarrierBuffer();
   barrier();
-  for (uint i = thread; i < count; i += SPHERE_GROUP) retire(world, i, page, old_list);
+  for (uint i = thread; i < count; i += SPHERE_GROUP) retire(world, w, i, page, old_list);
   memoryBarrierBuffer();
   barrier();
   for (uint i = thread; i < count; i += SPHERE_GROUP) {
@@ -187,8 +184,6 @@ void main() {
     progress[w].page = page ^ 1u;
     progress[w].pairs = total;
     progress[w].free_slots = free_top;
-    progress[w].free_contacts = free_contact_top;
-    progress[w].released_contacts = 0u;
     progress[w].refresh = 0u;
   }
 }

@@ -185,25 +185,28 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
 
 // Places for `count` contacts where there were old_count; false if there are too few.
 bool take_places(SphereWorld world, uint count) {
-  for (uint i = count; i < old_count; ++i) {
-    uint n = atomicAdd(progress[world_index].released_contacts, 1u);
-    set_free_place(world, released_entry(world, n), place[i]);
+  if (count < old_count) {
+    for (uint i = count; i + 1u < old_count; ++i) link_places(world, place[i], place[i + 1u]);
+    uint last = place[old_count - 1u], before = atomicExchange(progress[world_index].released_contact, place[count]);
+    link_places(world, last, before);
+    if (before == SPHERE_NO_PLACE) progress[world_index].last_released = last;
   }
   if (count <= old_count) return true;
-  // Compared and swapped: subtracted and put back, a refusal would for a while hide places from others, and then offer
-  // them what somebody took.
-  uint more = count - old_count, top = progress[world_index].free_contacts;
-  for (;;) {
-    if (top < more) {
-      atomicAdd(progress[world_index].missing_contacts, more);
-      return false;
+  uint top = progress[world_index].free_contact;
+  for (;;) {  // until the chain was walked undisturbed
+    uint found = old_count, at = top;
+    for (; found < count && at < world.contacts.y; ++found) {  // what was taken meanwhile may lead anywhere
+      place[found] = at;
+      at = place_after(world, at);
     }
-    uint seen = atomicCompSwap(progress[world_index].free_contacts, top, top - more);
+    uint seen = found == count ? atomicCompSwap(progress[world_index].free_contact, top, at)
+                               : atomicAdd(progress[world_index].free_contact, 0u);
+    if (seen == top && found == count) return true;
     if (seen == top) break;
     top = seen;
   }
-  for (uint i = 0u; i < more; ++i) place[old_count + i] = free_place(world, top - 1u - i);
-  return true;
+  atomicAdd(progress[world_index].missing_contacts, count - old_count);
+  return false;
 }
 
 void finish_candidates(SphereWorld world, SpherePair pair) {

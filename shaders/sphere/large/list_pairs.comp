@@ -80,9 +80,8 @@ void sort_own() {
 }
 
 void give_back(uint slot) {
-  uint n = manifolds[world.pairs.x + slot].state.x;
   free_slots[world.pairs.x + atomicAdd(progress[large_world].free_slots, 1u)] = slot;
-  give_places(world, slot, atomicAdd(progress[large_world].free_contacts, n), n);
+  retire_places(world, large_world, slot);
 }
 
 void keep_slots(uvec2 old, uint old_list) {

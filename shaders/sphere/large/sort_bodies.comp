@@ -25,14 +25,7 @@ void main() {
   uint i = thread_index();
   if (idle()) return;
   SphereWorld world = worlds[large_world];
-  uint top = progress[large_world].free_contacts, released = progress[large_world].released_contacts;
-  if (counting) {
-    uint moving = places_to_move(world, top, released);
-    for (uint n = i; n < moving; n += gl_NumWorkGroups.x * gl_NumWorkGroups.y * SPHERE_GROUP) take_back_place(world, top, n);
-  } else if (i == 0u) {
-    progress[large_world].free_contacts = top + released;
-    progress[large_world].released_contacts = 0u;
-  }
+  if (!counting && i == 0u) take_back_places(world, large_world);
   if (i >= world.bodies.y) return;
   SphereBox box = boxes[i];
   if (box.half_size.x < 0.0) return;  // absent

@@ -158,10 +158,10 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress = {};
   progress.pairs = static_cast<gpu::uint>(image.pairs.size());
   progress.free_slots = static_cast<gpu::uint>(free);
-  progress.free_contacts = static_cast<gpu::uint>(r.contacts - contacts);
   image.contacts.resize(r.contacts);
-  for (std::size_t k = 0; contacts + k < r.contacts; ++k)
-    image.contacts[k].bounce.w = float_of(static_cast<std::uint32_t>(contacts + k));
+  std::vector<gpu::uint> places(r.contacts - contacts);
+  std::iota(places.begin(), places.end(), static_cast<gpu::uint>(contacts));
+  set_free_places(image.contacts, places, progress);
   contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
   progress.fine = world.fine ? 1 : 0;
   progress.pressed = world.pressed ? 1 : 0;
@@ -251,19 +251,14 @@ void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
 
 void Batch::grow_contacts(Slot slot, gpu::SphereProgress& progress) {
   Region& r = regions_[slot];
-  const std::size_t old_first = r.first_contact, old = r.contacts, free = progress.free_contacts,
-                    released = progress.released_contacts;
+  const std::size_t old_first = r.first_contact, old = r.contacts;
   std::vector<gpu::SphereContact> contacts = contacts_.download(old_first, old);
   read_back_ += old * sizeof(gpu::SphereContact);
-  r.contacts = grown(old, old - free + progress.missing_contacts);
-  std::vector<gpu::uint> stack;
-  for (std::size_t k = 0; k < free; ++k) stack.push_back(word_of(contacts[k].bounce.w));
-  for (std::size_t k = 0; k < released; ++k) stack.push_back(word_of(contacts[old - 1 - k].bounce.w));
-  for (std::size_t k = old; k < r.contacts; ++k) stack.push_back(static_cast<gpu::uint>(k));
+  std::vector<gpu::uint> places = free_places(contacts, progress);
+  r.contacts = grown(old, old - places.size() + progress.missing_contacts);
+  for (std::size_t k = old; k < r.contacts; ++k) places.push_back(static_cast<gpu::uint>(k));
   contacts.resize(r.contacts);
-  for (std::size_t k = 0; k < stack.size(); ++k) contacts[k].bounce.w = float_of(stack[k]);
-  progress.free_contacts = static_cast<gpu::uint>(stack.size());
-  progress.released_contacts = progress.missing_contacts = 0;
+  set_free_places(contacts, places, progress);
   if (!contact_arena_.extend(old_first, r.contacts)) {
     contact_arena_.give(old_first);
     r.first_contact = contact_arena_.take(r.contacts);

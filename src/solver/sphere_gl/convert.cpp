@@ -85,11 +85,8 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     for (const Contact& c : m.contacts) {
       if (c.normal_force > 0) presses = 1;
       const auto next = static_cast<std::uint32_t>(image.contacts.size() + 1);
-      image.contacts.push_back({vec4(c.anchor_a, float_of(next)),
-                                vec4(c.anchor_b, float_of(c.feature)),
-                                vec4(c.local_normal),
-                                force_of(c),
-                                {}});
+      image.contacts.push_back(
+          {vec4(c.anchor_a, float_of(next)), vec4(c.anchor_b, float_of(c.feature)), vec4(c.local_normal), force_of(c)});
     }
     image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, first},
                                vec4(m.found_x),
@@ -128,6 +125,24 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     out.push_back(m);
   }
   return out;
+}
+
+std::vector<gpu::uint> free_places(const std::vector<gpu::SphereContact>& contacts,
+                                   const gpu::SphereProgress& progress) {
+  std::vector<gpu::uint> places;
+  for (const gpu::uint first : {progress.free_contact, progress.released_contact})
+    for (gpu::uint place = first; place != SPHERE_NO_PLACE; place = word_of(contacts[place].anchor_a.w))
+      places.push_back(place);
+  return places;
+}
+
+void set_free_places(std::vector<gpu::SphereContact>& contacts, const std::vector<gpu::uint>& places,
+                     gpu::SphereProgress& progress) {
+  for (std::size_t k = 0; k < places.size(); ++k)
+    contacts[places[k]].anchor_a.w = float_of(k + 1 < places.size() ? places[k + 1] : SPHERE_NO_PLACE);
+  progress.free_contact = places.empty() ? SPHERE_NO_PLACE : places[0];
+  progress.released_contact = SPHERE_NO_PLACE;
+  progress.missing_contacts = 0;
 }
 
 }  // namespace bin_scenes::sphere_gl

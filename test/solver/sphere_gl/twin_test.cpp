@@ -212,9 +212,7 @@ std::vector<int> owners(const ManifoldImage& image, const gpu::SphereProgress& p
     for (std::uint32_t k = 0, at = m.state.w; k < m.state.x; ++k, at = word_of(image.contacts[at].anchor_a.w))
       ++count.at(at);
   }
-  const auto entry = [&](std::size_t k) { return word_of(image.contacts[k].bounce.w); };
-  for (std::size_t k = 0; k < progress.free_contacts; ++k) ++count.at(entry(k));
-  for (std::size_t k = 0; k < progress.released_contacts; ++k) ++count.at(entry(image.contacts.size() - 1 - k));
+  for (const std::uint32_t place : free_places(image.contacts, progress)) ++count.at(place);
   return count;
 }
 
