@@ -135,7 +135,8 @@ struct SpherePlane {
 struct SphereSamples {
   uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the vectors of their normal cones
   uvec4 clusters;    // first, count
-  vec4 size;         // radius of the nodes, longest edge piece
+  vec4 size;         // radius of the nodes, longest edge piece, mean way between neighbours on faces, and by how much a
+                     // curved face may bulge between its nodes (m)
 };
 
 struct SphereShape {

@@ -3,16 +3,16 @@
 
 // Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope along
 // the edge, which is monotonic where the other surface is convex.
-bool descend(vec3 p, vec3 q, float radius, out vec3 point, out vec3 gradient, out float distance) {
+bool descend(Field field, vec3 p, vec3 q, float radius, out vec3 point, out vec3 gradient, out float distance) {
   vec3 along = q - p, gradient_q;
-  float lowest = sample_field(p, gradient);
-  lowest = min(lowest, sample_field(q, gradient_q));
+  float lowest = sample_field(field, p, gradient);
+  lowest = min(lowest, sample_field(field, q, gradient_q));
   float s0 = dot(gradient, along), s1 = dot(gradient_q, along), t0 = 0.0, t1 = 1.0;
   for (int i = 0; i < 6; ++i) {
     // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
     float t = (i & 1) == 1 ? 0.5 * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
     point = p + t * along;
-    distance = sample_field(point, gradient);
+    distance = sample_field(field, point, gradient);
     float slope = dot(gradient, along);
     if (slope < 0.0) {
       t0 = t;

@@ -28,6 +28,8 @@ layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate ca
 #include "sphere/field.h"
 #include "sphere/edge.h"
 #include "sphere/cone.h"
+#include "sphere/solid.h"
+#include "sphere/slide.h"
 
 uint world_index, clusters_tested, nodes_tested;
 
@@ -43,11 +45,14 @@ shared uint job;
 shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
 shared uint edge_queue[SPHERE_EDGE_QUEUE], queued;
 
+const SpherePlane NO_PLANE = SpherePlane(vec4(0.0), uvec4(0u));
+
 // Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
 struct View {
   mat3 to_field, to_a;
   vec3 field_offset, a_offset;
   SphereSamples samples, other;
+  Field own, field;
   uint side;
   float margin;
 };
@@ -69,22 +74,25 @@ void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint fea
   vec3 pressed = -(away * view.to_field);
   if (turn_into_cone(cone, view.samples.nodes.x, pressed))
     emit_from(view, point, -(view.to_field * pressed), distance, feature);
-  else if (distance < -2.0 * field_cell)  // deep inside any way out is better than none
+  else if (distance < -2.0 * view.field.cell)  // deep inside any way out is better than none
     emit_from(view, point, away, distance, feature);
 }
 
 void test_node(View view, uint node) {
   vec3 point = carry(view, node), gradient;
-  float distance = sample_field(point, gradient) - view.samples.size.x;
+  float distance = sample_field(view.field, point, gradient) - view.samples.size.x;
   ++nodes_tested;
-  if (distance >= view.margin) return;
-  offer(view, point, gradient, distance, floatBitsToUint(nodes[view.samples.nodes.x + node].w), node);
+  if (distance >= view.margin + view.samples.size.w) return;
+  Solid other = Solid(false, view.field, NO_PLANE, 0.0);
+  slide(view.samples, view.own, view.to_field, view.field_offset, node, other, point, gradient, distance);
+  if (distance < view.margin)
+    offer(view, point, gradient, distance, floatBitsToUint(nodes[view.samples.nodes.x + node].w), node);
 }
 
 bool edge_may_touch(View view, uint edge) {
   uvec4 ends = edges[view.samples.nodes.z + edge];
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), gradient_p, gradient_q;
-  float distance_p = sample_field(p, gradient_p), distance_q = sample_field(q, gradient_q);
+  float distance_p = sample_field(view.field, p, gradient_p), distance_q = sample_field(view.field, q, gradient_q);
   // A distance falls by no more than the way.
   if (0.5 * (distance_p + distance_q - 2.0 * view.samples.size.x - uintBitsToFloat(ends.w)) >= view.margin) return false;
   return dot(gradient_p, q - p) < 0.0 && dot(gradient_q, q - p) > 0.0;
@@ -94,21 +102,22 @@ void test_edge(View view, uint edge) {
   uvec4 ends = edges[view.samples.nodes.z + edge];
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), point, gradient;
   float distance;
-  if (!descend(p, q, view.samples.size.x, point, gradient, distance)) return;
-  cross_edges(view.other, 2.0 * field_cell + abs(distance), p, q, point, gradient, distance);
+  if (!descend(view.field, p, q, view.samples.size.x, point, gradient, distance)) return;
+  cross_edges(view.other, 2.0 * view.field.cell + abs(distance), p, q, point, gradient, distance);
   if (distance < view.margin) offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
 }
 
 // All invocations; the field of the other body is in use.
 void test_samples(View view) {
   uint thread = gl_LocalInvocationIndex, count = view.samples.clusters.y;
-  float slack = view.margin + view.samples.size.x + (field_ball > 0.0 ? 0.0 : 0.5 * field_cell);
+  float slack = view.margin + view.samples.size.x + view.samples.size.w;
+  if (view.field.ball == 0.0) slack += 0.5 * view.field.cell;  // of the grid where it bends
   if (thread == 0u) near_count = queued = 0u;
   barrier();
   for (uint c = thread; c < count; c += SPHERE_GROUP) {
     vec4 ball = clusters[view.samples.clusters.x + c].ball;
     ++clusters_tested;
-    if (sample_field(view.to_field * ball.xyz + view.field_offset) <= ball.w + slack)
+    if (sample_field(view.field, view.to_field * ball.xyz + view.field_offset) <= ball.w + slack)
       near_clusters[atomicAdd(near_count, 1u)] = c;
   }
   barrier();
@@ -137,25 +146,10 @@ void test_pair(SpherePair pair, float margin) {
   mat3 b_to_a = transpose(ra) * rb, a_to_b = transpose(b_to_a);
   vec3 b_in_a = (states[pair.b].position.xyz - states[pair.a].position.xyz) * ra, a_in_b = -(a_to_b * b_in_a);
   SphereSamples samples_a = samples_of(pair.a), samples_b = samples_of(pair.b);
-  use_field(shape_b);
-  test_samples(View(a_to_b, b_to_a, a_in_b, b_in_a, samples_a, samples_b, 0u, margin));
-  use_field(shape_a);
-  test_samples(View(b_to_a, b_to_a, b_in_a, b_in_a, samples_b, samples_a, SPHERE_SIDE_B, margin));
+  Field field_a = field_of(shape_a), field_b = field_of(shape_b);
+  test_samples(View(a_to_b, b_to_a, a_in_b, b_in_a, samples_a, samples_b, field_a, field_b, 0u, margin));
+  test_samples(View(b_to_a, b_to_a, b_in_a, b_in_a, samples_b, samples_a, field_b, field_a, SPHERE_SIDE_B, margin));
   if (gl_LocalInvocationIndex == 0u) count_possible(samples_a.nodes.y + samples_b.nodes.y);
-}
-
-// Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
-// between its inner face and the rim's level, as thick as it takes.
-float plane_distance(SpherePlane plane, float top, vec3 p, out vec3 away) {
-  float face = dot(plane.plane.xyz, p) - plane.plane.w, above = p.z - top;
-  const vec3 up = vec3(0.0, 0.0, 1.0);
-  away = plane.plane.xyz;
-  if (plane.wall.x == 0u || above <= 0.0 && face >= above) return face;
-  away = up;
-  if (above <= 0.0 || face <= 0.0) return above;
-  float way = sqrt(above * above + face * face);
-  away = (above * up + face * plane.plane.xyz) / way;
-  return way;
 }
 
 void test_ground(SpherePair pair, float margin) {
@@ -164,9 +158,10 @@ void test_ground(SpherePair pair, float margin) {
   mat3 ra = rotation_of(states[pair.a].orientation);
   vec3 position = states[pair.a].position.xyz;
   SphereSamples samples = samples_of(pair.a);
+  Field own = field_of(shape);
   for (uint k = 0u; k < world.pairs.w; ++k) {
     SpherePlane plane = planes[world.pairs.z + k];
-    float far = samples.size.x + margin;
+    float far = samples.size.x + samples.size.w + margin;
     if (dot(plane.plane.xyz, position) - plane.plane.w > shapes[shape].box_center.w + far) continue;
     for (uint c = thread / SPHERE_CLUSTER; c < samples.clusters.y; c += SPHERE_GROUP / SPHERE_CLUSTER) {
       vec4 ball = clusters[samples.clusters.x + c].ball;
@@ -176,7 +171,11 @@ void test_ground(SpherePair pair, float margin) {
       if (node >= samples.nodes.y) continue;
       ++nodes_tested;
       vec3 arm = ra * nodes[samples.nodes.x + node].xyz, away;
-      float distance = plane_distance(plane, world.ground.z, position + arm, away) - samples.size.x;
+      vec3 point = position + arm;
+      float distance = plane_distance(plane, world.ground.z, point, away) - samples.size.x;
+      if (distance > margin + samples.size.w) continue;
+      slide(samples, own, ra, position, node, Solid(true, own, plane, world.ground.z), point, away, distance);
+      arm = point - position;
       if (distance <= margin)
         emit((arm - samples.size.x * away) * ra, -(away * ra), distance, node + k * SPHERE_PLANE);
     }

@@ -55,7 +55,7 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
                append(edges_, edge_count_, edges.data(), edges.size()), static_cast<gpu::uint>(edges.size())};
   out.clusters = {append(clusters_, cluster_count_, clusters.data(), clusters.size()),
                   static_cast<gpu::uint>(clusters.size()), 0, 0};
-  out.size = {samples.radius, samples.spacing, 0, 0};
+  out.size = {samples.radius, samples.spacing, samples.face_spacing, samples.sag};
   return out;
 }
 

@@ -21,7 +21,7 @@ using sphere::Quatf;
 using sphere::Vec3f;
 using sphere::World;
 
-/// Angle irons, a ball and a fixed block, thrown together above a box.
+/// Angle irons, eggs, balls and a fixed block, thrown together above a box.
 struct Heap {
   std::vector<PartModelPtr> parts;
   std::vector<std::unique_ptr<sphere::Shape>> shapes;
@@ -31,9 +31,15 @@ struct Heap {
     parts = {PartModel::from_mesh(
                  testing::merged(box_mesh({0.06, 0.02, 0.02}), box_mesh({0.02, 0.04, 0.02}, {0.02, 0.03, 0})), "angle"),
              PartModel::from_mesh(testing::sphere_mesh(0.02, 3), "ball"),
-             PartModel::from_mesh(box_mesh({0.05, 0.05, 0.05}), "block")};
+             PartModel::from_mesh(box_mesh({0.05, 0.05, 0.05}), "block"), PartModel::from_mesh(egg_mesh(), "egg")};
     for (const PartModelPtr& part : parts)
       shapes.push_back(std::make_unique<sphere::Shape>(sphere::make_shape(*part, 100, 300, 0.02)));
+  }
+
+  static Mesh egg_mesh() {
+    Mesh mesh = testing::sphere_mesh(0.02, 3);
+    for (Vec3& v : mesh.vertices) v = v.cwiseProduct(Vec3(1.4, 1.0, 0.8));
+    return mesh;
   }
 
   World world(std::size_t bodies, std::uint64_t seed, double spread = 0.1) const {
@@ -44,7 +50,7 @@ struct Heap {
     def.wall_height = 0.2;
     for (std::size_t i = 0; i < bodies; ++i) {
       BodyDef body;
-      body.part = i % 7 == 3 ? 1 : 0;
+      body.part = i % 7 == 3 ? 1 : i % 7 == 6 ? 3 : 0;
       body.mass = 0.1;
       if (i == 5) {
         body.part = 2;
