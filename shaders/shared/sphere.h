@@ -108,8 +108,6 @@ struct SphereProgress {
 struct SphereBody {
   uvec4 ids;        // shape, world
   vec4 material;    // inverse mass (0: fixed), friction, restitution
-  vec4 inertia, inertia_mixed;                  // body axes: xx yy zz, xy xz yz (kg m2)
-  vec4 inverse_inertia, inverse_inertia_mixed;  // zero: fixed
 };
 
 struct SphereState {
@@ -143,6 +141,8 @@ struct SphereShape {
   SphereSamples coarse, fine;
   vec4 box_center;   // body axes; w: largest distance of a node from the centre of mass
   vec4 box_half;     // w: size (m)
+  vec4 inertia, inertia_mixed;                  // per mass, body axes: xx yy zz, xy xz yz (m2)
+  vec4 inverse_inertia, inverse_inertia_mixed;  // 1/m2
   vec4 origin;       // of the field's grid; w: cell
   vec4 field;        // 1 / cell, padding, radius if the part is a ball
   uvec4 grid;        // values along x, y, z; first value
@@ -189,8 +189,8 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 116, "std430");
-static_assert(sizeof(SphereBody) == 96 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
-static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 176, "std430");
+static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
+static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");

@@ -3,7 +3,9 @@
 
 SphereTensor tensor_of(uint body) {
   mat3 r = rotation_of(states[body].orientation);
-  mat3 t = r * symmetric(bodies[body].inverse_inertia, bodies[body].inverse_inertia_mixed) * transpose(r);
+  uint shape = bodies[body].ids.x;
+  mat3 t = r * symmetric(shapes[shape].inverse_inertia, shapes[shape].inverse_inertia_mixed) * transpose(r);
+  t *= bodies[body].material.x;
   return SphereTensor(vec4(t[0][0], t[1][1], t[2][2], 0.0), vec4(t[0][1], t[0][2], t[1][2], 0.0),
                       states[body].orientation);
 }

@@ -143,13 +143,13 @@ bool keep_force(uint at, bool bounced, Side a, Side b) {
 // The gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the kinetic energy
 // and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2). Double precision: single would let
 // |L| creep by a thousandth in ten thousand sub-steps.
-vec3 gyrated(vec3 spin, vec4 orientation, SphereBody body, float h) {
+vec3 gyrated(vec3 spin, vec4 orientation, SphereShape shape, float h) {
   if (dot(spin, spin) * h * h < 1e-8) return spin;  // slower than 1e-4 rad a sub-step: the term is below rounding
   dvec4 q = normalize(dvec4(orientation));
   dvec3 t = 2.0 * cross(-q.xyz, dvec3(spin));
   dvec3 w0 = dvec3(spin) + q.w * t + cross(-q.xyz, t), w = w0;
-  dmat3 inertia = dmat3(symmetric(body.inertia, body.inertia_mixed));
-  dmat3 inverse_inertia = dmat3(symmetric(body.inverse_inertia, body.inverse_inertia_mixed));
+  dmat3 inertia = dmat3(symmetric(shape.inertia, shape.inertia_mixed));
+  dmat3 inverse_inertia = dmat3(symmetric(shape.inverse_inertia, shape.inverse_inertia_mixed));
   for (int i = 0; i < 6; ++i) {
     dvec3 mid = 0.5 * (w0 + w);
     w = w0 - double(h) * (inverse_inertia * cross(mid, inertia * mid));

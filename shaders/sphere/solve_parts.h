@@ -104,7 +104,7 @@ void integrate_velocity(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;
   uint body = world.bodies.x + i;
   velocity_of(i).xyz += h * world.gravity.xyz;
-  spin_of(i).xyz = gyrated(spin_of(i).xyz, states[body].orientation, bodies[body], h);
+  spin_of(i).xyz = gyrated(spin_of(i).xyz, states[body].orientation, shapes[bodies[body].ids.x], h);
 }
 
 void integrate_position(uint i, float h) {

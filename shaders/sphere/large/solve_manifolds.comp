@@ -16,6 +16,7 @@ layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld world
 layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) SHARED buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
 layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };

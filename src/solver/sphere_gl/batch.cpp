@@ -26,7 +26,7 @@ void at_least(gl::Buffer<T>& buffer, std::size_t count) {
 
 /// Room for what a list needs now and, most likely, in the steps to come.
 std::size_t grown(std::size_t old, std::size_t need) {
-  return std::max(old + old / 8, need + need / 8) + 1;
+  return std::max(old + old / 16, need + need / 16) + 1;
 }
 
 template <class T>

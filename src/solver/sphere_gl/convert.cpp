@@ -11,12 +11,6 @@ static_assert(max_contacts == SPHERE_MAX_CONTACTS && max_coarse_contacts == SPHE
 
 namespace {
 
-gpu::vec4 diagonal(const Mat3f& m) {
-  return {m(0, 0), m(1, 1), m(2, 2), 0};
-}
-gpu::vec4 mixed(const Mat3f& m) {
-  return {m(0, 1), m(0, 2), m(1, 2), 0};
-}
 gpu::vec4 force_of(const Contact& c) {
   return {c.normal_force, c.friction_force.x(), c.friction_force.y(), c.friction_force.z()};
 }
@@ -24,9 +18,7 @@ gpu::vec4 force_of(const Contact& c) {
 }  // namespace
 
 gpu::SphereBody to_gpu(const Body& body, std::uint32_t shape, std::uint32_t world) {
-  return {{shape, world, 0, 0},           {body.inverse_mass, body.friction, body.restitution, 0},
-          diagonal(body.inertia),         mixed(body.inertia),
-          diagonal(body.inverse_inertia), mixed(body.inverse_inertia)};
+  return {{shape, world, 0, 0}, {body.inverse_mass, body.friction, body.restitution, 0}};
 }
 
 gpu::SphereState state_of(const Body& b) {

@@ -32,6 +32,13 @@ gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::vec4>& nodes) {
   return at | SPHERE_AXIS;
 }
 
+gpu::vec4 diagonal(const sphere::Mat3f& m) {
+  return {m(0, 0), m(1, 1), m(2, 2), 0};
+}
+gpu::vec4 mixed(const sphere::Mat3f& m) {
+  return {m(0, 1), m(0, 2), m(1, 2), 0};
+}
+
 }  // namespace
 
 gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
@@ -68,6 +75,12 @@ std::uint32_t ShapeTable::index_of(const sphere::Shape& shape) {
   out.fine = add(shape.fine);
   out.box_center = vec4(shape.box_center, shape.radius);
   out.box_half = vec4(shape.box_half, shape.size);
+  // In double precision: the determinant of a half-millimetre part's inertia is below what single can tell from 0.
+  const sphere::Mat3f inverse = shape.unit_inertia.cast<double>().inverse().cast<float>();
+  out.inertia = diagonal(shape.unit_inertia);
+  out.inertia_mixed = mixed(shape.unit_inertia);
+  out.inverse_inertia = diagonal(inverse);
+  out.inverse_inertia_mixed = mixed(inverse);
   out.origin = vec4(field.origin, field.cell);
   out.field = {field.inverse_cell, field.padding, field.ball, 0};
   const std::size_t values = field.values ? std::size_t(field.nx) * field.ny * field.nz : 0;
