@@ -69,7 +69,7 @@
 GPU_STRUCTS_BEGIN
 
 struct SphereSettingsBlock {
-  float time_step;         // s
+  float time_step;         // s, before it is cut
   uint sub_steps;
   float push_speed;        // d per second
   float margin, recycle, rest_move;  // d
@@ -79,7 +79,7 @@ struct SphereSettingsBlock {
   uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and again after
-  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (Hz), damping ratio, slop (d), sub-steps in place of one
+  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
 struct SphereWorld {
@@ -87,7 +87,7 @@ struct SphereWorld {
   uvec4 pairs;    // first, capacity; planes: first, count
   uvec4 contacts; // first, capacity
   vec4 gravity;   // m/s2; w: size of the smallest part
-  vec4 ground;    // friction, restitution, height where walls end
+  vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };
 
 // What the steps of a world leave behind; the host reads it every few steps.
@@ -98,6 +98,8 @@ struct SphereProgress {
   uint missing_contacts;                     // that found no place
   uint free_contact;                         // first of the chain of places that nobody has
   uint released_contact, last_released;      // ends of the chain of places given up since
+  float time_step;                           // s, of this step
+  uint cuts_left;                            // of a whole step
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -188,7 +190,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 116, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 124, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

@@ -68,7 +68,7 @@ void warm_start(uint at, inout Side a, inout Side b) {
   // What is about to strike gains speed until it does, but no more than gravity gives in a step.
   if (row.approach < -settings.restitution_speed && row.impulse.w <= 0.0) {
     float vn = dot(relative_velocity(row, a, b), row.normal);
-    contacts[at].normal.w = min(row.approach, max(vn, row.impulse.w - length(world.gravity.xyz) * settings.time_step));
+    contacts[at].normal.w = min(row.approach, max(vn, row.impulse.w - length(world.gravity.xyz) * time_step));
   }
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
@@ -81,14 +81,14 @@ float separation_of(Row row, Side a, Side b) {
 }
 
 // Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly (implicit spring of frequency
-// softness.x over a step h); without, the velocity that pushing left is taken back (relaxation).
+// softness.x / h over a step h); without, the velocity that pushing left is taken back (relaxation).
 void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   float separation = separation_of(row, a, b), bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
   if (separation > 0.0) {
     bias = separation / h;  // speculative: may close the distance, no more
   } else if (push) {
-    float omega = 6.2831853 * softness.x, a1 = 2.0 * softness.y + h * omega, a2 = h * omega * a1;
+    float omega = 6.2831853 * softness.x / h, a1 = 2.0 * softness.y + h * omega, a2 = h * omega * a1;
     impulse_scale = 1.0 / (1.0 + a2);
     mass_scale = a2 * impulse_scale;
     float d = world.gravity.w;

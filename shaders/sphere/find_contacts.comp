@@ -190,7 +190,7 @@ float margin_of(SpherePair pair) {
   vec3 v = ground ? -a.velocity.xyz : states[pair.b].velocity.xyz - a.velocity.xyz;
   float spin = length(a.spin.xyz) * shapes[bodies[pair.a].ids.x].box_center.w;
   if (!ground) spin += length(states[pair.b].spin.xyz) * shapes[bodies[pair.b].ids.x].box_center.w;
-  float dt = settings.time_step;
+  float dt = progress[world_index].time_step;
   return settings.margin * size_of(pair) + (length(v) + spin + length(worlds[world_index].gravity.xyz) * dt) * dt;
 }
 

@@ -30,13 +30,14 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs
 #include "sphere/oriented_box.h"
 #include "sphere/box.h"
 #include "sphere/pair_job.h"
+#include "sphere/cut.h"
 
 shared vec4 box_center[SPHERE_MAX_BODIES];
 shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box
 shared uint on_ground[SPHERE_MAX_BODIES];
 shared uint first_pair[SPHERE_MAX_BODIES];
 shared uint partial[SPHERE_GROUP];
-shared uint free_top;
+shared uint free_top, fastest, fastest_turn;  // bits of m/s, rad/s
 
 void find_box(SphereWorld world, uint i) {
   uint body = world.bodies.x + i;
@@ -130,6 +131,25 @@ void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, u
   enlist(world, w, pair, list + at);
 }
 
+// How long this step is: whole steps are cut by what is fast when they begin.
+void cut_step(SphereWorld world, uint w) {
+  bool begins = progress[w].cuts_left == 0u;
+  if (gl_LocalInvocationIndex == 0u) fastest = fastest_turn = 0u;
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; begins && i < world.bodies.y; i += SPHERE_GROUP) {
+    if (!moves(world.bodies.x + i)) continue;
+    vec2 speeds = speeds_of(world.bodies.x + i);
+    atomicMax(fastest, floatBitsToUint(speeds.x));
+    atomicMax(fastest_turn, floatBitsToUint(speeds.y));
+  }
+  barrier();
+  uint cuts = cuts_of(vec2(uintBitsToFloat(fastest), uintBitsToFloat(fastest_turn)), world.ground.w);
+  time_step = begins ? settings.time_step / float(cuts) : progress[w].time_step;
+  if (gl_LocalInvocationIndex != 0u || !begins) return;
+  progress[w].time_step = time_step;
+  progress[w].cuts_left = cuts;
+}
+
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
@@ -137,6 +157,7 @@ void main() {
   uint page = progress[w].page, count = world.bodies.y;
   uint old_list = list_of(world, page), list = list_of(world, page ^ 1u);
 
+  cut_step(world, w);
   for (uint i = thread; i < count; i += SPHERE_GROUP) {
     find_box(world, i);
     if (sleeps(world.bodies.x + i)) ++sleepers;

@@ -1,12 +1,13 @@
 // Pairs of bodies: how near is near. Needs the bindings Settings, Bodies, States, Shapes.
 
+float time_step;  // s, of this step
+
 // Way the surface of a body may move in one step, and the distance at which contacts are kept.
 float reach(SphereWorld world, uint body, float radius, float diagonal) {
   float base = 0.5 * settings.margin * diagonal;
   if (!moves(body)) return base;
-  float dt = settings.time_step;
   return base + (length(states[body].velocity.xyz) + length(states[body].spin.xyz) * radius +
-                 length(world.gravity.xyz) * dt) * dt;
+                 length(world.gravity.xyz) * time_step) * time_step;
 }
 
 // Pose of b in the frame of a; on the ground: of a in the bin's.

@@ -1,6 +1,6 @@
-// Rest of a body. Needs the bindings Settings, Bodies, States, Shapes and sphere/body.h.
+// Rest of a body. `time_step` in s. Needs the bindings Settings, Bodies, States, Shapes and sphere/body.h.
 
-void note_motion(uint body) {
+void note_motion(uint body, float time_step) {
   SphereState s = states[body];
   uint shape = bodies[body].ids.x;
   float limit = settings.rest_move * shapes[shape].box_half.w;
@@ -10,7 +10,7 @@ void note_motion(uint body) {
     states[body].still_position = vec4(s.position.xyz, 0.0);
     states[body].still_orientation = s.orientation;
   } else {
-    states[body].still_position.w += settings.time_step;
+    states[body].still_position.w += time_step;
   }
 }
 

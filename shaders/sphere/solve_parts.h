@@ -7,7 +7,9 @@ SphereWorld world;
 uint list;
 vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
 
-float sub_step() { return settings.time_step / (float(settings.sub_steps) * softness.w); }
+float time_step;  // s, of this step
+
+float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); }
 
 // A body as one manifold sees it.
 struct Side {

@@ -34,7 +34,7 @@ void main() {
 
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) {
     uint body = world.bodies.x + i;
-    if (moves(body)) note_motion(body);
+    if (moves(body)) note_motion(body, progress[w].time_step);
     label[i] = i;
     restless[i] = 0u;
   }
@@ -66,7 +66,7 @@ void main() {
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
     settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u);
   if (thread == 0u) {
-    --progress[w].steps_left;
+    if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     ++progress[w].steps;
   }
 }

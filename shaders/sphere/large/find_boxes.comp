@@ -1,4 +1,4 @@
-// Begins a step of a large world: boxes of its bodies, and the largest of those that move. Twin: bounds in find_pairs().
+// Boxes of the bodies of a large world, and the largest of those that move. Twin: bounds in find_pairs().
 #include "shared/sphere_large.h"
 #include "shared/dispatch.h"
 
@@ -25,9 +25,8 @@ layout(std430, binding = BIND_WORK) buffer Work { SphereWork work[]; };
 void main() {
   uint i = thread_index();
   SphereWorld world = worlds[large_world];
-  bool awake = progress[large_world].steps_left != 0u && progress[large_world].overflow == 0u;
-  if (i == 0u) large.awake = uint(awake);
-  if (!awake || i >= world.bodies.y) return;
+  if (idle() || i >= world.bodies.y) return;
+  time_step = progress[large_world].time_step;
   uint body = world.bodies.x + i;
   Box box = box_of(world, body);
   boxes[i] = SphereBox(box.center, box.half_size);

@@ -25,9 +25,9 @@ uniform uint stage;
 void end_step() {
   status.jobs = status.next_job = 0u;
   status.groups = uvec4(0u, 1u, 1u, 0u);
-  large.extent = large.big = 0u;
+  large.extent = large.big = large.speed = large.turn = 0u;
   if (idle()) return;
-  --progress[large_world].steps_left;
+  if (--progress[large_world].cuts_left == 0u) --progress[large_world].steps_left;
   ++progress[large_world].steps;
 }
 
@@ -38,7 +38,7 @@ void main() {
   if (idle() || i >= world.bodies.y) return;
   uint body = world.bodies.x + i;
   if (stage == SLEEP_NOTE) {
-    if (moves(body)) note_motion(body);
+    if (moves(body)) note_motion(body, progress[large_world].time_step);
     label_of(i) = i;
     restless_of(i) = 0u;
   } else if (stage == SLEEP_MARK) {

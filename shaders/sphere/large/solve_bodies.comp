@@ -41,6 +41,7 @@ void main() {
   uint i = thread_index();
   world = worlds[large_world];
   if (idle() || i >= world.bodies.y) return;
+  time_step = progress[large_world].time_step;
   softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
   if (stage == BODIES_BEGIN)
     begin_body(i);

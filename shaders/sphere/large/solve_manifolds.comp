@@ -55,6 +55,7 @@ void sweep_rest() {
 void main() {
   world = worlds[large_world];
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
+  time_step = progress[large_world].time_step;
   softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
   list = large.list;
 #ifdef REST

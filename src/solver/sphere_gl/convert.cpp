@@ -43,8 +43,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.time_step = s.time_step;
   out.sub_steps = static_cast<gpu::uint>(s.sub_steps);
   const auto softness = [&](const Softness& c) -> gpu::vec4 {
-    return {c.hertz_share * static_cast<float>(s.sub_steps * c.refinement) / s.time_step, c.damping_ratio, c.slop,
-            static_cast<float>(c.refinement)};
+    return {c.hertz_share, c.damping_ratio, c.slop, static_cast<float>(c.refinement)};
   };
   out.sweeps = static_cast<gpu::uint>(s.sweeps);
   out.soft = softness(s.soft);

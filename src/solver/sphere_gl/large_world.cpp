@@ -23,6 +23,7 @@ std::size_t buckets_for(std::size_t bodies) {
 LargePasses::LargePasses(const Capacity& capacity)
     : rounds_(static_cast<unsigned>(std::min<std::size_t>(capacity.rounds, SPHERE_MOST_ROUNDS))),
       colors_(static_cast<unsigned>(std::min<std::size_t>(capacity.colors, SPHERE_COLORS - 1))),
+      cut_step_(pass("cut_step")),
       find_boxes_(pass("find_boxes")),
       sort_bodies_(pass("sort_bodies")),
       list_pairs_(pass("list_pairs")),
@@ -60,8 +61,8 @@ void LargePasses::bind() const {
 
 void LargePasses::set_world(const LargeWorld& world) const {
   for (const gl::Program* p :
-       {&find_boxes_, &sort_bodies_, &list_pairs_, &adopt_pairs_, &end_pairs_, &color_pairs_, &order_colors_,
-        &solve_bodies_, &solve_manifolds_, &solve_rest_, &join_islands_, &sleep_bodies_})
+       {&cut_step_, &find_boxes_, &sort_bodies_, &list_pairs_, &adopt_pairs_, &end_pairs_, &color_pairs_,
+        &order_colors_, &solve_bodies_, &solve_manifolds_, &solve_rest_, &join_islands_, &sleep_bodies_})
     p->set("large_world", world.world);
   for (const gl::Program* p : {&sort_bodies_, &list_pairs_}) {
     p->set("smallest_cell", world.smallest_cell);
@@ -93,6 +94,8 @@ void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()
     dispatches_ += gl::PrefixSum::dispatches(count);
     bind_first();
   };
+  bodies(cut_step_, 1);
+  bodies(cut_step_, 0);
   over_bodies(find_boxes_, world);
   bodies(sort_bodies_, 1);
   sum(cell_counts_, cell_starts_, buckets_for(world.bodies));

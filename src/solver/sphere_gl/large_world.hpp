@@ -2,10 +2,10 @@
 /// bodies, its pairs, and the manifolds of each color (shaders/sphere/large). Each computes what the pass of one group
 /// computes, with the same functions, so that a world gives the same bits either way.
 ///
-///     find_pairs       boxes ─► count cells ─► sum ─► sort ─► count pairs ─► sum ─► list pairs ─► adopt ─► end
-///     color_manifolds  begin ─► (bid ─► take) a round ─► starts ─► order
-///     solve            begin ─► prepare ─► sub-steps of (velocities, sweep, sweep, positions, sweep) ─► keep
-///     update_sleep     note ─► join islands ─► mark ─► settle
+///     find_pairs       cut (twice) ─► boxes ─► count cells ─► sum ─► sort ─► count pairs ─► sum ─► list pairs ─► adopt
+///     ─► end color_manifolds  begin ─► (bid ─► take) a round ─► starts ─► order solve            begin ─► prepare ─►
+///     sub-steps of (velocities, sweep, sweep, positions, sweep) ─► keep update_sleep     note ─► join islands ─► mark
+///     ─► settle
 ///
 /// A sweep is a dispatch a color, and one group for the last few colors together. How many groups a dispatch has is
 /// known on the device alone: the arguments lie in SphereLarge. Buffers here serve one such world after the other.
@@ -55,7 +55,7 @@ class LargePasses {
 
   unsigned rounds_, colors_;  ///< with dispatches of their own
   std::uint64_t dispatches_ = 0;
-  gl::Program find_boxes_, sort_bodies_, list_pairs_, adopt_pairs_, end_pairs_, color_pairs_, order_colors_,
+  gl::Program cut_step_, find_boxes_, sort_bodies_, list_pairs_, adopt_pairs_, end_pairs_, color_pairs_, order_colors_,
       solve_bodies_, solve_manifolds_, solve_rest_, join_islands_, sleep_bodies_;
   gl::PrefixSum prefix_sum_;
   gl::Buffer<gpu::SphereLarge> large_{"sphere.large"};
