@@ -281,9 +281,8 @@ void PourWorld::cut_walls() {
   walls_cut_ = true;
   if (top() <= plan_.world.wall_height) return;  // nothing leans on what is taken away
   earlier_steps_ += solver_.steps(id_);
-  const WorldId lower = solver_.add_world(plan_.world);
-  solver_.remove_world(id_);
-  id_ = lower;
+  solver_.remove_world(id_);  // first: both at once would hold twice the memory
+  id_ = solver_.add_world(plan_.world);
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
   solver_.set_phase(id_, phase_);
