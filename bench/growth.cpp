@@ -13,24 +13,39 @@ namespace {
 
 constexpr const char* part = "channel_u";
 
+/// Counter of a solver, 0 if it has none of that name.
+double counted(const Heaps& heaps, const std::string& name) {
+  const auto& counters = heaps.solver().profile().counters;
+  const auto found = counters.find(name);
+  return found == counters.end() ? 0.0 : static_cast<double>(found->second);
+}
+
 /// A few steps to build contacts, then the samples; parts do not fall asleep that soon.
 Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
   Heaps heaps(heap, settings, per_world, worlds);
   const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
   heaps.steps(steps);
   std::vector<double> wall, cpu, part_us;
+  double dispatches = 0;
   for (int k = 0; k < 3; ++k) {
+    dispatches = counted(heaps, "gl_dispatches");
     const Heaps::Cost cost = heaps.steps(steps);
     wall.push_back(cost.wall_ms);
     cpu.push_back(cost.cpu_ms);
     part_us.push_back(1e3 * cost.cpu_ms / static_cast<double>(heaps.bodies()));
   }
-  return Row()
-      .measure("step_ms", wall)
-      .measure("step_cpu_ms", cpu)
-      .measure("part_cpu_us", part_us)
-      .exact("asleep_share", heaps.asleep())
-      .info("device", heaps.solver().device());
+  Row row = Row()
+                .measure("step_ms", wall)
+                .measure("step_cpu_ms", cpu)
+                .measure("part_cpu_us", part_us)
+                .exact("asleep_share", heaps.asleep())
+                .info("device", heaps.solver().device());
+  if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
+    const double held = counted(heaps, "gl_bytes_held") - counted(heaps, "gl_bytes_shared");
+    row.exact("dispatches_a_step", (counted(heaps, "gl_dispatches") - dispatches) / steps)
+        .exact("bytes_a_part", held / static_cast<double>(heaps.bodies()));
+  }
+  return row;
 }
 
 /// Emits the rows of one curve and, at the end, the exponent of its cost over x.
@@ -80,7 +95,8 @@ void run(Run& out) {
     return heap_at_rest(part, count, file);
   };
   const std::vector<std::string> solvers =
-      out.quick() ? std::vector<std::string>{"sphere"} : std::vector<std::string>{"sphere", "bullet", "sphere/thesis"};
+      out.quick() ? std::vector<std::string>{"sphere", "sphere/gpu"}
+                  : std::vector<std::string>{"sphere", "sphere/gpu", "bullet", "sphere/thesis"};
 
   const Heap large = heap_of(out.quick() ? 16 : 64), small = heap_of(16);
   for (const std::string& solver : solvers) {

@@ -33,6 +33,7 @@ class Heaps {
   std::size_t bodies() const { return bodies_; }
   double asleep() const;  ///< share of all bodies
   Solver& solver() { return *solver_; }
+  const Solver& solver() const { return *solver_; }
 
  private:
   std::vector<PartModelPtr> parts_;
