@@ -5,12 +5,17 @@
 namespace bin_scenes::testing {
 
 const SolverCase sphere_gl{"sphere_gl", [] { return make_gl_sphere_solver({}); }, 1e-4};
+const SolverCase sphere_gl_coarse{"sphere_gl", [] {
+                                    SphereSettings settings;
+                                    settings.time_step = 1.0 / 15.0;
+                                    return make_gl_sphere_solver(settings);
+                                  }};
+
+const auto name = [](const auto& info) { return info.param.name; };
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
-INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl),
-                         [](const auto& info) { return info.param.name; });
-
-INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, CoarseSteps, ::testing::Values(sphere_gl_coarse), name);
 
 }  // namespace bin_scenes::testing
