@@ -8,6 +8,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "solver/closed_form_scenes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -28,6 +29,7 @@ struct Value {
 constexpr double rounding = 1e-5;  ///< of single precision: errors below say nothing about the step
 
 struct Form {
+  std::vector<std::string> names;  ///< of the values that one measurement gives
   std::vector<Value> (*measure)(const MakeLab& lab);
   bool ball;    ///< a ball alone: one sphere for the thesis's solver
   bool thesis;  ///< whether the thesis's solver, whose floor is a lattice of spheres, can be asked
@@ -93,9 +95,15 @@ std::vector<Value> rods(const MakeLab& lab) {
   return {{"two_rods", std::max(std::abs(speeds.first), std::abs(speeds.second - 1.0)), "rel", 1e-2}};
 }
 
-const Form forms[] = {{free_fall, false, true},       {bounce, true, true},  {slide, false, true},
-                      {friction_angle, false, false}, {roll, true, true},    {collision, false, true},
-                      {tumble, false, true},          {stack, false, false}, {rods, false, true}};
+const Form forms[] = {{{"free_fall"}, free_fall, false, true},
+                      {{"bounce_0.9"}, bounce, true, true},
+                      {{"sliding_distance"}, slide, false, true},
+                      {{"friction_angle"}, friction_angle, false, false},
+                      {{"rolling_15_deg"}, roll, true, true},
+                      {{"collision_momentum", "collision_energy_gain"}, collision, false, true},
+                      {{"tumbling_energy", "tumbling_energy_gain", "tumbling_spin"}, tumble, false, true},
+                      {{"stack_10_boxes_30_s"}, stack, false, false},
+                      {{"two_rods"}, rods, false, true}};
 
 Lab lab_of(const std::string& solver, double time_step, bool ball) {
   Request request;
@@ -136,7 +144,10 @@ void run(Run& out) {
       if (solver == "sphere/thesis" && !form.thesis) continue;
       std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> fits;
       for (const double rate : rates) {
-        if (!out.wanted(Row().key("solver", solver).key("time_step_s", 1.0 / rate))) continue;
+        const auto wanted = [&](const std::string& name) {
+          return out.wanted(Row().key("form", name).key("solver", solver).key("time_step_s", 1.0 / rate));
+        };
+        if (std::none_of(form.names.begin(), form.names.end(), wanted)) continue;
         Row failure;
         const std::vector<Value> values = measured(form, solver, 1.0 / rate, failure);
         if (values.empty()) out.row(Row().key("solver", solver).key("time_step_s", 1.0 / rate).append(failure));
