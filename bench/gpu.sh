@@ -90,17 +90,22 @@ done
 # The demo's scene with its pictures, and many of them at once.
 step conrods 120 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/conrods" --overwrite \
   --formats json,png ${quick:+--set "parts[0].count=20"}
-scenes=$([[ $quick ]] && echo 2 || echo 32)
+scenes=$([[ $quick ]] && echo 2 || echo 64) parts=$([[ $quick ]] && echo 20 || echo 256)
 start=$SECONDS
 step batch 120 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/batch" --overwrite \
-  --scenes "$scenes" --formats json --set "parts[0].count=20"
-echo "        $scenes scenes of 20 parts in $((SECONDS - start)) s"
+  --scenes "$scenes" --formats json --set "parts[0].count=$parts" --set "bin.inner_size=[0.5, 0.4, 0.3]"
+accepted=$(grep -l '"accepted": true' "$out"/batch/scene_*/scene.json 2>/dev/null | wc -l)
+echo "        $scenes scenes of $parts parts in $((SECONDS - start)) s, $accepted accepted"
 
 # The tables: small forms of each, so that all fit. On a CPU that others use too, one may take longer.
 table_limit=$([[ $quick ]] && echo 200 || echo 120)
 for name in thesis_tables growth skipping closed_forms; do
   step "bench_$name" "$table_limit" "$bundle/run" bin_scenes_bench --quick --filter "$name" --out "$out/bench"
 done
+
+# One world of up to 65,536 parts, and up to 1024 worlds, on the device.
+[[ $quick ]] || step bench_growth_gpu 150 "$bundle/run" bin_scenes_bench --filter growth --rows solver=sphere/gpu \
+  --out "$out/bench_gpu"
 
 if (( ${#failed[@]} )); then
   echo "failed: ${failed[*]}" | tee "$out/failed.txt"
