@@ -42,7 +42,8 @@ bool bid(SphereWorld world, uint p) {
 // Takes a color if no other uncolored manifold of both bodies has a lower key; returns it, else UNCOLORED.
 uint take_color(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
-  uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
+  uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x;
+  uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // in range: compilers read ahead of conditions
   bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
   if (a_moves && lowest_of(a) != key || b_moves && lowest_of(b) != key) return UNCOLORED;
   uvec2 used = uvec2(0u);

@@ -93,6 +93,16 @@ TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
   EXPECT_EQ(hash_of(solver->states(ids[2])), fallen(1));
 }
 
+// The last world's bodies lie far from the first's: what is counted in the world must not be read as if it were not.
+TEST(SphereGlBatch, AWorldIsTheSameBehindAThousandBodies) {
+  const auto solver = make_gl_sphere_solver(coarse());
+  for (int k = 0; k < 100; ++k) Handful(2).add(*solver);
+  const WorldId id = Handful(1).add(*solver);
+  solver->advance({id}, 0.1);
+  solver->advance({id}, 0.1);
+  EXPECT_EQ(hash_of(solver->states(id)), fallen(1));
+}
+
 TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   Capacity small;
   small.pairs = 1;
