@@ -211,6 +211,49 @@ std::vector<Cone> face_cones(const std::vector<SurfaceSample>& samples, double s
   return cones;
 }
 
+/// Normal cone of a vertex from all its neighbours; all directions if they are too many.
+Cone vertex_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& neighbours) {
+  Cone cone;
+  if (neighbours.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
+  for (const std::uint32_t other : neighbours)
+    cone.bound[cone.bounds++] = (mesh.vertices[other] - mesh.vertices[vertex]).normalized().cast<float>();
+  return cone;
+}
+
+/// Adds the vertices that stick out between the nodes by more than `most`. Where the folds of a bend lie about the
+/// angle that makes an edge, some of them are edges, and what lies between those counts as covered by their nodes,
+/// which do not slide: nothing felt the crown of a handle.
+void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Draft& draft) {
+  constexpr double slid = 0.7;  // of the longest way of a node along its face: it may end early
+  std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertices.size());
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i];
+      neighbours[v].push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
+      normals[v] += mesh.area_vector(t).normalized();
+    }
+  const PointGrid grid(draft.nodes, face_spacing);
+  const std::size_t before = draft.nodes.size();
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 &x = mesh.vertices[v], out = normals[v].normalized();
+    const auto felt_by = [&](std::size_t i) {
+      const Vec3 way = x - draft.nodes[i];
+      const Vec3f& axis = draft.cones[i].axis;
+      return way.dot(out) <= most || (way.norm() < slid * face_spacing && axis.cast<double>().dot(out) > 0.5);
+    };
+    const auto felt_by_added = [&] {
+      for (std::size_t i = before; i < draft.nodes.size(); ++i)
+        if ((x - draft.nodes[i]).norm() < face_spacing && felt_by(i)) return true;
+      return false;
+    };
+    const auto below = [&](std::uint32_t other) { return out.dot(mesh.vertices[other] - x) <= 0; };
+    if (!std::all_of(neighbours[v].begin(), neighbours[v].end(), below)) continue;  // it cannot touch first
+    if (grid.any_within(x, face_spacing, felt_by) || felt_by_added()) continue;
+    draft.add(x, vertex_cone(mesh, v, neighbours[v]));
+  }
+}
+
 /// Halves [first, last) of the order along the longest side of its bounds until a run fits a cluster, so that each
 /// run of cluster_size nodes is compact.
 void kd_order(const std::vector<Vec3>& nodes, std::vector<std::uint32_t>& order, std::size_t first, std::size_t last) {
@@ -350,6 +393,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
   // Where the nodes would stand too far apart to stand for them, they belong to a curved face.
   constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
+  constexpr double most_missed = 5e-4;                      // of d
   EdgeSum sum = sum_of_sharp_edges(mesh, folds, sharp_angle);
   while ((sum.count > static_cast<std::size_t>(2 * count) ||
           sum.length > edge_share * count * longest_piece * part.diagonal()) &&
@@ -366,9 +410,11 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
     if (!on_edges.any_within(sample.point, 0.5 * spacing, [](std::size_t) { return true; })) on_faces.push_back(sample);
   const std::vector<Cone> cones = face_cones(on_faces, sharp_angle);
   for (std::size_t i = 0; i < on_faces.size(); ++i) draft.add(on_faces[i].point, cones[i]);
+  double face_spacing = 0;
+  for (const SurfaceSample& sample : on_faces) face_spacing += sample.spacing / static_cast<double>(on_faces.size());
+  add_missed_vertices(mesh, face_spacing > 0 ? face_spacing : spacing, most_missed * part.diagonal(), draft);
   Samples made = clustered(std::move(draft), part.mass().center, spacing);
-  for (const SurfaceSample& sample : on_faces)
-    made.face_spacing += static_cast<float>(sample.spacing / on_faces.size());
+  made.face_spacing = static_cast<float>(face_spacing);
   for (const Cone& cone : made.cones)
     if (!cone.axis.isZero()) made.sag = std::max(made.sag, 0.25f * std::min(cone.spread, 0.6f) * made.face_spacing);
   return made;

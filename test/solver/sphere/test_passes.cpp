@@ -283,6 +283,38 @@ TEST(NarrowPhase, NoContactOfABentStripIsDeeperThanItsLowestVertex) {
   EXPECT_GT(contacts, 400u);
 }
 
+// The folds of a teapot's handle lie about the angle that makes an edge: edges where it is bent most, a face between
+// them. However the teapot lies, its lowest vertex is felt.
+TEST(NarrowPhase, WhatSticksOutBetweenEdgesIsFelt) {
+  const char* models = std::getenv("BIN_SCENES_MODELS");
+  if (!models) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
+  LoadOptions options;
+  options.unit = Unit::millimetre;
+  const PartModelPtr part = PartModel::load(std::string(models) + "/teapot.stl", options);
+  const Shape shape = make_shape(*part, 200, 1000, 0.004);
+  World world = world_of_boxes(shape, 1);
+  world.fine = true;
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  Random random(7, 0, Stream::probe);
+  Body& teapot = world.bodies[0];
+  float missed = 0;
+  for (int i = 0; i < 1000; ++i) {
+    teapot.q = random.orientation().cast<float>();
+    float lowest = 0;
+    for (const Vec3& v : part->mesh().vertices)
+      lowest = std::min(lowest, (teapot.q * (v.cast<float>() - shape.center)).z());
+    teapot.x = Vec3f(0, 0, -lowest);
+    world.manifolds.clear();
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    float felt = shape.size;
+    for (const Contact& c : world.manifolds[0].contacts) felt = std::min(felt, (teapot.x + teapot.q * c.anchor_a).z());
+    missed = std::max(missed, felt);
+  }
+  EXPECT_LT(missed, 0.0025f * shape.size);
+}
+
 TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.04, 0.02}, 0.02);
