@@ -114,6 +114,21 @@ TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
   EXPECT_EQ(left, 0u);
 }
 
+TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten) {
+  for (const std::string format : {"pcd", "png", "bop", "bag"}) {
+    const Outcome full = run("generate request.yaml --out " + format + " --formats " + format +
+                                 " --set 'sensors=[{name: top, width: 64, height: 48}]'",
+                             "trap '' XFSZ; ulimit -f 1;");
+    EXPECT_EQ(full.code, 3) << format << ": " << full.err;
+    EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    if (!fs::exists(dir / format)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(dir / format)) {
+      EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry;
+      EXPECT_NE(entry.path().filename(), "scene_000000");
+    }
+  }
+}
+
 TEST_F(CommandLine, MakesScenesQuietlyAndTheSameAgain) {
   const Outcome outcome = run("generate request.yaml --out out --scenes 2");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
