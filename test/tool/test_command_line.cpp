@@ -88,6 +88,10 @@ TEST_F(CommandLine, BadRequestsEndWithCodeTwoAndNothingWritten) {
   expect_failure("generate request.yaml --out out --seed -1", 2, {"seed"});
   expect_failure("generate request.yaml --out out --scenes 0", 2, {"scenes"});
   expect_failure("generate request.yaml --out out --scenes 2 --trace t.csv", 2, {"--trace", "--scenes 1"});
+  for (const char* rate : {"nan", "inf", "1e-300", "0", "-3"}) {
+    expect_failure(std::string("generate request.yaml --out out --trace t.csv --trace-rate ") + rate, 2,
+                   {"--trace-rate", "0.001"});
+  }
   expect_failure("generate request.yaml --out out --set parts[0].count=100000000000", 2, {"count"});
   expect_failure("generate request.yaml --out out --set memory_budget=1000", 2, {"MB", "memory_budget"});
   expect_failure("generate request.yaml --out out --set parts[0].unit=inch --set parts[0].scale=1e5", 2, {"box.stl"});
