@@ -355,6 +355,7 @@ TEST_F(MeshLoader, DamagedFilesSayWhatIsWrong) {
   EXPECT_CONTAINS(load_error(file("noise.stl", "not an STL")), "neither an ASCII STL");
   EXPECT_CONTAINS(load_error(file("wrong.obj", binary)), "named .OBJ, but its contents are STL");
   EXPECT_CONTAINS(load_error(file("huge.off", "OFF\n353535235358 6 0\n0 0 0\n")), "promises 353535235358");
+  EXPECT_CONTAINS(load_error(file("cut.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n")), "4 vertices and 4 faces");
   EXPECT_CONTAINS(load_error(file("negative.off", "OFF\n-3 6 0\n0 0 0\n")), "negative count");
   EXPECT_CONTAINS(load_error(file("huge.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")),
                   "promises 4000000000");
