@@ -1,9 +1,9 @@
 /// The one file that sees PCL outside the ROS rim.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "output/png.hpp"
 
 #ifdef BIN_SCENES_HAS_PCL
-#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
 #include <cstring>
@@ -62,19 +62,12 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   const Pose pose = image.sensor.pose.value_or(Pose());
   Eigen::Vector4f origin(0, 0, 0, 1);
   origin.head<3>() = pose.position.cast<float>();
-  Temporary file(path);
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what goes wrong is told once, by the Error below
-  std::string problem;
-  try {
-    pcl::PCDWriter writer;
-    if (writer.writeBinary(file.path(), cloud_of(image), origin, pose.orientation.cast<float>()) != 0)
-      problem = "failed";
-  } catch (const pcl::PCLException& error) {
-    problem = error.what();
-  }
-  if (!problem.empty())
-    throw environment_error("cannot be written: " + problem, path, "check permissions and free space");
-  file.commit();
+  // Only the header by PCL's hand: it writes files through a mapping, where a full disk is a signal and no error.
+  const pcl::PCLPointCloud2 cloud = cloud_of(image);
+  std::string bytes =
+      pcl::PCDWriter().generateHeaderBinary(cloud, origin, pose.orientation.cast<float>()) + "DATA binary\n";
+  bytes.append(cloud.data.begin(), cloud.data.end());
+  write_bytes(path, bytes.data(), bytes.size());
 }
 
 #else

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <memory>
 
 namespace bin_scenes {
 
@@ -18,7 +19,15 @@ enum class Latch { no, yes };
 /// An open bag whose messages all have one stamp.
 class SceneBag {
  public:
-  SceneBag(const std::string& path, const ros::Time& stamp) : bag_(path, rosbag::bagmode::Write), stamp_(stamp) {}
+  SceneBag(const std::string& path, const ros::Time& stamp)
+      : bag_(std::make_unique<rosbag::Bag>(path, rosbag::bagmode::Write)), stamp_(stamp) {}
+  /// A bag that is still open tries to close itself, and where the disk is full its destructor throws: the end of the
+  /// process. Such a bag is given up instead.
+  ~SceneBag() {
+    if (!closed_) static_cast<void>(bag_.release());
+  }
+  SceneBag(const SceneBag&) = delete;
+  SceneBag& operator=(const SceneBag&) = delete;
 
   template <class Message>
   void write(const std::string& topic, const Message& message, Latch latch) {
@@ -30,14 +39,18 @@ class SceneBag {
     (*header)["message_definition"] = traits::definition<Message>();
     (*header)["callerid"] = "/bin_scenes";
     (*header)["latching"] = latch == Latch::yes ? "1" : "0";
-    bag_.write(topic.front() == '/' ? topic : "/" + topic, stamp_, message, header);
+    bag_->write(topic.front() == '/' ? topic : "/" + topic, stamp_, message, header);
   }
 
-  void close() { bag_.close(); }
+  void close() {
+    bag_->close();
+    closed_ = true;
+  }
 
  private:
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
   ros::Time stamp_;
+  bool closed_ = false;
 };
 
 }  // namespace

@@ -114,7 +114,6 @@ std::optional<std::string> utf8_from_utf16(const std::string& bytes) {
 /// Refuses a header that promises more than the file can hold: assimp would believe it and ask for the memory.
 void check_promised_counts(const std::string& bytes, const std::string& format, const std::string& path) {
   std::uint64_t promised = 0;
-  const char* of = "elements";
   std::istringstream text(bytes.substr(0, 65536));
   if (format == "OFF") {
     std::string word;
@@ -128,9 +127,17 @@ void check_promised_counts(const std::string& bytes, const std::string& format, 
     }
     for (std::size_t i = 0; i < std::min<std::size_t>(2, words.size()); ++i) {
       if (words[i][0] == '-') throw input_error("negative count in the header: " + words[i], path, "export it again");
-      promised = std::max<std::uint64_t>(promised, std::strtoull(words[i].c_str(), nullptr, 10));
+      promised += std::min(std::strtoull(words[i].c_str(), nullptr, 10), 1ull << 60);
     }
-    of = "vertices or faces";
+    // assimp takes each from a line of its own, and aborts where there is none.
+    const auto ends = [&](char end) { return std::count(bytes.begin(), bytes.end(), end); };
+    const auto lines = static_cast<std::uint64_t>(1 + std::max(ends('\n'), ends('\r')));
+    if (promised > lines) {
+      throw input_error("the header promises " + words[0] + " vertices and " + (words.size() > 1 ? words[1] : "0") +
+                            " faces, but the file has only " + std::to_string(lines) + " lines",
+                        path, "the file is damaged or cut off: copy or export it again");
+    }
+    return;
   } else if (format == "PLY") {
     std::string line;
     while (std::getline(text, line) && !starts_with(line, "end_header")) {
@@ -160,7 +167,7 @@ void check_promised_counts(const std::string& bytes, const std::string& format, 
     return;
   }
   if (promised > bytes.size()) {
-    throw input_error("the header promises " + std::to_string(promised) + " " + of + ", but the file has only " +
+    throw input_error("the header promises " + std::to_string(promised) + " elements, but the file has only " +
                           std::to_string(bytes.size()) + " bytes",
                       path, "the file is damaged or cut off: copy or export it again");
   }

@@ -191,8 +191,7 @@ class Repair {
     const repair::Closed closed = repair::close_holes(mesh_, limit);
     report_.holes_closed = closed.small + closed.hidden;
     if (closed.small > 0) {
-      flag("holes_closed", count(closed.small, "hole") + " closed",
-           "check that no opening of the part was meant; max_hole sets the limit");
+      flag("holes_closed", count(closed.small, "hole") + " closed", "check that no opening of the part was meant");
     }
     if (closed.hidden > 0) {
       flag("hidden_holes_closed", count(closed.hidden, "hole") + " closed inside another closed shell of the part",
@@ -248,7 +247,7 @@ class Repair {
       const std::string text = "the surface is not closed: " + count(report_.open_edges, "open edge") + " around " +
                                count(loops.size(), "hole") + ", the largest " + number(largest) + " m (" +
                                number(largest / diagonal_) + " of the diagonal) around";
-      const std::string remedy = "close it in the modeller, raise max_hole, or give a thickness to make a shell of it";
+      const std::string remedy = "close it in the modeller, or give a thickness to make a shell of it";
       if (options_.require_closed) throw input_error(text, where_, remedy);
       flag("surface_open", text, remedy);
       return;

@@ -86,6 +86,9 @@ int generate(const GenerateOptions& options) {
     throw input_error("a trace holds one scene, but " + std::to_string(request.scenes) + " are asked for", "--trace",
                       "add --scenes 1, and --first to choose which");
   }
+  if (!(options.trace_rate >= 1e-3 && options.trace_rate <= 1e6)) {  // not a number fails too
+    throw input_error("must be at least 0.001 and at most 1000000 rows a second", "--trace-rate", "100 is the default");
+  }
 
   std::vector<bool> there(request.scenes, false);
   std::vector<std::pair<std::size_t, std::string>> apart;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 
 namespace bin_scenes {
 namespace {
@@ -25,6 +26,17 @@ TEST(Contained, ACrashIsToldByItsSignal) {
       10);
   EXPECT_FALSE(result.finished);
   EXPECT_EQ(result.failure, "crashed (Segmentation fault)");
+}
+
+TEST(Contained, WhatACrashPrintsIsNotShown) {
+  ::testing::internal::CaptureStderr();
+  run_contained(
+      []() -> std::string {
+        static_cast<void>(!write(STDERR_FILENO, "assertion failed", 16));
+        abort();
+      },
+      10);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Contained, AnEndlessLoopIsCutOff) {

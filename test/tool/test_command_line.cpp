@@ -88,6 +88,10 @@ TEST_F(CommandLine, BadRequestsEndWithCodeTwoAndNothingWritten) {
   expect_failure("generate request.yaml --out out --seed -1", 2, {"seed"});
   expect_failure("generate request.yaml --out out --scenes 0", 2, {"scenes"});
   expect_failure("generate request.yaml --out out --scenes 2 --trace t.csv", 2, {"--trace", "--scenes 1"});
+  for (const char* rate : {"nan", "inf", "1e-300", "0", "-3"}) {
+    expect_failure(std::string("generate request.yaml --out out --trace t.csv --trace-rate ") + rate, 2,
+                   {"--trace-rate", "0.001"});
+  }
   expect_failure("generate request.yaml --out out --set parts[0].count=100000000000", 2, {"count"});
   expect_failure("generate request.yaml --out out --set memory_budget=1000", 2, {"MB", "memory_budget"});
   expect_failure("generate request.yaml --out out --set parts[0].unit=inch --set parts[0].scale=1e5", 2, {"box.stl"});
@@ -112,6 +116,21 @@ TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
   std::size_t left = 0;
   if (fs::exists(dir / "out")) left = static_cast<std::size_t>(std::distance(fs::directory_iterator(dir / "out"), {}));
   EXPECT_EQ(left, 0u);
+}
+
+TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten) {
+  for (const std::string format : {"pcd", "png", "bop", "bag"}) {
+    const Outcome full = run("generate request.yaml --out " + format + " --formats " + format +
+                                 " --set 'sensors=[{name: top, width: 64, height: 48}]'",
+                             "trap '' XFSZ; ulimit -f 1;");
+    EXPECT_EQ(full.code, 3) << format << ": " << full.err;
+    EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    if (!fs::exists(dir / format)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(dir / format)) {
+      EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry;
+      EXPECT_NE(entry.path().filename(), "scene_000000");
+    }
+  }
 }
 
 TEST_F(CommandLine, MakesScenesQuietlyAndTheSameAgain) {
