@@ -79,6 +79,8 @@ struct SphereSettingsBlock {
   uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and again after
+  uint cold_sweeps;        // the same in the first steps of a world
+  uint unused0, unused1, unused2;
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
@@ -100,6 +102,7 @@ struct SphereProgress {
   uint released_contact, last_released;      // ends of the chain of places given up since
   float time_step;                           // s, of this step
   uint cuts_left;                            // of a whole step
+  uint cold_steps;                           // yet to come, with more sweeps
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -190,7 +193,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 80 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 124, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 128, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

@@ -87,14 +87,15 @@ void main() {
   FOR_OWN_MANIFOLDS(o) prepare_manifold(o);
   barrier();
   float h = sub_step();
+  uint sweeps = progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps;
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
     barrier();
     sweep(SWEEP_WARM_START, h);
-    for (uint i = 0u; i < settings.sweeps; ++i) sweep(SWEEP_PUSH, h);
+    for (uint i = 0u; i < sweeps; ++i) sweep(SWEEP_PUSH, h);
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
-    for (uint i = 0u; i < settings.sweeps; ++i) sweep(SWEEP_RELAX, h);
+    for (uint i = 0u; i < sweeps; ++i) sweep(SWEEP_RELAX, h);
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

@@ -67,6 +67,7 @@ void main() {
     settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
+    if (progress[w].cold_steps != 0u) --progress[w].cold_steps;
     ++progress[w].steps;
   }
 }

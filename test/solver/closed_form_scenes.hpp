@@ -140,12 +140,12 @@ inline Tumble tumble(Lab lab) {
 }
 
 /// Ten boxes on each other for `seconds`, turned by `heading` about the vertical: largest displacement of any / edge.
-inline double stack_drift(Lab lab, double seconds, double heading = 0.0) {
-  const double edge = 0.04;
-  const PartModelPtr cube = box(Vec3::Constant(edge));
+inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const Vec3& size = Vec3::Constant(0.04)) {
+  const double edge = size.z();
+  const PartModelPtr brick = box(size);
   const auto start = [&](int i) { return Vec3(0, 0, (i + 0.5) * edge); };
   const Quat turned(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
-  for (int i = 0; i < 10; ++i) lab.place(cube, start(i), turned, material(0.5));
+  for (int i = 0; i < 10; ++i) lab.place(brick, start(i), turned, material(0.5));
   lab.begin(Phase::press);  // as every scene ends
   lab.simulate(seconds);
   double most = 0.0;

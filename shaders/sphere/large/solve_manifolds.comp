@@ -27,6 +27,7 @@ layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_MOTIONS) SHARED buffer Motions { SphereMotion motions[]; };
 
 uniform uint stage, color;
+uniform bool only_cold;  // a sweep of the first steps of a world
 
 #define velocity_of(i) states[world.bodies.x + (i)].velocity
 #define spin_of(i) states[world.bodies.x + (i)].spin
@@ -55,6 +56,7 @@ void sweep_rest() {
 void main() {
   world = worlds[large_world];
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
+  if (only_cold && progress[large_world].cold_steps == 0u) return;
   time_step = progress[large_world].time_step;
   softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
   list = large.list;

@@ -285,13 +285,14 @@ void ContactSolver::finish() {
 void solve(World& world) {
   static thread_local Scratch scratch;
   ContactSolver solver(world, scratch);
+  const int sweeps = world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps;
   solver.prepare();
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.accelerate();
     solver.warm_start();
-    for (int i = 0; i < world.settings.sweeps; ++i) solver.sweep(true);
+    for (int i = 0; i < sweeps; ++i) solver.sweep(true);
     solver.move();
-    for (int i = 0; i < world.settings.sweeps; ++i) solver.sweep(false);
+    for (int i = 0; i < sweeps; ++i) solver.sweep(false);
   }
   solver.restitute();
   solver.finish();

@@ -95,6 +95,7 @@ void step(World& world) {
   color_manifolds(world);
   solve(world);
   update_sleep(world);
+  if (world.cold_steps > 0) --world.cold_steps;
 }
 
 }  // namespace bin_scenes::sphere

@@ -61,6 +61,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.smallest_size = w.thinnest = std::numeric_limits<float>::max();
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
+  w.cold_steps = w.settings.cold_steps;
   w.cuts = step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size);
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   return w;

@@ -28,7 +28,9 @@ struct Softness {
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
-  int sweeps = 2;  ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
+  int sweeps = 2;       ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
+  int cold_sweeps = 4;  ///< the same in the first steps of a world, when contacts have no forces to begin with
+  int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
@@ -117,6 +119,7 @@ struct World {
   Vec3f gravity = Vec3f(0, 0, -9.81f);
   bool fine = false;                      ///< exact samples
   bool pressed = false;                   ///< stiff contacts
+  int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while nothing is fast
   int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones

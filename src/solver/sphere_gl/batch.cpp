@@ -165,6 +165,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
   progress.fine = world.fine ? 1 : 0;
   progress.pressed = world.pressed ? 1 : 0;
+  progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   upload_progress(slot, progress);
   return slot;
 }
@@ -201,6 +202,7 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
 
 void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
   regions_[slot].pressed = progress.pressed != 0;
+  regions_[slot].cold = progress.cold_steps != 0;
   progress_.upload(slot, &progress, 1);
 }
 

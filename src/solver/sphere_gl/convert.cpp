@@ -46,6 +46,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
     return {c.hertz_share, c.damping_ratio, c.slop, static_cast<float>(c.refinement)};
   };
   out.sweeps = static_cast<gpu::uint>(s.sweeps);
+  out.cold_sweeps = static_cast<gpu::uint>(s.cold_sweeps);
   out.soft = softness(s.soft);
   out.stiff = softness(s.stiff);
   out.push_speed = s.push_speed;

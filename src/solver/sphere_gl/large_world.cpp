@@ -141,6 +141,15 @@ void LargePasses::sweep(unsigned kind) {
   indirect(solve_rest_, offsetof(gpu::SphereLarge, rest_groups));
 }
 
+/// The device knows in which step a world is no longer cold, the host learns it later.
+void LargePasses::sweeps(unsigned kind, const LargeWorld& world) {
+  for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
+    for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0 : 1);
+    sweep(kind);
+  }
+  for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0);
+}
+
 void LargePasses::solve(const LargeWorld& world) {
   set_world(world);
   const auto bodies = [&](unsigned stage) {
@@ -152,9 +161,9 @@ void LargePasses::solve(const LargeWorld& world) {
   for (unsigned k = 0; k < world.sub_steps; ++k) {
     bodies(BODIES_VELOCITIES);
     sweep(SWEEP_WARM_START);
-    for (unsigned i = 0; i < world.sweeps; ++i) sweep(SWEEP_PUSH);
+    sweeps(SWEEP_PUSH, world);
     bodies(BODIES_POSITIONS);
-    for (unsigned i = 0; i < world.sweeps; ++i) sweep(SWEEP_RELAX);
+    sweeps(SWEEP_RELAX, world);
   }
   if (world.restitution) {
     over_manifolds(MANIFOLDS_STRIKE);

@@ -27,6 +27,7 @@ struct LargeWorld {
   std::size_t bodies = 0;
   float smallest_cell = 0;             ///< m: the diagonal of the largest part that moves
   unsigned sub_steps = 1, sweeps = 1;  ///< of this step; over all manifolds, before and after bodies move
+  unsigned cold_sweeps = 0;            ///< the same while the world's contacts begin without forces; 0: they do not
   bool restitution = false;            ///< something in it bounces
 };
 
@@ -50,6 +51,7 @@ class LargePasses {
   void over_bodies(const gl::Program& pass, const LargeWorld& world);
   void indirect(const gl::Program& pass, std::size_t arguments);
   void sweep(unsigned kind);
+  void sweeps(unsigned kind, const LargeWorld& world);
   void over_manifolds(unsigned stage);
   void set_world(const LargeWorld& world) const;
 
