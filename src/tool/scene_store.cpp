@@ -59,6 +59,20 @@ void check_writable(const fs::path& directory) {
   }
 }
 
+/// `fill` writes into a hidden folder, which takes its name once it is whole. Errors name the folder it was to become.
+template <typename Fill>
+void write_whole(const std::string& target, const Fill& fill) {
+  Temporary whole(target);
+  try {
+    fill(whole.path());
+  } catch (const Error& error) {
+    std::string where = error.where();
+    if (where.rfind(whole.path(), 0) == 0) where.replace(0, whole.path().size(), target);
+    throw Error(error.kind(), error.problem(), where, error.remedy());
+  }
+  whole.commit();
+}
+
 }  // namespace
 
 SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats)
@@ -121,24 +135,23 @@ void SceneStore::write(const Generator::Result& result, const Request& request, 
   if (wants("bop")) {
     make_directory(root / "bop" / "train");
     if (models_written_.insert(accepted).second) write_bop_models((root / "bop").string(), generator.parts());
-    Temporary bop((root / "bop" / "train" / six_digits(scene.index)).string());
-    write_bop(bop.path(), scene, generator.parts(), result.images);
-    bop.commit();
+    write_whole((root / "bop" / "train" / six_digits(scene.index)).string(),
+                [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
   }
 
-  Temporary whole(target);
-  make_directory(whole.path());
-  const fs::path base(whole.path());
-  for (const RangeImage& image : result.images) {
-    if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
-    if (wants("png")) write_pngs(base.string(), image);
-  }
-  if (wants("bag")) {
-    bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
-                 generator.bin_model());
-  }
-  write_text((base / "scene.json").string(), scene_json(scene, request));
-  whole.commit();
+  write_whole(target, [&](const std::string& hidden) {
+    make_directory(hidden);
+    const fs::path base(hidden);
+    for (const RangeImage& image : result.images) {
+      if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
+      if (wants("png")) write_pngs(hidden, image);
+    }
+    if (wants("bag")) {
+      bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
+                   generator.bin_model());
+    }
+    write_text((base / "scene.json").string(), scene_json(scene, request));
+  });
 
   // With --overwrite the scene may have been on the other side before.
   std::error_code ignored;

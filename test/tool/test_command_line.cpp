@@ -125,6 +125,8 @@ TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten)
                              "trap '' XFSZ; ulimit -f 1;");
     EXPECT_EQ(full.code, 3) << format << ": " << full.err;
     EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    EXPECT_NE(full.err.find(format + "/"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("tmp-"), std::string::npos) << "a path that no user knows: " << full.err;
     if (!fs::exists(dir / format)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(dir / format)) {
       EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry;
