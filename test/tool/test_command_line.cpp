@@ -246,6 +246,9 @@ TEST_F(CommandLine, InspectMeasuresAModel) {
   EXPECT_EQ(open.code, 0) << open.err;
   EXPECT_EQ(Json::parse(open.out).at("watertight"), false);
   EXPECT_EQ(Json::parse(open.out).at("open_edges"), 4);
+  EXPECT_EQ(Json::parse(open.out).at("file").at("flags").at(0).at("code"), "surface_open");
+  const std::string text_of_open = run("inspect open.stl").out;
+  EXPECT_NE(text_of_open.find("flag        the surface is not closed"), std::string::npos) << text_of_open;
 }
 
 TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {
