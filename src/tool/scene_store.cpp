@@ -111,8 +111,11 @@ SceneStore::Found SceneStore::find(std::size_t index, const Request& request) co
     std::ifstream file(fs::path(path) / "scene.json");
     if (!file) continue;
     const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-    const std::string hash = json.is_object() ? json.value("request_sha256", "") : "";
-    if (hash != request.text_sha256) {
+    if (!json.is_object()) {
+      throw input_error("scene.json is there already, but it is cut off or damaged", path,
+                        "remove this folder, and the scene is made anew");
+    }
+    if (json.value("request_sha256", nlohmann::json()) != request.text_sha256) {
       throw input_error("there is a scene of another request already", path,
                         "name another --out, or replace it with --overwrite");
     }

@@ -169,6 +169,12 @@ TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
   EXPECT_NE(mixed.err.find("another request"), std::string::npos) << mixed.err;
   EXPECT_EQ(run("generate request.yaml --out out --first 1 --seed 4 --overwrite").code, 0);
   EXPECT_EQ(json("out/scene_000001/scene.json").at("seed"), 4);
+
+  fs::resize_file(dir / "out/scene_000001/scene.json", 200);
+  const Outcome cut = run("generate request.yaml --out out --first 1 --seed 4");
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_NE(cut.err.find("out/scene_000001: scene.json is there already, but it is cut off"), std::string::npos)
+      << cut.err;
 }
 
 TEST_F(CommandLine, ScenesThatAreNotAcceptedAreSetApartWithTheirReasons) {
