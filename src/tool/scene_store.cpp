@@ -7,9 +7,11 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace bin_scenes {
 
@@ -21,6 +23,16 @@ std::string six_digits(std::size_t index) {
   char text[24];
   std::snprintf(text, sizeof(text), "%06zu", index);
   return text;
+}
+
+/// The index that folder() made the name of, if it did.
+std::optional<std::size_t> index_of(const std::string& name) {
+  const std::string prefix = "scene_";
+  std::size_t index = 0;
+  if (name.rfind(prefix, 0) != 0) return std::nullopt;
+  std::from_chars(name.data() + prefix.size(), name.data() + name.size(), index);
+  if (prefix + six_digits(index) != name) return std::nullopt;
+  return index;
 }
 
 void make_directory(const fs::path& path) {
@@ -85,9 +97,12 @@ bool SceneStore::needs_images() const {
   return formats_.size() > formats_.count("json");
 }
 
+fs::path SceneStore::root(bool accepted) const {
+  return accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
+}
+
 std::string SceneStore::folder(std::size_t index, bool accepted) const {
-  const fs::path base = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
-  return (base / ("scene_" + six_digits(index))).string();
+  return (root(accepted) / ("scene_" + six_digits(index))).string();
 }
 
 bool SceneStore::complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const {
@@ -101,8 +116,19 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
   }
-  const fs::path root = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
-  return !wants("bop") || there(root / "bop" / "train" / six_digits(index) / "scene_gt.json");
+  return !wants("bop") || there(root(accepted) / "bop" / "train" / six_digits(index) / "scene_gt.json");
+}
+
+std::set<std::size_t> SceneStore::indices(const Request& request) const {
+  std::set<std::size_t> indices;
+  for (const bool accepted : {true, false}) {
+    std::error_code not_there;
+    for (const auto& entry : fs::directory_iterator(root(accepted), not_there)) {
+      const std::optional<std::size_t> index = index_of(entry.path().filename().string());
+      if (index && *index >= request.first && *index - request.first < request.scenes) indices.insert(*index);
+    }
+  }
+  return indices;
 }
 
 SceneStore::Found SceneStore::find(std::size_t index, const Request& request) const {

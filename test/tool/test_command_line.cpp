@@ -177,6 +177,17 @@ TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
       << cut.err;
 }
 
+TEST_F(CommandLine, AJobOfAnyLengthStartsAtOnce) {
+  EXPECT_EQ(run("generate request.yaml --out out --first 1000000").code, 0);
+  fs::create_directories(dir / "out/scene_notes");
+  const Outcome resumed = run("generate request.yaml --out out --first 999999 --scenes 2");
+  EXPECT_NE(resumed.err.find("1 of 2 scenes are there already"), std::string::npos) << resumed.err;
+  // To look for each of these on disk takes half an hour; the first one that is written ends the job, on a full disk.
+  const Outcome long_job =
+      run("generate request.yaml --out out --scenes 1000000000", "trap '' XFSZ; ulimit -f 0; timeout 100");
+  EXPECT_EQ(long_job.code, 3);
+}
+
 TEST_F(CommandLine, ScenesThatAreNotAcceptedAreSetApartWithTheirReasons) {
   const Outcome outcome = run("generate request.yaml --out out --set pour.limit=0.26");
   EXPECT_EQ(outcome.code, 1);
