@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <set>
 
 namespace bin_scenes {
 
@@ -39,13 +40,16 @@ std::vector<std::string> overrides_of(const GenerateOptions& options) {
 }
 
 /// Runs of consecutive indices that have to be made: [first, count].
-std::vector<std::pair<std::size_t, std::size_t>> missing_runs(const Request& request, const std::vector<bool>& there) {
+std::vector<std::pair<std::size_t, std::size_t>> missing_runs(const Request& request,
+                                                              const std::set<std::size_t>& there) {
   std::vector<std::pair<std::size_t, std::size_t>> runs;
-  for (std::size_t i = 0; i < there.size(); ++i) {
-    if (there[i]) continue;
-    if (i == 0 || there[i - 1]) runs.emplace_back(request.first + i, 0);
-    ++runs.back().second;
+  std::size_t next = request.first;
+  for (const std::size_t index : there) {
+    if (index > next) runs.emplace_back(next, index - next);
+    next = index + 1;
   }
+  const std::size_t end = request.first + request.scenes;
+  if (next < end) runs.emplace_back(next, end - next);
   return runs;
 }
 
@@ -90,19 +94,18 @@ int generate(const GenerateOptions& options) {
     throw input_error("must be at least 0.001 and at most 1000000 rows a second", "--trace-rate", "100 is the default");
   }
 
-  std::vector<bool> there(request.scenes, false);
+  std::set<std::size_t> there;
   std::vector<std::pair<std::size_t, std::string>> apart;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < request.scenes && !options.overwrite && options.trace.empty(); ++i) {
-    const SceneStore::Found found = store.find(request.first + i, request);
-    there[i] = found != SceneStore::Found::nothing;
-    kept += there[i];
-    if (found == SceneStore::Found::set_apart) {
-      apart.emplace_back(request.first + i, joined(store.reasons(request.first + i)));
+  if (!options.overwrite && options.trace.empty()) {
+    for (const std::size_t index : store.indices(request)) {
+      const SceneStore::Found found = store.find(index, request);
+      if (found != SceneStore::Found::nothing) there.insert(index);
+      if (found == SceneStore::Found::set_apart) apart.emplace_back(index, joined(store.reasons(index)));
     }
   }
-  if (kept > 0) {
-    std::fprintf(stderr, "bin_scenes: %zu of %zu scenes are there already and are kept\n", kept, request.scenes);
+  const std::size_t scenes = request.scenes;
+  if (!there.empty()) {
+    std::fprintf(stderr, "bin_scenes: %zu of %zu scenes are there already and are kept\n", there.size(), scenes);
   }
 
   std::signal(SIGINT, [](int) { interrupted = true; });
@@ -136,7 +139,7 @@ int generate(const GenerateOptions& options) {
   bar.clear();
 
   if (apart.empty()) return kDone;
-  std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), there.size(),
+  std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), scenes,
                options.out.c_str());
   for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
   return kSetApart;

@@ -52,9 +52,9 @@ Json file_json(const LoadReport& report) {
       {"format", report.format},        {"unit", unit_text(report)},        {"metres_per_unit", report.metres_per_unit},
       {"meshes", report.meshes},        {"vertices", report.file_vertices}, {"triangles", report.file_triangles},
       {"sha256", report.content_sha256}};
-  Json& repairs = json["repairs"] = Json::array();
+  Json& flags = json["flags"] = Json::array();
   for (const Flag& flag : report.flags) {
-    repairs.push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});
+    flags.push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});
   }
   return json;
 }
@@ -146,8 +146,8 @@ void print_text(const Json& j) {
               j["file"]["unit"].get<std::string>().c_str());
   std::printf("mesh        %zu vertices, %zu triangles, %zu shells\n", j["vertices"].get<std::size_t>(),
               j["triangles"].get<std::size_t>(), j["shells"].get<std::size_t>());
-  for (const Json& flag : j["file"]["repairs"]) {
-    std::printf("repaired    %s (%s)\n", flag["text"].get<std::string>().c_str(),
+  for (const Json& flag : j["file"]["flags"]) {
+    std::printf("flag        %s (%s)\n", flag["text"].get<std::string>().c_str(),
                 flag["remedy"].get<std::string>().c_str());
   }
   if (!j["watertight"].get<bool>()) {

@@ -7,9 +7,11 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace bin_scenes {
 
@@ -21,6 +23,16 @@ std::string six_digits(std::size_t index) {
   char text[24];
   std::snprintf(text, sizeof(text), "%06zu", index);
   return text;
+}
+
+/// The index that folder() made the name of, if it did.
+std::optional<std::size_t> index_of(const std::string& name) {
+  const std::string prefix = "scene_";
+  std::size_t index = 0;
+  if (name.rfind(prefix, 0) != 0) return std::nullopt;
+  std::from_chars(name.data() + prefix.size(), name.data() + name.size(), index);
+  if (prefix + six_digits(index) != name) return std::nullopt;
+  return index;
 }
 
 void make_directory(const fs::path& path) {
@@ -59,6 +71,20 @@ void check_writable(const fs::path& directory) {
   }
 }
 
+/// `fill` writes into a hidden folder, which takes its name once it is whole. Errors name the folder it was to become.
+template <typename Fill>
+void write_whole(const std::string& target, const Fill& fill) {
+  Temporary whole(target);
+  try {
+    fill(whole.path());
+  } catch (const Error& error) {
+    std::string where = error.where();
+    if (where.rfind(whole.path(), 0) == 0) where.replace(0, whole.path().size(), target);
+    throw Error(error.kind(), error.problem(), where, error.remedy());
+  }
+  whole.commit();
+}
+
 }  // namespace
 
 SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats)
@@ -71,9 +97,12 @@ bool SceneStore::needs_images() const {
   return formats_.size() > formats_.count("json");
 }
 
+fs::path SceneStore::root(bool accepted) const {
+  return accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
+}
+
 std::string SceneStore::folder(std::size_t index, bool accepted) const {
-  const fs::path base = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
-  return (base / ("scene_" + six_digits(index))).string();
+  return (root(accepted) / ("scene_" + six_digits(index))).string();
 }
 
 bool SceneStore::complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const {
@@ -87,8 +116,19 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
   }
-  const fs::path root = accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
-  return !wants("bop") || there(root / "bop" / "train" / six_digits(index) / "scene_gt.json");
+  return !wants("bop") || there(root(accepted) / "bop" / "train" / six_digits(index) / "scene_gt.json");
+}
+
+std::set<std::size_t> SceneStore::indices(const Request& request) const {
+  std::set<std::size_t> indices;
+  for (const bool accepted : {true, false}) {
+    std::error_code not_there;
+    for (const auto& entry : fs::directory_iterator(root(accepted), not_there)) {
+      const std::optional<std::size_t> index = index_of(entry.path().filename().string());
+      if (index && *index >= request.first && *index - request.first < request.scenes) indices.insert(*index);
+    }
+  }
+  return indices;
 }
 
 SceneStore::Found SceneStore::find(std::size_t index, const Request& request) const {
@@ -97,8 +137,11 @@ SceneStore::Found SceneStore::find(std::size_t index, const Request& request) co
     std::ifstream file(fs::path(path) / "scene.json");
     if (!file) continue;
     const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-    const std::string hash = json.is_object() ? json.value("request_sha256", "") : "";
-    if (hash != request.text_sha256) {
+    if (!json.is_object()) {
+      throw input_error("scene.json is there already, but it is cut off or damaged", path,
+                        "remove this folder, and the scene is made anew");
+    }
+    if (json.value("request_sha256", nlohmann::json()) != request.text_sha256) {
       throw input_error("there is a scene of another request already", path,
                         "name another --out, or replace it with --overwrite");
     }
@@ -121,24 +164,23 @@ void SceneStore::write(const Generator::Result& result, const Request& request, 
   if (wants("bop")) {
     make_directory(root / "bop" / "train");
     if (models_written_.insert(accepted).second) write_bop_models((root / "bop").string(), generator.parts());
-    Temporary bop((root / "bop" / "train" / six_digits(scene.index)).string());
-    write_bop(bop.path(), scene, generator.parts(), result.images);
-    bop.commit();
+    write_whole((root / "bop" / "train" / six_digits(scene.index)).string(),
+                [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
   }
 
-  Temporary whole(target);
-  make_directory(whole.path());
-  const fs::path base(whole.path());
-  for (const RangeImage& image : result.images) {
-    if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
-    if (wants("png")) write_pngs(base.string(), image);
-  }
-  if (wants("bag")) {
-    bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
-                 generator.bin_model());
-  }
-  write_text((base / "scene.json").string(), scene_json(scene, request));
-  whole.commit();
+  write_whole(target, [&](const std::string& hidden) {
+    make_directory(hidden);
+    const fs::path base(hidden);
+    for (const RangeImage& image : result.images) {
+      if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
+      if (wants("png")) write_pngs(hidden, image);
+    }
+    if (wants("bag")) {
+      bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
+                   generator.bin_model());
+    }
+    write_text((base / "scene.json").string(), scene_json(scene, request));
+  });
 
   // With --overwrite the scene may have been on the other side before.
   std::error_code ignored;

@@ -9,6 +9,7 @@
 
 #include "bin_scenes/generate/generator.hpp"
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ class SceneStore {
   /// True if a format shows what a sensor sees.
   bool needs_images() const;
 
+  /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
+  std::set<std::size_t> indices(const Request& request) const;
   enum class Found { nothing, accepted, set_apart };
   /// What is there of scene `index`. A scene of another request is an input Error; a folder that lacks one of the
   /// formats counts as nothing, because making it again gives the same scene.
@@ -34,6 +37,7 @@ class SceneStore {
 
  private:
   bool wants(const char* format) const { return formats_.count(format) != 0; }
+  std::filesystem::path root(bool accepted) const;
   std::string folder(std::size_t index, bool accepted) const;
   bool complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const;
 

@@ -125,6 +125,8 @@ TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten)
                              "trap '' XFSZ; ulimit -f 1;");
     EXPECT_EQ(full.code, 3) << format << ": " << full.err;
     EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    EXPECT_NE(full.err.find(format + "/"), std::string::npos) << full.err;
+    EXPECT_EQ(full.err.find("tmp-"), std::string::npos) << "a path that no user knows: " << full.err;
     if (!fs::exists(dir / format)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(dir / format)) {
       EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry;
@@ -167,6 +169,23 @@ TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
   EXPECT_NE(mixed.err.find("another request"), std::string::npos) << mixed.err;
   EXPECT_EQ(run("generate request.yaml --out out --first 1 --seed 4 --overwrite").code, 0);
   EXPECT_EQ(json("out/scene_000001/scene.json").at("seed"), 4);
+
+  fs::resize_file(dir / "out/scene_000001/scene.json", 200);
+  const Outcome cut = run("generate request.yaml --out out --first 1 --seed 4");
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_NE(cut.err.find("out/scene_000001: scene.json is there already, but it is cut off"), std::string::npos)
+      << cut.err;
+}
+
+TEST_F(CommandLine, AJobOfAnyLengthStartsAtOnce) {
+  EXPECT_EQ(run("generate request.yaml --out out --first 1000000").code, 0);
+  fs::create_directories(dir / "out/scene_notes");
+  const Outcome resumed = run("generate request.yaml --out out --first 999999 --scenes 2");
+  EXPECT_NE(resumed.err.find("1 of 2 scenes are there already"), std::string::npos) << resumed.err;
+  // To look for each of these on disk takes half an hour; the first one that is written ends the job, on a full disk.
+  const Outcome long_job =
+      run("generate request.yaml --out out --scenes 1000000000", "trap '' XFSZ; ulimit -f 0; timeout 100");
+  EXPECT_EQ(long_job.code, 3);
 }
 
 TEST_F(CommandLine, ScenesThatAreNotAcceptedAreSetApartWithTheirReasons) {
@@ -244,6 +263,9 @@ TEST_F(CommandLine, InspectMeasuresAModel) {
   EXPECT_EQ(open.code, 0) << open.err;
   EXPECT_EQ(Json::parse(open.out).at("watertight"), false);
   EXPECT_EQ(Json::parse(open.out).at("open_edges"), 4);
+  EXPECT_EQ(Json::parse(open.out).at("file").at("flags").at(0).at("code"), "surface_open");
+  const std::string text_of_open = run("inspect open.stl").out;
+  EXPECT_NE(text_of_open.find("flag        the surface is not closed"), std::string::npos) << text_of_open;
 }
 
 TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {

@@ -22,8 +22,9 @@ double largest_radius(const World& world) {
   return radius;
 }
 
-/// Origin and cells of the grid: the part of the domain where bodies are or may come within `horizon`, at most
-/// grid_size cells along an axis, then about the middle one of the bodies. What lies outside goes to the outer cells.
+/// Origin and cells of the grid: the part of the domain where bodies are or may come within `horizon` and the spheres
+/// of the bin, at most grid_size cells along an axis, then about the middle one of the bodies. What lies outside goes
+/// to the outer cells.
 void lay_grid(const World& world, const ThesisSettings& settings, double horizon, gpu::ThesisWorld& out) {
   const double cell = std::max(1.0, settings.cell_size) * 2.0 * std::max(largest_radius(world), 1e-6);
   Aabb reach;
@@ -39,7 +40,12 @@ void lay_grid(const World& world, const ThesisSettings& settings, double horizon
     reach.extend(p + Vec3::Constant(margin));
     for (int a = 0; a < 3; ++a) along[a].push_back(p[a]);
   }
-  if (reach.empty()) reach.extend(Vec3::Zero());
+  if (reach.empty()) {
+    reach.extend(Vec3::Zero());
+  } else {
+    // All of the bin's: what is outside gathers in the outer cells, and ordering a cell takes its count squared.
+    for (const Sphere& sphere : world.bin_spheres) reach.extend(sphere.center);
+  }
   if (!world.domain.empty()) {
     reach.lower = reach.lower.cwiseMax(world.domain.lower).cwiseMin(world.domain.upper);
     reach.upper = reach.upper.cwiseMin(world.domain.upper).cwiseMax(reach.lower);

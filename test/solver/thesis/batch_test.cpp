@@ -1,5 +1,6 @@
 // What must not matter: the run, the other worlds of a batch, threads, buffer sizes, the grid.
 #include "scenes.hpp"
+#include "solver/thesis/memory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,22 @@ TEST(ThesisBatch, ThreadsOfTheDriverDoNotMatter) {
   const std::string without = hash_in_process("LP_NUM_THREADS=0");
   EXPECT_EQ(without.size(), 22u) << without;
   EXPECT_EQ(without, hash_in_process("LP_NUM_THREADS=2"));
+}
+
+TEST(ThesisBatch, TheGridHoldsTheWholeOfABinOfSpheres) {
+  WorldBuilder builder;
+  builder.def.bin.kind = Bin::Kind::mesh;
+  builder.body(builder.shape(ball(0.01)), Vec3(0, 0, 0.03));
+  World world = make_world(builder.def, builder.shapes, {});
+  world.present = {true};
+  world.states = {to_state(builder.starts[0], world.shapes[0])};
+  world.bin_spheres = block(60, 40, 1, 0.01, 0.02);
+  std::vector<BodyIndex> index;
+  const gpu::ThesisWorld laid = lay_out({&world}, {}, {}, 0.01, index).worlds[0];
+  EXPECT_GT(laid.grid.x, 50u);  // one cell for all that is far from the body would take 2400 * 2400 comparisons
+  EXPECT_GT(laid.grid.y, 30u);
+  EXPECT_LE(laid.origin.x, -0.59f);
+  EXPECT_LE(laid.origin.y, -0.39f);
 }
 
 TEST(ThesisBatch, BodiesComeAndGo) {
