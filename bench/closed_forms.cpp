@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace bin_scenes::bench {
 namespace {
@@ -90,6 +91,13 @@ std::vector<Value> stack(const MakeLab& lab) {
   return {{"stack_10_boxes_30_s", testing::stack_drift(lab(), 30.0), "edge", 1e-3}};
 }
 
+std::vector<Value> brick_stacks(const MakeLab& lab) {
+  const std::vector<double> drifts = testing::brick_stack_drifts(lab, 30.0);
+  const double mean = std::accumulate(drifts.begin(), drifts.end(), 0.0) / static_cast<double>(drifts.size());
+  return {{"brick_stacks_mean", mean, "edge", 1e-3},
+          {"brick_stacks_worst", *std::max_element(drifts.begin(), drifts.end()), "edge", 1e-3}};
+}
+
 std::vector<Value> rods(const MakeLab& lab) {
   const testing::Rods speeds = testing::meet_along_rods(lab());
   return {{"two_rods", std::max(std::abs(speeds.first), std::abs(speeds.second - 1.0)), "rel", 1e-2}};
@@ -103,6 +111,7 @@ const Form forms[] = {{{"free_fall"}, free_fall, false, true},
                       {{"collision_momentum", "collision_energy_gain"}, collision, false, true},
                       {{"tumbling_energy", "tumbling_energy_gain", "tumbling_spin"}, tumble, false, true},
                       {{"stack_10_boxes_30_s"}, stack, false, false},
+                      {{"brick_stacks_mean", "brick_stacks_worst"}, brick_stacks, false, false},
                       {{"two_rods"}, rods, false, true}};
 
 Lab lab_of(const std::string& solver, double time_step, bool ball) {

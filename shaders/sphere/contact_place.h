@@ -8,7 +8,7 @@ uint first_contact(SphereWorld world, uint slot) {
 }
 uint place_after(SphereWorld world, uint place) { return floatBitsToUint(contacts[world.contacts.x + place].anchor_a.w); }
 uint next_contact(SphereWorld world, uint contact) {
-  return world.contacts.x + floatBitsToUint(contacts[contact].anchor_a.w);
+  return world.contacts.x + place_after(world, contact - world.contacts.x);
 }
 void link_places(SphereWorld world, uint place, uint next) {
   contacts[world.contacts.x + place].anchor_a.w = uintBitsToFloat(next);

@@ -53,7 +53,7 @@ void begin_candidates(SphereWorld world, uint slot) {
     found_count = any_lost = no_room = 0u;
     for (uint i = 0u, at = manifold.state.w; i < count; ++i) {
       place[i] = at;
-      at = floatBitsToUint(contacts[world.contacts.x + at].anchor_a.w);
+      at = place_after(world, at);
     }
   }
   barrier();

@@ -5,6 +5,8 @@
 #include "solver/lab.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 namespace bin_scenes::testing {
 
@@ -152,6 +154,16 @@ inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const V
   for (int i = 0; i < 10; ++i)
     most = std::max(most, (lab.center(static_cast<std::size_t>(i)) - start(i)).norm() / edge);
   return most;
+}
+
+/// Drift of stacks of ten other boxes: five edges, as wide as high and wider, turned and not.
+inline std::vector<double> brick_stack_drifts(const std::function<Lab()>& lab, double seconds) {
+  std::vector<double> drifts;
+  for (const double edge : {0.02, 0.03, 0.04, 0.05, 0.08})
+    for (const double width : {1.0, 1.5, 2.5})
+      for (const double heading : {0.0, 0.3, 0.7})
+        drifts.push_back(stack_drift(lab(), seconds, heading, Vec3(width * edge, edge, edge)));
+  return drifts;
 }
 
 struct Rods {

@@ -2,10 +2,12 @@
 /// bodies, its pairs, and the manifolds of each color (shaders/sphere/large). Each computes what the pass of one group
 /// computes, with the same functions, so that a world gives the same bits either way.
 ///
-///     find_pairs       cut (twice) ─► boxes ─► count cells ─► sum ─► sort ─► count pairs ─► sum ─► list pairs ─► adopt
-///     ─► end color_manifolds  begin ─► (bid ─► take) a round ─► starts ─► order solve            begin ─► prepare ─►
-///     sub-steps of (velocities, sweep, sweep, positions, sweep) ─► keep update_sleep     note ─► join islands ─► mark
-///     ─► settle
+// clang-format off
+///     find_pairs       cut (twice) ─► boxes ─► count cells ─► sum ─► sort ─► count pairs ─► sum ─► list pairs ─► adopt ─► end
+///     color_manifolds  begin ─► (bid ─► take) a round ─► starts ─► order
+///     solve            begin ─► prepare ─► sub-steps of (velocities, warm start, sweeps, positions, sweeps) ─► keep
+///     update_sleep     note ─► join islands ─► mark ─► settle
+// clang-format on
 ///
 /// A sweep is a dispatch a color, and one group for the last few colors together. How many groups a dispatch has is
 /// known on the device alone: the arguments lie in SphereLarge. Buffers here serve one such world after the other.
