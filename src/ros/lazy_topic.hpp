@@ -1,6 +1,8 @@
 /// A latched topic whose message is made only when somebody wants it.
 #pragma once
 
+#include "latched.hpp"
+
 #include <ros/advertise_options.h>
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
@@ -54,7 +56,7 @@ class LazyTopic {
   void publish() {
     const std::optional<Message> message = make_();
     if (!message) return;
-    publisher_.publish(*message);
+    publish_latched(publisher_, *message);
     published_ = true;
   }
 

@@ -1,6 +1,7 @@
 #include "scene_server.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "latched.hpp"
 #include "request_message.hpp"
 
 #include <ros/console.h>
@@ -220,14 +221,14 @@ void SceneServer::show(Shown shown, bool render_anyway) {
 
   const SceneMessages messages =
       scene_messages(shown_->scene, shown_->request, shown_->parts, shown_->bin_model, settings_.frames, shown_->stamp);
-  tf_static_.publish(messages.statics);
+  publish_latched(tf_static_, messages.statics);
   {
     const std::lock_guard<std::mutex> lock(transforms_mutex_);
     transforms_ = messages.parts;
     tf_.publish(transforms_);
   }
-  scene_.publish(messages.scene);
-  markers_.publish(messages.markers);
+  publish_latched(scene_, messages.scene);
+  publish_latched(markers_, messages.markers);
   for (const auto& topics : sensors_) topics->renew();
 }
 
@@ -244,7 +245,7 @@ bool SceneServer::render() {
 }
 
 void SceneServer::publish_scene() {
-  scene_.publish(scene_message(shown_->scene, shown_->request, settings_.frames, shown_->stamp));
+  publish_latched(scene_, scene_message(shown_->scene, shown_->request, settings_.frames, shown_->stamp));
 }
 
 void SceneServer::send_transforms() {

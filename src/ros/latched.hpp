@@ -1,0 +1,18 @@
+/// Publishing on a latched topic so that nobody is left with an older message.
+#pragma once
+
+#include <ros/publisher.h>
+
+namespace bin_scenes {
+
+/// roscpp sends a message to those who listen and keeps it for those to come in two steps (Publisher::publish, ros_comm
+/// 1.15). Who connects between the two is handed the message before and nothing after it; so those who came meanwhile
+/// are told again, and who listens already then gets the message twice.
+template <class Message>
+void publish_latched(const ros::Publisher& publisher, const Message& message) {
+  const auto subscribers = publisher.getNumSubscribers();
+  publisher.publish(message);
+  if (publisher.getNumSubscribers() != subscribers) publisher.publish(message);
+}
+
+}  // namespace bin_scenes
