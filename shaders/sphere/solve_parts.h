@@ -67,7 +67,10 @@ void solve_manifold(uint o, uint kind, float h) {
   if (kind == SWEEP_BOUNCE && manifolds[world.pairs.x + pair.slot].state.y == 0u) return;
   Side a = side_of(pair.a), b = side_of(pair.b);
   if (kind == SWEEP_WARM_START) {
-    FOR_CONTACTS(at, pair.slot) warm_start(at, a, b);
+    vec4 pressed = vec4(0.0);
+    uint pressing = 0u;
+    FOR_CONTACTS(at, pair.slot) warm_start(at, pressed, pressing, a, b);
+    if (pressing == 1u) resist_spin(pressed, friction_of(pair), a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
   } else {

@@ -82,6 +82,22 @@ inline double roll(Lab lab) {
   return std::abs(lab.center(body).x() / expected - 1.0);
 }
 
+/// A ball that spins where it lies, with friction 0.5: what it loses in half a second / what a contact does that is an
+/// evenly pressed patch of radius `patch` (share of the ball's diagonal), 2/3 friction patch m g / I a second.
+inline double spin_lost(Lab lab, double patch) {
+  const double spin = 5.0;
+  const PartModelPtr ball = sphere(0.025);
+  const auto body = lab.place(ball, Vec3(0, 0, 0.025), Quat::Identity(), material(0.5));
+  lab.simulate(0.25);  // it lies
+  BodyState spinning = lab.state(body);
+  spinning.velocity.angular = Vec3(0, 0, spin);
+  lab.solver().insert(lab.world(), body, spinning);
+  lab.simulate(0.5);
+  const double moment = ball->mass().principal.mean() / ball->mass().volume;  // of 1 kg
+  return (spin - lab.state(body).velocity.angular.z()) /
+         (0.5 * 2.0 / 3.0 * 0.5 * patch * ball->diagonal() * g / moment);
+}
+
 struct Collision {
   double momentum;  ///< largest change / sum of the two
   double spin;      ///< change of the angular momentum / (momentum times a box edge)

@@ -1,6 +1,7 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
 #include "solver/sphere/sphere_solver.hpp"
+#include "solver/sphere/world.hpp"
 
 namespace bin_scenes::testing {
 
@@ -26,6 +27,10 @@ TEST(SphereCounters, PairsAreCulledUntilTheyTouch) {
 // Forces of a stack that begins at rest are not known yet: found in too few sweeps, they lean, and so does the stack.
 TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);
+}
+
+TEST(SphereSpin, IsLostToThePatchOfAContact) {
+  EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);

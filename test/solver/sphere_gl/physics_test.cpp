@@ -1,5 +1,6 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/sphere/world.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 namespace bin_scenes::testing {
@@ -12,6 +13,10 @@ const SolverCase sphere_gl_coarse{"sphere_gl", [] {
                                   }};
 
 const auto name = [](const auto& info) { return info.param.name; };
+
+TEST(SphereGlSpin, IsLostToThePatchOfAContact) {
+  EXPECT_NEAR(spin_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
+}
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
