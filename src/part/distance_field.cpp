@@ -17,6 +17,9 @@ namespace {
 // around a point half a cell off the surface are less than sqrt(3) + 1/2 cells away: what a contact reads is exact.
 constexpr double kBand = 3.0;
 
+// What rounding does to a distance in grid units, seen generously: a triangle is passed over only if it is farther.
+constexpr double kRounding = 1e-6;
+
 constexpr std::int32_t kNone = -1;
 
 /// The nearest surface point known to a node, in grid units.
@@ -24,6 +27,29 @@ struct Nearest {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();
   float distance = std::numeric_limits<float>::infinity();
   std::int32_t triangle = kNone;
+};
+
+/// The smallest box around a triangle along its longest edge and its normal: tells at little cost that a node is far.
+struct EdgeBox {
+  Mat3 axes;  // a row each
+  Vec3 lower, upper;
+
+  EdgeBox(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    const Vec3 edges[3] = {b - a, c - b, a - c};
+    const Vec3& longest = *std::max_element(
+        edges, edges + 3, [](const Vec3& p, const Vec3& q) { return p.squaredNorm() < q.squaredNorm(); });
+    // A sliver has no normal, and one of a single point not even an edge: any box around them will do.
+    const bool flat = !normal.isZero();
+    axes.row(0) = flat ? Vec3(longest.normalized()) : Vec3::UnitX();
+    axes.row(1) = flat ? normal : Vec3::UnitY();
+    axes.row(2) = axes.row(0).cross(axes.row(1));
+    const Vec3 corners[3] = {axes * a, axes * b, axes * c};
+    lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  }
+
+  /// From a point given along the axes.
+  double squared_distance(const Vec3& p) const { return (lower - p).cwiseMax(p - upper).cwiseMax(0.0).squaredNorm(); }
 };
 
 /// Builds the field in four steps: rasterise, sweep, refine, sign.
@@ -58,6 +84,7 @@ class FieldBuilder {
       const Vec3 b = triangle.a + triangle.ab, c = triangle.a + triangle.ac;
       const Vec3 lower = triangle.a.cwiseMin(b).cwiseMin(c).array() - kBand;
       const Vec3 upper = triangle.a.cwiseMax(b).cwiseMax(c).array() + kBand;
+      const EdgeBox box(triangle.a, b, c, triangle.normal);
       const auto first = [&](int axis) { return std::max(0, static_cast<int>(std::ceil(lower[axis]))); };
       const auto last = [&](int axis) {
         return std::min(field_.nodes[axis] - 1, static_cast<int>(std::floor(upper[axis])));
@@ -76,11 +103,13 @@ class FieldBuilder {
             continue;
           }
           const int x_last = std::min(field_.nodes[0] - 1, static_cast<int>(std::floor(row_upper)));
+          const Vec3 row = box.axes * Vec3(0, y, z);
           for (int x = std::max(0, static_cast<int>(std::ceil(row_lower))); x <= x_last; ++x) {
-            const Vec3 node(x, y, z);
             Nearest& best = nodes_[index(x, y, z)];
-            const double reach = best.distance + triangle.reach;
-            if ((node - triangle.center).squaredNorm() > reach * reach) continue;
+            // Most triangles are farther away than one seen before.
+            const double beaten = best.distance * (1 + kRounding) + kRounding;
+            if (box.squared_distance(row + x * box.axes.col(0)) > beaten * beaten) continue;
+            const Vec3 node(x, y, z);
             const Vec3 nearest = triangle.nearest(node);
             const float distance = static_cast<float>((node - nearest).norm());
             if (distance < best.distance) best = {nearest.cast<float>(), distance, static_cast<std::int32_t>(t)};
