@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 namespace bin_scenes {
@@ -222,10 +223,16 @@ void write_hulls_obj(const ConvexHulls& hulls, const std::string& path) {
     }
     first += hull.vertices.size();
   }
-  std::ofstream file(path, std::ios::binary);
+  // Under another name first, so that no half of it is left.
+  const std::string unfinished = path + ".unfinished";
+  std::ofstream file(unfinished, std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw environment_error("cannot write the hulls", path, "check the folder and the space left");
+  std::error_code failed;
+  if (file) std::filesystem::rename(unfinished, path, failed);
+  if (file && !failed) return;
+  std::filesystem::remove(unfinished, failed);
+  throw environment_error("cannot write the hulls", path, "check the folder and the space left");
 }
 
 }  // namespace bin_scenes
