@@ -84,7 +84,7 @@ void measure(Run& out, const Sample& sample, const std::string& solver, int repe
   Row row;
   row.key("part", sample.name).key("solver", solver);
   if (!out.wanted(row)) return;
-  std::vector<double> cold, warm, warm_cpu, peak;
+  std::vector<double> cold, cold_cpu, warm, warm_cpu, peak;
   double cache_mb = 0.0;
   std::size_t triangles = 0, built_warm = 0;
   for (int k = 0; k < repeats; ++k) {
@@ -98,7 +98,10 @@ void measure(Run& out, const Sample& sample, const std::string& solver, int repe
       if (!one.good) return out.row(row.append(one.row));
       times->push_back(one.row.number("seconds"));
       triangles = static_cast<std::size_t>(one.row.number("triangles"));
-      if (times == &cold) peak.push_back(one.peak_mb);
+      if (times == &cold) {
+        cold_cpu.push_back(one.row.number("cpu_s"));
+        peak.push_back(one.peak_mb);
+      }
       if (times == &warm) {
         warm_cpu.push_back(one.row.number("cpu_s"));
         built_warm = static_cast<std::size_t>(one.row.number("built"));
@@ -109,6 +112,7 @@ void measure(Run& out, const Sample& sample, const std::string& solver, int repe
   }
   out.row(row.exact("triangles", triangles)
               .measure("cold_s", cold)
+              .measure("cold_cpu_s", cold_cpu)
               .measure("warm_s", warm)
               .measure("warm_cpu_s", warm_cpu)
               .exact("built_warm", built_warm)

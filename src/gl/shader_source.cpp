@@ -20,7 +20,9 @@ std::string shader_directory() {
     std::error_code failed;
     const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
     places = {BIN_SCENES_SHADER_SOURCE_DIR, BIN_SCENES_SHADER_INSTALL_DIR};
-    if (!failed) places.push_back(executable.parent_path() / "../share/bin_scenes/shaders");
+    // Of an installation that was moved: the command line lies in bin, the node in lib/bin_scenes.
+    for (const char* up : {"..", "../.."})
+      if (!failed) places.push_back(executable.parent_path() / up / "share/bin_scenes/shaders");
   }
   std::string tried;
   for (const fs::path& place : places) {

@@ -7,10 +7,12 @@
 #include "bin_scenes/part/mesh_query.hpp"
 #include "bin_scenes/part/shape_error.hpp"
 #include "hacd_partition.hpp"
+#include "in_parallel.hpp"
 #include "plane_cuts.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 namespace bin_scenes {
@@ -82,8 +84,18 @@ double surface_error(const std::vector<Mesh>& hulls, const MeshQuery& query, con
       if (query.nearest(s.point, worst).distance > worst) worst = query.nearest(s.point).distance;
     }
   }
+  std::size_t last = 0;  // the hull that held a point mostly holds the next one
   for (const SurfacePoint& s : dense_surface_points(query.mesh(), kMeasureStep * diagonal)) {
-    worst = std::max(worst, distance_to_union(planes, s.point));
+    const auto holds = [&](const HullPlanes& hull) {
+      return hull.to_box(s.point) <= worst && !hull.outside_by_more(s.point, worst);
+    };
+    if (holds(planes[last])) continue;
+    const auto holder = std::find_if(planes.begin(), planes.end(), holds);
+    if (holder != planes.end()) {
+      last = static_cast<std::size_t>(holder - planes.begin());
+    } else {
+      worst = std::max(worst, distance_to_union(planes, s.point));
+    }
   }
   return worst / diagonal;
 }
@@ -102,26 +114,32 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
   std::vector<std::uint8_t> alive(n, 1);
   std::size_t count = n;
   for (;;) {
-    double best = never;
-    std::size_t best_a = 0, best_b = 0;
-    double best_size = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs, unknown;
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = a + 1; b < n; ++b) {
         if (!alive[a] || !alive[b]) continue;
         if (count > kAllPairs && !pieces[a].bounds.overlaps(pieces[b].bounds, touch)) continue;
-        if (std::isnan(cost[a * n + b])) {
-          const Piece both = merged(pieces[a], pieces[b]);
-          cost[a * n + b] = both.hull.empty() ? 0.0 : protrusion(both.hull).first;
-        }
-        // Equal costs (most are zero at first): the smaller piece first, which keeps pieces compact.
-        const double size = (pieces[a].bounds.diagonal() + pieces[b].bounds.diagonal());
-        const double rounded = std::max(cost[a * n + b], 0.1 * limit);
-        if (rounded < best || (rounded == best && size < best_size)) {
-          best = rounded;
-          best_size = size;
-          best_a = a;
-          best_b = b;
-        }
+        pairs.emplace_back(a, b);
+        if (std::isnan(cost[a * n + b])) unknown.emplace_back(a, b);
+      }
+    }
+    in_parallel(unknown.size(), [&](std::size_t i) {
+      const auto [a, b] = unknown[i];
+      const Piece both = merged(pieces[a], pieces[b]);
+      cost[a * n + b] = both.hull.empty() ? 0.0 : protrusion(both.hull).first;
+    });
+    double best = never;
+    std::size_t best_a = 0, best_b = 0;
+    double best_size = 0;
+    for (const auto& [a, b] : pairs) {
+      // Equal costs (most are zero at first): the smaller piece first, which keeps pieces compact.
+      const double size = (pieces[a].bounds.diagonal() + pieces[b].bounds.diagonal());
+      const double rounded = std::max(cost[a * n + b], 0.1 * limit);
+      if (rounded < best || (rounded == best && size < best_size)) {
+        best = rounded;
+        best_size = size;
+        best_a = a;
+        best_b = b;
       }
     }
     if (best == never || (best > limit && count <= static_cast<std::size_t>(max_pieces))) break;
@@ -205,10 +223,16 @@ void write_hulls_obj(const ConvexHulls& hulls, const std::string& path) {
     }
     first += hull.vertices.size();
   }
-  std::ofstream file(path, std::ios::binary);
+  // Under another name first, so that no half of it is left.
+  const std::string unfinished = path + ".unfinished";
+  std::ofstream file(unfinished, std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw environment_error("cannot write the hulls", path, "check the folder and the space left");
+  std::error_code failed;
+  if (file) std::filesystem::rename(unfinished, path, failed);
+  if (file && !failed) return;
+  std::filesystem::remove(unfinished, failed);
+  throw environment_error("cannot write the hulls", path, "check the folder and the space left");
 }
 
 }  // namespace bin_scenes

@@ -1,6 +1,7 @@
 #include "bin_scenes/part/distance_field.hpp"
 
 #include "field_sign.hpp"
+#include "in_parallel.hpp"
 #include "triangle.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -17,6 +18,9 @@ namespace {
 // around a point half a cell off the surface are less than sqrt(3) + 1/2 cells away: what a contact reads is exact.
 constexpr double kBand = 3.0;
 
+// What rounding does to a distance in grid units, seen generously: a triangle is passed over only if it is farther.
+constexpr double kRounding = 1e-6;
+
 constexpr std::int32_t kNone = -1;
 
 /// The nearest surface point known to a node, in grid units.
@@ -26,12 +30,37 @@ struct Nearest {
   std::int32_t triangle = kNone;
 };
 
+/// The smallest box around a triangle along its longest edge and its normal: tells at little cost that a node is far.
+struct EdgeBox {
+  Mat3 axes;  // a row each
+  Vec3 lower, upper;
+
+  EdgeBox(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    const Vec3 edges[3] = {b - a, c - b, a - c};
+    const Vec3& longest = *std::max_element(
+        edges, edges + 3, [](const Vec3& p, const Vec3& q) { return p.squaredNorm() < q.squaredNorm(); });
+    // A sliver has no normal, and one of a single point not even an edge: any box around them will do.
+    const bool flat = !normal.isZero();
+    axes.row(0) = flat ? Vec3(longest.normalized()) : Vec3::UnitX();
+    axes.row(1) = flat ? normal : Vec3::UnitY();
+    axes.row(2) = axes.row(0).cross(axes.row(1));
+    const Vec3 corners[3] = {axes * a, axes * b, axes * c};
+    lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  }
+
+  /// From a point given along the axes.
+  double squared_distance(const Vec3& p) const { return (lower - p).cwiseMax(p - upper).cwiseMax(0.0).squaredNorm(); }
+};
+
 /// Builds the field in four steps: rasterise, sweep, refine, sign.
 class FieldBuilder {
  public:
   FieldBuilder(const MeshQuery& query, DistanceField& field) : query_(query), field_(field) {
     stride_ = {1, field.nodes[0], static_cast<std::ptrdiff_t>(field.nodes[0]) * field.nodes[1]};
     nodes_.resize(static_cast<std::size_t>(stride_[2]) * field.nodes[2]);
+    exact_.resize(nodes_.size());
+    field.values.resize(nodes_.size());
     const Mesh& mesh = query.mesh();
     triangles_.reserve(mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -40,9 +69,9 @@ class FieldBuilder {
   }
 
   void build() {
-    rasterise();
+    in_slabs([&](int first, int end) { rasterise(first, end); });
     sweep();
-    refine();
+    in_slabs([&](int first, int end) { refine(first, end); });
     sign_field(field_, query_);
     for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
   }
@@ -51,18 +80,32 @@ class FieldBuilder {
   Vec3 to_grid(const Vec3& point) const { return (point - field_.origin) / field_.cell; }
   std::size_t index(int x, int y, int z) const { return static_cast<std::size_t>(x + stride_[1] * y + stride_[2] * z); }
 
+  /// Slices of nodes, a few at a time.
+  template <class Work>
+  void in_slabs(const Work& work) const {
+    constexpr int slices = 16;
+    in_parallel(static_cast<std::size_t>((field_.nodes[2] + slices - 1) / slices), [&](std::size_t slab) {
+      const int first = slices * static_cast<int>(slab);
+      work(first, std::min(first + slices, field_.nodes[2]));
+    });
+  }
+
   /// Exact nearest triangle of every node within the band: each triangle visits the nodes of its own neighbourhood.
-  void rasterise() {
+  void rasterise(int first_z, int end_z) {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const PreparedTriangle& triangle = triangles_[t];
       const Vec3 b = triangle.a + triangle.ab, c = triangle.a + triangle.ac;
       const Vec3 lower = triangle.a.cwiseMin(b).cwiseMin(c).array() - kBand;
       const Vec3 upper = triangle.a.cwiseMax(b).cwiseMax(c).array() + kBand;
+      const int lowest_z = std::max(first_z, static_cast<int>(std::ceil(lower[2])));
+      const int highest_z = std::min(end_z - 1, static_cast<int>(std::floor(upper[2])));
+      if (lowest_z > highest_z) continue;
+      const EdgeBox box(triangle.a, b, c, triangle.normal);
       const auto first = [&](int axis) { return std::max(0, static_cast<int>(std::ceil(lower[axis]))); };
       const auto last = [&](int axis) {
         return std::min(field_.nodes[axis] - 1, static_cast<int>(std::floor(upper[axis])));
       };
-      for (int z = first(2); z <= last(2); ++z) {
+      for (int z = lowest_z; z <= highest_z; ++z) {
         for (int y = first(1); y <= last(1); ++y) {
           // Only the part of the row inside the slab |n.(p - a)| <= band can be within the band: without this cut a
           // large oblique triangle would visit its whole bounding box.
@@ -76,11 +119,13 @@ class FieldBuilder {
             continue;
           }
           const int x_last = std::min(field_.nodes[0] - 1, static_cast<int>(std::floor(row_upper)));
+          const Vec3 row = box.axes * Vec3(0, y, z);
           for (int x = std::max(0, static_cast<int>(std::ceil(row_lower))); x <= x_last; ++x) {
-            const Vec3 node(x, y, z);
             Nearest& best = nodes_[index(x, y, z)];
-            const double reach = best.distance + triangle.reach;
-            if ((node - triangle.center).squaredNorm() > reach * reach) continue;
+            // Most triangles are farther away than one seen before.
+            const double beaten = best.distance * (1 + kRounding) + kRounding;
+            if (box.squared_distance(row + x * box.axes.col(0)) > beaten * beaten) continue;
+            const Vec3 node(x, y, z);
             const Vec3 nearest = triangle.nearest(node);
             const float distance = static_cast<float>((node - nearest).norm());
             if (distance < best.distance) best = {nearest.cast<float>(), distance, static_cast<std::int32_t>(t)};
@@ -90,8 +135,7 @@ class FieldBuilder {
     }
     // What lies outside the band has not seen every triangle: it starts over from its neighbours, but may keep the
     // candidate it has.
-    exact_.assign(nodes_.size(), 0);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) exact_[i] = nodes_[i].distance <= kBand;
+    for (std::size_t i = index(0, 0, first_z); i < index(0, 0, end_z); ++i) exact_[i] = nodes_[i].distance <= kBand;
   }
 
   /// Hands nearest points from node to node away from the band (vector distance transform, Danielsson 1980,
@@ -128,10 +172,9 @@ class FieldBuilder {
 
   /// A nearest point handed on was nearest to another node. Asking the triangles that this node and its neighbours
   /// know makes the distance exact again for all but a few nodes near the medial axis.
-  void refine() {
-    field_.values.resize(nodes_.size());
+  void refine(int first_z, int end_z) {
     const auto [nx, ny, nz] = field_.nodes;
-    for (int z = 0; z < nz; ++z) {
+    for (int z = first_z; z < end_z; ++z) {
       for (int y = 0; y < ny; ++y) {
         for (int x = 0; x < nx; ++x) {
           const std::size_t i = index(x, y, z);

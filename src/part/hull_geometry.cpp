@@ -110,11 +110,15 @@ double HullPlanes::outside(const Vec3& p) const {
   return most;
 }
 
+bool HullPlanes::outside_by_more(const Vec3& p, double limit) const {
+  const auto beyond = [&](const Plane& plane) { return plane.normal.dot(p) - plane.offset > limit; };
+  return std::any_of(planes_.begin(), planes_.end(), beyond);
+}
+
 double distance_to_union(const std::vector<HullPlanes>& hulls, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const HullPlanes& hull : hulls) {
-    const double to_box = (hull.bounds().lower - p).cwiseMax(p - hull.bounds().upper).maxCoeff();
-    if (to_box < least) least = std::min(least, hull.outside(p));
+    if (hull.to_box(p) < least) least = std::min(least, hull.outside(p));
   }
   return std::max(least, 0.0);
 }

@@ -1,5 +1,7 @@
 #include "plane_cuts.hpp"
 
+#include "in_parallel.hpp"
+
 #include "bin_scenes/part/hull_geometry.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -180,13 +182,14 @@ class Cutter {
   double surplus(const Mesh& hull) const {
     constexpr int kPoints = 2000;
     const HullPlanes planes(hull);
+    const Vec3 lower = planes.bounds().lower, size = planes.bounds().size();
     const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
     int inside = 0, outside = 0;
     for (int i = 0; i < kPoints; ++i) {
       Vec3 place = Vec3::Constant(0.5) + i * step;
       place -= place.array().floor().matrix();
-      const Vec3 p = hull.bounds().lower + place.cwiseProduct(hull.bounds().size());
-      if (planes.outside(p) <= 0) ++(measure_.inside(p) ? inside : outside);
+      const Vec3 p = lower + place.cwiseProduct(size);
+      if (!planes.outside_by_more(p, 0)) ++(measure_.inside(p) ? inside : outside);
     }
     return outside / std::max(1.0, static_cast<double>(inside + outside));
   }
@@ -205,16 +208,19 @@ class Cutter {
   /// The plane of least cost, which is what the hulls of both sides enclose / what the piece's hull does.
   std::pair<double, CutPlane> cheapest(const Piece& piece, const Mesh& surface, double whole,
                                        const std::vector<CutPlane>& planes) const {
-    std::pair<double, CutPlane> best{std::numeric_limits<double>::infinity(), {}};
-    for (const CutPlane& plane : planes) {
-      const auto surfaces = clip(surface, plane, tolerance_), cells = clip(piece.cell, plane, tolerance_);
-      if (surfaces.first.empty() || surfaces.second.empty()) continue;
+    constexpr double never = std::numeric_limits<double>::infinity();
+    std::vector<double> costs(planes.size(), never);
+    in_parallel(planes.size(), [&](std::size_t i) {
+      const auto surfaces = clip(surface, planes[i], tolerance_), cells = clip(piece.cell, planes[i], tolerance_);
+      if (surfaces.first.empty() || surfaces.second.empty()) return;
       const double low = hull_volume(hull_of(surfaces.first, cells.first)) / whole;
       const double high = hull_volume(hull_of(surfaces.second, cells.second)) / whole;
-      const double cost =
-          low + high + kUneven * (low * low + high * high) + kAcross * piece.surplus * crossed(piece, plane);
-      if (std::min(low, high) > 0 && cost < best.first) best = {cost, plane};
-    }
+      if (!(std::min(low, high) > 0)) return;
+      costs[i] = low + high + kUneven * (low * low + high * high) + kAcross * piece.surplus * crossed(piece, planes[i]);
+    });
+    std::pair<double, CutPlane> best{never, {}};
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      if (costs[i] < best.first) best = {costs[i], planes[i]};
     return best;
   }
 

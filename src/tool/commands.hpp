@@ -24,6 +24,7 @@ int generate(const GenerateOptions& options);
 
 struct InspectOptions {
   std::string model, unit;
+  std::string hulls;  ///< OBJ file for the convex hulls; empty = none
   bool json = false;
 };
 int inspect(const InspectOptions& options);

@@ -69,6 +69,15 @@ Json mass_json(const MassProperties& mass) {
           {"principal_moments_at_1_kg_m3", json_of(mass.principal)}};
 }
 
+/// Those that `bullet` works on with its default settings.
+HullOptions default_hulls() {
+  const SolverSettings defaults;
+  HullOptions hulls;
+  hulls.max_error = defaults.bullet.hull_error;
+  hulls.max_hulls = defaults.bullet.max_hulls;
+  return hulls;
+}
+
 /// What each solver makes of the part with its default settings. Errors are fractions of the diagonal.
 Json proxies_json(const PartModel& part) {
   const SolverSettings defaults;
@@ -79,9 +88,7 @@ Json proxies_json(const PartModel& part) {
   field.cell = defaults.sphere.field_cell;
   SampleOptions samples;
   samples.count = defaults.sphere.fine_samples;
-  HullOptions hulls;
-  hulls.max_error = defaults.bullet.hull_error;
-  hulls.max_hulls = defaults.bullet.max_hulls;
+  const HullOptions hulls = default_hulls();
 
   const auto& nodes = part.field(field).nodes;
   const ConvexHulls& decomposition = part.hulls(hulls);
@@ -122,6 +129,10 @@ Json inspection(const InspectOptions& options) {
   if (report.closed) {  // an open surface has no volume, and nothing can be made of it
     json["mass_properties"] = mass_json(part->mass());
     json["proxies"] = proxies_json(*part);
+    if (!options.hulls.empty()) write_hulls_obj(part->hulls(default_hulls()), options.hulls);
+  } else if (!options.hulls.empty()) {
+    throw input_error("an open surface has no convex hulls", options.model,
+                      "close its " + std::to_string(report.open_edges) + " open edges, or leave out --hulls");
   }
   const std::size_t made = files_below(cache) - before;
   json["cache"] = {{"directory", cache},

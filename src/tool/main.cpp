@@ -49,6 +49,8 @@ int run(int argc, char** argv) {
   CLI::App* inspect_app = app.add_subcommand("inspect", "what a model is, and how well its proxies fit it");
   inspect_app->add_option("MODEL", inspect_options.model, "mesh file")->required();
   inspect_app->add_option("--unit", inspect_options.unit, "unit of the file: m, cm, mm or inch");
+  inspect_app->add_option("--hulls", inspect_options.hulls,
+                          "OBJ file to write the convex hulls to, an object each (m)");
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
 
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");

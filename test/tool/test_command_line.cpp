@@ -258,7 +258,14 @@ TEST_F(CommandLine, InspectMeasuresAModel) {
   EXPECT_GT(report.at("proxies").at("spheres").at("count").get<int>(), 100);
   EXPECT_NEAR(Json::parse(run("inspect box.stl --json --unit mm").out).at("size").at(0).get<double>(), 4e-5, 1e-9);
   EXPECT_NE(run("inspect box.stl").out.find("watertight  yes"), std::string::npos);
+  EXPECT_EQ(run("inspect box.stl --hulls hulls.obj").code, 0);
+  const Json hull = Json::parse(run("inspect hulls.obj --json --unit m").out);
+  EXPECT_EQ(hull.at("watertight"), true);
+  EXPECT_NEAR(hull.at("mass_properties").at("volume").get<double>(), 0.04 * 0.04 * 0.04, 1e-9);
   put("open.stl", box_stl(0.04, 10));
+  expect_failure("inspect open.stl --hulls open.obj", 2, {"open.stl", "4 open edges"});
+  EXPECT_FALSE(fs::exists(dir / "open.obj"));
+  expect_failure("inspect box.stl --hulls nowhere/hulls.obj", 3, {"nowhere/hulls.obj"});
   const Outcome open = run("inspect open.stl --json");
   EXPECT_EQ(open.code, 0) << open.err;
   EXPECT_EQ(Json::parse(open.out).at("watertight"), false);

@@ -18,8 +18,8 @@ namespace bin_scenes::gl {
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-/// BIN_SCENES_SHADERS, else the directory of the build or installation, else ../share/bin_scenes/shaders beside the
-/// executable. Throws an environment Error that lists them if none exists.
+/// BIN_SCENES_SHADERS, else the directory of the build or installation, else share/bin_scenes/shaders one or two
+/// directories above the executable's. Throws an environment Error that lists them if none exists.
 std::string shader_directory();
 
 class Program {

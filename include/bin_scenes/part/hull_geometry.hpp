@@ -18,7 +18,11 @@ class HullPlanes {
 
   /// Largest normal . p - offset: negative inside; outside a lower bound of the distance.
   double outside(const Vec3& p) const;
+  /// Whether that is more than `limit`: mostly the first planes tell.
+  bool outside_by_more(const Vec3& p, double limit) const;
   const Aabb& bounds() const { return bounds_; }
+  /// Largest way out of the bounds along an axis: negative inside, outside a lower bound of the distance.
+  double to_box(const Vec3& p) const { return (bounds_.lower - p).cwiseMax(p - bounds_.upper).maxCoeff(); }
 
  private:
   struct Plane {

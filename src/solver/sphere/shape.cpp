@@ -6,6 +6,7 @@
 #include <array>
 #include <future>
 #include <numeric>
+#include <tuple>
 
 namespace bin_scenes::sphere {
 
@@ -123,6 +124,7 @@ struct Draft {
   std::vector<Vec3> nodes;
   std::vector<Cone> cones;
   std::vector<Edge> edges;
+  std::vector<bool> at_vertex;  ///< by vertex: whether a node lies there
 
   std::uint32_t add(const Vec3& node, const Cone& cone) {
     nodes.push_back(node);
@@ -164,11 +166,13 @@ Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   for (const SharpEdge& edge : sharp.convex)
     for (const std::uint32_t v : {edge.a, edge.b}) around[last[v]++] = &edge;
   std::vector<std::uint32_t> corner(mesh.vertices.size());
+  draft.at_vertex.resize(mesh.vertices.size());
   std::vector<const SharpEdge*> edges;
   std::size_t first = 0;
   for (std::uint32_t v = 0; v < corner.size(); first = last[v++]) {
     if (first == last[v]) continue;
     edges.assign(around.begin() + first, around.begin() + last[v]);
+    draft.at_vertex[v] = true;
     corner[v] = draft.add(mesh.vertices[v], sharp.saddles[v] ? Cone{} : corner_cone(mesh, v, edges));
   }
   for (const SharpEdge& edge : sharp.convex) {
@@ -230,12 +234,14 @@ void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Dra
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh.triangles[t][i];
+      if (draft.at_vertex[v]) continue;
       neighbours[v].push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
       normals[v] += mesh.area_vector(t).normalized();
     }
   const PointGrid grid(draft.nodes, face_spacing);
   const std::size_t before = draft.nodes.size();
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (draft.at_vertex[v]) continue;
     const Vec3 &x = mesh.vertices[v], out = normals[v].normalized();
     const auto felt_by = [&](std::size_t i) {
       const Vec3 way = x - draft.nodes[i];
@@ -308,14 +314,20 @@ Samples clustered(Draft draft, const Vec3& center, double spacing) {
     samples.nodes.push_back((draft.nodes[order[i]] - center).cast<float>());
     samples.cones.push_back(draft.cones[order[i]]);
   }
-  samples.edges = std::move(draft.edges);
-  for (Edge& edge : samples.edges) {
-    edge.a = place[edge.a];
-    edge.b = place[edge.b];
-    if (edge.a > edge.b) std::swap(edge.a, edge.b);
+  struct EdgeAt {
+    std::uint32_t a, b;
+    std::size_t at;
+  };
+  std::vector<EdgeAt> edges;  // small ones to sort: cones make an edge big
+  edges.reserve(draft.edges.size());
+  for (std::size_t i = 0; i < draft.edges.size(); ++i) {
+    const auto [a, b] = std::minmax(place[draft.edges[i].a], place[draft.edges[i].b]);
+    edges.push_back({a, b, i});
   }
-  std::sort(samples.edges.begin(), samples.edges.end(),
-            [](const Edge& x, const Edge& y) { return std::make_pair(x.a, x.b) < std::make_pair(y.a, y.b); });
+  std::sort(edges.begin(), edges.end(),
+            [](const EdgeAt& x, const EdgeAt& y) { return std::tie(x.a, x.b, x.at) < std::tie(y.a, y.b, y.at); });
+  samples.edges.reserve(edges.size());
+  for (const auto& [a, b, at] : edges) samples.edges.push_back({a, b, 0, draft.edges[at].cone});
   const std::size_t clusters = (samples.nodes.size() + cluster_size - 1) / cluster_size;
   for (Edge& edge : samples.edges) edge.length = (samples.nodes[edge.a] - samples.nodes[edge.b]).norm();
   std::size_t e = 0;
@@ -465,10 +477,15 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   const double patches = mass.area / (shape.thickness * shape.thickness);
   const int coarse_count = at_least(coarse, coarse_per_patch * patches), fine_count = at_least(fine, patches);
   constexpr double coarse_angle = 0.5, fine_angle = 0.15;
+  std::future<const DistanceField&> made_field =
+      std::async(std::launch::async, [&]() -> const DistanceField& { return part.field({field_cell}); });
   const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
   std::future<Samples> fine_samples =
       std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle); });
-  const DistanceField& field = part.field({field_cell});
+  shape.coarse = make_samples(part, folds, coarse_count, coarse_angle);
+  shape.fine = fine_samples.get();
+
+  const DistanceField& field = made_field.get();
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);
   shape.field.inverse_cell = 1.0f / shape.field.cell;
@@ -478,9 +495,6 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   shape.field.values = field.values.data();
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
-
-  shape.coarse = make_samples(part, folds, coarse_count, coarse_angle);
-  shape.fine = fine_samples.get();
   return shape;
 }
 
