@@ -151,6 +151,7 @@ void step_tables(Run& out) {
   };
   const auto row = [&](const std::string& table, const std::string& setting, const Cubes& cubes,
                        const ThesisSettings& with, const std::vector<double>& ms) {
+    if (!out.wanted(key(table, setting))) return;
     const Cubes used = sized(cubes);
     out.row(key(table, setting)
                 .exact("bodies", used.bodies)
@@ -242,6 +243,7 @@ void stability_tables(Run& out) {
   for (const double size : sizes)
     for (const Case& c : cases) {
       const auto row = [&] { return key("stability", c.name).key("cube_m", size); };
+      if (!out.wanted(row())) continue;
       int least = 0;
       for (const int iterations : tried) {
         const Isolated one = isolated(
@@ -306,6 +308,8 @@ void teapot_table(Run& out) {
     const std::size_t count = out.quick() ? c.count / 16 : c.count;
     const std::string how = c.iterations ? "sphere/thesis, " + std::to_string(c.iterations) + " iterations"
                                          : std::string("bullet, sleeping ") + (c.sleeping ? "on" : "off");
+    const Row keys = key("teapots", std::to_string(count) + ", " + how);
+    if (!out.wanted(keys)) continue;
     const Isolated one = isolated(
         [&] {
           Request request = teapots(count, seconds);
@@ -330,10 +334,8 @@ void teapot_table(Run& out) {
               .append(times(solver->profile(), seconds / 0.01, wall.count()));
         },
         limit_s);
-    out.row(key("teapots", std::to_string(count) + ", " + how)
-                .exact("bodies", count)
-                .append(one.row)
-                .append(published(out.quick() ? std::vector<double>() : c.ms)));
+    out.row(
+        Row(keys).exact("bodies", count).append(one.row).append(published(out.quick() ? std::vector<double>() : c.ms)));
   }
 }
 

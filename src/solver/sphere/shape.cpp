@@ -1,9 +1,9 @@
 #include "solver/sphere/shape.hpp"
 
 #include "solver/sphere/point_grid.hpp"
+#include "solver/sphere/sharp_edges.hpp"
 
 #include <algorithm>
-#include <array>
 #include <future>
 #include <numeric>
 #include <tuple>
@@ -11,113 +11,6 @@
 namespace bin_scenes::sphere {
 
 namespace {
-
-/// An edge of the mesh and how its faces meet there.
-struct Fold {
-  std::uint32_t a, b;                ///< a < b
-  std::array<std::size_t, 2> faces;  ///< where there are two of them, as in a closed mesh
-  bool closed;
-  double cosine;  ///< of the angle between the normals; -1 where there are not two
-  bool convex;
-};
-
-/// All edges over which the surface bends by more than `angle`, in order of (a, b).
-std::vector<Fold> folds_of(const Mesh& mesh, double angle) {
-  struct Side {
-    std::uint32_t b;
-    std::size_t face;
-  };
-  const auto each_side = [&](auto&& visit) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (int e = 0; e < 3; ++e) {
-        const auto [a, b] = std::minmax(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]);
-        visit(a, Side{b, t});
-      }
-  };
-  // Sides by their lower vertex, one vertex after the other: sorting them all takes several times as long.
-  std::vector<std::size_t> last(mesh.vertices.size() + 1, 0);
-  each_side([&](std::uint32_t a, const Side&) { ++last[a + 1]; });
-  std::partial_sum(last.begin(), last.end(), last.begin());
-  std::vector<Side> sides(last.back());
-  each_side([&](std::uint32_t a, const Side& side) { sides[last[a]++] = side; });
-  std::vector<Vec3> normals(mesh.triangles.size());
-  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = mesh.area_vector(t).normalized();
-
-  std::vector<Fold> folds;
-  const double flat = std::cos(angle);
-  std::size_t first = 0;
-  for (std::uint32_t a = 0; a < mesh.vertices.size(); ++a) {
-    std::stable_sort(sides.begin() + first, sides.begin() + last[a],
-                     [](const Side& x, const Side& y) { return x.b < y.b; });
-    for (std::size_t next; first < last[a]; first = next) {
-      next = first + 1;
-      while (next < last[a] && sides[next].b == sides[first].b) ++next;
-      const std::uint32_t b = sides[first].b;
-      Fold fold{a, b, {}, false, -1.0, true};
-      if (next - first == 2) {
-        const std::size_t f0 = sides[first].face, f1 = sides[first + 1].face;
-        fold.closed = true;
-        fold.faces = {f0, f1};
-        fold.cosine = normals[f0].dot(normals[f1]);
-        if (fold.cosine > flat) continue;
-        // Convex: the far corner of one face lies behind the other face.
-        std::uint32_t far = mesh.triangles[f1][0];
-        for (const std::uint32_t v : mesh.triangles[f1])
-          if (v != a && v != b) far = v;
-        fold.convex = normals[f0].dot(mesh.vertices[far] - mesh.vertices[a]) < 0;
-      }
-      folds.push_back(fold);
-    }
-  }
-  return folds;
-}
-
-/// A sharp convex edge of the mesh.
-struct SharpEdge {
-  std::uint32_t a, b;
-  Cone cone;
-};
-
-struct SharpEdges {
-  std::vector<SharpEdge> convex;
-  std::vector<bool> saddles;  ///< by vertex: whether a concave edge ends there, too
-};
-
-/// Directions between the normals of both faces of an edge, as bounds: across the edge into each face, and along it.
-Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::array<std::size_t, 2>& faces) {
-  Cone cone;
-  const Vec3 along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
-  for (const std::size_t face : faces) {
-    const Triangle& t = mesh.triangles[face];
-    const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
-    Vec3 into = middle - mesh.vertices[a];
-    into -= into.dot(along) * along;
-    if (into.norm() < 1e-9 * (mesh.vertices[b] - mesh.vertices[a]).norm()) return Cone{};  // a sliver tells nothing
-    cone.bound[cone.bounds++] = into.normalized().cast<float>();
-  }
-  cone.bound[cone.bounds++] = along.cast<float>();
-  cone.bound[cone.bounds++] = -along.cast<float>();
-  return cone;
-}
-
-/// The folds by more than `angle`. Concave edges cannot touch first.
-SharpEdges sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle) {
-  SharpEdges sharp;
-  sharp.saddles.resize(mesh.vertices.size());
-  sharp.convex.reserve(folds.size());
-  const double least = std::cos(angle);
-  for (const Fold& fold : folds) {
-    if (fold.cosine > least) continue;
-    if (!fold.closed) {
-      sharp.convex.push_back({fold.a, fold.b, Cone{}});
-    } else if (fold.convex) {
-      sharp.convex.push_back({fold.a, fold.b, edge_cone(mesh, fold.a, fold.b, fold.faces)});
-    } else {
-      sharp.saddles[fold.a] = sharp.saddles[fold.b] = true;
-    }
-  }
-  return sharp;
-}
 
 /// Nodes and edge pieces before they are put in cluster order.
 struct Draft {
@@ -357,23 +250,6 @@ Samples clustered(Draft draft, const Vec3& center, double spacing) {
   return samples;
 }
 
-struct EdgeSum {
-  std::size_t count = 0;
-  double length = 0;  ///< m
-};
-
-/// Of what sharp_edges would find.
-EdgeSum sum_of_sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle) {
-  EdgeSum sum;
-  const double least = std::cos(angle);
-  for (const Fold& fold : folds) {
-    if (fold.cosine > least || !fold.convex) continue;
-    ++sum.count;
-    sum.length += (mesh.vertices[fold.a] - mesh.vertices[fold.b]).norm();
-  }
-  return sum;
-}
-
 /// Radius of the ball a tessellated ball stands for: all its vertices lie on it and no face cuts deep below; else 0.
 float ball_radius(const PartModel& part) {
   const Mesh& mesh = part.mesh();
@@ -405,14 +281,18 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
   // Where the nodes would stand too far apart to stand for them, they belong to a curved face.
   constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
-  constexpr double most_missed = 5e-4;                      // of d
-  EdgeSum sum = sum_of_sharp_edges(mesh, folds, sharp_angle);
-  while ((sum.count > static_cast<std::size_t>(2 * count) ||
-          sum.length > edge_share * count * longest_piece * part.diagonal()) &&
-         sharp_angle < 0.8)
-    sum = sum_of_sharp_edges(mesh, folds, sharp_angle *= 1.3);
-  const double spacing = std::max(sum.length / (edge_share * count), 0.004 * part.diagonal());
-  Draft draft = edge_draft(mesh, sharp_edges(mesh, folds, sharp_angle), spacing);
+  constexpr double most_missed = 5e-4, most_off = 2e-4;     // of d
+  const double most_length = edge_share * count * longest_piece * part.diagonal();
+  SharpEdges sharp;
+  for (;; sharp_angle *= 1.3) {
+    const bool sharpest = sharp_angle >= 0.8;
+    if (!sharpest && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
+    sharp = straightened(mesh, sharp_edges(mesh, folds, sharp_angle), most_off * part.diagonal());
+    if (sharpest || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
+  }
+  const double edge_length = sharp_length(mesh, folds, sharp_angle);
+  const double spacing = std::max(edge_length / (edge_share * count), 0.004 * part.diagonal());
+  Draft draft = edge_draft(mesh, sharp, spacing);
   // Some of these fall on edges that have their nodes.
   const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));
   // Face nodes, but for those that stand on a sharp edge already covered.
