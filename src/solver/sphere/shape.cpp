@@ -275,12 +275,13 @@ Samples ball_samples(float radius) {
   return samples;
 }
 
+// Where nodes on edges would stand farther apart they could not stand for them: the edges belong to a curved face.
+constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
+
 /// About `count` nodes: half of them on sharp edges where there are such, the others on faces.
 Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
-  // Where the nodes would stand too far apart to stand for them, they belong to a curved face.
-  constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
   constexpr double most_missed = 5e-4, most_off = 2e-4;     // of d
   const double most_length = edge_share * count * longest_piece * part.diagonal();
   SharpEdges sharp;
@@ -355,11 +356,15 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
   // Between samples farther apart than a thin part is thick, a part slips in unseen and is then caught inside.
   const double patches = mass.area / (shape.thickness * shape.thickness);
-  const int coarse_count = at_least(coarse, coarse_per_patch * patches), fine_count = at_least(fine, patches);
   constexpr double coarse_angle = 0.5, fine_angle = 0.15;
+  const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
+  // Edges as sharp as this are no curved face, however many there are: those of a thread, of teeth.
+  const double edge_nodes =
+      sharp_length(part.mesh(), folds, coarse_angle) / (longest_piece * part.diagonal()) / edge_share;
+  const int coarse_count = at_least(coarse, coarse_per_patch * patches);
+  const int fine_count = at_least(fine, std::max(patches, edge_nodes));
   std::future<const DistanceField&> made_field =
       std::async(std::launch::async, [&]() -> const DistanceField& { return part.field({field_cell}); });
-  const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
   std::future<Samples> fine_samples =
       std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle); });
   shape.coarse = make_samples(part, folds, coarse_count, coarse_angle);
