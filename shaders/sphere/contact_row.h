@@ -63,8 +63,13 @@ void prepare(uint at, Side a, Side b) {
       vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), min(approach, 0.0));
 }
 
-// Adds a contact that presses to `pressed`: normal, and the impulse along it.
-void warm_start(uint at, inout vec4 pressed, inout uint pressing, inout Side a, inout Side b) {
+// Sums over a manifold's contacts, by impulse along the normal.
+struct Pressed {
+  float impulse;
+  vec3 center, normal;  // center: from the first body's
+};
+
+void warm_start(uint at, inout Pressed pressed, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   // What is about to strike gains speed until it does, but no more than gravity gives in a step.
   if (row.approach < -settings.restitution_speed && row.impulse.w <= 0.0) {
@@ -73,18 +78,16 @@ void warm_start(uint at, inout vec4 pressed, inout uint pressing, inout Side a, 
   }
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
-  if (row.impulse.x > 0.0) {
-    pressed += vec4(normal, row.impulse.x);
-    ++pressing;
-  }
+  pressed.impulse += row.impulse.x;
+  pressed.center += row.impulse.x * row.ra;
+  pressed.normal += row.impulse.x * normal;
 }
 
-// A contact that presses alone is a small patch, not a point, and resists spin about its normal (w: impulse along it).
-void resist_spin(vec4 pressed, float friction, inout Side a, inout Side b) {
-  vec3 axis = pressed.xyz, turn_a = tensor_times(a, axis), turn_b = tensor_times(b, axis);
+// Takes a turn of one body against the other about an axis, by a moment of at most `most`.
+void resist(vec3 axis, float speed, float most, inout Side a, inout Side b) {
+  vec3 turn_a = tensor_times(a, axis), turn_b = tensor_times(b, axis);
   float k = dot(axis, turn_a) + dot(axis, turn_b);
-  float most = 2.0 / 3.0 * settings.patch_radius * world.gravity.w * friction * pressed.w;
-  float moment = k > 0.0 ? clamp(dot(axis, a.w - b.w) / k, -most, most) : 0.0;
+  float moment = k > 0.0 ? clamp(speed / k, -most, most) : 0.0;
   a.w -= moment * turn_a;
   b.w += moment * turn_b;
 }

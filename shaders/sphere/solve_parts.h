@@ -1,7 +1,7 @@
 // Bodies and manifolds in the solve: what one invocation does with one of them. Whoever includes this says where
 // velocities lie: velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is
 // near), moved_of(i) (since contacts were found), turned_of(i) (rotation vector, since then), i counted in the world.
-// Needs the bindings Settings, Bodies, States, Tensors, Pairs, Manifolds, Contacts, Order, and sphere/body.h.
+// Needs the bindings Settings, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and sphere/body.h.
 
 SphereWorld world;
 uint list;
@@ -62,15 +62,40 @@ void prepare_manifold(uint o) {
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
 
+vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
+
+bool is_ball(uint body) { return body != SPHERE_GROUND && shapes[bodies[body].ids.x].field.z > 0.0; }
+
+// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
+// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
+// (Contensou 1963), and is tipped over its rim by its radius times the force, the moment of rolling friction; a ball
+// rolls freely. Where contacts lie farther apart, they do it themselves.
+void resist_turn(SpherePair pair, Pressed pressed, inout Side a, inout Side b) {
+  vec3 center = pressed.center / pressed.impulse, normal = unit(pressed.normal), turn = a.w - b.w;
+  float spin = dot(normal, turn);
+  vec3 tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
+  float spread = 0.0, spread_across = 0.0;  // squares of lengths, times impulse
+  FOR_CONTACTS(at, pair.slot) {
+    Row row = row_of(contacts[at], a, b);
+    vec3 off = row.ra - center;
+    float side = dot(across, off);
+    spread += row.impulse.x * dot(off, off);
+    spread_across += row.impulse.x * side * side;
+  }
+  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * pressed.impulse;
+  if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(pair) * pressed.impulse, a, b);
+  if (spread_across <= widest && !is_ball(pair.a) && !is_ball(pair.b))
+    resist(tip_axis, dot(tip_axis, tipping), radius * pressed.impulse, a, b);
+}
+
 void solve_manifold(uint o, uint kind, float h) {
   SpherePair pair = pair_at(o);
   if (kind == SWEEP_BOUNCE && manifolds[world.pairs.x + pair.slot].state.y == 0u) return;
   Side a = side_of(pair.a), b = side_of(pair.b);
   if (kind == SWEEP_WARM_START) {
-    vec4 pressed = vec4(0.0);
-    uint pressing = 0u;
-    FOR_CONTACTS(at, pair.slot) warm_start(at, pressed, pressing, a, b);
-    if (pressing == 1u) resist_spin(pressed, friction_of(pair), a, b);
+    Pressed pressed = Pressed(0.0, vec3(0.0), vec3(0.0));
+    FOR_CONTACTS(at, pair.slot) warm_start(at, pressed, a, b);
+    if (pressed.impulse > 0.0) resist_turn(pair, pressed, a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
   } else {

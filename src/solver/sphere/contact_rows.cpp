@@ -78,6 +78,8 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     if (b) bundle.b[lane] = m.b;
     bundle.friction[lane] = m.friction;
     bundle.restitution[lane] = m.restitution;
+    const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
+    bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[m.a].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[m.b].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     for (std::size_t k = 0; k < m.contacts.size(); ++k) set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, h);

@@ -82,7 +82,7 @@ class ContactSolver {
   void approach_grows(ContactRows& c, const Velocities& u) const;
   void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
   void solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const;
-  void resist_spin(const Bundle& bundle, Velocities& u) const;
+  void resist_turn(const Bundle& bundle, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
   LaneMask bouncing(const Bundle& bundle) const;
   void bounce(const Bundle& bundle, LaneMask lanes);
@@ -162,32 +162,50 @@ void ContactSolver::warm_start() {
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }
-    resist_spin(bundle, u);
+    resist_turn(bundle, u);
     store(u, bundle, motions_);
   }
 }
 
-/// A contact that presses alone is a small patch, not a point, and resists spin about its normal: an evenly pressed
-/// disk by 2/3 of its radius times friction (Contensou, "Couplage entre frottement de glissement et frottement de
-/// pivotement", 1963). Where several press, their friction does it. Once a sub-step.
-void ContactSolver::resist_spin(const Bundle& bundle, Velocities& u) const {
-  Lanes pressing{}, impulse{};
-  LaneVec axis;
+/// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
+/// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
+/// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
+/// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
+/// themselves. Once a sub-step.
+void ContactSolver::resist_turn(const Bundle& bundle, Velocities& u) const {
+  Lanes impulse{};
+  LaneVec center, normal;
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     const ContactRows& c = rows_[i];
-    const LaneMask presses = c.normal_impulse > 0.0f;
-    pressing += presses ? all_lanes(1) : all_lanes(0);
     impulse += c.normal_impulse;
-    axis = axis + (presses ? all_lanes(1) : all_lanes(0)) * c.normal;
+    center = center + c.normal_impulse * c.ra;
+    normal = normal + c.normal_impulse * c.normal;
   }
-  impulse = pressing == 1.0f ? impulse : all_lanes(0);
-  const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;
-  const Lanes k = dot(axis, turn_a) + dot(axis, turn_b);
-  const Lanes stops = k > 0.0f ? dot(axis, u.wa - u.wb) / k : all_lanes(0);
-  const Lanes most = 2.0f / 3.0f * settings_.patch_radius * world_.smallest_size * bundle.friction * impulse;
-  const Lanes moment = min(max(stops, -most), most);
-  u.wa = u.wa - moment * turn_a;
-  u.wb = u.wb + moment * turn_b;
+  center = (impulse > 0.0f ? all_lanes(1) / impulse : all_lanes(0)) * center;
+  normal = unit(normal);
+  const LaneVec turn = u.wa - u.wb;
+  const Lanes spin = dot(normal, turn);
+  const LaneVec tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
+
+  Lanes spread{}, spread_across{};  // squares of lengths, times impulse
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    const ContactRows& c = rows_[i];
+    const LaneVec off = c.ra - center;
+    const Lanes side = dot(across, off);
+    spread += c.normal_impulse * dot(off, off);
+    spread_across += c.normal_impulse * side * side;
+  }
+  const float radius = settings_.patch_radius * world_.smallest_size;
+  const Lanes widest = 4.0f * radius * radius * impulse;
+  const auto resist = [&](const LaneVec& axis, Lanes speed, Lanes most) {
+    const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;
+    const Lanes k = dot(axis, turn_a) + dot(axis, turn_b);
+    const Lanes moment = min(max(k > 0.0f ? speed / k : all_lanes(0), -most), most);
+    u.wa = u.wa - moment * turn_a;
+    u.wb = u.wb + moment * turn_b;
+  };
+  resist(normal, spin, spread <= widest ? 2.0f / 3.0f * radius * bundle.friction * impulse : all_lanes(0));
+  resist(tip_axis, dot(tip_axis, tipping), spread_across <= widest ? bundle.tipping_arm * impulse : all_lanes(0));
 }
 
 /// Sequential impulse, accumulated and clamped.

@@ -69,6 +69,11 @@ inline Lanes dot(const LaneVec& a, const LaneVec& b) {
 inline LaneVec cross(const LaneVec& a, const LaneVec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// Zero of zero.
+inline LaneVec unit(const LaneVec& a) {
+  const Lanes length = sqrt(dot(a, a));
+  return (length > 0.0f ? all_lanes(1) / length : all_lanes(0)) * a;
+}
 
 /// Eight symmetric 3 x 3 matrices.
 struct LaneSymmetric {

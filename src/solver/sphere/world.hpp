@@ -33,8 +33,8 @@ struct Settings {
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
-  float patch_radius = 1e-3f;       ///< d: of a contact that presses alone; resists spin about its normal. 0: what two
-                                    ///< points hold swings about them without end; larger: a top stops sooner
+  float patch_radius = 1e-3f;       ///< d: of what presses at a point or along a line; resists spin and rolling there.
+                                    ///< 0: what two points hold swings about them without end; larger: wheels stop
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
@@ -133,6 +133,7 @@ struct World {
 
   const Softness& softness() const { return pressed ? settings.stiff : settings.soft; }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
+  bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };
 
