@@ -129,6 +129,7 @@ struct SphereState {
 struct SphereTensor {  // when contacts were found
   vec4 diagonal, mixed;  // inverse inertia, world axes
   vec4 orientation;      // xyzw, body -> world
+  vec4 velocity, spin;   // m/s, rad/s; of a ball no spin: the point where it touches stays below it
 };
 
 struct SpherePlane {
@@ -195,7 +196,7 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 128, "std430");
-static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 48, "std430");
+static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");

@@ -42,6 +42,10 @@ float mass_along(vec3 direction, Row row, Side a, Side b) {
   return k > 0.0 ? 1.0 / k : 0.0;
 }
 
+// Levers and normals are of the mean of the sub-steps' beginnings: those of the step's start turn what hangs into what
+// gains energy. The point goes with the sample, the normal with the field.
+const float least_turn = 1e-5;  // rad; below, a lever moves by less than contacts overlap
+
 Row row_of(SphereContact c, Side a, Side b) {
   Row row;
   row.ra = rotate(a.orientation, c.anchor_a.xyz);
@@ -49,6 +53,12 @@ Row row_of(SphereContact c, Side a, Side b) {
   bool of_a = (floatBitsToUint(c.anchor_b.w) & SPHERE_SIDE_B) != 0u;
   row.normal = rotate(of_a ? a.orientation : b.orientation, c.normal.xyz);
   row.separation = dot(b.position + row.rb - a.position - row.ra, row.normal);
+  if (max(dot(a.ahead_turn, a.ahead_turn), dot(b.ahead_turn, b.ahead_turn)) > least_turn * least_turn) {
+    vec3 way = of_a ? b.ahead + cross(b.ahead_turn, row.rb) : a.ahead + cross(a.ahead_turn, row.ra);
+    row.ra += way - a.ahead;
+    row.rb += way - b.ahead;
+    row.normal = normalize(row.normal + cross(of_a ? a.ahead_turn : b.ahead_turn, row.normal));
+  }
   row.approach = c.normal.w;
   row.impulse = c.force;
   return row;

@@ -14,14 +14,15 @@ float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); 
 // A body as one manifold sees it.
 struct Side {
   vec3 v, w, moved, turned, position;
+  vec3 ahead, ahead_turn;  // between the step's start and the mean of its sub-steps' beginnings (m, rad)
   vec4 orientation;
   float inverse_mass;
   vec3 tensor, tensor_mixed;
 };
 
 Side side_of(uint body) {
-  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0), 0.0, vec3(0.0),
-                vec3(0.0));
+  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0),
+                0.0, vec3(0.0), vec3(0.0));
   if (body == SPHERE_GROUND) return s;
   uint i = body - world.bodies.x;
   s.position = states[body].position.xyz;
@@ -30,6 +31,9 @@ Side side_of(uint body) {
   if (s.inverse_mass == 0.0) return s;
   s.v = velocity_of(i).xyz;
   s.w = spin_of(i).xyz;
+  float ahead = 0.5 * (time_step - sub_step());
+  s.ahead = ahead * tensors[body].velocity.xyz;
+  s.ahead_turn = ahead * tensors[body].spin.xyz;
   s.moved = moved_of(i).xyz;
   s.turned = turned_of(i).xyz;
   s.tensor = tensors[body].diagonal.xyz;
@@ -62,9 +66,9 @@ void prepare_manifold(uint o) {
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
 
-vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
-
 bool is_ball(uint body) { return body != SPHERE_GROUND && shapes[bodies[body].ids.x].field.z > 0.0; }
+
+vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 
 // Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
 // body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction

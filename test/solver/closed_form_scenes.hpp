@@ -98,6 +98,39 @@ inline double spin_lost(Lab lab, double patch) {
          (0.5 * 2.0 / 3.0 * 0.5 * patch * ball->diagonal() * g / moment);
 }
 
+/// A yoke that swings about the ridge it hangs on loses 2 patch / (depth of its centre of mass) of its amplitude in
+/// each half swing where the line of contact is as wide as `patch` (share of the smaller diagonal), for that resists by
+/// patch x force as sliding friction would. Loss of eight half swings over that.
+inline double swing_lost(Lab lab, double patch) {
+  const PartModelPtr blade = box({0.02, 0.06, 0.02});
+  const PartModelPtr yoke = PartModel::from_mesh(
+      merged(box_mesh({0.06, 0.02, 0.01}, {0, 0, 0.005}), merged(box_mesh({0.01, 0.02, 0.05}, {-0.025, 0, -0.025}),
+                                                                 box_mesh({0.01, 0.02, 0.05}, {0.025, 0, -0.025}))),
+      "yoke");
+  const Vec3 ridge(0, 0, 0.1);
+  BodyDef held = material(0.5);
+  held.fixed = true;
+  const auto about_y = [](double turn) { return Quat(Eigen::AngleAxisd(turn, Vec3::UnitY())); };
+  lab.place(blade, ridge - Vec3(0, 0, 0.02 * std::sqrt(0.5)), about_y(M_PI / 4), held);
+  const Quat start = about_y(0.2);
+  const auto body = lab.place(yoke, ridge + start * yoke->mass().center, start, material(0.5));
+  const auto turn = [&] { return 2.0 * std::asin(lab.state(body).pose.orientation.y()); };
+  std::vector<double> amplitudes = {0.2};
+  double before = 0.2, rising = -1.0;
+  while (amplitudes.size() < 9 && lab.time() < 10.0) {
+    lab.simulate(lab.solver().step_size());
+    const double now = turn();
+    if ((now - before) * rising < 0) {
+      amplitudes.push_back(std::abs(before));
+      rising = -rising;
+    }
+    before = now;
+  }
+  const double per_half_swing = (amplitudes.front() - amplitudes.back()) / static_cast<double>(amplitudes.size() - 1);
+  const double size = std::min(blade->diagonal(), yoke->diagonal());
+  return per_half_swing / (2.0 * patch * size / -yoke->mass().center.z());
+}
+
 struct Collision {
   double momentum;  ///< largest change / sum of the two
   double spin;      ///< change of the angular momentum / (momentum times a box edge)

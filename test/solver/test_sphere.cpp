@@ -33,6 +33,10 @@ TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
+TEST(SphereSwing, AboutARidgeIsLostToThePatchOfTheContact) {
+  EXPECT_NEAR(swing_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.05);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);

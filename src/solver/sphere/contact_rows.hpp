@@ -42,7 +42,7 @@ struct Bundle {
   bool striking = false;      ///< some contact closes at Settings::restitution_speed
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
-  Lanes tipping_arm{};  ///< m: moment of rolling friction / force; a ball has none
+  Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
   LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
 };
 

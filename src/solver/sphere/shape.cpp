@@ -282,7 +282,7 @@ constexpr double longest_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
 Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle) {
   const Mesh& mesh = part.mesh();
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
-  constexpr double most_missed = 5e-4, most_off = 2e-4;     // of d
+  constexpr double most_missed = 5e-4, most_off = 2e-4;  // of d
   const double most_length = edge_share * count * longest_piece * part.diagonal();
   SharpEdges sharp;
   for (;; sharp_angle *= 1.3) {

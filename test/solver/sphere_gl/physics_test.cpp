@@ -18,6 +18,10 @@ TEST(SphereGlSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
+TEST(SphereGlSwing, AboutARidgeIsLostToThePatchOfTheContact) {
+  EXPECT_NEAR(swing_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.05);
+}
+
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
