@@ -42,9 +42,10 @@
 
 // Sweeps of the solve over all manifolds.
 #define SWEEP_WARM_START 0u
-#define SWEEP_PUSH 1u
-#define SWEEP_RELAX 2u
-#define SWEEP_BOUNCE 3u
+#define SWEEP_FIRST_PUSH 1u
+#define SWEEP_PUSH 2u
+#define SWEEP_RELAX 3u
+#define SWEEP_BOUNCE 4u
 #define SPHERE_BOUNCE_SWEEPS 12u
 
 // Normal cone of a node (w, bits) or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are;

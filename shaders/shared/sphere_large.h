@@ -24,9 +24,9 @@
 #define BODIES_VELOCITIES 1u
 #define BODIES_POSITIONS 2u
 #define BODIES_KEEP 3u
-#define MANIFOLDS_PREPARE 4u  // behind the sweeps
-#define MANIFOLDS_STRIKE 5u
-#define MANIFOLDS_KEEP 6u
+#define MANIFOLDS_PREPARE 5u  // behind the sweeps
+#define MANIFOLDS_STRIKE 6u
+#define MANIFOLDS_KEEP 7u
 #define SLEEP_NOTE 0u
 #define SLEEP_MARK 1u
 #define SLEEP_SETTLE 2u

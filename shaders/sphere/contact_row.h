@@ -73,13 +73,7 @@ void prepare(uint at, Side a, Side b) {
       vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), min(approach, 0.0));
 }
 
-// Sums over a manifold's contacts, by impulse along the normal.
-struct Pressed {
-  float impulse;
-  vec3 center, normal;  // center: from the first body's
-};
-
-void warm_start(uint at, inout Pressed pressed, inout Side a, inout Side b) {
+void warm_start(uint at, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
   // What is about to strike gains speed until it does, but no more than gravity gives in a step.
   if (row.approach < -settings.restitution_speed && row.impulse.w <= 0.0) {
@@ -88,9 +82,6 @@ void warm_start(uint at, inout Pressed pressed, inout Side a, inout Side b) {
   }
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
-  pressed.impulse += row.impulse.x;
-  pressed.center += row.impulse.x * row.ra;
-  pressed.normal += row.impulse.x * normal;
 }
 
 // Takes a turn of one body against the other about an axis, by a moment of at most `most`.

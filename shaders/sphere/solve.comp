@@ -92,7 +92,7 @@ void main() {
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
     barrier();
     sweep(SWEEP_WARM_START, h);
-    for (uint i = 0u; i < sweeps; ++i) sweep(SWEEP_PUSH, h);
+    for (uint i = 0u; i < sweeps; ++i) sweep(i == 0u ? SWEEP_FIRST_PUSH : SWEEP_PUSH, h);
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
     for (uint i = 0u; i < sweeps; ++i) sweep(SWEEP_RELAX, h);

@@ -74,8 +74,19 @@ vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 // body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
 // (Contensou 1963), and is tipped over its rim by its radius times the force, the moment of rolling friction; a ball
 // rolls freely. Where contacts lie farther apart, they do it themselves.
-void resist_turn(SpherePair pair, Pressed pressed, inout Side a, inout Side b) {
-  vec3 center = pressed.center / pressed.impulse, normal = unit(pressed.normal), turn = a.w - b.w;
+void resist_turn(SpherePair pair, inout Side a, inout Side b) {
+  float impulse = 0.0;
+  vec3 center = vec3(0.0), normal = vec3(0.0);
+  FOR_CONTACTS(at, pair.slot) {
+    Row row = row_of(contacts[at], a, b);
+    impulse += row.impulse.x;
+    center += row.impulse.x * row.ra;
+    normal += row.impulse.x * row.normal;
+  }
+  if (impulse <= 0.0) return;
+  center /= impulse;
+  normal = unit(normal);
+  vec3 turn = a.w - b.w;
   float spin = dot(normal, turn);
   vec3 tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
   float spread = 0.0, spread_across = 0.0;  // squares of lengths, times impulse
@@ -86,10 +97,10 @@ void resist_turn(SpherePair pair, Pressed pressed, inout Side a, inout Side b) {
     spread += row.impulse.x * dot(off, off);
     spread_across += row.impulse.x * side * side;
   }
-  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * pressed.impulse;
-  if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(pair) * pressed.impulse, a, b);
+  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * impulse;
+  if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(pair) * impulse, a, b);
   if (spread_across <= widest && !is_ball(pair.a) && !is_ball(pair.b))
-    resist(tip_axis, dot(tip_axis, tipping), radius * pressed.impulse, a, b);
+    resist(tip_axis, dot(tip_axis, tipping), radius * impulse, a, b);
 }
 
 void solve_manifold(uint o, uint kind, float h) {
@@ -97,13 +108,12 @@ void solve_manifold(uint o, uint kind, float h) {
   if (kind == SWEEP_BOUNCE && manifolds[world.pairs.x + pair.slot].state.y == 0u) return;
   Side a = side_of(pair.a), b = side_of(pair.b);
   if (kind == SWEEP_WARM_START) {
-    Pressed pressed = Pressed(0.0, vec3(0.0), vec3(0.0));
-    FOR_CONTACTS(at, pair.slot) warm_start(at, pressed, a, b);
-    if (pressed.impulse > 0.0) resist_turn(pair, pressed, a, b);
+    FOR_CONTACTS(at, pair.slot) warm_start(at, a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
   } else {
-    FOR_CONTACTS(at, pair.slot) solve_normal(at, h, kind == SWEEP_PUSH, a, b);
+    if (kind == SWEEP_FIRST_PUSH) resist_turn(pair, a, b);
+    FOR_CONTACTS(at, pair.slot) solve_normal(at, h, kind != SWEEP_RELAX, a, b);
     float friction = friction_of(pair);
     FOR_CONTACTS(at, pair.slot) solve_friction(at, friction, a, b);
   }

@@ -68,14 +68,15 @@ class ContactSolver {
         bundles_(scratch.bundles),
         rows_(scratch.rows) {}
 
-  void prepare();         ///< rows from contacts, with the forces of the last step
-  void accelerate();      ///< gravity, gyroscopic term
-  void warm_start();      ///< impulses of the last sub-step again
-  void sweep(bool push);  ///< one round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the
-                          ///< velocity that pushing left is taken back (relaxation)
-  void move();            ///< positions
-  void restitute();       ///< Newton's restitution
-  void finish();          ///< back into bodies and contacts
+  void prepare();     ///< rows from contacts, with the forces of the last step
+  void accelerate();  ///< gravity, gyroscopic term
+  void warm_start();  ///< impulses of the last sub-step again
+  /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
+  /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
+  void sweep(bool push, bool first);
+  void move();       ///< positions
+  void restitute();  ///< Newton's restitution
+  void finish();     ///< back into bodies and contacts
 
  private:
   void prepare_motions();
@@ -162,7 +163,6 @@ void ContactSolver::warm_start() {
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }
-    resist_turn(bundle, u);
     store(u, bundle, motions_);
   }
 }
@@ -171,7 +171,8 @@ void ContactSolver::warm_start() {
 /// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
 /// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
 /// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
-/// themselves. Once a sub-step.
+/// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
+/// air.
 void ContactSolver::resist_turn(const Bundle& bundle, Velocities& u) const {
   Lanes impulse{};
   LaneVec center, normal;
@@ -243,10 +244,11 @@ void ContactSolver::solve_friction(ContactRows& c, const Bundle& bundle, Velocit
 }
 
 BIN_SCENES_WIDE
-void ContactSolver::sweep(bool push) {
+void ContactSolver::sweep(bool push, bool first) {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     const Ways ways = ways_of(bundle, motions_);
+    if (push && first) resist_turn(bundle, u);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
       solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) solve_friction(rows_[i], bundle, u);
@@ -333,9 +335,9 @@ void solve(World& world) {
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.accelerate();
     solver.warm_start();
-    for (int i = 0; i < sweeps; ++i) solver.sweep(true);
+    for (int i = 0; i < sweeps; ++i) solver.sweep(true, i == 0);
     solver.move();
-    for (int i = 0; i < sweeps; ++i) solver.sweep(false);
+    for (int i = 0; i < sweeps; ++i) solver.sweep(false, i == 0);
   }
   solver.restitute();
   solver.finish();

@@ -145,7 +145,7 @@ void LargePasses::sweep(unsigned kind) {
 void LargePasses::sweeps(unsigned kind, const LargeWorld& world) {
   for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
     for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0 : 1);
-    sweep(kind);
+    sweep(i == 0 && kind == SWEEP_PUSH ? SWEEP_FIRST_PUSH : kind);
   }
   for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0);
 }
