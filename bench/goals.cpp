@@ -1,20 +1,11 @@
 /// The goals of the default solver, on every sample part: errors of ten seeds, and scene time against stock Bullet's in
 /// the same run. Where exact convex pieces of a part are known, the referee has its say.
 #include "framework/benchmark.hpp"
+#include "goals_met.hpp"
 #include "judged.hpp"
-
-#include <algorithm>
 
 namespace bin_scenes::bench {
 namespace {
-
-struct Goal {
-  const char* column;
-  double limit;
-};
-constexpr Goal goals[] = {
-    {"penetration_p95_rel", 0.003}, {"penetration_max_rel", 0.01}, {"bin_penetration_max_rel", 0.003},
-    {"drift_median_rel", 0.001},    {"drift_p95_rel", 0.01},       {"turn_p95_deg", 0.5}};
 
 struct Pile {
   const char* part;
@@ -25,28 +16,6 @@ constexpr Pile piles[] = {{"channel_u", 10, 2},  {"ring_24", 3, 1},    {"bolt_he
                           {"clip_spring", 0, 0}, {"conrod", 0, 0},     {"gear_spur", 0, 0}, {"mug", 0, 0},
                           {"nut_hex", 0, 0},     {"pipe_elbow", 0, 0}, {"pipe_tee", 0, 0},  {"teapot", 0, 0},
                           {"washer", 0, 0}};
-
-/// 1 if a scene is at rest, whole, and within every goal that was measured; a referee that failed has not agreed.
-int meets(const Row& scene) {
-  if (!scene.at("status").empty()) return 0;
-  if (scene.at("at_rest") != "1" || scene.at("escaped") != "0") return 0;
-  return std::none_of(std::begin(goals), std::end(goals),
-                      [&](const Goal& goal) { return scene.number(goal.column) > goal.limit; });
-}
-
-/// Rows of several seeds as one, with the worst seed of each goal beside the median.
-Row over_all(std::vector<Row> scenes) {
-  for (Row& scene : scenes) scene.exact("meets_goals", meets(scene));
-  Row out = joined(scenes);
-  for (const Goal& goal : goals) {
-    std::vector<double> values;
-    for (const Row& scene : scenes)
-      if (!scene.at(goal.column).empty()) values.push_back(scene.number(goal.column));
-    if (!values.empty())
-      out.measure(std::string("worst_") + goal.column, *std::max_element(values.begin(), values.end()));
-  }
-  return out;
-}
 
 PeerSettings stock_bullet() {
   PeerSettings peer;
@@ -74,11 +43,11 @@ void pile_row(Run& out, const Pile& pile, bool peer, int seeds, int judged) {
   for (int seed = 1; seed <= seeds; ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
     const Judged how{out.quick() ? 20.0 : 120.0, seed <= judged};
-    scenes.push_back(
-        judged_scene(out.scratch(), request, pile.part, peer ? std::optional(stock_bullet()) : std::nullopt, how));
+    scenes.push_back(judged_scene(out.scratch(), request, Run::pieces(pile.part),
+                                  peer ? std::optional(stock_bullet()) : std::nullopt, how));
     if (scenes.back().at("scenes").empty()) break;
   }
-  out.row(Row(key).append(scenes.back().at("scenes").empty() ? scenes.back() : over_all(scenes)));
+  out.row(Row(key).append(over_all(scenes)));
 }
 
 void run(Run& out) {

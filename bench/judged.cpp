@@ -10,12 +10,12 @@ namespace bin_scenes::bench {
 
 namespace {
 
-constexpr double millimetre = 1e-3;  ///< unit of models/
+constexpr double millimetre = 1e-3;  ///< unit of pieces
 
-Row drift_row(const std::string& path, const Request& request, const std::string& part) {
+Row drift_row(const std::string& path, const Request& request, const std::string& pieces) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   const Scene scene = read_scene_json(path);
-  const Drift drift = referee_drift(scene, request, parts, {read_pieces(Run::pieces(part), millimetre)});
+  const Drift drift = referee_drift(scene, request, parts, {read_pieces(pieces, millimetre)});
   return Row()
       .measure("drift_median_rel", median(drift.moved))
       .measure("drift_p95_rel", quantile(drift.moved, 0.95))
@@ -25,13 +25,13 @@ Row drift_row(const std::string& path, const Request& request, const std::string
 
 }  // namespace
 
-Row judged_scene(const std::string& scratch, const Request& request, const std::string& part,
+Row judged_scene(const std::string& scratch, const Request& request, const std::string& pieces,
                  const std::optional<PeerSettings>& peer, const Judged& how) {
   const std::string path = scratch + "/scene.json";
   const auto pour = [&] {
     if (!peer) return pour_timed(request);
     PeerSettings settings = *peer;
-    settings.pieces = {read_pieces(Run::pieces(part), millimetre)};
+    settings.pieces = {read_pieces(pieces, millimetre)};
     return pour_timed(request, [&](const std::vector<PartModelPtr>&) { return make_peer(settings); });
   };
   Isolated poured = isolated(
@@ -42,7 +42,7 @@ Row judged_scene(const std::string& scratch, const Request& request, const std::
       },
       how.limit_cpu_s);
   if (!poured.good || !how.referee) return poured.row;
-  return poured.row.append(isolated([&] { return drift_row(path, request, part); }, 600.0).row);
+  return poured.row.append(isolated([&] { return drift_row(path, request, pieces); }, 600.0).row);
 }
 
 }  // namespace bin_scenes::bench

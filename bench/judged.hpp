@@ -11,14 +11,14 @@ namespace bin_scenes::bench {
 
 struct Judged {
   double limit_cpu_s = 60.0;  ///< for the pour; the referee may take ten minutes
-  bool referee = true;        ///< the part has exact pieces (models/pieces), and the referee is wanted
+  bool referee = true;        ///< the part has exact pieces, and the referee is wanted
 };
 
 /// Pours `request`, of one part line, in one process and has the referee judge it in another: both set globals of
 /// Bullet. Figures of figures_of(), then drift_median_rel, drift_p95_rel, drift_max_rel and turn_p95_deg.
-/// @param part name in models/
+/// @param pieces folder of the part's exact convex pieces, in millimetres
 /// @param peer pours instead of the request's solver, on the part's exact pieces
-Row judged_scene(const std::string& scratch, const Request& request, const std::string& part,
+Row judged_scene(const std::string& scratch, const Request& request, const std::string& pieces,
                  const std::optional<PeerSettings>& peer, const Judged& how);
 
 }  // namespace bin_scenes::bench

@@ -127,8 +127,8 @@ void run(Run& out) {
         Request request = bin_of(pile.part, pile.count);
         request.seed = static_cast<std::uint64_t>(seed);
         if (setting.apply) setting.apply(request);
-        scenes.push_back(
-            judged_scene(out.scratch(), request, pile.part, setting.peer, {out.quick() ? 20.0 : 60.0, true}));
+        scenes.push_back(judged_scene(out.scratch(), request, Run::pieces(pile.part), setting.peer,
+                                      {out.quick() ? 20.0 : 60.0, true}));
         if (scenes.back().at("scenes").empty()) break;
       }
       row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes));
