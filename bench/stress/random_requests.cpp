@@ -93,7 +93,7 @@ std::vector<Row> random_requests(bool soak) {
   Row heaps{"random", "heaps", both, {}, {}}, flights{"random", "free flights", both, {}, {}};
   for (std::uint64_t seed = 0; seed < (soak ? 60 : 8); ++seed) heaps.cases.push_back(heap(seed));
   for (std::uint64_t seed = 0; seed < (soak ? 60 : 6); ++seed) flights.cases.push_back(flight(seed));
-  for (const int seed : {2, 4, 8, 9, 12, 16, 17, 20, 21, 23, 28, 30, 31, 33, 39, 43, 47, 50, 51, 52, 55, 56, 59})
+  for (const int seed : {2, 9, 12, 16, 20, 21, 30, 33, 39, 43, 47, 50, 52, 55, 56})
     flights.known["sphere: flight " + std::to_string(seed)] = blow;
   for (const int seed : {12, 43}) flights.known["bullet: flight " + std::to_string(seed)] = blow;
   for (const char* solver : {"sphere", "bullet"})

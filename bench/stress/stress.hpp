@@ -47,9 +47,6 @@ using Known = std::map<std::string, std::string>;
 
 /// Causes that more than one theme meets.
 inline const char* const trembles = "trembles or creeps by more than rest allows";
-inline const char* const sways =
-    "sways or trembles on: the sweeps of a sub-step leave forces behind what moves; four before and four after bodies "
-    "move end it";
 inline const char* const restarted =
     "stands when the run goes on; the re-run begins without the contact forces that held it";
 inline const char* const blow =

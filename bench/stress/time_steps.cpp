@@ -38,8 +38,7 @@ std::vector<Row> time_steps(bool soak) {
       row.cases.back().request.bin.inner_size.z() = 0.16;
     }
     if (hertz == 15) row.known["bullet: angles"] = restarted;
-    if (hertz == 15) row.known["sphere: 40 cubes"] = "called resting, moved on by 16 %; cause not looked into";
-    if (hertz == 120 || hertz == 240) row.known["sphere: 40 cubes"] = row.known["bullet: 40 cubes"] = spins;
+    if (hertz == 120 || hertz == 240) row.known["bullet: 40 cubes"] = spins;
     rows.push_back(row);
   }
   return rows;
