@@ -128,7 +128,8 @@ class World {
 Pieces read_pieces(const std::string& folder, double scale) {
   std::vector<std::filesystem::path> files;
   std::error_code missing;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+    if (entry.path().filename().string().rfind("hull_", 0) == 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   Pieces pieces;
   for (const auto& path : files) {
