@@ -9,8 +9,8 @@ namespace {
 constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
 
 /// What a body does between the start of a step and the mean of its sub-steps' beginnings: levers and normals are of
-/// then. Levers of the start alone turn what hangs into what gains energy (a yoke on a ridge 8 % a second), those of
-/// the middle take it; with one sub-step both are the same as in the symplectic Euler method, which keeps it.
+/// then, as in the symplectic Euler method over the sub-steps, which keeps energy. With levers of the step's start what
+/// hangs gains energy (a yoke on a ridge 8 % a second), with those of its middle it loses as much.
 struct Ahead {
   Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
 
