@@ -91,6 +91,9 @@ const Mesh& PartModel::mesh() const {
 const LoadReport& PartModel::load_report() const {
   return state_->loaded.report;
 }
+const std::string& PartModel::mesh_key() const {
+  return state_->mesh_key;
+}
 const MassProperties& PartModel::mass() const {
   return state_->mass;
 }

@@ -34,6 +34,7 @@ class PartModel {
   const std::string& path() const;
   const Mesh& mesh() const;
   const LoadReport& load_report() const;
+  const std::string& mesh_key() const;  ///< hash of the mesh: the key of whatever is made from it alone
   const MassProperties& mass() const;  ///< density 1
   double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
   double radius() const;               ///< largest vertex distance from the centre of mass (m)
