@@ -1,9 +1,11 @@
 #include "bin_scenes/generate/generator.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "generate/judging.hpp"
 #include "generate/model_store.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bin_scenes {
 
@@ -19,7 +21,7 @@ class Reporter {
  public:
   Reporter(const RunHooks& hooks, std::size_t scenes) : hooks_(hooks), scenes_(static_cast<double>(scenes)) {}
 
-  void phase(const std::string& name, std::size_t scene, std::size_t parts, double fraction) {
+  void phase(const std::string& name, std::size_t scene, std::size_t parts) {
     if (hooks_.cancel && hooks_.cancel->load()) {
       throw Error(ErrorKind::cancelled, "cancelled", "", "");
     }
@@ -27,26 +29,28 @@ class Reporter {
     progress.phase = name;
     progress.scene = scene;
     progress.parts = parts;
-    tell(progress, fraction);
+    tell(progress);
   }
-  void tell(Progress progress, double fraction) {
-    fraction_ = std::max(fraction_, std::min(fraction, 1.0));
+  void poured(Progress progress) {
+    poured_ = progress.fraction;
+    tell(progress);
+  }
+  void handed_on() { ++handed_on_; }
+
+ private:
+  void tell(Progress progress) {
+    if (poured_ > 0.0) {
+      const double after = (1.0 - kLoadShare - kPourShare) * static_cast<double>(handed_on_) / scenes_;
+      fraction_ = std::max(fraction_, std::min(kLoadShare + kPourShare * poured_ + after, 1.0));
+    }
     progress.fraction = fraction_;
     if (hooks_.progress) hooks_.progress(progress);
   }
-  /// Hooks for pouring `count` scenes after `before` of them are done.
-  RunHooks pouring(std::size_t before, std::size_t count) {
-    RunHooks hooks = hooks_;
-    hooks.progress = [this, before, count](const Progress& progress) {
-      const double within = kLoadShare + kPourShare * progress.fraction;
-      tell(progress, (static_cast<double>(before) + within * static_cast<double>(count)) / scenes_);
-    };
-    return hooks;
-  }
 
- private:
   const RunHooks& hooks_;
   double scenes_, fraction_ = 0.0;
+  double poured_ = 0.0;        ///< share of all pouring
+  std::size_t handed_on_ = 0;  ///< scenes
 };
 
 /// The request that goes on from a finished scene for `seconds`; `kept` are the scene's parts that take part, in the
@@ -77,7 +81,7 @@ struct Generator::State {
   std::unique_ptr<RangeCamera> camera;
 
   void load(const Request& request, Reporter& reporter) {
-    reporter.phase("load", request.first, request.part_count(), 0.0);
+    reporter.phase("load", request.first, request.part_count());
     estimate_memory(request, {});
     models.load(request);
     estimate_memory(request, models.parts());
@@ -131,55 +135,63 @@ void Generator::generate(const Request& request, const Options& options, const s
     state_->load(request, reporter);
   }
   const std::vector<PartModelPtr>& parts = state_->models.parts();
+  const PartModelPtr& bin_model = state_->models.bin();
   std::string solver_reason;
   std::unique_ptr<Solver> solver;
   {
     StageTimer timer(loading, "prepare");
-    reporter.phase("prepare", request.first, request.part_count(), 0.0);
+    reporter.phase("prepare", request.first, request.part_count());
     solver = make_solver(request, parts, solver_reason);
   }
 
-  const std::size_t at_once = std::max<std::size_t>(1, solver->worlds_at_once());
-  const double scenes = static_cast<double>(request.scenes);
-  for (std::size_t begin = 0; begin < request.scenes; begin += at_once) {
-    const std::size_t count = std::min(at_once, request.scenes - begin);
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < count; ++i) indices.push_back(request.first + begin + i);
-    std::vector<Scene> poured =
-        pour(request, parts, *solver, indices, reporter.pouring(begin, count), state_->models.bin());
-
-    for (std::size_t i = 0; i < count; ++i) {
-      const double fraction = (static_cast<double>(begin) + (kLoadShare + kPourShare) * static_cast<double>(count) +
-                               (1.0 - kLoadShare - kPourShare) * static_cast<double>(i)) /
-                              scenes;
-      Result result;
-      result.scene = std::move(poured[i]);
-      Scene& scene = result.scene;
-      Report& report = scene.report;
-      report.solver_reason = solver_reason;
-      if (begin == 0 && i == 0) report.profile.merge(loading);
-      for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
-        if (std::find(parts.begin(), part, *part) != part) continue;
-        for (const Flag& flag : (*part)->load_report().flags) report.flags.push_back(flag);
-      }
-      Profile after;
+  const auto judge_one = [&](Scene& scene) {
+    Profile judging;
+    {
+      StageTimer timer(judging, "quality");
+      judge(scene, request, parts, bin_model);
+    }
+    scene.report.profile.merge(judging);
+  };
+  const auto hand_on = [&](Scene&& scene) {
+    Result result;
+    result.scene = std::move(scene);
+    result.scene.sensors.clear();
+    for (const Sensor& sensor : request.sensors) result.scene.sensors.push_back(resolved(sensor, request.bin));
+    if (options.render && !request.sensors.empty()) {
+      Profile rendering;
       {
-        StageTimer timer(after, "quality");
-        reporter.phase("quality", scene.index, scene.parts.size(), fraction);
-        if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
-        judge(scene, request, parts, state_->models.bin());
-      }
-      scene.sensors.clear();
-      for (const Sensor& sensor : request.sensors) scene.sensors.push_back(resolved(sensor, request.bin));
-      if (options.render && !request.sensors.empty()) {
-        StageTimer timer(after, "render");
-        reporter.phase("render", scene.index, scene.parts.size(), fraction);
+        StageTimer timer(rendering, "render");
+        reporter.phase("render", result.scene.index, result.scene.parts.size());
         state_->see(result, request);
       }
-      report.profile.merge(after);
-      done(std::move(result));
+      result.scene.report.profile.merge(rendering);
     }
-  }
+    reporter.handed_on();
+    done(std::move(result));
+  };
+  Judging judging(judge_one, hand_on);
+
+  std::vector<std::size_t> indices(request.scenes);
+  std::iota(indices.begin(), indices.end(), request.first);
+  RunHooks hooks = options.hooks;
+  hooks.progress = [&](const Progress& progress) {
+    reporter.poured(progress);
+    judging.hand_on_judged();
+  };
+  pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
+    Report& report = scene.report;
+    report.solver_reason = solver_reason;
+    if (place == 0) report.profile.merge(loading);
+    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
+      if (std::find(parts.begin(), part, *part) != part) continue;
+      for (const Flag& flag : (*part)->load_report().flags) report.flags.push_back(flag);
+    }
+    reporter.phase("quality", scene.index, scene.parts.size());
+    if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
+    judging.add(place, std::move(scene));
+    judging.hand_on_judged();
+  });
+  judging.finish();
 }
 
 }  // namespace bin_scenes

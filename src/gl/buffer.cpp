@@ -102,23 +102,43 @@ void Storage::bind_indirect() const {
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_);
 }
 
-ReadBack::ReadBack(std::size_t bytes) : bytes_(bytes) {
+void ReadBack::make_room(std::size_t bytes) {
+  if (bytes <= bytes_) return;
+  free();
   constexpr GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(bytes), nullptr, flags | GL_CLIENT_STORAGE_BIT);
   mapped_ = glMapNamedBufferRange(id_, 0, static_cast<GLsizeiptr>(bytes), flags);
+  bytes_ = bytes;
+}
+
+void ReadBack::free() {
+  if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
+  if (id_) glDeleteBuffers(1, &id_);
+  fence_ = nullptr;
+  id_ = 0;
 }
 
 ReadBack::~ReadBack() {
-  if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
-  glDeleteBuffers(1, &id_);
+  free();
 }
 
-void ReadBack::request(const Storage& source, std::size_t offset, std::size_t bytes) {
-  assert(bytes <= bytes_);
+void ReadBack::request(const std::vector<Range>& ranges) {
+  std::size_t sum = 0;
+  for (const Range& range : ranges) sum += range.bytes;
+  make_room(sum);
   if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glCopyNamedBufferSubData(source.id(), id_, static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < ranges.size();) {
+    Range whole = ranges[i++];
+    for (; i < ranges.size() && ranges[i].source == whole.source && ranges[i].offset == whole.offset + whole.bytes; ++i)
+      whole.bytes += ranges[i].bytes;
+    assert(whole.offset + whole.bytes <= whole.source->bytes());
+    glCopyNamedBufferSubData(whole.source->id(), id_, static_cast<GLintptr>(whole.offset), static_cast<GLintptr>(at),
+                             static_cast<GLsizeiptr>(whole.bytes));
+    at += whole.bytes;
+  }
   glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();

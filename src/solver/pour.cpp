@@ -16,9 +16,25 @@ namespace {
 constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two looks at a world
 
 struct Running {
-  std::size_t slot;  ///< position in the result
+  std::size_t place;  ///< in the list of indices
   std::unique_ptr<PourWorld> world;
   std::chrono::steady_clock::time_point begin;
+};
+
+/// Worlds that are simulated and looked at together. Of two groups one is looked at while the device works on the
+/// other.
+struct Group {
+  std::vector<Running> running;
+  std::uint64_t left = 0;       ///< steps to the end of the slice
+  std::uint64_t clock = 0;      ///< steps; only its remainders matter, worlds start and end on whole slices
+  bool begun = false;           ///< a piece of the slice
+  std::uint64_t under_way = 0;  ///< its steps
+  double seconds = 0.0;         ///< simulated by them
+  std::vector<WorldId> ids() const {
+    std::vector<WorldId> all;
+    for (const Running& r : running) all.push_back(r.world->id());
+    return all;
+  }
 };
 
 /// Largest whole number of steps that ends no later than any of the marks that lie ahead.
@@ -70,8 +86,9 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
   return hash;
 }
 
-std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-                        const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
+void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
+          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const std::function<void(std::size_t, Scene&&)>& poured) {
   const PourPlan plan(request, parts, std::move(bin_model));
   const double step = solver.step_size();
   const auto whole_steps = [&](double seconds) {
@@ -82,79 +99,96 @@ std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>&
   const std::uint64_t trace_every = tracing ? whole_steps(1.0 / hooks.trace_rate) : slice;
   // Trace samples count from each world's own start, so a traced world runs by itself. It makes no other difference.
   const std::size_t at_once = tracing ? 1 : std::max<std::size_t>(1, solver.worlds_at_once());
+  std::vector<Group> groups(solver.works_aside() && at_once > 1 ? 2 : 1);
+  const std::size_t group_size = at_once / groups.size();
 
-  std::vector<Scene> scenes(indices.size());
-  std::vector<Running> running;
   std::size_t next = 0, done = 0;
-  std::uint64_t clock = 0;  // steps; only its remainders matter, worlds start and end on whole slices
   double fraction = 0.0;
   const Profile before = solver.profile();
 
-  const auto finish = [&](Running& r) {
-    Scene& scene = scenes[r.slot];
-    scene = r.world->scene();
-    scene.report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - r.begin).count();
-    r.world.reset();
-    ++done;
-  };
-  while (done < indices.size()) {
-    while (running.size() < at_once && next < indices.size()) {
-      running.push_back({next, nullptr, std::chrono::steady_clock::now()});
-      running.back().world = std::make_unique<PourWorld>(plan, solver, indices[next++]);
-      if (tracing) hooks.trace(running.back().world->index(), 0.0, running.back().world->states());
-    }
-    if (hooks.cancel && hooks.cancel->load()) throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
-
-    // One slice, in pieces that also end where a trace sample or a world's set time is due.
-    std::uint64_t left = slice;
-    while (left > 0 && !running.empty()) {
-      std::uint64_t steps = left;
-      if (tracing) steps = std::min(steps, steps_until_mark(clock, trace_every));
-      for (const Running& r : running) steps = std::min(steps, r.world->steps_left(step));
-      if (steps > 0) {
-        std::vector<WorldId> ids;
-        for (const Running& r : running) ids.push_back(r.world->id());
-        const double seconds = solver.advance(ids, static_cast<double>(steps) * step);
-        for (Running& r : running) r.world->advanced(seconds);
-        clock += steps;
-        left -= steps;
-        if (tracing && clock % trace_every == 0)
-          for (Running& r : running) hooks.trace(r.world->index(), r.world->time(), r.world->states());
-      }
-      const auto over = [&](Running& r) {
-        if (r.world->steps_left(step) > 0) return false;
-        r.world->judge();
-        finish(r);
-        return true;
-      };
-      running.erase(std::remove_if(running.begin(), running.end(), over), running.end());
-    }
-    for (Running& r : running) r.world->look();
-    if (hooks.progress) {
-      double sum = static_cast<double>(done);
-      for (const Running& r : running) sum += r.world->progress().fraction;
-      fraction = std::max(fraction, sum / static_cast<double>(indices.size()));
-      for (const Running& r : running) {
-        Progress progress = r.world->progress();
-        progress.fraction = fraction;
-        hooks.progress(progress);
-      }
-    }
-    const auto over = [&](Running& r) {
-      if (!r.world->over()) return false;
-      finish(r);
+  const auto finish_if = [&](Group& group, auto&& over) {
+    const auto finished = [&](Running& r) {
+      if (!over(*r.world)) return false;
+      Scene scene = r.world->scene();
+      scene.report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - r.begin).count();
+      r.world.reset();
+      ++done;
+      if (indices.size() == 1) scene.report.profile.merge(solver.profile().since(before));  // worlds share its counters
+      poured(r.place, std::move(scene));
       return true;
     };
-    running.erase(std::remove_if(running.begin(), running.end(), over), running.end());
-    if (tracing && running.empty()) clock = 0;
-  }
+    group.running.erase(std::remove_if(group.running.begin(), group.running.end(), finished), group.running.end());
+  };
+  const auto fill = [&](Group& group) {
+    if (group.running.empty()) group.clock = 0;
+    while (group.running.size() < group_size && next < indices.size()) {
+      group.running.push_back({next, nullptr, std::chrono::steady_clock::now()});
+      Running& r = group.running.back();
+      r.world = std::make_unique<PourWorld>(plan, solver, indices[next++]);
+      if (tracing) hooks.trace(r.world->index(), 0.0, r.world->states());
+    }
+    group.left = slice;
+  };
+  // A slice, in pieces that also end where a trace sample or a world's set time is due.
+  const auto begin_piece = [&](Group& group) {
+    std::uint64_t steps = group.left;
+    if (tracing) steps = std::min(steps, steps_until_mark(group.clock, trace_every));
+    for (const Running& r : group.running) steps = std::min(steps, r.world->steps_left(step));
+    group.under_way = steps;
+    if (steps > 0) group.seconds = solver.begin(group.ids(), static_cast<double>(steps) * step);
+  };
+  const auto end_piece = [&](Group& group) {
+    if (group.under_way > 0) {
+      solver.finish(group.ids());
+      for (Running& r : group.running) r.world->advanced(group.seconds);
+      group.clock += group.under_way;
+      group.left -= group.under_way;
+      if (tracing && group.clock % trace_every == 0)
+        for (Running& r : group.running) hooks.trace(r.world->index(), r.world->time(), r.world->states());
+    }
+    finish_if(group, [&](PourWorld& world) {
+      if (world.steps_left(step) > 0) return false;
+      world.judge();
+      return true;
+    });
+  };
+  const auto tell = [&](const Group& looked_at) {
+    if (!hooks.progress) return;
+    double sum = static_cast<double>(done);
+    for (const Group& group : groups)
+      for (const Running& r : group.running) sum += r.world->progress().fraction;
+    fraction = std::max(fraction, sum / static_cast<double>(indices.size()));
+    for (const Running& r : looked_at.running) {
+      Progress progress = r.world->progress();
+      progress.fraction = fraction;
+      hooks.progress(progress);
+    }
+  };
 
-  if (indices.size() == 1) {  // the solver's counters cannot be told apart by world
-    Profile& profile = scenes[0].report.profile;
-    profile.merge(solver.profile());
-    for (const auto& [name, ms] : before.stages_ms) profile.stages_ms[name] -= ms;
-    for (const auto& [name, n] : before.counters) profile.counters[name] -= n;
+  for (Group& group : groups) fill(group);
+  while (done < indices.size()) {
+    for (Group& group : groups) {
+      if (hooks.cancel && hooks.cancel->load()) throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
+      if (group.begun) {
+        end_piece(group);
+        if (group.left == 0) {
+          for (Running& r : group.running) r.world->look();
+          tell(group);
+          finish_if(group, [](PourWorld& world) { return world.over(); });
+        }
+        if (group.left == 0 || group.running.empty()) fill(group);
+      }
+      group.begun = !group.running.empty();
+      if (group.begun) begin_piece(group);
+    }
   }
+}
+
+std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
+                        const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
+  std::vector<Scene> scenes(indices.size());
+  pour(request, parts, solver, indices, hooks, std::move(bin_model),
+       [&](std::size_t place, Scene&& scene) { scenes[place] = std::move(scene); });
   return scenes;
 }
 

@@ -115,6 +115,24 @@ TEST_F(GeneratorTest, TheSameRequestGivesTheSameBitsAndASceneDoesNotDependOnItsN
   }
 }
 
+TEST_F(GeneratorTest, TheNextSceneTakesThePlaceOfOneThatRests) {
+  Request request = boxes(3);
+  request.solver.type = SolverType::sphere;
+  request.solver.sphere.device = SphereSettings::Device::gpu;  // llvmpipe: four at once
+  request.scenes = 8;
+  std::vector<std::size_t> poured;  // scenes in hand, look after look
+  Generator::Options options;
+  options.hooks.progress = [&](const Progress& p) {
+    if (p.simulated_s > 0) poured.push_back(p.scene);
+  };
+  const auto results = run(request, options);
+  ASSERT_EQ(results.size(), 8u);
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].scene.index, i);
+  const auto fifth = std::find(poured.begin(), poured.end(), 4u);
+  EXPECT_TRUE(std::any_of(fifth, poured.end(), [](std::size_t scene) { return scene < 4; }))
+      << "it waited until all of the first four were at rest";
+}
+
 TEST_F(GeneratorTest, KeepsAModelUntilItsFileChanges) {
   run(boxes(1));
   const PartModelPtr once = generator.parts().at(0);

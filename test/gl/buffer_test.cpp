@@ -58,6 +58,16 @@ TEST_F(BufferTest, ReadBackThroughAFenceSeesTheState) {
   EXPECT_FALSE(back.pending());
 }
 
+TEST_F(BufferTest, ReadBackLaysRangesOfSeveralBuffersOneBehindTheOther) {
+  Buffer<std::uint32_t> one("one"), other("other");
+  one.upload(counting(8));
+  other.upload({70, 80});
+  ReadBack back;
+  back.request({{&one.storage(), 4, 4}, {&one.storage(), 8, 8}, {&other.storage(), 4, 4}, {&one.storage(), 28, 4}});
+  const auto* values = static_cast<const std::uint32_t*>(back.wait());
+  EXPECT_EQ(std::vector<std::uint32_t>(values, values + 5), (std::vector<std::uint32_t>{2, 3, 4, 80, 8}));
+}
+
 TEST_F(BufferTest, BeyondTheDriversLimitIsAnErrorThatNamesTheBuffer) {
   Storage storage("contacts");
   const auto limit = static_cast<std::size_t>(Device::current().limits().storage_bytes);

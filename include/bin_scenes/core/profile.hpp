@@ -19,6 +19,13 @@ struct Profile {
     for (const auto& [name, ms] : other.stages_ms) stages_ms[name] += ms;
     for (const auto& [name, n] : other.counters) counters[name] += n;
   }
+  /// What was added after `before`, an earlier state of this profile.
+  Profile since(const Profile& before) const {
+    Profile later = *this;
+    for (const auto& [name, ms] : before.stages_ms) later.stages_ms[name] -= ms;
+    for (const auto& [name, n] : before.counters) later.counters[name] -= n;
+    return later;
+  }
 };
 
 /// Adds the life time of the object to one stage.

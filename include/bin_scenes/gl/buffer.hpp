@@ -94,15 +94,22 @@ class Buffer {
   std::size_t count_ = 0;
 };
 
-/// Copies a small range to the host without stalling: request() now, look again some steps later.
+/// Copies ranges of buffers to the host without stalling: request() now, look again some steps later.
 class ReadBack {
  public:
-  explicit ReadBack(std::size_t bytes);
+  struct Range {
+    const Storage* source;
+    std::size_t offset, bytes;
+  };
+
+  explicit ReadBack(std::size_t bytes = 0) { make_room(bytes); }
   ~ReadBack();
   ReadBack(const ReadBack&) = delete;
   ReadBack& operator=(const ReadBack&) = delete;
 
-  void request(const Storage& source, std::size_t offset, std::size_t bytes);
+  void request(const Storage& source, std::size_t offset, std::size_t bytes) { request({{&source, offset, bytes}}); }
+  /// One behind the other; ranges that follow each other in the same buffer are one copy.
+  void request(const std::vector<Range>& ranges);
   bool pending() const { return fence_ != nullptr; }
   bool ready() const;  ///< never waits
   const void* wait();  ///< waits if it must; valid until the next request()
@@ -112,8 +119,11 @@ class ReadBack {
   }
 
  private:
+  void make_room(std::size_t bytes);
+  void free();
+
   unsigned id_ = 0;
-  std::size_t bytes_;
+  std::size_t bytes_ = 0;
   const void* mapped_ = nullptr;
   void* fence_ = nullptr;
 };

@@ -32,9 +32,10 @@ struct RunHooks {
 WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model = nullptr);
 
 /// Pours scene `index` of the request for each of the given indices, Solver::worlds_at_once() of them at a time (a
-/// world that is done leaves and the next index takes its place), and returns the scenes in that order: poses, states,
-/// at_rest, escaped, not_poured, simulated_s, steps, flags and state_hash filled in. Quality and visibility are not
-/// (quality/, sensor/). A scene depends on (request, seed, index) alone, not on what runs beside it.
+/// world that is done leaves and the next index takes its place), and hands each to `poured` as soon as it rests, with
+/// its place in `indices`, from the calling thread: poses, states, at_rest, escaped, not_poured, simulated_s, steps,
+/// flags and state_hash filled in. Quality and visibility are not (quality/, sensor/). A scene depends on (request,
+/// seed, index) alone, not on what runs beside it.
 ///
 /// While parts come in, the walls of a box reach above the rim far enough to hold what enters; when all are in and
 /// slow, they are cut back to the rim if the heap stands above it. A part whose centre of mass is then beside the inner
@@ -45,6 +46,11 @@ WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts
 ///
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
+void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
+          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const std::function<void(std::size_t place, Scene&& scene)>& poured);
+
+/// The same, with all scenes at the end, in order of `indices`.
 std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
                         const std::vector<std::size_t>& indices, const RunHooks& hooks = {},
                         PartModelPtr bin_model = nullptr);

@@ -64,6 +64,12 @@ class Solver {
   /// Simulates the next `seconds` of each listed world; rounds to whole steps, at least one, and returns the
   /// simulated time (the same for every world). Never depends on wall time.
   virtual double advance(const std::vector<WorldId>& worlds, double seconds) = 0;
+  /// advance() in two halves: begin() may return while a device still works on these worlds; nothing may be asked of
+  /// them, nor may they be changed, before finish() with the same list. Others may be begun and finished meanwhile.
+  virtual double begin(const std::vector<WorldId>& worlds, double seconds) { return advance(worlds, seconds); }
+  virtual void finish(const std::vector<WorldId>&) {}
+  /// Whether begin() leaves the caller time to look at other worlds.
+  virtual bool works_aside() const { return false; }
 
   /// States of all bodies in order of WorldDef::bodies; absent ones keep what they had (initially: NaN position).
   virtual std::vector<BodyState> states(WorldId world) const = 0;

@@ -206,28 +206,16 @@ void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
   progress_.upload(slot, &progress, 1);
 }
 
-std::vector<gpu::SphereProgress> Batch::progress() const {
-  read_back_ += slots_.size() * sizeof(gpu::SphereProgress);
-  return progress_.download(0, slots_.size());
-}
-
-void Batch::request_progress() {
-  Look& look = looks_[(first_look_ + looks_under_way_++) % 2];
-  const std::size_t bytes = slots_.size() * sizeof(gpu::SphereProgress);
-  if (look.capacity < bytes) {
-    look.back = std::make_unique<gl::ReadBack>(2 * bytes);
-    look.capacity = 2 * bytes;
-  }
-  look.slots = slots_.size();
-  look.back->request(progress_.storage(), 0, bytes);
-  read_back_ += bytes;
-}
-
-std::vector<gpu::SphereProgress> Batch::requested_progress() {
-  Look& look = looks_[first_look_++ % 2];
-  --looks_under_way_;
-  const auto* seen = static_cast<const gpu::SphereProgress*>(look.back->wait());
-  return {seen, seen + look.slots};
+void Batch::request(const std::vector<Slot>& slots, gl::ReadBack& back) const {
+  std::vector<gl::ReadBack::Range> ranges;
+  const auto add = [&](const auto& buffer, std::size_t first, std::size_t count, std::size_t size) {
+    ranges.push_back({&buffer.storage(), first * size, count * size});
+    read_back_ += count * size;
+  };
+  for (const Slot slot : slots) add(progress_, slot, 1, sizeof(gpu::SphereProgress));
+  for (const Slot slot : slots)
+    add(states_, regions_[slot].first_body, regions_[slot].bodies, sizeof(gpu::SphereState));
+  back.request(ranges);
 }
 
 void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
@@ -275,11 +263,6 @@ void Batch::grow_candidates() {
   make_room();
 }
 
-std::vector<gpu::SphereState> Batch::states() const {
-  read_back_ += body_arena_.size() * sizeof(gpu::SphereState);
-  return states_.download(0, body_arena_.size());
-}
-
 void Batch::download(Slot slot, sphere::World& world) const {
   const Region& r = regions_[slot];
   const std::vector<gpu::SphereState> states = states_.download(r.first_body, r.bodies);
@@ -289,7 +272,7 @@ void Batch::download(Slot slot, sphere::World& world) const {
 
 ManifoldImage Batch::manifolds(Slot slot) const {
   const Region& r = regions_[slot];
-  const gpu::SphereProgress progress = progress_.download(slot, 1)[0];
+  const gpu::SphereProgress progress = this->progress(slot);
   ManifoldImage image;
   image.pairs = pairs_.download(2 * r.first_pair + progress.page * r.capacity, progress.pairs);
   image.manifolds = manifolds_.download(r.first_pair, r.capacity);

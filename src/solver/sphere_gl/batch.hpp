@@ -49,11 +49,9 @@ class Batch {
   void upload_states(Slot slot, const sphere::World& world);
   /// What the steps of a world left behind; upload takes effect at the next pass.
   void upload_progress(Slot slot, const gpu::SphereProgress& progress);
-  /// Of all slots; waits for the passes so far.
-  std::vector<gpu::SphereProgress> progress() const;
-  /// As progress(), without waiting: request now, look some steps later. Two requests may be under way.
-  void request_progress();
-  std::vector<gpu::SphereProgress> requested_progress();
+  /// Asks for where these worlds will stand, and the states of their bodies, after the passes issued so far. Wait for
+  /// `back` later: it holds the progress of each slot in turn, then the states of each.
+  void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;
 
   /// Room for more pairs or contacts of a world that had too little, from its progress; contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
@@ -61,10 +59,9 @@ class Batch {
   /// Room for twice the candidates per pair of bodies.
   void grow_candidates();
 
-  /// States of all bodies of all worlds; those of a slot begin at first_body().
-  std::vector<gpu::SphereState> states() const;
-  std::size_t first_body(Slot slot) const { return regions_[slot].first_body; }
-  /// Everything of one world, for tests; and its manifolds as they lie on the device.
+  /// Where one world stands, after waiting for the passes so far; for tests, as the next two.
+  gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
+  /// Everything of one world; and its manifolds as they lie on the device.
   void download(Slot slot, sphere::World& world) const;
   ManifoldImage manifolds(Slot slot) const;
 
@@ -114,12 +111,6 @@ class Batch {
   gl::Program find_pairs_, find_contacts_, color_manifolds_, solve_, update_sleep_;
   std::unique_ptr<LargePasses> large_;
   gl::Timer timer_;
-  struct Look {
-    std::unique_ptr<gl::ReadBack> back;
-    std::size_t capacity = 0, slots = 0;
-  };
-  Look looks_[2];
-  std::size_t first_look_ = 0, looks_under_way_ = 0;
 
   ShapeTable shapes_;
   gl::Buffer<gpu::SphereSettingsBlock> settings_{"sphere.settings"};

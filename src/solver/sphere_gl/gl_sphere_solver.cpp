@@ -16,9 +16,10 @@ namespace {
 
 using namespace sphere_gl;
 
-constexpr std::uint64_t steps_per_look = 16;  ///< the host runs at most two looks ahead of the device
+constexpr std::uint64_t steps_per_look = 16;  ///< a world without room waits no longer than these for the host
 
-/// What the host knows of a world. The states of its bodies are those of the last fetch, but for the changed ones.
+/// What the host knows of a world: where it stood when the steps that were begun last were finished, but for the bodies
+/// changed since.
 struct Resident {
   sphere::World world;
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
@@ -26,8 +27,14 @@ struct Resident {
   gpu::SphereProgress progress{};
   std::set<std::size_t> changed;  ///< bodies to upload
   std::vector<std::uint32_t> island;
-  bool stale = false;
   std::uint64_t steps = 0;
+};
+
+/// Worlds whose steps were issued and not looked at yet.
+struct Flight {
+  std::vector<WorldId> ids;
+  std::vector<Batch::Slot> slots;
+  std::unique_ptr<gl::ReadBack> back;
 };
 
 class GlSphereSolver final : public Solver {
@@ -52,6 +59,8 @@ class GlSphereSolver final : public Solver {
   }
 
   void remove_world(WorldId id) override {
+    const auto has_it = [id](const Flight& f) { return std::find(f.ids.begin(), f.ids.end(), id) != f.ids.end(); };
+    flights_.erase(std::remove_if(flights_.begin(), flights_.end(), has_it), flights_.end());
     batch_.remove(world(id).slot);
     worlds_.erase(id);
   }
@@ -64,7 +73,6 @@ class GlSphereSolver final : public Solver {
 
   void remove(WorldId id, std::size_t body) override {
     Resident& r = world(id);
-    fetch();
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i)
       if (r.island[i] == r.island[body]) wake(r, i);
     r.world.bodies[body].present = false;
@@ -75,7 +83,6 @@ class GlSphereSolver final : public Solver {
     Resident& r = world(id);
     const bool fine = phase != Phase::pour, pressed = phase == Phase::press;
     if (r.world.fine == fine && r.world.pressed == pressed) return;
-    fetch();
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
     r.world.fine = fine;
     r.world.pressed = pressed;
@@ -85,32 +92,46 @@ class GlSphereSolver final : public Solver {
   }
 
   double advance(const std::vector<WorldId>& ids, double seconds) override {
+    const double simulated = begin(ids, seconds);
+    finish(ids);
+    return simulated;
+  }
+
+  double begin(const std::vector<WorldId>& ids, double seconds) override {
     gl::Device::current().make_current();
     const auto steps = static_cast<std::uint64_t>(std::max(1L, std::lround(seconds / settings_.time_step)));
+    Flight flight{ids, {}, spare_back()};
     std::uint64_t most = 0;
-    std::vector<Batch::Slot> slots;
     for (const WorldId id : ids) {
       Resident& r = world(id);
       for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
       r.changed.clear();
-      r.stale = true;
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       most = std::max(most, own);
       r.steps += own;
       r.progress.steps_left = static_cast<gpu::uint>(own);
       batch_.upload_progress(r.slot, r.progress);
-      slots.push_back(r.slot);
+      flight.slots.push_back(r.slot);
     }
-    for (std::uint64_t left = most; left > 0;) {
-      batch_.run(slots);
-      run_ahead(left);
-      left = look(ids);
-    }
+    issue(flight, most);
+    flights_.push_back(std::move(flight));
     return static_cast<double>(steps) * settings_.time_step;
   }
 
+  void finish(const std::vector<WorldId>& ids) override {
+    gl::Device::current().make_current();
+    const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
+    Flight flight = std::move(*at);
+    flights_.erase(at);
+    while (const std::uint64_t left = look(flight)) issue(flight, left);
+    read_states(flight);
+    spare_.push_back(std::move(flight.back));
+    batch_.timer().collect(profile_);
+  }
+
+  bool works_aside() const override { return true; }
+
   std::vector<BodyState> states(WorldId id) const override {
-    fetch();
     const Resident& r = world(id);
     std::vector<BodyState> out;
     for (std::size_t i = 0; i < r.bodies; ++i) out.push_back(sphere::state_of(r.world, i));
@@ -118,7 +139,6 @@ class GlSphereSolver final : public Solver {
   }
 
   std::vector<bool> asleep(WorldId id) const override {
-    fetch();
     const Resident& r = world(id);
     std::vector<bool> out(r.bodies);
     for (std::size_t i = 0; i < r.bodies; ++i) out[i] = r.world.bodies[i].asleep;
@@ -156,46 +176,39 @@ class GlSphereSolver final : public Solver {
     r.changed.insert(body);
   }
 
-  /// Issues the steps that are left, or fewer if a world asks for room; a look is asked for every few steps and taken
-  /// while the next ones run.
-  void run_ahead(std::uint64_t left) {
-    bool full = false;
-    std::size_t under_way = 0;
-    const auto take = [&] {
-      for (const gpu::SphereProgress& p : batch_.requested_progress()) full = full || p.overflow != 0;
-      --under_way;
-    };
-    while (left > 0 && !full) {
-      const std::uint64_t now = std::min(left, steps_per_look);
-      for (std::uint64_t k = 0; k < now; ++k) batch_.step();
-      left -= now;
-      if (left == 0) break;  // the last look is look()
-      batch_.request_progress();
-      if (++under_way == 2) take();
-    }
-    while (under_way > 0) take();
-    batch_.timer().collect(profile_);
+  std::unique_ptr<gl::ReadBack> spare_back() {
+    if (spare_.empty()) return std::make_unique<gl::ReadBack>();
+    std::unique_ptr<gl::ReadBack> back = std::move(spare_.back());
+    spare_.pop_back();
+    return back;
   }
 
-  /// Reads what the steps left behind, makes room where it was asked for, and returns how many steps are left.
-  std::uint64_t look(const std::vector<WorldId>& ids) {
-    const std::vector<gpu::SphereProgress> seen = batch_.progress();
+  void issue(Flight& flight, std::uint64_t left) {
+    batch_.run(flight.slots);
+    for (std::uint64_t k = 0; k < std::min(left, steps_per_look); ++k) batch_.step();
+    batch_.request(flight.slots, *flight.back);
+  }
+
+  /// Waits for what the steps left behind, makes room where it was asked for, and returns how many steps are left.
+  std::uint64_t look(const Flight& flight) {
+    const auto* seen = static_cast<const gpu::SphereProgress*>(flight.back->wait());
     std::uint64_t left = 0;
     bool candidates = false;
-    for (const WorldId id : ids) {
+    for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      r.progress = seen[r.slot];
-      count(r.progress);
+      r.progress = *seen++;
       const gpu::uint overflow = r.progress.overflow;
+      count(r.progress);
       r.progress.overflow = 0;
       if (overflow) profile_.count("steps_repeated");
       if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
       if (overflow & SPHERE_CONTACT_OVERFLOW) batch_.grow_contacts(r.slot, r.progress);
       candidates = candidates || overflow & SPHERE_CANDIDATE_OVERFLOW;
       left = std::max<std::uint64_t>(left, r.progress.steps_left);
-      if (overflow) batch_.upload_progress(r.slot, r.progress);
     }
     if (candidates) batch_.grow_candidates();
+    if (left > 0)  // counters were taken
+      for (const WorldId id : flight.ids) batch_.upload_progress(world(id).slot, world(id).progress);
     return left;
   }
 
@@ -220,19 +233,15 @@ class GlSphereSolver final : public Solver {
             p.asleep_steps = p.pairs_culled = 0;
   }
 
-  /// Brings the states of all worlds that ran to the host, in one read.
-  void fetch() const {
-    if (std::none_of(worlds_.begin(), worlds_.end(), [](const auto& w) { return w.second.stale; })) return;
-    const std::vector<gpu::SphereState> states = batch_.states();
-    for (auto& [id, r] : worlds_) {
-      if (!r.stale) continue;
-      const std::size_t first = batch_.first_body(r.slot);
-      for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
-        if (r.changed.count(i)) continue;
-        read_state(states[first + i], r.world.bodies[i]);
-        r.island[i] = states[first + i].flags.y;
+  void read_states(const Flight& flight) {
+    const auto* progress = static_cast<const gpu::SphereProgress*>(flight.back->wait());
+    const auto* state = reinterpret_cast<const gpu::SphereState*>(progress + flight.ids.size());
+    for (const WorldId id : flight.ids) {
+      Resident& r = world(id);
+      for (std::size_t i = 0; i < r.world.bodies.size(); ++i, ++state) {
+        read_state(*state, r.world.bodies[i]);
+        r.island[i] = state->flags.y;
       }
-      r.stale = false;
     }
   }
 
@@ -256,6 +265,8 @@ class GlSphereSolver final : public Solver {
   std::map<const PartModel*, Entry> shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
+  std::vector<Flight> flights_;
+  std::vector<std::unique_ptr<gl::ReadBack>> spare_;
   WorldId next_ = 0;
   mutable Profile profile_;
   mutable Profile shown_;

@@ -93,6 +93,26 @@ TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
   EXPECT_EQ(hash_of(solver->states(ids[2])), fallen(1));
 }
 
+// As pour() does it: the host looks at one world, and changes it, while the device works on the other; lists that are
+// full grow meanwhile.
+TEST(SphereGlBatch, AWorldIsTheSameWhileAnotherIsUnderWay) {
+  Capacity small;
+  small.pairs = small.contacts = small.candidates = 1;
+  const auto solver = make_gl_sphere_solver(coarse(), small);
+  const WorldId one = Handful(1).add(*solver), two = Handful(2).add(*solver);
+  for (int k = 0; k < 2; ++k) {
+    solver->begin({one}, 0.1);
+    if (k > 0) solver->finish({two});
+    solver->begin({two}, 0.1);
+    solver->finish({one});
+  }
+  const std::uint64_t hash = hash_of(solver->states(one));
+  solver->remove_world(one);
+  solver->finish({two});
+  EXPECT_EQ(hash, fallen(1));
+  EXPECT_EQ(hash_of(solver->states(two)), fallen(2));
+}
+
 // The last world's bodies lie far from the first's: what is counted in the world must not be read as if it were not.
 TEST(SphereGlBatch, AWorldIsTheSameBehindAThousandBodies) {
   const auto solver = make_gl_sphere_solver(coarse());

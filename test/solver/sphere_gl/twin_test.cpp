@@ -169,7 +169,7 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
     batch.run({slot});
     batch.find_pairs();
     batch.find_contacts();
-    gpu::SphereProgress progress = batch.progress()[slot];
+    gpu::SphereProgress progress = batch.progress(slot);
     if (!progress.overflow) return progress;
     batch.update_sleep();  // empties the list of jobs
     if (progress.overflow & SPHERE_PAIR_OVERFLOW) batch.grow_pairs(slot, progress);
@@ -290,7 +290,7 @@ TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
     if (b_moves) used[m.b] |= std::uint64_t{1} << color;
   }
   EXPECT_GT(colored, 100u);
-  EXPECT_EQ(batch.progress()[slot].ordered, colored);
+  EXPECT_EQ(batch.progress(slot).ordered, colored);
 }
 
 TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
@@ -336,7 +336,7 @@ TEST_F(SphereGl, StepsAreTheSameInOneGroupAndInMany) {
       batch.color_manifolds();
       batch.solve();
       batch.update_sleep();
-      steps = static_cast<int>(batch.progress()[slot].steps);
+      steps = static_cast<int>(batch.progress(slot).steps);
     }
     seen.push_back(downloaded(batch, slot, world));
   }
