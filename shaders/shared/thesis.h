@@ -20,7 +20,7 @@
 #define BIND_CELL_STARTS 11
 #define BIND_MEMBERS 12
 #define BIND_SORTED 13
-#define BIND_CONTACT_COUNTS 14
+#define BIND_CONTACT_RANGES 14
 #define BIND_CONTACTS 15
 #define BIND_NEIGHBOURS 16
 #define BIND_NEIGHBOUR_COUNTS 17
@@ -40,6 +40,7 @@
 // Bits of Status.overflow, one per stage.
 #define THESIS_CONTACT_OVERFLOW 1u
 #define THESIS_NEIGHBOUR_OVERFLOW 2u
+#define THESIS_SLOT_OVERFLOW 4u
 
 GPU_STRUCTS_BEGIN
 
@@ -54,8 +55,8 @@ struct ThesisSettingsBlock {
   uint cells;
   uint capacity;          // contacts kept per sphere
   uint neighbour_slots;   // per body, power of two
+  uint slots;             // for the contacts of all spheres together
   uint iterations;        // impulse and velocity passes per step
-  uint unused;
 };
 
 struct ThesisWorld {
@@ -107,6 +108,10 @@ struct ThesisSorted {
   uvec4 owner;   // sphere, body
 };
 
+struct ThesisRange {  // the contacts of a sphere
+  uint first, count;
+};
+
 struct ThesisContact {
   vec4 normal;   // unit, from the other towards this sphere; w: depth
   vec4 arm;      // contact point from this body's centre of mass; w: friction of the pair
@@ -126,9 +131,11 @@ struct ThesisNeighbour {
 };
 
 struct ThesisStatus {
-  uint touching_spheres, touching_bodies;  // of this step
+  uint touching_spheres, touching_bodies, slots;  // of this step
   uint overflow;         // bits, kept until the host has seen them
   uint contacts;         // summed over steps
+  uint most_slots;       // asked for in a step, up to the first step that found too few
+  uint unused_a, unused_b;
   uvec4 sphere_groups;   // arguments of the dispatches over touching spheres ...
   uvec4 body_groups;     // ... and touching bodies
 };
@@ -147,7 +154,7 @@ static_assert(sizeof(ThesisSettingsBlock) == 48 && sizeof(ThesisWorld) == 64 && 
 static_assert(sizeof(ThesisBody) == 48 && sizeof(ThesisState) == 64 && sizeof(ThesisInertia) == 32, "std430");
 static_assert(sizeof(ThesisShape) == 32 && sizeof(ThesisSphere) == 8 && sizeof(ThesisSorted) == 32, "std430");
 static_assert(sizeof(ThesisContact) == 80 && sizeof(ThesisPush) == 32 && sizeof(ThesisNeighbour) == 8, "std430");
-static_assert(sizeof(ThesisStatus) == 48 && sizeof(ThesisNeed) == 8, "std430");
+static_assert(sizeof(ThesisStatus) == 64 && sizeof(ThesisNeed) == 8 && sizeof(ThesisRange) == 8, "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

@@ -7,7 +7,7 @@ layout(local_size_x = THESIS_GROUP) in;
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { ThesisSettingsBlock settings; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { ThesisBody bodies[]; };
 layout(std430, binding = BIND_SPHERES) readonly buffer Spheres { ThesisSphere spheres[]; };
-layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) readonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { ThesisContact contacts[]; };
 layout(std430, binding = BIND_NEIGHBOURS) buffer Neighbours { ThesisNeighbour neighbours[]; };
 layout(std430, binding = BIND_NEIGHBOUR_COUNTS) buffer NeighbourCounts { uint neighbour_counts[]; };
@@ -38,7 +38,6 @@ void main() {
   uint t = thread_index();
   if (t >= status.touching_spheres) return;
   uint s = touching_spheres[t];
-  uint n = contact_counts[s];
-  atomicAdd(status.contacts, n);
-  for (uint i = 0u; i < n; ++i) count(spheres[s].body, contacts[s * settings.capacity + i].other.y);
+  ThesisRange own = contact_ranges[s];
+  for (uint i = 0u; i < own.count; ++i) count(spheres[s].body, contacts[own.first + i].other.y);
 }

@@ -1,5 +1,7 @@
 // Per sphere of a moving body: the contacts with spheres in its own and the 26 neighbouring cells and with the bin's
 // sheets. Of more than CAPACITY the deepest are kept, ties by id, so the choice does not depend on the order of search.
+// Contacts lie one after another, as many slots as there are contacts: those of a sphere together, in their order, the
+// spheres as they come. Where they lie changes nothing: each sphere finds its own by its range.
 #include "shared/thesis.h"
 #include "shared/rotation.h"
 #include "shared/dispatch.h"
@@ -16,7 +18,7 @@ layout(std430, binding = BIND_SPHERES) readonly buffer Spheres { ThesisSphere sp
 layout(std430, binding = BIND_CENTERS) readonly buffer Centers { vec4 centers[]; };
 layout(std430, binding = BIND_CELL_STARTS) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430, binding = BIND_SORTED) readonly buffer Sorted { ThesisSorted sorted[]; };
-layout(std430, binding = BIND_CONTACT_COUNTS) writeonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) writeonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_CONTACTS) writeonly buffer Contacts { ThesisContact contacts[]; };
 layout(std430, binding = BIND_TOUCHING_SPHERES) writeonly buffer TouchingSpheres { uint touching_spheres[]; };
 layout(std430, binding = BIND_STATUS) buffer Status { ThesisStatus status; };
@@ -83,10 +85,16 @@ void main() {
   search_spheres(world, center, body);
   search_sheets(world, center);
 
-  contact_counts[s] = kept;
+  contact_ranges[s] = ThesisRange(0u, 0u);
   if (kept == 0u) return;
-  touching_spheres[atomicAdd(status.touching_spheres, 1u)] = s;
   atomicMax(needs[bodies[body].range.z].contacts, found);
   if (found > CAPACITY) atomicOr(status.overflow, THESIS_CONTACT_OVERFLOW);
-  for (uint i = 0u; i < kept; ++i) contacts[s * CAPACITY + i] = contact_with(kept_other[i], s, body, world);
+  uint first = atomicAdd(status.slots, kept);
+  if (first + kept > settings.slots) {  // the step will be repeated with more
+    atomicOr(status.overflow, THESIS_SLOT_OVERFLOW);
+    return;
+  }
+  contact_ranges[s] = ThesisRange(first, kept);
+  touching_spheres[atomicAdd(status.touching_spheres, 1u)] = s;
+  for (uint i = 0u; i < kept; ++i) contacts[first + i] = contact_with(kept_other[i], s, body, world);
 }

@@ -10,7 +10,7 @@ layout(std430, binding = BIND_BODIES) readonly buffer Bodies { ThesisBody bodies
 layout(std430, binding = BIND_STATES) readonly buffer States { ThesisState states[]; };
 layout(std430, binding = BIND_INERTIAS) readonly buffer Inertias { ThesisInertia inertias[]; };
 layout(std430, binding = BIND_SPHERES) readonly buffer Spheres { ThesisSphere spheres[]; };
-layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) readonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { ThesisContact contacts[]; };
 layout(std430, binding = BIND_NEIGHBOUR_COUNTS) readonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430, binding = BIND_TOUCHING_SPHERES) readonly buffer TouchingSpheres { uint touching_spheres[]; };
@@ -35,10 +35,10 @@ void main() {
   uint t = thread_index();
   if (t >= status.touching_spheres) return;
   uint s = touching_spheres[t];
-  uint body = spheres[s].body, n = contact_counts[s];
+  uint body = spheres[s].body;
+  ThesisRange range = contact_ranges[s];
   Side own = side_of(body);
-  for (uint i = 0u; i < n; ++i) {
-    uint c = s * settings.capacity + i;
+  for (uint c = range.first; c < range.first + range.count; ++c) {
     ThesisContact contact = contacts[c];
     Side other = still;
     if ((contact.other.y & THESIS_NODE) == 0u) other = side_of(contact.other.y);

@@ -5,7 +5,7 @@
 layout(local_size_x = THESIS_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { ThesisSettingsBlock settings; };
-layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) readonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { ThesisContact contacts[]; };
 layout(std430, binding = BIND_TOUCHING_SPHERES) readonly buffer TouchingSpheres { uint touching_spheres[]; };
 layout(std430, binding = BIND_PUSHES) writeonly buffer Pushes { ThesisPush pushes[]; };
@@ -16,8 +16,8 @@ void main() {
   if (t >= status.touching_spheres) return;
   uint s = touching_spheres[t];
   vec3 linear = vec3(0.0), angular = vec3(0.0);
-  for (uint i = 0u; i < contact_counts[s]; ++i) {
-    uint c = s * settings.capacity + i;
+  ThesisRange own = contact_ranges[s];
+  for (uint c = own.first; c < own.first + own.count; ++c) {
     linear += contacts[c].impulse.xyz;
     angular += cross(contacts[c].arm.xyz, contacts[c].impulse.xyz);
   }

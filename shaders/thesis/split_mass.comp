@@ -6,7 +6,7 @@ layout(local_size_x = THESIS_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { ThesisSettingsBlock settings; };
 layout(std430, binding = BIND_SPHERES) readonly buffer Spheres { ThesisSphere spheres[]; };
-layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) readonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { ThesisContact contacts[]; };
 layout(std430, binding = BIND_NEIGHBOURS) readonly buffer Neighbours { ThesisNeighbour neighbours[]; };
 layout(std430, binding = BIND_TOUCHING_SPHERES) readonly buffer TouchingSpheres { uint touching_spheres[]; };
@@ -26,9 +26,7 @@ void main() {
   uint t = thread_index();
   if (t >= status.touching_spheres) return;
   uint s = touching_spheres[t];
-  uint n = contact_counts[s];
-  for (uint i = 0u; i < n; ++i) {
-    uint c = s * settings.capacity + i;
+  ThesisRange own = contact_ranges[s];
+  for (uint c = own.first; c < own.first + own.count; ++c)
     contacts[c].other.z = contacts_between(spheres[s].body, contacts[c].other.y);
-  }
 }

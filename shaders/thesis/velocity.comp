@@ -9,7 +9,7 @@ layout(local_size_x = THESIS_BODY_GROUP) in;
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { ThesisBody bodies[]; };
 layout(std430, binding = BIND_STATES) buffer States { ThesisState states[]; };
 layout(std430, binding = BIND_INERTIAS) readonly buffer Inertias { ThesisInertia inertias[]; };
-layout(std430, binding = BIND_CONTACT_COUNTS) readonly buffer ContactCounts { uint contact_counts[]; };
+layout(std430, binding = BIND_CONTACT_RANGES) readonly buffer ContactRanges { ThesisRange contact_ranges[]; };
 layout(std430, binding = BIND_TOUCHING_BODIES) readonly buffer TouchingBodies { uint touching_bodies[]; };
 layout(std430, binding = BIND_PUSHES) readonly buffer Pushes { ThesisPush pushes[]; };
 layout(std430, binding = BIND_STATUS) readonly buffer Status { ThesisStatus status; };
@@ -24,7 +24,7 @@ void main() {
 
   linear[thread] = angular[thread] = vec3(0.0);
   for (uint s = first + thread; s < end; s += THESIS_BODY_GROUP) {
-    if (contact_counts[s] == 0u) continue;
+    if (contact_ranges[s].count == 0u) continue;
     linear[thread] += pushes[s].linear.xyz;
     angular[thread] += pushes[s].angular.xyz;
   }

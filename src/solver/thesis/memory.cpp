@@ -14,6 +14,12 @@ gpu::uint word(std::size_t n) {
   return static_cast<gpu::uint>(n);
 }
 
+constexpr std::size_t least_slots = 4096;  // a few spheres may touch more than the mean at once
+
+std::size_t slots_of(std::size_t moving_spheres, const Capacity& capacity) {
+  return static_cast<std::size_t>(std::ceil(static_cast<double>(moving_spheres) * capacity.mean_contacts));
+}
+
 double largest_radius(const World& world) {
   double radius = 0.0;
   for (const Shape& shape : world.shapes)
@@ -136,6 +142,7 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
   m.settings.moving_spheres = word(moving);
   m.settings.cells = word(cells);
   m.settings.capacity = word(capacity.contacts);
+  m.settings.slots = word(std::max(least_slots, slots_of(moving, capacity)));
   m.settings.neighbour_slots = word(capacity.neighbours);
   m.settings.iterations = word(static_cast<std::size_t>(settings.iterations));
   m.needs.resize(worlds.size());
@@ -151,8 +158,8 @@ void size_scratch(Memory& m) {
   m.cell_starts.resize(s.cells + 1);
   m.members.resize(s.spheres);
   m.sorted.resize(s.spheres);
-  m.contact_counts.resize(s.moving_spheres);
-  m.contacts.resize(std::size_t{s.moving_spheres} * s.capacity);
+  m.contact_ranges.resize(s.moving_spheres);
+  m.contacts.resize(s.slots);
   m.neighbours.resize(std::size_t{s.bodies} * s.neighbour_slots);
   m.neighbour_counts.resize(s.bodies);
   m.touching_spheres.resize(s.moving_spheres);
@@ -167,7 +174,7 @@ std::size_t largest_buffer(const World& world, const ThesisSettings& settings, c
   gpu::ThesisWorld grid{};
   lay_grid(world, settings, 0.1, grid);
   const std::size_t cells = std::size_t{grid.grid.x} * grid.grid.y * grid.grid.z;
-  return std::max({spheres * capacity.contacts * sizeof(gpu::ThesisContact), cells * sizeof(gpu::uint),
+  return std::max({slots_of(spheres, capacity) * sizeof(gpu::ThesisContact), cells * sizeof(gpu::uint),
                    world.bodies.size() * capacity.neighbours * sizeof(gpu::ThesisNeighbour)});
 }
 

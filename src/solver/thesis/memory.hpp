@@ -3,7 +3,7 @@
 ///
 ///     bodies      | world 0 ............ | world 1 ...... |            states, inertias, neighbour counts alike
 ///     spheres     | moving, world 0 | moving, world 1 | static, world 0 | static, world 1 |
-///     contacts    | sphere 0: capacity slots | sphere 1 | ...
+///     contacts    | of the spheres that touch, one after another |      a sphere's own lie at its range
 ///     neighbours  | body 0: neighbour_slots slots | body 1 | ...         hash tables
 ///     cells       | world 0: nx ny nz | world 1 | ...                    worlds never share a cell
 ///
@@ -32,7 +32,7 @@ struct Memory {
   std::vector<gpu::vec4> centers;  ///< w: radius
   std::vector<gpu::uint> sphere_cells, cell_counts, cell_starts, members;
   std::vector<gpu::ThesisSorted> sorted;
-  std::vector<gpu::uint> contact_counts;
+  std::vector<gpu::ThesisRange> contact_ranges;
   std::vector<gpu::ThesisContact> contacts;
   std::vector<gpu::ThesisNeighbour> neighbours;
   std::vector<gpu::uint> neighbour_counts, touching_spheres, touching_bodies;
@@ -48,7 +48,8 @@ struct BodyIndex {
 
 /// Sizes of the buffers that grow; everything else follows from the worlds.
 struct Capacity {
-  std::size_t contacts = 4;     ///< per sphere
+  std::size_t contacts = 4;     ///< most of a sphere
+  double mean_contacts = 2.0;   ///< of all spheres that move, touching or not
   std::size_t neighbours = 32;  ///< per body, power of two
 };
 

@@ -56,7 +56,7 @@ void Passes::step() {
 
 void Passes::begin_step() {
   bind();
-  status_.storage().fill(0, offsetof(gpu::ThesisStatus, touching_spheres), 2 * sizeof(gpu::uint));
+  status_.storage().fill(0, offsetof(gpu::ThesisStatus, touching_spheres), 3 * sizeof(gpu::uint));
   neighbours_.fill(THESIS_NO_KEY, 0, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
 }
 
@@ -156,13 +156,13 @@ void Passes::load(const Memory& memory) {
   at_least(cell_starts_, std::size_t{sizes_.cells} + 1);
   at_least(members_, sizes_.spheres);
   at_least(sorted_, sizes_.spheres);
-  at_least(contact_counts_, sizes_.moving_spheres);
+  at_least(contact_ranges_, sizes_.moving_spheres);
   at_least(neighbour_counts_, sizes_.bodies);
   at_least(touching_spheres_, sizes_.moving_spheres);
   at_least(touching_bodies_, sizes_.bodies);
   at_least(pushes_, sizes_.moving_spheres);
   at_least(status_, 1);
-  at_least(contacts_, std::size_t{sizes_.moving_spheres} * sizes_.capacity);
+  at_least(contacts_, sizes_.slots);
   at_least(neighbours_, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
   status_.clear();
   cell_counts_.fill(0, 0, sizes_.cells);
@@ -202,7 +202,7 @@ void Passes::bind() const {
   cell_starts_.bind(BIND_CELL_STARTS);
   members_.bind(BIND_MEMBERS);
   sorted_.bind(BIND_SORTED);
-  contact_counts_.bind(BIND_CONTACT_COUNTS);
+  contact_ranges_.bind(BIND_CONTACT_RANGES);
   contacts_.bind(BIND_CONTACTS);
   neighbours_.bind(BIND_NEIGHBOURS);
   neighbour_counts_.bind(BIND_NEIGHBOUR_COUNTS);
@@ -231,7 +231,7 @@ Memory Passes::download() const {
   fetch(cell_starts_, m.cell_starts);
   fetch(members_, m.members);
   fetch(sorted_, m.sorted);
-  fetch(contact_counts_, m.contact_counts);
+  fetch(contact_ranges_, m.contact_ranges);
   fetch(contacts_, m.contacts);
   fetch(neighbours_, m.neighbours);
   fetch(neighbour_counts_, m.neighbour_counts);

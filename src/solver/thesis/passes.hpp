@@ -66,7 +66,7 @@ class Passes {
   gl::Buffer<gpu::uint> sphere_cells_{"thesis.sphere_cells"}, cell_counts_{"thesis.cell_counts"},
       cell_starts_{"thesis.cell_starts"}, members_{"thesis.members"};
   gl::Buffer<gpu::ThesisSorted> sorted_{"thesis.sorted"};
-  gl::Buffer<gpu::uint> contact_counts_{"thesis.contact_counts"};
+  gl::Buffer<gpu::ThesisRange> contact_ranges_{"thesis.contact_ranges"};
   gl::Buffer<gpu::ThesisContact> contacts_{"thesis.contacts"};
   gl::Buffer<gpu::ThesisNeighbour> neighbours_{"thesis.neighbours"};
   gl::Buffer<gpu::uint> neighbour_counts_{"thesis.neighbour_counts"}, touching_spheres_{"thesis.touching_spheres"},

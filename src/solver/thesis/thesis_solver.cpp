@@ -37,7 +37,8 @@ struct ThesisSolver::State {
   }
 
   void run(const std::vector<thesis::World*>& batch, std::uint64_t steps);
-  bool grow_if_full(const gpu::ThesisStatus& status, const std::vector<gpu::ThesisNeed>& needs);
+  bool grow_if_full(const gpu::ThesisStatus& status, std::size_t moving_spheres,
+                    const std::vector<gpu::ThesisNeed>& needs);
   std::vector<std::vector<thesis::World*>> split(const std::vector<thesis::World*>& all) const;
 };
 
@@ -129,20 +130,21 @@ void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uin
     const std::uint64_t now = std::min(steps_per_look, steps - done);
     const double horizon = static_cast<double>(now) * settings.time_step / settings.sub_steps;
     std::vector<thesis::BodyIndex> index;
-    passes.load(thesis::lay_out({batch.begin(), batch.end()}, settings, capacity, horizon, index));
+    const thesis::Memory memory = thesis::lay_out({batch.begin(), batch.end()}, settings, capacity, horizon, index);
+    passes.load(memory);
     for (std::uint64_t i = 0; i < now; ++i) passes.step();
     const gpu::ThesisStatus status = passes.status();
 
     const std::vector<gpu::ThesisNeed> needs = passes.needs();
+    if (grow_if_full(status, memory.settings.moving_spheres, needs)) {
+      profile.count("steps_repeated", now);
+      continue;  // the worlds still hold the states from before
+    }
     for (std::size_t w = 0; w < batch.size(); ++w) {
       thesis::World& world = *batch[w];
       world.contacts_need = std::max<std::size_t>(world.contacts_need, needs[w].contacts);
       world.neighbours_need = std::max<std::size_t>(world.neighbours_need, needs[w].neighbours);
       world.contacts_dropped = world.contacts_dropped || needs[w].contacts > most_contacts;
-    }
-    if (grow_if_full(status, needs)) {
-      profile.count("steps_repeated", now);
-      continue;  // the worlds still hold the states from before
     }
     const std::vector<gpu::ThesisState> states = passes.states();
     for (std::size_t b = 0; b < index.size(); ++b) {
@@ -155,7 +157,8 @@ void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uin
 }
 
 /// True if a buffer was full and there is room for more: the steps since the last look are to be repeated.
-bool ThesisSolver::State::grow_if_full(const gpu::ThesisStatus& status, const std::vector<gpu::ThesisNeed>& needs) {
+bool ThesisSolver::State::grow_if_full(const gpu::ThesisStatus& status, std::size_t moving_spheres,
+                                       const std::vector<gpu::ThesisNeed>& needs) {
   const thesis::Capacity before = capacity;
   if (status.overflow & THESIS_CONTACT_OVERFLOW) {
     std::size_t need = 0;
@@ -163,8 +166,11 @@ bool ThesisSolver::State::grow_if_full(const gpu::ThesisStatus& status, const st
     while (capacity.contacts < std::min(need, most_contacts)) capacity.contacts *= 2;
     capacity.contacts = std::min(capacity.contacts, std::max(most_contacts, before.contacts));
   }
+  if (status.overflow & THESIS_SLOT_OVERFLOW)  // and a quarter more, for the steps to come
+    capacity.mean_contacts = 1.25 * status.most_slots / static_cast<double>(moving_spheres);
   if (status.overflow & THESIS_NEIGHBOUR_OVERFLOW) capacity.neighbours *= 2;
-  return capacity.contacts != before.contacts || capacity.neighbours != before.neighbours;
+  return capacity.contacts != before.contacts || capacity.mean_contacts != before.mean_contacts ||
+         capacity.neighbours != before.neighbours;
 }
 
 std::vector<BodyState> ThesisSolver::states(WorldId id) const {

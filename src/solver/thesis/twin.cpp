@@ -36,6 +36,18 @@ const gpu::ThesisWorld& world_of(const Memory& m, gpu::uint body) {
   return m.worlds[m.bodies[body].range.z];
 }
 
+/// The contacts of a sphere; those of a const Memory are const.
+template <class AnyMemory>
+auto contacts_of(AnyMemory& m, gpu::uint sphere) {
+  struct Range {
+    decltype(m.contacts.data()) first;
+    gpu::uint count;
+    auto begin() const { return first; }
+    auto end() const { return first + count; }
+  };
+  return Range{m.contacts.data() + m.contact_ranges[sphere].first, m.contact_ranges[sphere].count};
+}
+
 /// Both bodies of a contact; a node of a sheet is a body that never moves.
 struct Side {
   V position = V::Zero(), velocity = V::Zero(), spin = V::Zero();
@@ -57,7 +69,7 @@ Side side_of(const Memory& m, gpu::uint body) {
 }  // namespace
 
 void begin_step(Memory& m) {
-  m.status.touching_spheres = m.status.touching_bodies = 0;
+  m.status.touching_spheres = m.status.touching_bodies = m.status.slots = 0;
   std::fill(m.neighbours.begin(), m.neighbours.end(), gpu::ThesisNeighbour{THESIS_NO_KEY, THESIS_NO_KEY});
 }
 
@@ -175,12 +187,19 @@ void detect(Memory& m) {
     });
 
     const std::size_t kept = std::min<std::size_t>(found.size(), m.settings.capacity);
-    m.contact_counts[s] = static_cast<gpu::uint>(kept);
+    m.contact_ranges[s] = {0, 0};
     if (kept == 0) continue;
-    m.touching_spheres[m.status.touching_spheres++] = s;
     gpu::ThesisNeed& need = m.needs[m.bodies[body].range.z];
     need.contacts = std::max(need.contacts, static_cast<gpu::uint>(found.size()));
     if (found.size() > kept) m.status.overflow |= THESIS_CONTACT_OVERFLOW;
+    const gpu::uint first = m.status.slots;
+    m.status.slots += static_cast<gpu::uint>(kept);
+    if (m.status.slots > m.settings.slots) {
+      m.status.overflow |= THESIS_SLOT_OVERFLOW;
+      continue;
+    }
+    m.contact_ranges[s] = {first, static_cast<gpu::uint>(kept)};
+    m.touching_spheres[m.status.touching_spheres++] = s;
 
     const auto [own_normal, own_face] = face_of(s);
     for (std::size_t i = 0; i < kept; ++i) {
@@ -208,11 +227,11 @@ void detect(Memory& m) {
       const float bounce = approach <= world.gravity.w ? 0.0f : restitution * approach + n.dot(fall);
       const float left = m.settings.slop * std::min(r, f.radius);
       const float goal = std::max(bounce, m.settings.bias * std::max(0.0f, f.depth - left));
-      m.contacts[s * m.settings.capacity + i] = {pack(n, f.depth),
-                                                 pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
-                                                 {f.other, f.key, 1, 0},
-                                                 pack(V::Zero()),
-                                                 pack(V::Zero(), goal)};
+      m.contacts[first + i] = {pack(n, f.depth),
+                               pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
+                               {f.other, f.key, 1, 0},
+                               pack(V::Zero()),
+                               pack(V::Zero(), goal)};
     }
   }
 }
@@ -222,6 +241,9 @@ void plan(Memory& m) {
   const gpu::uint groups = (m.status.touching_spheres + THESIS_GROUP - 1) / THESIS_GROUP;
   m.status.sphere_groups = {groups, groups ? 1u : 0u, 1, 0};
   m.status.body_groups = {m.status.touching_bodies, m.status.touching_bodies ? 1u : 0u, 1, 0};
+  m.status.contacts += m.status.slots;
+  if (m.status.most_slots <= m.settings.slots) m.status.most_slots = std::max(m.status.most_slots, m.status.slots);
+  m.status.slots = 0;
 }
 
 namespace {
@@ -229,8 +251,7 @@ namespace {
 std::map<std::pair<gpu::uint, gpu::uint>, gpu::uint> pairs(const Memory& m) {
   std::map<std::pair<gpu::uint, gpu::uint>, gpu::uint> count;
   for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
-    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i)
-      ++count[{m.spheres[s].body, m.contacts[s * m.settings.capacity + i].other.y}];
+    for (const gpu::ThesisContact& contact : contacts_of(m, s)) ++count[{m.spheres[s].body, contact.other.y}];
   return count;
 }
 }  // namespace
@@ -238,7 +259,6 @@ std::map<std::pair<gpu::uint, gpu::uint>, gpu::uint> pairs(const Memory& m) {
 void count_pairs(Memory& m) {
   for (const auto& [pair, count] : pairs(m)) {
     const auto [body, key] = pair;
-    m.status.contacts += count;
     gpu::uint& neighbours = m.neighbour_counts[body];
     // Any free slot will do; the pass finds its slots by hashing.
     if (neighbours < m.settings.neighbour_slots)
@@ -252,16 +272,13 @@ void count_pairs(Memory& m) {
 void split_mass(Memory& m) {
   const auto count = pairs(m);
   for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
-    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
-      gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+    for (gpu::ThesisContact& contact : contacts_of(m, s))
       contact.other.z = count.at({m.spheres[s].body, contact.other.y});
-    }
 }
 
 void impulse(Memory& m) {
   for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s)
-    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
-      gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+    for (gpu::ThesisContact& contact : contacts_of(m, s)) {
       const Side own = side_of(m, m.spheres[s].body);
       const Side other = contact.other.y & THESIS_NODE ? Side() : side_of(m, contact.other.y);
       const V n = v(contact.normal), arm = v(contact.arm), total = v(contact.total);
@@ -285,12 +302,11 @@ void impulse(Memory& m) {
 void pre_velocity(Memory& m) {
   for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s) {
     V linear = V::Zero(), angular = V::Zero();
-    for (gpu::uint i = 0; i < m.contact_counts[s]; ++i) {
-      const gpu::ThesisContact& contact = m.contacts[s * m.settings.capacity + i];
+    for (const gpu::ThesisContact& contact : contacts_of(m, s)) {
       linear += v(contact.impulse);
       angular += v(contact.arm).cross(v(contact.impulse));
     }
-    if (m.contact_counts[s]) m.pushes[s] = {pack(linear), pack(angular)};
+    if (m.contact_ranges[s].count) m.pushes[s] = {pack(linear), pack(angular)};
   }
 }
 
@@ -299,7 +315,7 @@ void velocity(Memory& m) {
     if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
     V linear = V::Zero(), angular = V::Zero();
     for (gpu::uint s = m.bodies[b].range.x; s < m.bodies[b].range.x + m.bodies[b].range.y; ++s) {
-      if (m.contact_counts[s] == 0) continue;
+      if (m.contact_ranges[s].count == 0) continue;
       linear += v(m.pushes[s].linear);
       angular += v(m.pushes[s].angular);
     }

@@ -74,6 +74,26 @@ TEST(ThesisBatch, AFullContactBufferGrowsAndIsReported) {
   EXPECT_NE(flags[0].remedy.find("contacts_per_sphere"), std::string::npos);
 }
 
+TEST(ThesisBatch, AFullListOfContactsGrowsAndNothingIsLost) {
+  // 50 x 50 spheres in the hollows of a lattice as wide: four contacts a sphere, and at first there is room for two.
+  const auto plate = [] {
+    WorldBuilder world;
+    world.body(world.floor().shape(block(50, 50, 1, 0.005, 0.01)), Vec3(0, 0, 0.003), Vec3(0, 0, -0.1), 1.0);
+    return world;
+  };
+  ThesisSolver solver;
+  const WorldId first = plate().add(solver);
+  solver.advance({first}, 0.1);
+  const std::uint64_t repeated = solver.profile().counters.at("steps_repeated");
+  EXPECT_GT(repeated, 0u);
+  EXPECT_GT(solver.profile().counters.at("contacts"), 2u * 2500u * 5u) << "half of the ten steps";
+  const WorldId second = plate().add(solver);
+  solver.advance({second}, 0.1);
+  EXPECT_EQ(solver.profile().counters.at("steps_repeated"), repeated) << "the room was not kept";
+  EXPECT_EQ(hash_of(solver.states(second)), hash_of(solver.states(first))) << "a repeated step is not the same step";
+  EXPECT_TRUE(solver.flags(first).empty()) << "of no concern to the user";
+}
+
 TEST(ThesisBatch, AFullNeighbourTableGrowsAndIsReported) {
   // 40 balls on one plate: more neighbours than a table has at first.
   ThesisSolver solver;

@@ -81,6 +81,16 @@ void expect_near(const gpu::vec4& a, const gpu::vec4& b, float scale, const char
   EXPECT_NEAR(a.w, b.w, tolerance) << what;
 }
 
+/// Contacts of each sphere.
+std::vector<gpu::uint> counts(const Memory& m) {
+  std::vector<gpu::uint> out;
+  for (const gpu::ThesisRange& range : m.contact_ranges) out.push_back(range.count);
+  return out;
+}
+const gpu::ThesisContact& contact(const Memory& m, std::size_t sphere, gpu::uint i) {
+  return m.contacts[m.contact_ranges[sphere].first + i];
+}
+
 void expect_states_near(const Memory& a, const Memory& b) {
   for (std::size_t i = 0; i < a.states.size(); ++i) {
     expect_near(a.states[i].position, b.states[i].position, 1, "position");
@@ -138,20 +148,29 @@ TEST_F(TwinTest, Detect) {
   advance_to({&Passes::force, &Passes::move_to_world, &Passes::count_cells, &Passes::prefix_sum, &Passes::scatter,
               &Passes::reorder});
   run(&Passes::detect, twin::detect);
-  EXPECT_EQ(gpu_.contact_counts, cpu_.contact_counts);
+  EXPECT_EQ(counts(gpu_), counts(cpu_));
   EXPECT_GT(cpu_.status.touching_spheres, 20u) << "too few contacts to show anything";
   EXPECT_EQ(gpu_.status.touching_spheres, cpu_.status.touching_spheres);
   EXPECT_EQ(sorted(gpu_.touching_spheres, gpu_.status.touching_spheres),
             sorted(cpu_.touching_spheres, cpu_.status.touching_spheres));
   EXPECT_EQ(gpu_.needs[0].contacts, cpu_.needs[0].contacts);
   EXPECT_EQ(gpu_.needs[1].contacts, cpu_.needs[1].contacts);
+  gpu::uint slots = 0;  // each taken by one sphere, none left out
+  std::map<gpu::uint, gpu::uint> taken;
+  for (const gpu::ThesisRange& range : gpu_.contact_ranges)
+    if (range.count) taken[range.first] = range.count;
+  for (const auto& [first, count] : taken) {
+    EXPECT_EQ(first, slots);
+    slots += count;
+  }
+  EXPECT_EQ(gpu_.status.slots, slots);
   bool sphere = false, sheet = false, fixed = false;
-  for (std::size_t s = 0; s < cpu_.contact_counts.size(); ++s) {
+  for (std::size_t s = 0; s < cpu_.contact_ranges.size(); ++s) {
     // Equal depths may come in either order where roundings differ: compare by the other's id.
     std::map<gpu::uint, gpu::ThesisContact> mine, twins;
-    for (gpu::uint i = 0; i < cpu_.contact_counts[s]; ++i) {
-      mine[gpu_.contacts[s * 8 + i].other.x] = gpu_.contacts[s * 8 + i];
-      twins[cpu_.contacts[s * 8 + i].other.x] = cpu_.contacts[s * 8 + i];
+    for (gpu::uint i = 0; i < cpu_.contact_ranges[s].count; ++i) {
+      mine[contact(gpu_, s, i).other.x] = contact(gpu_, s, i);
+      twins[contact(cpu_, s, i).other.x] = contact(cpu_, s, i);
     }
     for (const auto& [other, contact] : twins) {
       ASSERT_EQ(mine.count(other), 1u) << "sphere " << s << " misses " << other;
@@ -177,13 +196,36 @@ TEST_F(TwinTest, DetectOfTooManyKeepsTheDeepest) {
   advance_to({&Passes::force, &Passes::move_to_world, &Passes::count_cells, &Passes::prefix_sum, &Passes::scatter,
               &Passes::reorder});
   run(&Passes::detect, twin::detect);
-  EXPECT_EQ(gpu_.contact_counts, cpu_.contact_counts);
+  EXPECT_EQ(counts(gpu_), counts(cpu_));
   EXPECT_EQ(gpu_.status.overflow, gpu::uint{THESIS_CONTACT_OVERFLOW});
   EXPECT_EQ(gpu_.needs[0].contacts, cpu_.needs[0].contacts) << "the need is counted on beyond the capacity";
-  for (std::size_t s = 0; s < cpu_.contact_counts.size(); ++s)
-    if (cpu_.contact_counts[s]) {
-      EXPECT_NEAR(gpu_.contacts[s].normal.w, cpu_.contacts[s].normal.w, 1e-7);
+  for (std::size_t s = 0; s < cpu_.contact_ranges.size(); ++s)
+    if (cpu_.contact_ranges[s].count) {
+      EXPECT_NEAR(contact(gpu_, s, 0).normal.w, contact(cpu_, s, 0).normal.w, 1e-7);
     }
+}
+
+TEST_F(TwinTest, DetectWithoutRoomForAllTellsHowMuchIsMissing) {
+  to_contacts();
+  const gpu::uint need = passes_->download().status.slots;
+  std::vector<BodyIndex> index;
+  Capacity capacity;
+  capacity.contacts = 8;
+  Memory memory = lay_out({&worlds_[0], &worlds_[1]}, {}, capacity, 0.01, index);
+  memory.settings.slots = need - 1;
+  passes_->load(memory);
+  passes_->begin_step();
+  to_contacts();
+  run(&Passes::plan, twin::plan);
+  EXPECT_EQ(gpu_.status.overflow, gpu::uint{THESIS_SLOT_OVERFLOW});
+  EXPECT_EQ(gpu_.status.most_slots, need);
+  EXPECT_EQ(gpu_.status.most_slots, cpu_.status.most_slots);
+  for (const gpu::ThesisRange& range : gpu_.contact_ranges) EXPECT_LE(range.first + range.count, need - 1);
+  // What was left out lets bodies through each other: later needs are not to be trusted.
+  passes_->begin_step();
+  to_contacts();
+  run(&Passes::plan, twin::plan);
+  EXPECT_EQ(gpu_.status.most_slots, need);
 }
 
 TEST_F(TwinTest, CountPairsAndSplitMass) {
@@ -208,10 +250,10 @@ TEST_F(TwinTest, CountPairsAndSplitMass) {
   EXPECT_EQ(gpu_.status.body_groups.x, cpu_.status.body_groups.x);
   run(&Passes::split_mass, twin::split_mass);
   gpu::uint most = 0;
-  for (std::size_t s = 0; s < cpu_.contact_counts.size(); ++s)
-    for (gpu::uint i = 0; i < cpu_.contact_counts[s]; ++i) {
-      EXPECT_EQ(gpu_.contacts[s * 8 + i].other.z, cpu_.contacts[s * 8 + i].other.z);
-      most = std::max(most, cpu_.contacts[s * 8 + i].other.z);
+  for (std::size_t s = 0; s < cpu_.contact_ranges.size(); ++s)
+    for (gpu::uint i = 0; i < cpu_.contact_ranges[s].count; ++i) {
+      EXPECT_EQ(contact(gpu_, s, i).other.z, contact(cpu_, s, i).other.z);
+      most = std::max(most, contact(cpu_, s, i).other.z);
     }
   EXPECT_GT(most, 1u);
 }
@@ -220,14 +262,14 @@ TEST_F(TwinTest, ImpulseAndVelocity) {
   to_impulses();
   for (int iteration = 0; iteration < 3; ++iteration) {  // the later ones take back, too
     run(&Passes::impulse, twin::impulse);
-    for (std::size_t s = 0; s < cpu_.contact_counts.size(); ++s)
-      for (gpu::uint i = 0; i < cpu_.contact_counts[s]; ++i) {
-        expect_near(gpu_.contacts[s * 8 + i].impulse, cpu_.contacts[s * 8 + i].impulse, 0.5f, "impulse");
-        expect_near(gpu_.contacts[s * 8 + i].total, cpu_.contacts[s * 8 + i].total, 0.5f, "total");
+    for (std::size_t s = 0; s < cpu_.contact_ranges.size(); ++s)
+      for (gpu::uint i = 0; i < cpu_.contact_ranges[s].count; ++i) {
+        expect_near(contact(gpu_, s, i).impulse, contact(cpu_, s, i).impulse, 0.5f, "impulse");
+        expect_near(contact(gpu_, s, i).total, contact(cpu_, s, i).total, 0.5f, "total");
       }
     run(&Passes::pre_velocity, twin::pre_velocity);
-    for (std::size_t s = 0; s < cpu_.contact_counts.size(); ++s) {
-      if (cpu_.contact_counts[s] == 0) continue;
+    for (std::size_t s = 0; s < cpu_.contact_ranges.size(); ++s) {
+      if (cpu_.contact_ranges[s].count == 0) continue;
       expect_near(gpu_.pushes[s].linear, cpu_.pushes[s].linear, 0.5f, "linear push");
       expect_near(gpu_.pushes[s].angular, cpu_.pushes[s].angular, 0.01f, "angular push");
     }
