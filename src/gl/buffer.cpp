@@ -2,7 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
-#include "bin_scenes/gl/program.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 
 #include <epoxy/gl.h>
 
@@ -11,6 +11,14 @@
 #include <utility>
 
 namespace bin_scenes::gl {
+
+namespace {
+/// Behind what passes wrote there.
+void update_barrier() {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  ++traffic().barriers;
+}
+}  // namespace
 
 Storage::~Storage() {
   if (id_) glDeleteBuffers(1, &id_);
@@ -58,21 +66,23 @@ void Storage::grow(std::size_t bytes) {
 void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
   assert(offset + bytes <= bytes_);
   if (!bytes) return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // behind what passes wrote there
+  update_barrier();
+  traffic().bytes_uploaded += bytes;
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
 void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {
   assert(offset + bytes <= bytes_);
   if (!bytes) return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  update_barrier();
+  traffic().bytes_read_back += bytes;
   glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
 void Storage::copy_from(const Storage& source, std::size_t source_offset, std::size_t offset, std::size_t bytes) {
   assert(source_offset + bytes <= source.bytes_ && offset + bytes <= bytes_);
   if (!bytes) return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  update_barrier();
   glCopyNamedBufferSubData(source.id_, id_, static_cast<GLintptr>(source_offset), static_cast<GLintptr>(offset),
                            static_cast<GLsizeiptr>(bytes));
 }
@@ -84,7 +94,7 @@ void Storage::clear() {
 void Storage::fill(std::uint32_t word, std::size_t offset, std::size_t bytes) {
   assert(offset % 4 == 0 && bytes % 4 == 0 && offset + bytes <= bytes_);
   if (!bytes) return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  update_barrier();
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                             GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
@@ -128,7 +138,7 @@ void ReadBack::request(const std::vector<Range>& ranges) {
   for (const Range& range : ranges) sum += range.bytes;
   make_room(sum);
   if (fence_) glDeleteSync(static_cast<GLsync>(fence_));
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  update_barrier();
   std::size_t at = 0;
   for (std::size_t i = 0; i < ranges.size();) {
     Range whole = ranges[i++];
@@ -140,6 +150,8 @@ void ReadBack::request(const std::vector<Range>& ranges) {
     at += whole.bytes;
   }
   glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  ++traffic().barriers;
+  traffic().bytes_read_back += sum;
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();
 }

@@ -18,10 +18,6 @@ void PrefixSum::run(const Buffer<std::uint32_t>& in, Buffer<std::uint32_t>& out,
   level(in.storage(), out.storage(), count, 0);
 }
 
-std::size_t PrefixSum::dispatches(std::size_t count) {
-  return count < block ? 1 : 2 + dispatches(blocks_of(count));
-}
-
 void PrefixSum::level(const Storage& in, Storage& out, std::size_t count, std::size_t depth) {
   if (block_sums_.size() <= depth) {
     block_sums_.emplace_back("prefix_sum.block_sums");

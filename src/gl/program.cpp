@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 #include "program_cache.hpp"
 #include "shader_source.hpp"
 
@@ -136,14 +137,9 @@ void Program::set(const char* uniform, const float (&matrix)[16]) const {
 }
 
 void barrier(Barrier kind) {
-  switch (kind) {
-    case Barrier::none:
-      return;
-    case Barrier::storage:
-      return glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    case Barrier::all:
-      return glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  }
+  if (kind == Barrier::none) return;
+  glMemoryBarrier(kind == Barrier::all ? GL_ALL_BARRIER_BITS : GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  ++traffic().barriers;
 }
 
 std::array<unsigned, 2> folded_groups(std::size_t groups) {
@@ -158,6 +154,7 @@ void dispatch_groups(const Program& program, std::size_t groups, Barrier after) 
   if (x == 0) return;
   program.use();
   glDispatchCompute(x, y, 1);
+  ++traffic().dispatches;
   barrier(after);
 }
 
@@ -169,6 +166,7 @@ void dispatch_indirect(const Program& program, const Storage& arguments, std::si
   program.use();
   arguments.bind_indirect();
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+  ++traffic().dispatches;
   barrier(after);
 }
 

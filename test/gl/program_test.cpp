@@ -3,6 +3,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/timer.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 #include "shared/layout_probe.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +55,30 @@ TEST_F(ProgramTest, StructsLieAlikeInBothLanguages) {
     EXPECT_EQ(b.tail[1], a.tail[1] ^ 2u);
   }
   EXPECT_EQ(copies[count].word, 0u) << "wrote beyond the count";
+}
+
+TEST_F(ProgramTest, TrafficIsCountedWhileItIsLookedAt) {
+  const Program program = Program::compute("test/layout_probe.comp");
+  program.set("count", 3u);
+  Buffer<gpu::LayoutProbe> in("in"), out("out");
+  in.resize(3);
+  out.resize(3);
+  in.bind(0);
+  out.bind(1);
+  Profile profile;
+  {
+    const TrafficCount count(profile);
+    in.upload(std::vector<gpu::LayoutProbe>(3));  // a barrier, as before every copy
+    dispatch(program, 3);
+    dispatch(program, 3, Barrier::none);
+    dispatch(program, 0);  // nothing to do, nothing asked for
+    out.download(1, 2);
+  }
+  dispatch(program, 3);
+  EXPECT_EQ(profile.counters.at("gl_dispatches"), 2u);
+  EXPECT_EQ(profile.counters.at("gl_barriers"), 3u);
+  EXPECT_EQ(profile.counters.at("gl_bytes_uploaded"), 3 * sizeof(gpu::LayoutProbe));
+  EXPECT_EQ(profile.counters.at("gl_bytes_read_back"), 2 * sizeof(gpu::LayoutProbe));
 }
 
 TEST_F(ProgramTest, FoldedDispatchReachesEveryItemOnce) {

@@ -15,8 +15,6 @@ class PrefixSum {
   PrefixSum();
   /// `out` gets count + 1 elements, the last one the total. `in` and `out` are different buffers.
   void run(const Buffer<std::uint32_t>& in, Buffer<std::uint32_t>& out, std::size_t count);
-  /// Dispatches, and barriers, of a run.
-  static std::size_t dispatches(std::size_t count);
 
  private:
   void level(const Storage& in, Storage& out, std::size_t count, std::size_t depth);

@@ -210,7 +210,6 @@ void Batch::request(const std::vector<Slot>& slots, gl::ReadBack& back) const {
   std::vector<gl::ReadBack::Range> ranges;
   const auto add = [&](const auto& buffer, std::size_t first, std::size_t count, std::size_t size) {
     ranges.push_back({&buffer.storage(), first * size, count * size});
-    read_back_ += count * size;
   };
   for (const Slot slot : slots) add(progress_, slot, 1, sizeof(gpu::SphereProgress));
   for (const Slot slot : slots)
@@ -243,7 +242,6 @@ void Batch::grow_contacts(Slot slot, gpu::SphereProgress& progress) {
   Region& r = regions_[slot];
   const std::size_t old_first = r.first_contact, old = r.contacts;
   std::vector<gpu::SphereContact> contacts = contacts_.download(old_first, old);
-  read_back_ += old * sizeof(gpu::SphereContact);
   std::vector<gpu::uint> places = free_places(contacts, progress);
   r.contacts = grown(old, old - places.size() + progress.missing_contacts);
   for (std::size_t k = old; k < r.contacts; ++k) places.push_back(static_cast<gpu::uint>(k));

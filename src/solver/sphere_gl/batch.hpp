@@ -77,8 +77,6 @@ class Batch {
   void update_sleep();
 
   gl::Timer& timer() { return timer_; }
-  std::uint64_t dispatches() const;
-  std::uint64_t bytes_read_back() const { return read_back_; }
   std::size_t bytes() const;         ///< of all buffers on the device
   std::size_t bytes_shared() const;  ///< of these, what does not grow with bodies: shapes, and what groups work with
 
@@ -104,8 +102,6 @@ class Batch {
   std::size_t running_count_ = 0, contact_groups_ = 1;  ///< worlds of one group each
   std::vector<LargeWorld> running_large_;
   const LargeWorld* at_turn_ = nullptr;  ///< none: the worlds of one group each
-  std::uint64_t dispatches_ = 0;
-  mutable std::uint64_t read_back_ = 0;
   bool bound_ = false;
 
   gl::Program find_pairs_, find_contacts_, color_manifolds_, solve_, update_sleep_;

@@ -62,34 +62,29 @@ void Batch::find_pairs() {
   gl::Stage stage(timer_, "find_pairs");
   if (at_turn_) return large_->find_pairs(*at_turn_, [this] { bind_first(); });
   gl::dispatch_groups(find_pairs_, running_count_);
-  ++dispatches_;
 }
 
 void Batch::find_contacts() {
   gl::Stage stage(timer_, "find_contacts");
   gl::dispatch_indirect(find_contacts_, jobs_.storage(), offsetof(gpu::SphereStatus, groups));
-  ++dispatches_;
 }
 
 void Batch::color_manifolds() {
   gl::Stage stage(timer_, "color_manifolds");
   if (at_turn_) return large_->color_manifolds(*at_turn_);
   gl::dispatch_groups(color_manifolds_, running_count_);
-  ++dispatches_;
 }
 
 void Batch::solve() {
   gl::Stage stage(timer_, "solve");
   if (at_turn_) return large_->solve(*at_turn_);
   gl::dispatch_groups(solve_, running_count_);
-  ++dispatches_;
 }
 
 void Batch::update_sleep() {
   gl::Stage stage(timer_, "update_sleep");
   if (at_turn_) return large_->update_sleep(*at_turn_);
   gl::dispatch_groups(update_sleep_, running_count_);
-  ++dispatches_;
 }
 
 void Batch::step() {
@@ -107,10 +102,6 @@ void Batch::step_at_turn() {
   color_manifolds();
   solve();
   update_sleep();
-}
-
-std::uint64_t Batch::dispatches() const {
-  return dispatches_ + (large_ ? large_->dispatches() : 0);
 }
 
 std::size_t Batch::bytes() const {

@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere_gl/batch.hpp"
 
@@ -48,6 +49,7 @@ class GlSphereSolver final : public Solver {
                             " bodies per world on the GPU, asked for " + std::to_string(def.bodies.size()),
                         "solver.sphere.device", "set solver.sphere.device: cpu");
     gl::Device::current().make_current();
+    const gl::TrafficCount count(profile_);
     Resident r;
     r.bodies = def.bodies.size();
     r.world = sphere::make_world(def, settings_,
@@ -99,6 +101,7 @@ class GlSphereSolver final : public Solver {
 
   double begin(const std::vector<WorldId>& ids, double seconds) override {
     gl::Device::current().make_current();
+    const gl::TrafficCount count(profile_);
     const auto steps = static_cast<std::uint64_t>(std::max(1L, std::lround(seconds / settings_.time_step)));
     Flight flight{ids, {}, spare_back()};
     std::uint64_t most = 0;
@@ -120,6 +123,7 @@ class GlSphereSolver final : public Solver {
 
   void finish(const std::vector<WorldId>& ids) override {
     gl::Device::current().make_current();
+    const gl::TrafficCount count(profile_);
     const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
     Flight flight = std::move(*at);
     flights_.erase(at);
@@ -158,8 +162,6 @@ class GlSphereSolver final : public Solver {
   const Profile& profile() const override {
     batch_.timer().collect(profile_, true);
     shown_ = profile_;
-    shown_.count("gl_dispatches", batch_.dispatches());
-    shown_.count("gl_bytes_read_back", batch_.bytes_read_back());
     shown_.count("gl_bytes_held", batch_.bytes());
     shown_.count("gl_bytes_shared", batch_.bytes_shared());
     return shown_;

@@ -75,12 +75,10 @@ void LargePasses::set_world(const LargeWorld& world) const {
 
 void LargePasses::over_bodies(const gl::Program& pass, const LargeWorld& world) {
   gl::dispatch(pass, world.bodies);
-  ++dispatches_;
 }
 
 void LargePasses::indirect(const gl::Program& pass, std::size_t arguments) {
   gl::dispatch_indirect(pass, large_.storage(), arguments);
-  ++dispatches_;
 }
 
 void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()>& bind_first) {
@@ -91,7 +89,6 @@ void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()
   };
   const auto sum = [&](const gl::Buffer<gpu::uint>& counts, gl::Buffer<gpu::uint>& starts, std::size_t count) {
     prefix_sum_.run(counts, starts, count);
-    dispatches_ += gl::PrefixSum::dispatches(count);
     bind_first();
   };
   bodies(cut_step_, 1);
@@ -105,7 +102,6 @@ void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()
   bodies(list_pairs_, 0);
   over_bodies(adopt_pairs_, world);
   gl::dispatch_groups(end_pairs_, 1);
-  ++dispatches_;
 }
 
 void LargePasses::color_manifolds(const LargeWorld& world) {
@@ -121,7 +117,6 @@ void LargePasses::color_manifolds(const LargeWorld& world) {
     }
   }
   gl::dispatch_groups(order_colors_, 1);
-  ++dispatches_;
   color_pairs_.set("stage", COLOR_ORDER);
   indirect(color_pairs_, offsetof(gpu::SphereLarge, pair_groups));
 }

@@ -46,7 +46,6 @@ class LargePasses {
   void solve(const LargeWorld& world);
   void update_sleep(const LargeWorld& world);
 
-  std::uint64_t dispatches() const { return dispatches_; }
   std::size_t bytes() const;
 
  private:
@@ -58,7 +57,6 @@ class LargePasses {
   void set_world(const LargeWorld& world) const;
 
   unsigned rounds_, colors_;  ///< with dispatches of their own
-  std::uint64_t dispatches_ = 0;
   gl::Program cut_step_, find_boxes_, sort_bodies_, list_pairs_, adopt_pairs_, end_pairs_, color_pairs_, order_colors_,
       solve_bodies_, solve_manifolds_, solve_rest_, join_islands_, sleep_bodies_;
   gl::PrefixSum prefix_sum_;

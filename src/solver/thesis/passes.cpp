@@ -187,6 +187,19 @@ std::vector<gpu::ThesisNeed> Passes::needs() const {
   return needs_.download();
 }
 
+std::size_t Passes::bytes() const {
+  std::size_t sum = 0;
+  for (const gl::Storage* s :
+       {&settings_.storage(), &worlds_.storage(), &sheets_.storage(), &bodies_.storage(), &states_.storage(),
+        &inertias_.storage(), &shapes_.storage(), &spheres_.storage(), &centers_.storage(), &sphere_cells_.storage(),
+        &cell_counts_.storage(), &cell_starts_.storage(), &members_.storage(), &sorted_.storage(),
+        &contact_ranges_.storage(), &contacts_.storage(), &neighbours_.storage(), &neighbour_counts_.storage(),
+        &touching_spheres_.storage(), &touching_bodies_.storage(), &pushes_.storage(), &status_.storage(),
+        &needs_.storage()})
+    sum += s->bytes();
+  return sum;
+}
+
 void Passes::bind() const {
   settings_.bind(BIND_SETTINGS);
   worlds_.bind(BIND_WORLDS);

@@ -39,6 +39,7 @@ class Passes {
   /// Status since load(); waits for the steps so far.
   gpu::ThesisStatus status();
   std::vector<gpu::ThesisNeed> needs() const;
+  std::size_t bytes() const;  ///< of all buffers on the device
   /// Everything, for tests.
   Memory download() const;
 

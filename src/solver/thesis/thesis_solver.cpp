@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 #include "memory.hpp"
 #include "passes.hpp"
 
@@ -95,6 +96,7 @@ void ThesisSolver::set_phase(WorldId, Phase) {}
 
 double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
   gl::Device::current().make_current();
+  const gl::TrafficCount count(state_->profile);
   const auto steps = static_cast<std::uint64_t>(std::max(1LL, std::llround(seconds / step_size())));
   std::vector<thesis::World*> worlds;
   for (WorldId id : ids) {
@@ -104,6 +106,7 @@ double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
   for (const std::vector<thesis::World*>& batch : state_->split(worlds)) state_->run(batch, steps);
   state_->profile.count("steps", steps * worlds.size());
   state_->passes.timer().collect(state_->profile, true);
+  state_->profile.counters["gl_bytes_held"] = state_->passes.bytes();
   return static_cast<double>(steps) * step_size();
 }
 
