@@ -6,21 +6,44 @@
 #include "framework/statistics.hpp"
 #include "referee.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace bin_scenes::bench {
 
 namespace {
 
-constexpr double millimetre = 1e-3;  ///< unit of pieces
+constexpr double millimetre = 1e-3;            ///< unit of pieces
+constexpr double referee_limit_cpu_s = 600.0;  ///< 2000 steps of a heap of parts of a hundred pieces
 
-Row drift_row(const std::string& path, const Request& request, const std::string& pieces) {
+/// The referee's figures of a scene. Its quantile of overlap is the sample that the share falls on, as it prints it.
+Row referee_row(const std::string& path, const Request& request, const std::string& pieces) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   const Scene scene = read_scene_json(path);
-  const Drift drift = referee_drift(scene, request, parts, {read_pieces(pieces, millimetre)});
+  const std::vector<Pieces> exact = {read_pieces(pieces, millimetre)};
+  const Overlap overlap = referee_overlap(scene, request, parts, exact);
+  const Drift drift = referee_drift(scene, request, parts, exact);
+  const auto of = [](std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    return values.empty() ? 0.0 : values[std::min(values.size() - 1, index)];
+  };
   return Row()
       .measure("drift_median_rel", median(drift.moved))
       .measure("drift_p95_rel", quantile(drift.moved, 0.95))
       .measure("drift_max_rel", quantile(drift.moved, 1.0))
-      .measure("turn_p95_deg", quantile(drift.turned, 0.95));
+      .measure("turn_p95_deg", quantile(drift.turned, 0.95))
+      .measure("referee_penetration_p95_rel", of(overlap.pairs, 0.95))
+      .measure("referee_penetration_max_rel", of(overlap.pairs, 1.0))
+      .measure("referee_bin_penetration_max_rel", of(overlap.bin, 1.0));
+}
+
+/// The largest difference between the report's and the referee's three figures of overlap.
+double disagreement(const Row& scene) {
+  double worst = 0.0;
+  for (const char* figure : {"penetration_p95_rel", "penetration_max_rel", "bin_penetration_max_rel"})
+    worst = std::max(worst, std::abs(scene.number(figure) - scene.number(std::string("referee_") + figure)));
+  return worst;
 }
 
 }  // namespace
@@ -42,7 +65,10 @@ Row judged_scene(const std::string& scratch, const Request& request, const std::
       },
       how.limit_cpu_s);
   if (!poured.good || !how.referee) return poured.row;
-  return poured.row.append(isolated([&] { return drift_row(path, request, pieces); }, 600.0).row);
+  const Isolated said = isolated([&] { return referee_row(path, request, pieces); }, referee_limit_cpu_s);
+  poured.row.append(said.row);
+  if (said.good) poured.row.measure("report_to_referee_rel", disagreement(poured.row));
+  return poured.row;
 }
 
 }  // namespace bin_scenes::bench

@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
@@ -54,6 +55,49 @@ struct Shape {
     compound.setMargin(0.0);
   }
 };
+
+/// A part where it lies, with the bounds of its pieces.
+struct Placed {
+  const Shape* shape;
+  btTransform model;  ///< model frame in the bin
+  btVector3 center;   ///< of mass
+  double diagonal;
+  struct Box {
+    btVector3 lower, upper;
+    bool meets(const Box& other) const {
+      for (int k = 0; k < 3; ++k)
+        if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
+      return true;
+    }
+  };
+  std::vector<Box> boxes;  ///< by piece
+};
+
+/// Of the deepest two pieces; 0 if they are apart.
+double depth_of(const Placed& a, const Placed& b) {
+  double deepest = 0.0;
+  for (std::size_t i = 0; i < a.boxes.size(); ++i)
+    for (std::size_t k = 0; k < b.boxes.size(); ++k) {
+      btGjkEpaSolver2::sResults found;
+      if (a.boxes[i].meets(b.boxes[k]) &&
+          btGjkEpaSolver2::Penetration(a.shape->hulls[i].get(), a.model, b.shape->hulls[k].get(), b.model,
+                                       a.center - b.center, found))
+        deepest = std::max(deepest, -found.distance);
+    }
+  return deepest;
+}
+
+bool is_in(const ScenePart& part) {
+  return part.state != PartState::escaped && part.state != PartState::not_poured;
+}
+
+std::vector<std::unique_ptr<Shape>> shapes_of(const std::vector<PartModelPtr>& parts, const std::vector<Pieces>& pieces,
+                                              double scale) {
+  std::vector<std::unique_ptr<Shape>> shapes;
+  for (std::size_t line = 0; line < parts.size(); ++line)
+    shapes.push_back(std::make_unique<Shape>(*parts[line], pieces[line], scale));
+  return shapes;
+}
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
   return std::sqrt(a->getFriction() * b->getFriction());
@@ -147,12 +191,46 @@ Pieces read_pieces(const std::string& folder, double scale) {
   return pieces;
 }
 
+Overlap referee_overlap(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                        const std::vector<Pieces>& pieces) {
+  const double scale = 1.0 / parts.front()->diagonal();
+  const std::vector<std::unique_ptr<Shape>> shapes = shapes_of(parts, pieces, scale);
+  const Vec3 half = 0.5 * scale * request.bin.inner_size;
+  Overlap overlap;
+  std::vector<Placed> placed;
+  for (const ScenePart& part : scene.parts) {
+    if (!is_in(part)) continue;
+    Placed p;
+    p.shape = shapes[part.line].get();
+    p.model = btTransform(to_bt(part.pose.orientation), to_bt(Vec3(part.pose.position * scale)));
+    p.center = (p.model * p.shape->principal).getOrigin();
+    p.diagonal = scale * parts[part.line]->diagonal();
+    double behind = 0.0;
+    for (const auto& hull : p.shape->hulls) {
+      Placed::Box box;
+      hull->getAabb(p.model, box.lower, box.upper);
+      p.boxes.push_back(box);
+      for (int v = 0; v < hull->getNumPoints(); ++v) {
+        const btVector3 x = p.model * hull->getScaledPoint(v);
+        behind = std::max(behind, -x.z());
+        if (x.z() < 2.0 * half.z()) behind = std::max({behind, std::abs(x.x()) - half.x(), std::abs(x.y()) - half.y()});
+      }
+    }
+    overlap.bin.push_back(behind / p.diagonal);
+    for (const Placed& other : placed) {
+      if ((p.center - other.center).length() > p.diagonal + other.diagonal) continue;
+      const double depth = depth_of(p, other);
+      if (depth > 0.0) overlap.pairs.push_back(depth / std::min(p.diagonal, other.diagonal));
+    }
+    placed.push_back(std::move(p));
+  }
+  return overlap;
+}
+
 Drift referee_drift(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
                     const std::vector<Pieces>& pieces, double seconds) {
   const double scale = 1.0 / parts.front()->diagonal();
-  std::vector<std::unique_ptr<Shape>> shapes;
-  for (std::size_t line = 0; line < parts.size(); ++line)
-    shapes.push_back(std::make_unique<Shape>(*parts[line], pieces[line], scale));
+  const std::vector<std::unique_ptr<Shape>> shapes = shapes_of(parts, pieces, scale);
   World world(request, scale);
 
   struct Judged {
@@ -162,7 +240,7 @@ Drift referee_drift(const Scene& scene, const Request& request, const std::vecto
   };
   std::vector<Judged> judged;
   for (const ScenePart& part : scene.parts) {
-    if (part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+    if (!is_in(part)) continue;
     Shape& shape = *shapes[part.line];
     const btTransform model(to_bt(part.pose.orientation), to_bt(Vec3(part.pose.position * scale)));
     const btTransform start = model * shape.principal;

@@ -1,5 +1,6 @@
 /// An outside judge of final scenes: the parts' exact convex pieces in stock Bullet, double precision, 0.25 ms, no
-/// margins. What rests stays; what overlaps, floats or was only called resting moves.
+/// margins. What overlaps is measured piece by piece; what rests stays, what overlaps, floats or was only called resting
+/// moves.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -14,6 +15,16 @@ namespace bin_scenes::bench {
 using Pieces = std::vector<std::vector<Vec3>>;
 /// Reads FOLDER/hull_*.obj (vertices only, `scale` metres a unit). Throws an input Error if there is none.
 Pieces read_pieces(const std::string& folder, double scale);
+
+/// Overlap as the referee sees it, as shares of a part's diagonal.
+struct Overlap {
+  std::vector<double> pairs;  ///< of overlapping pairs: the deepest two pieces by GJK and EPA / the smaller diagonal
+  std::vector<double> bin;    ///< by part: the deepest vertex behind the floor, or behind a wall below the rim
+};
+
+/// Of the parts of a box bin as they lie. `pieces` by part line. Escaped and unpoured parts are left out.
+Overlap referee_overlap(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                        const std::vector<Pieces>& pieces);
 
 struct Drift {
   std::vector<double> moved;   ///< of the centres of mass / diagonal, by part

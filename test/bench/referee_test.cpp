@@ -48,6 +48,40 @@ struct Box {
   }
 };
 
+/// A scene of boxes at these places, unturned.
+Scene boxes_at(const std::vector<Vec3>& places) {
+  Scene scene;
+  for (const Vec3& place : places) {
+    ScenePart placed;
+    placed.pose.position = place;
+    placed.state = PartState::resting;
+    scene.parts.push_back(placed);
+  }
+  return scene;
+}
+
+TEST(Referee, SeesHowDeepBoxesOverlap) {
+  const Box box;
+  const double depth = 0.01 * diagonal;
+  // The second stands in the first by its depth, also where the first's two pieces meet; the third stands apart.
+  const Scene scene = boxes_at({Vec3::Zero(), Vec3(0.01, 0, size.z() - depth), Vec3(0.1, 0, 0)});
+  const Overlap overlap = referee_overlap(scene, box.request, {box.part}, {box.pieces});
+  ASSERT_EQ(overlap.pairs.size(), 1u);
+  EXPECT_NEAR(overlap.pairs[0], 0.01, 1e-5);
+  EXPECT_EQ(overlap.bin, (std::vector<double>{0.0, 0.0, 0.0}));
+}
+
+TEST(Referee, SeesHowDeepBoxesAreInFloorAndWalls) {
+  const Box box;
+  const double wall = 0.5 * box.request.bin.inner_size.x();
+  const Scene scene = boxes_at({Vec3(0, 0, -0.02 * diagonal), Vec3(wall - size.x() + 0.03 * diagonal, 0, 0)});
+  const Overlap overlap = referee_overlap(scene, box.request, {box.part}, {box.pieces});
+  ASSERT_EQ(overlap.bin.size(), 2u);
+  EXPECT_NEAR(overlap.bin[0], 0.02, 1e-9);
+  EXPECT_NEAR(overlap.bin[1], 0.03, 1e-9);
+  EXPECT_TRUE(overlap.pairs.empty());
+}
+
 TEST(Referee, WhatRestsStays) {
   const Drift drift = Box().drift(0.0);
   ASSERT_EQ(drift.moved.size(), 1u);
