@@ -98,6 +98,8 @@ class BulletWorld final : public PeerWorld {
     state.velocity = {from_bt(body.getLinearVelocity()), from_bt(body.getAngularVelocity())};
     return state;
   }
+  /// Slower than Bullet's thresholds for its 2 s, whether or not the island around it already is as well.
+  bool asleep(std::size_t b) const override { return bodies_[b]->wantsSleeping(); }
 
  private:
   void add_box(const Vec3& lower, const Vec3& upper) {

@@ -50,8 +50,11 @@ class PeerSolver final : public Solver {
     const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
     for (const WorldId id : worlds) {
       Slot& slot = slots_.at(id);
-      for (int k = 0; k < steps; ++k) slot.world->step(settings_.time_step);
-      slot.steps += static_cast<std::uint64_t>(steps);
+      for (int k = 0; k < steps; ++k) {
+        slot.world->step(settings_.time_step);
+        ++slot.steps;
+        if (settings_.watch) settings_.watch(static_cast<double>(slot.steps) * settings_.time_step, all_asleep(slot));
+      }
     }
     return steps * settings_.time_step;
   }
@@ -85,6 +88,12 @@ class PeerSolver final : public Solver {
   }
 
  private:
+  struct Slot;
+  static bool all_asleep(const Slot& slot) {
+    for (std::size_t b = 0; b < slot.in.size(); ++b)
+      if (!slot.in[b] || !slot.world->asleep(b)) return false;
+    return true;
+  }
   struct Slot {
     WorldDef def;
     std::unique_ptr<PeerWorld> world;

@@ -1,0 +1,107 @@
+/// Scene time against stock Bullet's in the same run: Bullet until its own sleeping has nothing left to move, and
+/// Bullet for as many simulated seconds as the default solver needed until rest.
+#include "bin_scenes/core/error.hpp"
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "peers/peer.hpp"
+#include "runs.hpp"
+
+#include <atomic>
+#include <optional>
+
+namespace bin_scenes::bench {
+namespace {
+
+constexpr const char* exact[] = {"channel_u",   "bolt_hex", "ring_24",   "nut_hex",
+                                 "clip_spring", "washer",   "gear_spur", "bracket_l"};
+constexpr const char* decomposed[] = {"conrod", "pipe_tee"};  ///< on the hulls that solver `bullet` uses
+
+/// The convex shapes that Bullet gets for a part.
+Pieces shapes_of(const PartModel& part, const Request& request, const std::string& pieces) {
+  if (!pieces.empty()) return read_pieces(pieces, 1e-3);
+  HullOptions options;
+  options.max_error = request.solver.bullet.hull_error;
+  options.max_hulls = request.solver.bullet.max_hulls;
+  Pieces shapes;
+  for (const Mesh& hull : part.hulls(options).hulls) shapes.push_back(hull.vertices);
+  return shapes;
+}
+
+/// CPU seconds of stock Bullet from request until it sleeps, and until `as_long` (s, simulated) are over; it is stopped
+/// when both are known.
+Row bullet_row(const Request& request, const std::string& pieces, double as_long) {
+  const double begin = cpu_seconds();
+  const std::vector<PartModelPtr> parts = load_parts(request);
+  PeerSettings settings;
+  settings.engine = "bullet_stock";
+  settings.time_step = 0.01;
+  settings.iterations = 10;
+  settings.pieces = {shapes_of(*parts.front(), request, pieces)};
+  const std::size_t shapes = settings.pieces.front().size();
+  std::optional<double> cpu_asleep, simulated_asleep, cpu_as_long;
+  std::atomic<bool> known{false};
+  settings.watch = [&](double simulated, bool asleep) {
+    const double cpu = cpu_seconds() - begin;
+    if (!cpu_as_long && simulated >= as_long) cpu_as_long = cpu;
+    if (!cpu_asleep && asleep) cpu_asleep = cpu, simulated_asleep = simulated;
+    known = cpu_as_long && cpu_asleep;
+  };
+  RunHooks hooks;
+  hooks.cancel = &known;
+  try {
+    pour(request, parts, *make_peer(settings), {request.first}, hooks);
+  } catch (const Error& stopped) {
+    if (stopped.kind() != ErrorKind::cancelled) throw;
+  }
+  const double end = cpu_seconds() - begin;  // a pour that ended before has taken no longer
+  return Row()
+      .info("shapes", shapes)
+      .exact("slept", static_cast<int>(cpu_asleep.has_value()))
+      .measure("bullet_asleep_cpu_s", cpu_asleep.value_or(end))
+      .measure("bullet_asleep_simulated_s", simulated_asleep.value_or(request.pour.limit))
+      .measure("bullet_as_long_cpu_s", cpu_as_long.value_or(end));
+}
+
+void part_row(Run& out, const std::string& part, bool has_pieces, int seeds) {
+  const std::size_t count = out.quick() ? 8 : 150;
+  const Row key = Row().key("part", part).key("bodies", count);
+  if (!out.wanted(key)) return;
+  Request request = bin_of(part, count);
+  request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
+  warm_up(request);
+  std::vector<Row> scenes;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    request.seed = static_cast<std::uint64_t>(seed);
+    const Isolated ours = isolated([&] {
+      choose_solver(request, "sphere");
+      const Row figures = figures_of(pour_timed(request));
+      return Row()
+          .exact("scenes", 1)
+          .measure("cpu_s", figures.number("cpu_s"))
+          .measure("simulated_s", figures.number("simulated_s"));
+    });
+    if (!ours.good) return out.row(Row(key).append(ours.row));
+    const std::string pieces = has_pieces ? Run::pieces(part) : std::string();
+    const Isolated bullet =
+        isolated([&] { return bullet_row(request, pieces, ours.row.number("simulated_s")); }, 300.0);
+    if (!bullet.good) return out.row(Row(key).append(bullet.row));
+    Row scene = Row(ours.row).append(bullet.row).info("pieces", has_pieces ? "exact" : "hulls");
+    for (const std::string until : {"asleep", "as_long"})
+      scene.measure("share_of_" + until, scene.number("cpu_s") / scene.number("bullet_" + until + "_cpu_s"));
+    scenes.push_back(scene);
+  }
+  out.row(Row(key).append(joined(scenes)));
+}
+
+void run(Run& out) {
+  for (const char* part : exact) {
+    part_row(out, part, true, out.quick() ? 1 : 3);
+    if (out.quick()) return;
+  }
+  for (const char* part : decomposed) part_row(out, part, false, 3);
+}
+
+const Registration registration{"times", "scene time of the default solver against stock Bullet's", run};
+
+}  // namespace
+}  // namespace bin_scenes::bench
