@@ -82,7 +82,8 @@ struct SphereSettingsBlock {
   uint sweeps;             // over all contacts before bodies move, and again after
   uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
-  uint unused0, unused1;
+  uint cut_steps;          // 1: for fast parts
+  uint unused0;
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
@@ -176,9 +177,9 @@ struct SphereManifold {
 struct SphereContact {
   vec4 anchor_a;     // on the surface of a, body axes; w: place of the manifold's next contact (bits)
   vec4 anchor_b;     // w: feature (bits)
-  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: approach speed, in the solve
+  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: in the solve, speed at which the two meet
   vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
-                     // 1 once it has pressed, before that the approach speed when prepared if there was any, below 0
+                     // 1 once it has pressed
 };
 
 struct SphereCandidate {

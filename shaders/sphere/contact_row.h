@@ -64,22 +64,24 @@ Row row_of(SphereContact c, Side a, Side b) {
   return row;
 }
 
+// Speed along the normal when the gap of a contact that closes (below 0) has closed: gravity works on what moves, and a
+// blow returns neither more nor less than what has come down.
+float speed_at_blow(Row row, Side a, Side b) {
+  float speed = dot(relative_velocity(row, a, b), row.normal);
+  float falls = float(b.inverse_mass > 0.0) - float(a.inverse_mass > 0.0);
+  float square = speed * speed - 2.0 * falls * dot(row.normal, world.gravity.xyz) * max(row.separation, 0.0);
+  return speed < 0.0 ? -sqrt(max(square, 0.0)) : speed;
+}
+
 void prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
-  float approach = dot(relative_velocity(row, a, b), row.normal);
-  contacts[at].normal.w = approach;
-  contacts[at].force =
-      vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), min(approach, 0.0));
+  contacts[at].normal.w = speed_at_blow(row, a, b);
+  contacts[at].force = vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
 }
 
 void warm_start(uint at, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
-  // What is about to strike gains speed until it does, but no more than gravity gives in a step.
-  if (row.approach < -settings.restitution_speed && row.impulse.w <= 0.0) {
-    float vn = dot(relative_velocity(row, a, b), row.normal);
-    contacts[at].normal.w = min(row.approach, max(vn, row.impulse.w - length(world.gravity.xyz) * time_step));
-  }
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
 }

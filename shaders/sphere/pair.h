@@ -24,9 +24,12 @@ float size_of(SpherePair pair) {
   return pair.b == SPHERE_GROUND ? size : min(size, shapes[bodies[pair.b].ids.x].box_half.w);
 }
 
-// Whether the pair has hardly moved since its contacts were found, on fine samples or on coarse ones.
+#include "sphere/ball.h"
+
+// Whether the pair has hardly moved since its contacts were found, on fine samples or on coarse ones. The point where a
+// ball touches stays below it, while one that is kept turns with it and drives it on.
 bool recyclable(SphereManifold manifold, SpherePair pair, bool fine) {
-  if (manifold.state.z == 0u) return false;
+  if (manifold.state.z == 0u || is_ball(pair.a) || is_ball(pair.b)) return false;
   float size = size_of(pair), limit = (fine ? settings.recycle : settings.coarse_recycle) * size;
   vec3 position;
   vec4 orientation;

@@ -66,7 +66,7 @@ void prepare_manifold(uint o) {
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
 
-bool is_ball(uint body) { return body != SPHERE_GROUND && shapes[bodies[body].ids.x].field.z > 0.0; }
+#include "sphere/ball.h"
 
 vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 

@@ -42,6 +42,20 @@ inline double bounce(Lab lab, double drop, double restitution) {
   return peak / drop;
 }
 
+/// A ball that loses nothing bounces from a metre for five seconds: largest change of its energy / m g h. From a step
+/// that it is in the air for.
+inline double elastic_change(Lab lab) {
+  const double radius = 0.025, height = 1.0;
+  const auto ball = lab.place(sphere(radius), Vec3(0, 0, radius + height), Quat::Identity(), material(0.0, 1.0));
+  double most = 0.0;
+  while (lab.time() < 5.0) {
+    lab.simulate(lab.solver().step_size());
+    const double energy = lab.kinetic_energy(ball) + g * (lab.center(ball).z() - radius);
+    if (lab.center(ball).z() > 0.1 * height) most = std::max(most, std::abs(energy / (g * height) - 1.0));
+  }
+  return most;
+}
+
 struct Slide {
   double way;    ///< error / exact way
   double aside;  ///< of the direction, rad
@@ -80,6 +94,20 @@ inline double roll(Lab lab) {
   const double k = ball->mass().principal.mean() / (ball->mass().volume * radius * radius);
   const double expected = 0.5 * g * std::sin(angle) / (1.0 + k) * lab.time() * lab.time();
   return std::abs(lab.center(body).x() / expected - 1.0);
+}
+
+/// A ball at rest on a plate that slides under it, and takes it along until it rolls: speed of the ball / what it is
+/// then, k / (1 + k) of the plate's, where k m r2 is its moment of inertia; error after two seconds.
+inline double ride(Lab lab) {
+  const double radius = 0.1;
+  lab.def().bin.friction = 0.0;
+  const PartModelPtr ball = sphere(radius);
+  const auto plate = lab.place(box({2.0, 0.2, 0.05}), Vec3(0, 0, 0.025), Quat::Identity(), material(0.5, 0.0, 10.0));
+  const auto body = lab.place(ball, Vec3(0, 0, 0.05 + radius), Quat::Identity(), material(0.5));
+  lab.start(plate).velocity.linear = Vec3(0.2, 0, 0);
+  lab.simulate(2.0);
+  const double k = ball->mass().principal.mean() / (ball->mass().volume * radius * radius);
+  return std::abs(lab.state(body).velocity.linear.x() / lab.state(plate).velocity.linear.x() * (1.0 + k) / k - 1.0);
 }
 
 /// A ball that spins where it lies, with friction 0.5: what it loses in half a second / what a contact does that is an

@@ -56,6 +56,13 @@ Lanes effective_mass(const LaneVec& direction, Lanes inverse_masses, const LaneV
   return used & (k > 0.0f) ? 1.0f / k : all_lanes(0);
 }
 
+/// Speed along the normal when the gap of a contact has closed, of what closes at `speed` (below 0) when the step
+/// begins: gravity works on what moves, and a blow returns neither more nor less than what has come down.
+Lanes speed_at_blow(Lanes speed, Lanes gap, Lanes acceleration) {
+  const Lanes square = speed * speed - 2.0f * acceleration * max(gap, all_lanes(0));
+  return speed < 0.0f ? -sqrt(max(square, all_lanes(0))) : speed;
+}
+
 Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
   const LaneVec moment_a = cross(c.ra, tangent), moment_b = cross(c.rb, tangent);
   return effective_mass(tangent, inverse_masses, moment_a, bundle.inverse_inertia_a * moment_a, moment_b,
@@ -112,7 +119,11 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, h);
   }
   const Velocities velocities = velocities_of(bundle, motions);
+  const Vec3f& g = world.gravity;
+  const LaneVec gravity{all_lanes(g.x()), all_lanes(g.y()), all_lanes(g.z())};
   const Lanes inverse_masses = velocities.inverse_mass_a + velocities.inverse_mass_b;
+  const auto moves = [](Lanes inverse_mass) { return inverse_mass > 0.0f ? all_lanes(1) : all_lanes(0); };
+  const Lanes falls = moves(velocities.inverse_mass_b) - moves(velocities.inverse_mass_a);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
     c.moment_a = cross(c.ra, c.normal);
@@ -123,7 +134,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
     c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
                          tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
-    c.approach = c.prepared_approach = velocities.along_normal(c);
+    c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
     bundle.striking |= any(c.approach <= -world.settings.restitution_speed);
   }
 }

@@ -28,8 +28,8 @@ struct ContactRows {
   Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
   Lanes separation{};                                  ///< when contacts were found (m)
-  Lanes approach{}, prepared_approach{};               ///< speed before the step's impulses, m/s; negative = closing
-  Lanes max_impulse{}, gap{};                          ///< largest normal impulse; separation at the last look
+  Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
+  Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
 };
 
 using LaneBodies = std::array<std::uint32_t, lane_count>;

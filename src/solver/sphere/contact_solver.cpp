@@ -61,7 +61,6 @@ class ContactSolver {
         h_(settings_.time_step / static_cast<float>(world.sub_steps())),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
-        gravity_gain_(world.gravity.norm() * settings_.time_step),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         free_(scratch.free),
@@ -80,7 +79,6 @@ class ContactSolver {
 
  private:
   void prepare_motions();
-  void approach_grows(ContactRows& c, const Velocities& u) const;
   void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
   void solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Velocities& u) const;
@@ -93,8 +91,7 @@ class ContactSolver {
   const float h_;
   const Softness& softness_;
   const Spring spring_;
-  const float gravity_gain_;  ///< speed that gravity gives in a time step (m/s)
-  const float push_speed_;    ///< d per second. What is pressed has little to let out: nothing needs to be thrown
+  const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
   std::vector<Bundle>& bundles_;
@@ -146,20 +143,12 @@ void ContactSolver::accelerate() {
   }
 }
 
-/// What is about to strike gains speed until it does, but no more than gravity gives in a step.
-void ContactSolver::approach_grows(ContactRows& c, const Velocities& u) const {
-  const LaneMask strikes = (c.approach < -settings_.restitution_speed) & (c.max_impulse == 0.0f);
-  const Lanes fastest = max(u.along_normal(c), c.prepared_approach - gravity_gain_);
-  c.approach = strikes ? min(c.approach, fastest) : c.approach;
-}
-
 BIN_SCENES_WIDE
 void ContactSolver::warm_start() {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-      ContactRows& c = rows_[i];
-      if (bundle.striking) approach_grows(c, u);
+      const ContactRows& c = rows_[i];
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }

@@ -367,9 +367,11 @@ RelativePose relative_pose(const Body& a, const Body* b) {
   return {a.rotation.transpose() * (b->x - a.x), a.q.conjugate() * b->q};
 }
 
-/// Whether the pair has hardly moved since its contacts were found.
+/// Whether the pair has hardly moved since its contacts were found. The point where a ball touches stays below it,
+/// while one that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
 bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
+  if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
   const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   return (now.x - m.found_x).squaredNorm() < limit * limit && half_turn * size < limit;
