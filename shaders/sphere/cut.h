@@ -13,6 +13,7 @@ vec2 speeds_of(uint body) {
 
 // Cuts of a step in which nothing is faster than these.
 uint cuts_of(vec2 speeds, float thinnest) {
+  if (settings.cut_steps == 0u) return 1u;
   vec2 way = speeds * settings.time_step;
   float cuts = max(1.0, way.x / (LONGEST_WAY * thinnest));
   if (way.y > LONGEST_TURN) cuts = max(cuts, way.y / TURN_OF_A_CUT);

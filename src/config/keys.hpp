@@ -122,6 +122,10 @@ void visit(Visitor& v, Pour& pour) {
 template <class Visitor>
 void visit(Visitor& v, BulletSettings& s) {
   v.field({"time_step", "s", "larger is faster and lets thin parts interlock"}, s.time_step);
+  v.field({"cut_steps", "",
+           "steps that are too long for small or fast parts are cut; false = such parts sink into each other or pass "
+           "through: for measuring what long steps do"},
+          s.cut_steps);
   v.field({"iterations", "", "sequential-impulse sweeps per step; more = stiffer piles, linear cost"}, s.iterations);
   v.field({"margin", "", "collision margin / part diagonal, shrunk into the hulls; smaller = slower and exacter"},
           s.margin);
@@ -158,6 +162,10 @@ template <class Visitor>
 void visit(Visitor& v, SphereSettings& s) {
   v.field({"time_step", "s", "one collision detection each; larger is faster and lets thin parts interlock"},
           s.time_step);
+  v.field({"cut_steps", "",
+           "steps that are too long for small or fast parts are cut; false = such parts sink into each other or pass "
+           "through: for measuring what long steps do"},
+          s.cut_steps);
   v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
   v.field({"coarse_samples", "", "surface samples per part while pouring, at least: thin parts get more"}, s.coarse_samples);
   v.field({"fine_samples", "", "surface samples per part while settling, at least; more = less penetration, linear cost"},

@@ -1,5 +1,5 @@
 /// Small, thin and fast parts that a solver must hold whatever its time step is. Include in a test file and instantiate
-/// as closed_forms.hpp; `SolverCase::make` of long steps comes from CoarseSteps below.
+/// as closed_forms.hpp; `SolverCase::make` of long steps comes from CoarseSteps and UncutSteps below.
 #pragma once
 
 #include "solver/fixture.hpp"
@@ -12,6 +12,19 @@ class Extremes : public SolverTest {};
 
 /// The same under time steps of 1/15 s.
 class CoarseSteps : public SolverTest {};
+
+/// The same, with nothing cut.
+class UncutSteps : public SolverTest {};
+
+TEST_P(UncutSteps, AreAsLongAsAskedForWhateverFlies) {
+  Lab lab = this->lab();
+  lab.place(box(Vec3::Constant(5e-4)), Vec3(0, 0, 0.1));
+  lab.place(box(Vec3::Constant(0.05)), Vec3(0, 0, 1));
+  lab.start(1).velocity = {Vec3(30, 0, 10), Vec3(0, 200, 0)};
+  lab.simulate(0.4);
+  EXPECT_TRUE(lab.solver().flags(lab.world()).empty());
+  EXPECT_EQ(lab.solver().steps(lab.world()), 6u);
+}
 
 TEST_P(CoarseSteps, PartOfHalfAMillimetreRestsOnTheFloor) {
   const double edge = 5e-4;

@@ -79,7 +79,14 @@ inline PartModelPtr sphere(double radius) {
 /// One world of one solver, with its bodies' properties in reach.
 class Lab {
  public:
-  explicit Lab(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) { def_.bin.kind = Bin::Kind::floor; }
+  /// What was simulated, of all labs that share it.
+  struct Count {
+    double seconds = 0.0;
+    std::uint64_t steps = 0;  ///< as they were done: cut ones, not those asked for
+  };
+  explicit Lab(std::unique_ptr<Solver> solver, Count* count = nullptr) : solver_(std::move(solver)), count_(count) {
+    def_.bin.kind = Bin::Kind::floor;
+  }
 
   WorldDef& def() { return def_; }
   Solver& solver() { return *solver_; }
@@ -106,7 +113,12 @@ class Lab {
   }
   void simulate(double seconds) {
     if (!begun_) begin(Phase::pour);
-    time_ += solver_->advance({world_}, seconds);
+    const std::uint64_t before = solver_->steps(world_);
+    const double done = solver_->advance({world_}, seconds);
+    time_ += done;
+    if (!count_) return;
+    count_->seconds += done;
+    count_->steps += solver_->steps(world_) - before;
   }
   double time() const { return time_; }
 
@@ -131,6 +143,7 @@ class Lab {
 
  private:
   std::unique_ptr<Solver> solver_;
+  Count* count_;
   WorldDef def_;
   std::vector<BodyState> starts_;
   WorldId world_ = 0;

@@ -11,6 +11,12 @@ const SolverCase sphere_coarse{"sphere", [] {
                                  settings.time_step = 1.0 / 15.0;
                                  return make_sphere_solver(settings);
                                }};
+const SolverCase sphere_uncut{"sphere", [] {
+                                SphereSettings settings;
+                                settings.time_step = 1.0 / 15.0;
+                                settings.cut_steps = false;
+                                return make_sphere_solver(settings);
+                              }};
 
 const auto name = [](const auto& info) { return info.param.name; };
 
@@ -29,6 +35,14 @@ TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);
 }
 
+TEST(SphereBall, KeepsItsEnergyWhereNothingIsLostInABounce) {
+  EXPECT_LT(elastic_change(Lab(sphere_default.make())), 5e-4);
+}
+
+TEST(SphereBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
+  EXPECT_LT(ride(Lab(sphere_default.make())), 3e-3);
+}
+
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
@@ -41,5 +55,6 @@ INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default),
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);
 
 }  // namespace bin_scenes::testing

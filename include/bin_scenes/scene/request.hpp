@@ -72,6 +72,7 @@ const char* name_of(SolverType type);
 /// Settings of Bullet. Lengths are in part sizes where noted: Bullet simulates a scaled world.
 struct BulletSettings {
   double time_step = 1.0 / 240.0;  ///< s; larger is faster and lets thin parts interlock
+  bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
   int iterations = 40;             ///< contact sweeps per step, two a sub-step; more = stiffer piles, linear cost
   double margin = 0.005;           ///< collision margin / part diagonal, shrunk into the hulls; smaller = slower, exacter
   bool sleeping = true;            ///< islands at rest cost nothing
@@ -98,6 +99,7 @@ struct ThesisSettings {
 /// The default sphere solver: surface samples of one part against the distance field of the other.
 struct SphereSettings {
   double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
+  bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
   int coarse_samples = 200;        ///< per part while pouring, at least; thin parts get more
   int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost

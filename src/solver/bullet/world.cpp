@@ -86,7 +86,7 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
     : def_(def),
       settings_(settings),
       scale_(1.0 / median_diagonal(def)),
-      shortening_(step_cuts(settings.time_step, def.gravity.norm(), smallest_diagonal(def))),
+      shortening_(settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), smallest_diagonal(def)) : 1),
       time_step_(settings.time_step / shortening_),
       configuration_(pools_for(def.bodies.size())),
       dispatcher_(&configuration_),
@@ -212,6 +212,7 @@ void World::remove(std::size_t index) {
 }
 
 int World::cuts() const {
+  if (!settings_.cut_steps) return 1;
   const double dt = time_step_, fall = def_.gravity.norm() * scale_ * dt * dt;
   double way = 0.0;  // of the fastest part, without what gravity adds
   bool moves = false;

@@ -32,6 +32,7 @@ constexpr float turn_of_a_cut = 0.1f;  ///< rad: keeps a tumbling part's energy 
 constexpr float most_cuts = 64.0f;
 
 int cuts_of_fast(const World& world) {
+  if (!world.settings.cut_steps) return 1;
   float way = 0.0f, turn = 0.0f;
   for (const Body& b : world.bodies) {
     if (!b.moves()) continue;

@@ -27,6 +27,7 @@ struct Softness {
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
+  bool cut_steps = true;         ///< for small and fast parts
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
   int sweeps = 2;       ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
   int cold_sweeps = 4;  ///< the same in the first steps of a world, when contacts have no forces to begin with

@@ -42,6 +42,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   gpu::SphereSettingsBlock out{};
   out.time_step = s.time_step;
   out.sub_steps = static_cast<gpu::uint>(s.sub_steps);
+  out.cut_steps = s.cut_steps;
   const auto softness = [&](const Softness& c) -> gpu::vec4 {
     return {c.hertz_share, c.damping_ratio, c.slop, static_cast<float>(c.refinement)};
   };

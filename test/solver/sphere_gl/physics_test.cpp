@@ -11,8 +11,22 @@ const SolverCase sphere_gl_coarse{"sphere_gl", [] {
                                     settings.time_step = 1.0 / 15.0;
                                     return make_gl_sphere_solver(settings);
                                   }};
+const SolverCase sphere_gl_uncut{"sphere_gl", [] {
+                                   SphereSettings settings;
+                                   settings.time_step = 1.0 / 15.0;
+                                   settings.cut_steps = false;
+                                   return make_gl_sphere_solver(settings);
+                                 }};
 
 const auto name = [](const auto& info) { return info.param.name; };
+
+TEST(SphereGlBall, KeepsItsEnergyWhereNothingIsLostInABounce) {
+  EXPECT_LT(elastic_change(Lab(sphere_gl.make())), 5e-4);
+}
+
+TEST(SphereGlBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
+  EXPECT_LT(ride(Lab(sphere_gl.make())), 3e-3);
+}
 
 TEST(SphereGlSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
@@ -26,5 +40,6 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, CoarseSteps, ::testing::Values(sphere_gl_coarse), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, UncutSteps, ::testing::Values(sphere_gl_uncut), name);
 
 }  // namespace bin_scenes::testing
