@@ -190,7 +190,9 @@ void run(Run& out) {
 }
 
 const Registration registration{"distribution",
-                                "are the piles right: heights, axes, packing, contacts against a fine reference", run};
+                                "are the piles right: heights, axes, packing, contacts against a fine reference",
+                                {"part", "solver"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

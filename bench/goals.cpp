@@ -36,7 +36,10 @@ void run(Run& out) {
   }
 }
 
-const Registration registration{"goals", "150 parts of every shape against the goals, the referee's word beside", run};
+const Registration registration{"goals",
+                                "150 parts of every shape against the goals, the referee's word beside",
+                                {"part", "bodies", "solver", "sleeping"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -146,7 +146,9 @@ void run(Run& out) {
 }
 
 const Registration registration{"growth",
-                                "cost of a step and memory over parts, worlds and samples, with fitted exponents", run};
+                                "cost of a step and memory over parts, worlds and samples, with fitted exponents",
+                                {"solver", "over", "x"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -27,16 +27,19 @@ void list(const std::vector<Benchmark>& all) {
 }
 
 int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const std::string& arguments) {
-  if (options.out.empty()) options.out = "bench_results/" + device_slug();
   if (!options.json) options.csv = true;
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
   if (failed) throw environment_error(failed.message(), options.out, "give a folder that can be written with --out");
-  bool good = true;
+  bool good = true, any = false;
   for (const Benchmark& benchmark : chosen) {
     const std::string command = "bin_scenes_bench --filter " + benchmark.name + arguments;
-    good &= run(benchmark, options, command);
+    const Ended ended = run(benchmark, options, command);
+    good &= ended != Ended::failed;
+    any |= ended != Ended::nothing_wanted;
   }
+  if (!any)
+    throw input_error("no row is like this", "--rows", "see the table in " + options.out + ", or leave --rows out");
   std::printf("results: %s\n", options.out.c_str());
   return good ? kDone : kSomethingToSay;
 }
@@ -45,6 +48,7 @@ int main_of(int argc, char** argv) {
   CLI::App app("Run time against error, measured. Results are CSV files; bench/plot draws them.");
   bool list_only = false;
   std::vector<std::string> filter;
+  std::string results = "bench_results";
   Run::Options options;
   options.csv = false;
   app.add_flag("--list", list_only, "the benchmarks that there are, or that --filter chooses");
@@ -53,7 +57,8 @@ int main_of(int argc, char** argv) {
       ->check([](const std::string& filter) {
         return filter.find('=') == std::string::npos ? "expected key=glob, found '" + filter + "'" : std::string();
       });
-  app.add_option("--out", options.out, "folder of the results; default: bench_results/<device>");
+  app.add_option("--results", results, "the results go to RESULTS/<device>")->capture_default_str();
+  app.add_option("--out", options.out, "folder of the results, instead of RESULTS/<device>");
   app.add_flag("--quick", options.quick, "small forms of all: minutes instead of hours, figures to look at only");
   app.add_flag("--csv", options.csv, "write <benchmark>.csv (default)");
   app.add_flag("--json", options.json, "write <benchmark>.json");
@@ -83,6 +88,8 @@ int main_of(int argc, char** argv) {
     list(chosen);
     return kDone;
   }
+  check_rows(chosen, options.rows);
+  if (options.out.empty()) options.out = results + "/" + device_slug();
   return run_all(chosen, options, options.quick ? " --quick" : "");
 }
 

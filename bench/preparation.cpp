@@ -125,7 +125,8 @@ void run(Run& out) {
     for (const char* solver : {"sphere", "bullet", "sphere/thesis"}) measure(out, sample, solver, out.quick() ? 1 : 3);
 }
 
-const Registration registration{"preparation", "seconds and memory to make each sample part ready, cold and warm", run};
+const Registration registration{
+    "preparation", "seconds and memory to make each sample part ready, cold and warm", {"part", "solver"}, run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -26,7 +26,9 @@ void run(Run& out) {
 }
 
 const Registration registration{"scenes",
-                                "time, memory and errors of whole scenes: three parts, both solvers, 64 to 512", run};
+                                "time, memory and errors of whole scenes: three parts, both solvers, 64 to 512",
+                                {"part", "bodies", "solver", "sleeping"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

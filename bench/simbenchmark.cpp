@@ -167,13 +167,14 @@ void run(Run& out) {
           .info("unit", scene.unit);
     };
     for (const Published& p : simbenchmark_rows)
-      if (p.scene == std::string(scene.name))
+      if (p.scene == std::string(scene.name) && out.wanted(row(p.engine, p.solver, p.time_step_s)))
         out.row(row(p.engine, p.solver, p.time_step_s)
                     .measure("error", p.error)
                     .measure("cpu_s", p.cpu_s)
                     .info("measured", "published"));
     for (const std::string solver : {"sphere", "bullet"})
       for (const double time_step : scene.time_steps) {
+        if (!out.wanted(row("bin_scenes", solver, time_step))) continue;
         const Isolated one = isolated([&] {
           Request request;
           choose_solver(request, solver);
@@ -189,7 +190,9 @@ void run(Run& out) {
 }
 
 const Registration registration{"simbenchmark",
-                                "SimBenchmark's scenes of spheres: error and CPU time beside the published rows", run};
+                                "SimBenchmark's scenes of spheres: error and CPU time beside the published rows",
+                                {"scene", "engine", "solver", "time_step_s"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

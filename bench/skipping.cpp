@@ -33,6 +33,10 @@ Row sleeping_row(const Heap& heap, const Request& settings, double awake) {
 
 /// A share of work that was skipped while a scene was poured, from the solver's counters.
 void counted(Run& out, const Request& request, const std::string& solver) {
+  const char* const skips[] = {"free fall", "recycling", "culling", "reduction"};
+  if (std::none_of(std::begin(skips), std::end(skips),
+                   [&](const char* skip) { return out.wanted(Row().key("skip", skip).key("solver", solver)); }))
+    return;
   const Isolated one = isolated([&] {
     const Poured poured = pour_timed(request);
     Row row;
@@ -40,8 +44,9 @@ void counted(Run& out, const Request& request, const std::string& solver) {
     return row;
   });
   const auto share = [&](const std::string& skip, const std::string& what, double skipped, double all) {
-    if (!(all > 0.0) || std::isnan(skipped)) return;
-    out.row(Row().key("skip", skip).key("solver", solver).key("state", what).measure("skipped_share", skipped / all));
+    const Row key = Row().key("skip", skip).key("solver", solver).key("state", what);
+    if (!(all > 0.0) || std::isnan(skipped) || !out.wanted(key)) return;
+    out.row(Row(key).measure("skipped_share", skipped / all));
   };
   const auto n = [&](const char* name) { return one.row.number(name); };
   const double bodies = static_cast<double>(request.part_count());
@@ -108,29 +113,34 @@ void run(Run& out) {
     choose_solver(settings, c.solver);
     settings.solver.bullet.sleeping = c.sleeping;
     const Isolated one = isolated([&] { return sleeping_row(heap, settings, c.awake); }, limit_cpu_s);
-    out.row(Row().key("skip", "sleeping").key("solver", c.solver).key("state", c.state).append(one.row));
+    out.row(Row(key).append(one.row));
   }
   for (const char* solver : {"sphere", "bullet"}) {
+    const Row key = Row().key("skip", "rest").key("solver", solver).key("state", "seconds after rest");
+    if (!out.wanted(key)) continue;
     Request request = bin_of(part, out.quick() ? 8 : 48);
     choose_solver(request, solver);
     const Isolated one = isolated([&] { return after_rest(request); }, limit_cpu_s);
-    out.row(Row().key("skip", "rest").key("solver", solver).key("state", "seconds after rest").append(one.row));
+    out.row(Row(key).append(one.row));
   }
   counted(out, bin_of(part, out.quick() ? 8 : 48), "sphere");
   for (const bool render : {true, false}) {
+    const Row key = Row()
+                        .key("skip", "rendering")
+                        .key("solver", "sphere")
+                        .key("state", render ? "a camera is read" : "nobody looks");
+    if (!out.wanted(key)) continue;
     Request request = bin_of(part, 4);
     request.sensors.emplace_back();
     const Isolated one = isolated([&] { return rendering(request, render); }, limit_cpu_s);
-    out.row(Row()
-                .key("skip", "rendering")
-                .key("solver", "sphere")
-                .key("state", render ? "a camera is read" : "nobody looks")
-                .append(one.row));
+    out.row(Row(key).append(one.row));
   }
 }
 
 const Registration registration{"skipping",
-                                "what each skip saves: sleeping, rest, free fall, recycling, culling, rendering", run};
+                                "what each skip saves: sleeping, rest, free fall, recycling, culling, rendering",
+                                {"skip", "solver", "state"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -345,7 +345,10 @@ void run(Run& out) {
   teapot_table(out);
 }
 
-const Registration registration{"thesis_tables", "the thesis's tables again, stage by stage, beside its figures", run};
+const Registration registration{"thesis_tables",
+                                "the thesis's tables again, stage by stage, beside its figures",
+                                {"table", "setting", "cube_m"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

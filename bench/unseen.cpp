@@ -38,7 +38,8 @@ void run(Run& out) {
   }
 }
 
-const Registration registration{"unseen", "150 parts drawn from a seed against the goals", run};
+const Registration registration{
+    "unseen", "150 parts drawn from a seed against the goals", {"part", "bodies", "solver"}, run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -144,7 +144,9 @@ void run(Run& out) {
 }
 
 const Registration registration{"work_precision",
-                                "error over scene time: all solvers over their settings, ODE and DART beside", run};
+                                "error over scene time: all solvers over their settings, ODE and DART beside",
+                                {"part", "bodies", "solver", "sleeping", "varied", "value"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -32,8 +32,9 @@ std::string models() {
 
 }  // namespace
 
-Registration::Registration(const std::string& name, const std::string& about, std::function<void(Run&)> run) {
-  registry().push_back({name, about, std::move(run)});
+Registration::Registration(const std::string& name, const std::string& about, const std::vector<std::string>& keys,
+                           std::function<void(Run&)> run) {
+  registry().push_back({name, about, keys, std::move(run)});
 }
 
 std::vector<Benchmark> benchmarks() {
@@ -64,6 +65,19 @@ std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::ve
   return chosen;
 }
 
+void check_rows(const std::vector<Benchmark>& chosen, const std::vector<std::string>& rows) {
+  for (const std::string& row : rows)
+    for (const Benchmark& benchmark : chosen) {
+      const std::string key = row.substr(0, row.find('='));
+      if (std::find(benchmark.keys.begin(), benchmark.keys.end(), key) != benchmark.keys.end()) continue;
+      const std::string near = config::nearest(key, benchmark.keys);
+      std::string all;
+      for (const std::string& known : benchmark.keys) all += (all.empty() ? "" : ", ") + known;
+      throw input_error("rows of " + benchmark.name + " have no key '" + key + "'", "--rows",
+                        near.empty() ? "its keys are " + all : "did you mean '" + near + "'?");
+    }
+}
+
 Run::Run(const std::string& name, const Options& options, Table& table)
     : name_(name),
       scratch_(fs::temp_directory_path() / ("bin_scenes_bench_" + std::to_string(::getpid()) + "_" + name)),
@@ -90,7 +104,7 @@ bool Run::wanted(const Row& keys) const {
     const std::string value = keys.at(filter.substr(0, equals));
     if (!value.empty() && fnmatch(filter.substr(equals + 1).c_str(), value.c_str(), 0) != 0) return false;
   }
-  return true;
+  return any_wanted_ = true;
 }
 
 void Run::amend(const Row& row) {
@@ -113,7 +127,7 @@ void Run::row(const Row& row) {
   std::fflush(stdout);
 }
 
-bool run(const Benchmark& benchmark, const Run::Options& options, const std::string& command) {
+Ended run(const Benchmark& benchmark, const Run::Options& options, const std::string& command) {
   Table table;
   const std::string before = options.out + "/" + benchmark.name + ".csv";
   if (!options.rows.empty() && fs::exists(before)) table = read_csv(before);
@@ -123,10 +137,10 @@ bool run(const Benchmark& benchmark, const Run::Options& options, const std::str
   Run run(benchmark.name, options, table);
   try {
     benchmark.run(run);
-    return true;
+    return run.any_wanted() ? Ended::good : Ended::nothing_wanted;
   } catch (const std::exception& error) {
     run.row(Row().status(std::string("failed: ") + error.what()));
-    return false;
+    return Ended::failed;
   }
 }
 

@@ -7,7 +7,8 @@
 ///         out.row(Row().key("solver", "sphere").key("time_step_s", dt).measure("error_rel", samples));
 ///       }
 ///     }
-///     const Registration registration{"bounce", "height after a bounce over time steps, both solvers", run};
+///     const Registration registration{
+///         "bounce", "height after a bounce over time steps, both solvers", {"solver", "time_step_s"}, run};
 ///     }  // namespace
 ///     }  // namespace bin_scenes::bench
 ///
@@ -31,6 +32,7 @@ class Run {
     std::vector<std::string> rows;  ///< "key=glob": only rows whose keys match; the file's other rows stay
   };
   Run(const std::string& name, const Options& options, Table& table);
+  ~Run();
 
   bool quick() const { return options_.quick; }
   /// Whether rows with these keys were asked for; ask before the work is done.
@@ -47,23 +49,26 @@ class Run {
   static std::string pieces(const std::string& name);
   /// A folder for this run alone, removed afterwards.
   const std::string& scratch() const { return scratch_; }
-  ~Run();
+  bool any_wanted() const { return any_wanted_; }  ///< of the rows asked about so far
 
  private:
   std::string name_, scratch_;
   const Options& options_;
   Table& table_;
+  mutable bool any_wanted_ = false;
 };
 
 struct Benchmark {
-  std::string name;   ///< snake_case: file, CSV, plot
-  std::string about;  ///< one line
+  std::string name;               ///< snake_case: file, CSV, plot
+  std::string about;              ///< one line
+  std::vector<std::string> keys;  ///< columns that rows can be chosen by
   std::function<void(Run&)> run;
 };
 
 /// Puts a benchmark on the list; lives in an anonymous namespace of the benchmark's file.
 struct Registration {
-  Registration(const std::string& name, const std::string& about, std::function<void(Run&)> run);
+  Registration(const std::string& name, const std::string& about, const std::vector<std::string>& keys,
+               std::function<void(Run&)> run);
 };
 
 /// All benchmarks by name.
@@ -73,7 +78,11 @@ std::vector<Benchmark> benchmarks();
 /// name, for a pattern that matches none.
 std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns);
 
-/// Runs one; a bin_scenes Error in it becomes a last row with its text as status. False then.
-bool run(const Benchmark& benchmark, const Run::Options& options, const std::string& command);
+/// Throws an input Error, with the nearest key, for a row filter by a key that one of the benchmarks does not have.
+void check_rows(const std::vector<Benchmark>& chosen, const std::vector<std::string>& rows);
+
+enum class Ended { good, failed, nothing_wanted };
+/// Runs one; a bin_scenes Error in it becomes a last row with its text as status.
+Ended run(const Benchmark& benchmark, const Run::Options& options, const std::string& command);
 
 }  // namespace bin_scenes::bench

@@ -22,9 +22,9 @@ class BenchCommand : public ::testing::Test {
     int code;
     std::string out, err;
   };
-  Outcome run(const std::string& arguments) const {
+  Outcome run(const std::string& arguments, const std::string& program = BIN_SCENES_BENCH) const {
     const std::string command =
-        "cd '" + dir_.string() + "' && '" BIN_SCENES_BENCH "' " + arguments + " >out.txt 2>err.txt </dev/null";
+        "cd '" + dir_.string() + "' && '" + program + "' " + arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("out.txt"), text("err.txt")};
   }
@@ -61,6 +61,34 @@ TEST_F(BenchCommand, UnwritableFolderIsOneClearMessage) {
   const Outcome outcome = run("--filter preparation --quick --out file/results");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_NE(outcome.err.find("file/results"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BenchCommand, RowsByAKeyThatIsNoneAreRefusedBeforeAnythingRuns) {
+  const Outcome outcome = run("--filter goals,scenes --rows sovler=bullet");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("rows of goals have no key 'sovler'"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("did you mean 'solver'?"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(dir_ / "bench_results"));
+}
+
+TEST_F(BenchCommand, RowsThatNoBenchmarkHasAreAnError) {
+  for (const std::string benchmark : {"goals", "simbenchmark", "skipping"}) {
+    const Outcome outcome = run("--out results --rows solver=nosuch --filter " + benchmark);
+    EXPECT_EQ(outcome.code, 2) << benchmark;
+    EXPECT_NE(outcome.err.find("no row is like this"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(dir_ / "results" / (benchmark + ".csv")));
+  }
+}
+
+TEST_F(BenchCommand, StressRefusesWhatItDoesNotKnow) {
+  for (const std::string arguments :
+       {"--solver nosuch", "--filter nosuch", "--sovler sphere", "--filter mass/1:10 --solver x"}) {
+    const Outcome outcome = run(arguments, BIN_SCENES_STRESS);
+    EXPECT_EQ(outcome.code, 2) << arguments << outcome.out;
+    EXPECT_EQ(outcome.err.rfind("bin_scenes_stress: ", 0), 0u) << outcome.err;
+  }
+  const Outcome outcome = run("--filter stack/ --solver nosuch", BIN_SCENES_STRESS);
+  EXPECT_NE(outcome.err.find("nosuch"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BenchCommand, ComparesTwoFolders) {
