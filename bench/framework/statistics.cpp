@@ -46,18 +46,41 @@ double wasserstein(std::vector<double> a, std::vector<double> b) {
   return area;
 }
 
-double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+namespace {
+
+/// Sums of squares and products of log x and log y about their means.
+struct LogSums {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+LogSums log_sums(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  double mean_x = 0.0, mean_y = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]), v = std::log(y[i]);
-    sx += u;
-    sy += v;
-    sxx += u * u;
-    sxy += u * v;
+    mean_x += std::log(x[i]) / n;
+    mean_y += std::log(y[i]) / n;
   }
-  const double determinant = n * sxx - sx * sx;
-  return determinant > 1e-12 * n * sxx ? (n * sxy - sx * sy) / determinant : nan;
+  LogSums sums;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::log(x[i]) - mean_x, v = std::log(y[i]) - mean_y;
+    sums.xx += u * u;
+    sums.xy += u * v;
+    sums.yy += v * v;
+  }
+  return sums;
+}
+
+constexpr double same = 1e-12;  ///< variance of logarithms that are equal but for rounding
+
+}  // namespace
+
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const LogSums s = log_sums(x, y);
+  return s.xx > same ? s.xy / s.xx : nan;
+}
+
+double explained_by_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const LogSums s = log_sums(x, y);
+  return s.xx > same && s.yy > same ? s.xy * s.xy / (s.xx * s.yy) : 0.0;
 }
 
 }  // namespace bin_scenes::bench

@@ -1,26 +1,29 @@
 # needs: closed_forms.csv
 table = results.'/closed_forms.csv'
-forms = 'bounce_0.9 sliding_distance friction_angle rolling_15_deg tumbling_energy tumbling_spin stack_10_boxes_30_s two_rods'
-goal = '0.01 0.005 0.5 0.002 0.001 0.001 0.001 0.01'
+forms = 'free_fall bounce_0.9 sliding_distance friction_angle rolling_15_deg collision_momentum collision_energy_gain tumbling_energy tumbling_energy_gain tumbling_spin stack_10_boxes_30_s brick_stacks_mean brick_stacks_worst two_rods'
+goal = '1e-4 0.01 0.005 0.5 0.002 1e-5 1e-5 0.001 1e-4 0.001 0.001 0.001 0.001 0.01'
 solvers = 'sphere bullet sphere/thesis'
-set multiplot layout 3,3 title 'Error against closed forms over time steps (dashed: goal at default steps)'
+least = 1e-8  # what is smaller is drawn here
+set multiplot layout 4,4 title 'Error against closed forms over time steps (dashed: goal at default steps)'
 set logscale xy
 set format y '10^{%T}'
 set xtics ('1/30' 1/30., '1/200' 1/200., '1/1000' 0.001)
+set ytics 1e-8,1e3 font ',9'
+set xtics font ',9'
 set xrange [0.0008:0.04]
-set yrange [1e-7:*]
-set xlabel 's' offset 0,0.7
+set yrange [least / 2:*]
 unset key
-error(form, solver) = stringcolumn('form') eq form && stringcolumn('solver') eq solver && column('error') > 0 ? column('error') : NaN
+of(form, solver) = stringcolumn('form') eq form && stringcolumn('solver') eq solver
+given = "stringcolumn('time_step_s') ne 'default' && stringcolumn('time_step_s') ne 'all'"
+error(form, solver) = of(form, solver) && @given ? (column('error') > least ? column('error') : least) : NaN
 do for [f=1:words(forms)] {
-  set title word(forms, f) noenhanced offset 0,-0.7
+  set title word(forms, f) noenhanced offset 0,-0.9 font ',10'
   plot word(goal, f) + 0 with lines linecolor rgb '#888888' dashtype 2, \
-       for [s=1:3] table using 'time_step_s':(error(word(forms, f), word(solvers, s))) with linespoints linetype s
+       for [s=1:3] table using 'step_s':(error(word(forms, f), word(solvers, s))) with linespoints linetype s pointsize 0.6
 }
 unset title
 unset border
 unset tics
-unset xlabel
 unset logscale
 unset grid
 set key center center Left reverse
