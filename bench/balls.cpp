@@ -1,0 +1,217 @@
+/// Equal balls in bulk: how densely they pack, and how steep a heap of them is. Both solvers, default settings.
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "framework/statistics.hpp"
+#include "runs.hpp"
+
+#include "bin_scenes/core/random.hpp"
+#include "solver/lab.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bin_scenes::bench {
+namespace {
+
+constexpr double radius = 0.0125;  ///< m
+constexpr double d = 2.0 * radius;
+constexpr double density = 7850.0;
+
+Request balls_in_box(std::size_t count, const Vec3& inner_size, double friction, std::uint64_t seed) {
+  Request request;
+  request.seed = seed;
+  request.parts.emplace_back();
+  request.parts[0].model = "ball";
+  request.parts[0].count = count;
+  request.parts[0].density = density;
+  request.parts[0].friction = request.bin.friction = friction;
+  request.bin.inner_size = inner_size;
+  return request;
+}
+
+/// Share of the box between `lower` and `upper` that balls fill, where they overlap counted once.
+double filled(const std::vector<Vec3>& centers, double ball, const Vec3& lower, const Vec3& upper) {
+  const double pitch = ball / 16.0;
+  const Eigen::Array3i counts = ((upper - lower) / pitch).array().floor().cast<int>();
+  std::vector<bool> voxels(static_cast<std::size_t>(counts.prod()), false);
+  std::size_t full = 0;
+  for (const Vec3& center : centers) {
+    const auto first = ((center.array() - ball - lower.array()) / pitch).floor().cast<int>().max(0).eval();
+    const auto last = ((center.array() + ball - lower.array()) / pitch).ceil().cast<int>().min(counts - 1).eval();
+    for (int z = first.z(); z <= last.z(); ++z)
+      for (int y = first.y(); y <= last.y(); ++y)
+        for (int x = first.x(); x <= last.x(); ++x) {
+          if ((lower + pitch * Vec3(x + 0.5, y + 0.5, z + 0.5) - center).squaredNorm() > ball * ball) continue;
+          auto voxel = voxels[static_cast<std::size_t>((z * counts.y() + y) * counts.x() + x)];
+          full += !voxel;
+          voxel = true;
+        }
+  }
+  return static_cast<double>(full) / static_cast<double>(voxels.size());
+}
+
+/// Rain from half a diameter into a box as wide as the heap is high (13 diameters for 2000 balls); density three
+/// thirteenths of that away from walls, floor and surface.
+Row packing(const std::string& solver_name, std::size_t count, double friction, std::uint64_t seed) {
+  const double begin = cpu_seconds(), width = 13.0 * d * std::cbrt(static_cast<double>(count) / 2000.0),
+               away = 3.0 / 13.0 * width;
+  Request request = balls_in_box(count, Vec3(width, width, 0.6), friction, seed);
+  request.pour.drop_height = 0.5 * d;
+  request.pour.limit = 60.0;
+  choose_solver(request, solver_name);
+  const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  const Scene scene = pour(request, parts, *solver, {0}).front();
+  std::vector<Vec3> centers;
+  std::vector<double> heights;
+  for (const ScenePart& part : scene.parts) {
+    centers.push_back(part.pose * parts[0]->mass().center);
+    heights.push_back(centers.back().z());
+  }
+  const double surface = quantile(heights, 0.98), side = 0.5 * width - away;
+  const double ball = std::cbrt(parts[0]->mass().volume * 0.75 / M_PI);  // of the same volume as the mesh
+  return Row()
+      .measure("value", filled(centers, ball, Vec3(-side, -side, away), Vec3(side, side, surface - away)))
+      .exact("scenes", 1)
+      .exact("at_rest", static_cast<int>(scene.report.at_rest))
+      .exact("escaped", scene.report.escaped.size())
+      .measure("cpu_s", cpu_seconds() - begin);
+}
+
+/// A bed of fixed balls in a row each, as rough as what falls on it.
+void add_bed(WorldDef& def, double width, double friction, std::vector<BodyState>& starts) {
+  BodyDef body = testing::material(friction);
+  body.fixed = true;
+  const double row = d * std::sqrt(0.75);
+  const int columns = static_cast<int>(width / d), rows = static_cast<int>(width / row);
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i + (j & 1) < columns; ++i) {
+      starts.push_back({{Vec3(d * (i + 0.5 * (j & 1)) - 0.5 * d * (columns - 1), row * (j - 0.5 * (rows - 1)), radius),
+                         Quat::Identity()},
+                        {}});
+      def.bodies.push_back(body);
+    }
+}
+
+/// Angle (deg) of the line that fits the surface of a heap on a bed of height d over the distance from its axis, from a
+/// third of the way to the foot to two thirds of it.
+double slope_of(const std::vector<Vec3>& centers) {
+  Vec3 axis = Vec3::Zero();
+  for (const Vec3& c : centers) axis += c / static_cast<double>(centers.size());
+  double square = 0.0;
+  for (const Vec3& c : centers) square += (c - axis).head<2>().squaredNorm() / static_cast<double>(centers.size());
+  const double foot = std::sqrt(square / 0.3);  // of a cone
+  const int reach = static_cast<int>(foot / d) + 1;
+  double n = 0, sr = 0, sh = 0, srr = 0, srh = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int k = -reach; k <= reach; ++k) {
+      const Eigen::Vector2d at = axis.head<2>() + d * Eigen::Vector2d(i, k);
+      const double r = d * std::hypot(i, k);
+      if (r < foot / 3.0 || r > 2.0 * foot / 3.0) continue;
+      double h = d;  // the bed
+      for (const Vec3& c : centers) {
+        const double beside = radius * radius - (c.head<2>() - at).squaredNorm();
+        if (beside > 0.0) h = std::max(h, c.z() + std::sqrt(beside));
+      }
+      n += 1, sr += r, sh += h, srr += r * r, srh += r * h;
+    }
+  return std::atan(-(n * srh - sr * sh) / (n * srr - sr * sr)) * 180.0 / M_PI;
+}
+
+/// Balls fall, seven every twentieth of a second, from half a diameter onto the top of their heap; two seconds later
+/// it is measured.
+Row repose(const std::string& solver_name, std::size_t count, double friction, std::uint64_t seed) {
+  const double begin = cpu_seconds(), width = 28.0 * d;
+  Request request = balls_in_box(count, Vec3(width, width, 0.6), friction, seed);
+  choose_solver(request, solver_name);
+  const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  WorldDef def = world_of(request, parts);
+  std::vector<BodyState> starts(count);
+  add_bed(def, width, friction, starts);
+  const WorldId world = solver->add_world(def);
+  for (std::size_t b = count; b < starts.size(); ++b) solver->insert(world, b, starts[b]);
+  solver->set_phase(world, Phase::pour);
+  Random random(seed, 0, Stream::probe);
+  double top = d;
+  for (std::size_t in = 0; in < count;) {
+    const double turn = random.uniform(0.0, 2.0 * M_PI);
+    for (int k = 0; k < 7 && in < count; ++k, ++in) {
+      const double out = k == 0 ? 0.0 : 1.1 * d, angle = turn + k * M_PI / 3.0;
+      const Vec3 at(out * std::cos(angle), out * std::sin(angle), top + radius + 0.5 * d);
+      solver->insert(world, in, {{at, random.orientation()}, {}});
+    }
+    solver->advance({world}, 0.05);
+    top = d;
+    const std::vector<BodyState> states = solver->states(world);
+    for (std::size_t b = 0; b < in; ++b)
+      if (states[b].pose.position.head<2>().norm() < 2.5 * d) top = std::max(top, states[b].pose.position.z() + radius);
+  }
+  solver->set_phase(world, Phase::settle);
+  solver->advance({world}, 2.0);
+  const std::vector<BodyState> states = solver->states(world);
+  std::vector<Vec3> centers;
+  double fastest = 0.0;
+  for (std::size_t b = 0; b < count; ++b) {
+    centers.push_back(states[b].pose.position);
+    fastest = std::max(fastest, states[b].velocity.linear.norm());
+  }
+  return Row()
+      .measure("value", slope_of(centers))
+      .exact("scenes", 1)
+      .measure("fastest_m_s", fastest)
+      .measure("cpu_s", cpu_seconds() - begin);
+}
+
+struct Form {
+  const char *name, *unit;
+  Row (*measure)(const std::string& solver, std::size_t count, double friction, std::uint64_t seed);
+  double friction, lower, upper;  ///< of the goal
+};
+const double any = std::numeric_limits<double>::quiet_NaN();
+const Form forms[] = {
+    {"random packing", "filled", packing, 0.0, 0.63, 0.65}, {"random packing", "filled", packing, 0.3, 0.58, 0.61},
+    {"angle of repose", "deg", repose, 0.2, any, any},      {"angle of repose", "deg", repose, 0.4, any, any},
+    {"angle of repose", "deg", repose, 0.6, any, any},      {"angle of repose", "deg", repose, 0.8, any, any}};
+
+void run(Run& out) {
+  const std::size_t count = out.quick() ? 120 : 2000;
+  const int seeds = out.quick() ? 1 : 2;
+  for (const std::string solver : {"sphere", "bullet"}) {
+    double steepest_below = -std::numeric_limits<double>::infinity();
+    for (const Form& form : forms) {
+      const Row key = Row().key("form", form.name).key("friction", form.friction).key("solver", solver);
+      if (!out.wanted(key)) continue;
+      const std::size_t balls = form.measure == repose ? count / 2 : count;
+      std::vector<Row> scenes;
+      Isolated one;
+      for (int seed = 1; seed <= seeds; ++seed) {
+        one = isolated([&] { return form.measure(solver, balls, form.friction, static_cast<std::uint64_t>(seed)); });
+        if (!one.good) break;
+        scenes.push_back(one.row);
+      }
+      Row row = Row(key).info("unit", form.unit).info("balls", balls);
+      if (!one.good) {
+        out.row(row.append(one.row));
+        continue;
+      }
+      const Row all = joined(scenes);
+      const double value = all.number("value");
+      const bool packs = !std::isnan(form.lower);
+      const bool met = packs ? value >= form.lower && value <= form.upper : value > steepest_below;
+      if (!packs) steepest_below = value;
+      out.row(row.info("goal", packs ? Row::text(form.lower) + " to " + Row::text(form.upper) : "rises with friction")
+                  .info("met", met ? "yes" : "no")
+                  .append(all));
+    }
+  }
+}
+
+const Registration registration{
+    "balls", "packing of equal balls and slope of their heaps", {"form", "friction", "solver"}, run};
+
+}  // namespace
+}  // namespace bin_scenes::bench
