@@ -96,6 +96,26 @@ class Scripts(unittest.TestCase):
         self.assertTrue((self.root / "out/scenes.svg").read_text().rstrip().endswith("</svg>"))
         self.assertTrue((self.root / "out/scenes.png").read_bytes().startswith(b"\x89PNG"))
 
+    def test_all_makes_everything_and_names_what_failed(self):
+        shutil.copy(ROOT / "bench/all", self.root / "bench")
+        (self.root / "bench/stress").mkdir()
+        (self.root / "build/bench").mkdir(parents=True)
+        for name, code in (("build/bench/bin_scenes_bench", 0), ("bench/stress/soak", 1), ("bench/publish", 0),
+                           ("bench/inspect_all", 0)):
+            script = self.root / name
+            script.unlink(missing_ok=True)
+            script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
+            script.chmod(0o755)
+        outcome = self.run_script("all", QUICK="")
+        self.assertEqual(outcome.returncode, 1)
+        self.assertEqual(outcome.stderr, "bench/all: failed: bench/stress/soak\n")
+        did = [line for line in outcome.stdout.splitlines() if line.startswith("did ") and "inspect_all" not in line]
+        self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did bench/stress/soak build",
+                               "did bench/publish"])
+        missing = self.run_script("all", "nowhere")
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("scripts/build", missing.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
