@@ -21,8 +21,8 @@ namespace {
 void send(int pipe, const Outcome& o) {
   std::ostringstream out;
   out.precision(17);
-  out << o.penetration << ' ' << o.drift << ' ' << o.energy << ' ' << o.simulated_s << ' ' << o.growth_bytes << ' '
-      << o.pace << ' ' << o.parts << ' ' << o.resting << '\n'
+  out << o.penetration << ' ' << o.drift << ' ' << o.energy << ' ' << o.simulated_s << ' ' << o.steps << ' '
+      << o.growth_bytes << ' ' << o.pace << ' ' << o.parts << ' ' << o.resting << '\n'
       << o.device << '\n';
   for (std::string failure : o.failures) {
     std::replace(failure.begin(), failure.end(), '\n', ' ');
@@ -47,7 +47,8 @@ Outcome parse(const std::string& text) {
   Outcome o;
   std::istringstream in(text);
   std::string line;
-  in >> o.penetration >> o.drift >> o.energy >> o.simulated_s >> o.growth_bytes >> o.pace >> o.parts >> o.resting;
+  in >> o.penetration >> o.drift >> o.energy >> o.simulated_s >> o.steps >> o.growth_bytes >> o.pace >> o.parts >>
+      o.resting;
   std::getline(in, line);
   std::getline(in, o.device);
   while (std::getline(in, line)) o.failures.push_back(line);

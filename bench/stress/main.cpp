@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -40,7 +41,6 @@ std::string file_name(std::string text) {
 int run_row(const Row& row, const Options& options, std::vector<Tally>& tallies) {
   int regressions = 0;
   for (const std::string& solver : row.solvers) {
-    if (!options.solver.empty() && solver != options.solver) continue;
     Tally tally;
     tally.theme = row.theme;
     tally.row = row.name;
@@ -55,7 +55,7 @@ int run_row(const Row& row, const Options& options, std::vector<Tally>& tallies)
       const Outcome outcome = run_apart(yaml, options.out, c.expect, {});
       const auto known = row.known.find(solver + ": " + c.name);
       const std::string why = known == row.known.end() ? "" : known->second;
-      tally.add(c.name, outcome, why);
+      tally.add(c, outcome, why);
       if (outcome.survived()) {
         fs::remove(path);
         if (!why.empty())
@@ -65,9 +65,10 @@ int run_row(const Row& row, const Options& options, std::vector<Tally>& tallies)
         regressions += why.empty();
       }
     }
-    std::printf("%-12s %-34s %-7s %3zu / %-3zu overlap %6.3f %%  drift %6.3f %%  energy %+7.3f %%  %6.1f s  %4.0f MB\n",
-                tally.theme.c_str(), tally.row.c_str(), solver.c_str(), tally.survived, tally.tried,
-                100.0 * tally.penetration, 100.0 * tally.drift, 100.0 * tally.energy, tally.cpu_s, tally.peak_mb);
+    std::printf(
+        "%-12s %-34s %-10s %3zu / %-3zu overlap %6.3f %%  drift %6.3f %%  energy %+7.3f %%  %6.1f s  %4.0f MB\n",
+        tally.theme.c_str(), tally.row.c_str(), solver.c_str(), tally.survived, tally.tried, 100.0 * tally.penetration,
+        100.0 * tally.drift, 100.0 * tally.energy, tally.cpu_s, tally.peak_mb);
     std::fflush(stdout);
     tallies.push_back(std::move(tally));
   }
@@ -79,18 +80,34 @@ int run(int argc, char** argv) {
   Options o;
   app.add_flag("--list", o.list, "rows with their number of cases, nothing is run");
   app.add_option("--filter", o.filter, "only rows whose 'theme/row' contains this");
-  app.add_option("--solver", o.solver, "only this one: sphere, bullet or thesis");
+  app.add_option("--solver", o.solver, "only this one: sphere, sphere/gpu, bullet or thesis")
+      ->check(CLI::IsMember({"sphere", "sphere/gpu", "bullet", "thesis"}));
   app.add_flag("--soak", o.soak, "the long form: more cases, more parts, more seeds");
   app.add_option("--out", o.out, "directory for models and the requests that failed")->capture_default_str();
   app.add_option("--csv", o.csv, "file for the results");
   app.add_option("--results", o.results, "folder: the results go to RESULTS/<device>/stress.csv too");
   app.add_option("--table", o.table, "Markdown file whose table is replaced (docs/stress.md)");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    throw input_error(error.what(), "command line", "see bin_scenes_stress --help");
+  }
 
   std::vector<Row> rows;
-  for (Row& row : all_rows(o.soak))
-    if ((row.theme + "/" + row.name).find(o.filter) != std::string::npos) rows.push_back(std::move(row));
-  if (rows.empty()) throw input_error("no row matches '" + o.filter + "'", "--filter", "see --list");
+  for (Row& row : all_rows(o.soak)) {
+    if ((row.theme + "/" + row.name).find(o.filter) == std::string::npos) continue;
+    if (!o.solver.empty())
+      row.solvers.erase(std::remove_if(row.solvers.begin(), row.solvers.end(),
+                                       [&](const std::string& solver) { return solver != o.solver; }),
+                        row.solvers.end());
+    if (!row.solvers.empty()) rows.push_back(std::move(row));
+  }
+  if (rows.empty()) {
+    const std::string by = o.solver.empty() ? "" : " under " + o.solver;
+    throw input_error("no row matches '" + o.filter + "'" + by, "--filter", "see --list");
+  }
   if (o.list) {
     for (const Row& row : rows)
       std::printf("%s/%s: %zu cases x %zu solvers\n", row.theme.c_str(), row.name.c_str(), row.cases.size(),

@@ -68,6 +68,9 @@ std::vector<Row> numbers(bool soak) {
   on_gl.cases[0].request.solver.thesis.voxels = 2;           // 8 spheres a cube: software OpenGL takes 128 MiB a buffer
   on_gl.cases[0].expect.penetration = 0.5 / std::sqrt(3.0);  // half an edge: its surface is as rough as its spheres
   rows.push_back(on_gl);
+  Row large{"number", "parts in one scene, on OpenGL", {"sphere/gpu"}, {}, {}};
+  large.cases.push_back(soak ? many_parts(50, 8, 0.05) : many_parts(10, 5, 0.05));
+  rows.push_back(large);
   rows.push_back({"number", "scenes in one process", both, {many_scenes(1000, soak)}, {}});
   rows.push_back({"number", "scenes in one process, thesis", {"thesis"}, {many_scenes(soak ? 1000 : 50, false)}, {}});
   return rows;

@@ -58,7 +58,11 @@ std::vector<Row> overlaps(bool soak) {
   std::vector<Row> rows;
   for (const int percent : soak ? std::vector<int>{2, 10, 25, 50} : std::vector<int>{10, 50}) {
     const double share = 0.01 * percent;
-    Row row{"overlap", "by " + std::to_string(percent) + " % of a part", both, {two_cubes(share)}, {}};
+    Row row{"overlap",
+            "by " + std::to_string(percent) + " % of a part",
+            percent == 10 ? both_forms : both,
+            {two_cubes(share)},
+            {}};
     row.cases.push_back(into_floor(0.99 * share));  // at half a part the centre would start outside the bin
     row.cases.push_back(into_wall(0.99 * share));
     row.cases.push_back(heap(share));

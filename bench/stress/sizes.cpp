@@ -57,7 +57,11 @@ std::vector<Row> sizes(bool soak) {
   }
   rows.push_back({"size", "1 : 100 together", both, {mixed()}, {}});
   for (const double size : soak ? std::vector<double>{5e-4, 5e-3, 0.05, 0.5, 5} : std::vector<double>{5e-3, 0.05}) {
-    Row row{"size", with("", 1e3 * size) + " mm, 100 m away", both, {tower(size, Vec3(100, -100, 0))}, {}};
+    Row row{"size",
+            with("", 1e3 * size) + " mm, 100 m away",
+            size == 0.05 ? both_forms : both,
+            {tower(size, Vec3(100, -100, 0))},
+            {}};
     row.cases.push_back(tilted_flight(Vec3(-60, 60, 60), size));
     if (size < 0.01) row.known["bullet: a tower of 3"] = "the endless floor ends 10,000 part sizes from the origin";
     rows.push_back(row);

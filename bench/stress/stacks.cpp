@@ -19,7 +19,7 @@ Case stack(const std::string& name, const std::string& model, const Mesh& mesh, 
 std::vector<Row> stacks(bool soak) {
   std::vector<Row> rows;
   for (const int count : soak ? std::vector<int>{2, 10, 20, 50} : std::vector<int>{10}) {
-    Row row{"stack", "of " + std::to_string(count), both, {}, {}};
+    Row row{"stack", "of " + std::to_string(count), count == 2 ? both_forms : both, {}, {}};
     row.cases.push_back(stack("cubes", "cube", cube(0.05), 0.05, count));
     row.cases.push_back(stack("plates", "plate", box(Vec3(0.06, 0.04, 0.006)), 0.006, count));
     row.cases.push_back(stack("rings", "ring", ring(0.018, 0.0275, 0.012), 0.012, count));

@@ -54,12 +54,14 @@ inline const char* const blow =
 
 struct Row {
   std::string theme, name;
-  std::vector<std::string> solvers;  ///< of "sphere", "bullet", "thesis"
+  std::vector<std::string> solvers;  ///< of "sphere", "sphere/gpu", "bullet", "thesis"
   std::vector<Case> cases;
   Known known;
 };
 
 inline const std::vector<std::string> both = {"sphere", "bullet"};
+/// Where the passes of `sphere` on OpenGL are cheap enough on a software device: few parts, few steps.
+inline const std::vector<std::string> both_forms = {"sphere", "sphere/gpu", "bullet"};
 
 // One file a theme; `soak` asks for the long form. Rows may differ in cases, never in what is expected of a case.
 std::vector<Row> mass_ratios(bool soak);

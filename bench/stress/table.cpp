@@ -5,6 +5,7 @@
 #include "framework/table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -18,6 +19,12 @@ std::string figure(const char* format, double value) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+/// "2 to 100", of what is asked of the cases of a row.
+std::string range_of(const LimitRange& limit, double scale) {
+  const auto text = [&](double value) { return std::isinf(value) ? "none" : figure("%.3g", scale * value); };
+  return limit.least == limit.most ? text(limit.least) : text(limit.least) + " to " + text(limit.most);
 }
 
 std::string joined(const std::vector<std::string>& texts, const std::string& between) {
@@ -39,16 +46,18 @@ std::string table_of(const std::vector<Tally>& rows, const std::string& command)
       devices.push_back(row.device);
   std::size_t tried = 0, survived = 0;
   std::ostringstream out;
-  out << "| theme | row | solver | survived | overlap max, % | drift max, % | energy gained, % | CPU s |\n"
-      << "|---|---|---|---|---|---|---|---|\n";
+  out << "| theme | row | solver | mean step, ms | survived | overlap max, % (limit) | drift max, % | energy gained, % "
+         "(limit) | CPU s |\n"
+      << "|---|---|---|---|---|---|---|---|---|\n";
   for (const Tally& row : rows) {
     tried += row.tried;
     survived += row.survived;
     out << "| " << row.theme << " | " << row.row << " | " << row.solver << " | "
-        << (row.survived < row.tried ? "**" : "") << row.survived << " / " << row.tried
-        << (row.survived < row.tried ? "**" : "") << " | " << figure("%.2f", 100.0 * row.penetration) << " | "
-        << figure("%.2f", 100.0 * row.drift) << " | " << figure("%.2f", 100.0 * row.energy) << " | "
-        << figure("%.1f", row.cpu_s) << " |\n";
+        << figure("%.3g", 1e3 * row.mean_step()) << " | " << (row.survived < row.tried ? "**" : "") << row.survived
+        << " / " << row.tried << (row.survived < row.tried ? "**" : "") << " | "
+        << figure("%.2f", 100.0 * row.penetration) << " (" << range_of(row.penetration_limit, 100.0) << ") | "
+        << figure("%.2f", 100.0 * row.drift) << " | " << figure("%.2f", 100.0 * row.energy) << " ("
+        << range_of(row.energy_limit, 100.0) << ") | " << figure("%.1f", row.cpu_s) << " |\n";
   }
   std::ostringstream head;
   for (const auto& [key, value] : bench::host())
@@ -59,13 +68,34 @@ std::string table_of(const std::vector<Tally>& rows, const std::string& command)
   for (const Tally& row : rows)
     for (const std::string& failure : row.failures)
       failures << "- " << row.theme << ", " << row.row << ", " << row.solver << ": " << failure << "\n";
-  return head.str() + out.str() + (failures.str().empty() ? "" : "\nDid not survive:\n\n" + failures.str());
+  std::ostringstream flat;
+  for (const Tally& row : rows)
+    if (row.flat)
+      flat << "- " << row.row << ", " << row.solver << ": memory in use grew by " << figure("%.0f", row.growth_bytes)
+           << " bytes from a tenth of the scenes to the last, peak " << figure("%.0f", row.peak_mb)
+           << " MB; CPU time of the last tenth / of the second: " << figure("%.2f", row.pace) << "\n";
+  const std::string over_scenes = flat.str().empty() ? "" : "\nMany scenes in one process:\n\n" + flat.str();
+  return head.str() + out.str() + over_scenes +
+         (failures.str().empty() ? "" : "\nDid not survive:\n\n" + failures.str());
 }
 
 }  // namespace
 
-void Tally::add(const std::string& case_name, const Outcome& o, const std::string& why_known) {
+void LimitRange::extend(double limit) {
+  least = std::min(least, limit);
+  most = std::max(most, limit);
+}
+
+void Tally::add(const Case& c, const Outcome& o, const std::string& why_known) {
   ++tried;
+  penetration_limit.extend(c.expect.penetration);
+  energy_limit.extend(c.expect.traced ? c.expect.energy : std::numeric_limits<double>::infinity());
+  steps += o.steps;
+  if (c.expect.flat_memory) {
+    flat = true;
+    growth_bytes = o.growth_bytes;
+    pace = o.pace;
+  }
   survived += o.survived();
   if (!o.device.empty()) device = o.device;
   penetration = std::max(penetration, o.penetration);
@@ -75,16 +105,17 @@ void Tally::add(const std::string& case_name, const Outcome& o, const std::strin
   simulated_s += o.simulated_s;
   peak_mb = std::max(peak_mb, o.peak_mb);
   if (!o.survived())
-    failures.push_back(case_name + ": " + joined(o.failures, "; ") +
+    failures.push_back(c.name + ": " + joined(o.failures, "; ") +
                        (why_known.empty() ? "" : " (known: " + why_known + ")"));
 }
 
 void write_csv(const std::string& path, const std::vector<Tally>& rows, const std::string& command) {
+  using bench::Row;
   bench::Table table;
   table.header = {{"benchmark", "stress"}, {"command", command}};
   for (const auto& line : bench::host()) table.header.push_back(line);
   for (const Tally& t : rows)
-    table.add(bench::Row()
+    table.add(Row()
                   .key("theme", t.theme)
                   .key("row", t.row)
                   .key("solver", t.solver)
@@ -94,7 +125,12 @@ void write_csv(const std::string& path, const std::vector<Tally>& rows, const st
                   .info("penetration_max_rel", t.penetration)
                   .info("drift_max_rel", t.drift)
                   .info("energy_gain_rel", t.energy)
+                  .info("penetration_limit_rel", range_of(t.penetration_limit, 1.0))
+                  .info("energy_limit_rel", range_of(t.energy_limit, 1.0))
                   .info("simulated_s", t.simulated_s)
+                  .info("mean_step_s", t.mean_step())
+                  .info("growth_bytes", t.flat ? Row::text(t.growth_bytes) : "")
+                  .info("pace", t.flat ? Row::text(t.pace) : "")
                   .info("cpu_s", t.cpu_s)
                   .info("peak_mb", t.peak_mb)
                   .info("failures", joined(t.failures, " | ")));

@@ -43,6 +43,7 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
   }
   const Report& report = scene.report;
   outcome.simulated_s += report.simulated_s;
+  outcome.steps += report.steps;
   outcome.device = report.device;
   double highest = -std::numeric_limits<double>::infinity();
   for (const ScenePart& part : scene.parts) {
@@ -76,6 +77,7 @@ std::string request_text(const Case& c, const std::string& solver) {
   Request request = c.request;
   request.solver.type = solver == "bullet" ? SolverType::bullet : SolverType::sphere;
   if (solver == "thesis") request.solver.preset = SolverSettings::Preset::thesis;
+  if (solver == "sphere/gpu") request.solver.sphere.device = SphereSettings::Device::gpu;
   // A scene that says it rests is taken at its word, and re-run from its poses.
   request.drift_check = !request.seconds && !c.expect.refused && request.scenes == 1;
   for (PartLine& line : request.parts) line.model = "models/" + line.model + ".obj";

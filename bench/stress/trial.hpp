@@ -3,6 +3,7 @@
 
 #include "stress/stress.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Outcome {
   double drift = 0.0;                 ///< largest / diagonal, of scenes called resting
   double energy = 0.0;                ///< largest gain
   double simulated_s = 0.0;           ///< all scenes
+  std::uint64_t steps = 0;            ///< in that time, as they were cut
   double cpu_s = 0.0, peak_mb = 0.0;  ///< of the process
   double growth_bytes = 0.0;          ///< flat_memory: in use at the end over a tenth of the way
   double pace = 1.0;                  ///< flat_memory: CPU time of the last tenth of the scenes / of the second tenth
