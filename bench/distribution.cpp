@@ -132,7 +132,7 @@ void run(Run& out) {
   const double limit_cpu_s = out.quick() ? 30.0 : 120.0;
   const auto request_for = [&](const std::string& name) {
     Request request = bin_of(part, count);
-    choose_solver(request, name == "bullet" ? "bullet" : "sphere");
+    choose_solver(request, name == "bullet" || name == "sphere/gpu" ? name : "sphere");
     SphereSettings& s = request.solver.sphere;
     if (name == "sphere fine" && !out.quick()) {
       s.time_step *= 0.5;
@@ -157,7 +157,7 @@ void run(Run& out) {
   Request reference_request = request_for("sphere fine");
   reference_request.seed = 1001;  // other seeds than the candidates'
   const std::vector<Looks> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
-  for (const std::string name : {"sphere fine", "sphere", "sphere coarse", "sphere coarser", "bullet"}) {
+  for (const std::string name : {"sphere fine", "sphere", "sphere/gpu", "sphere coarse", "sphere coarser", "bullet"}) {
     if (!out.wanted(Row().key("part", part).key("solver", name))) continue;
     const bool itself = name == "sphere fine";
     const std::vector<Looks> candidates =

@@ -6,12 +6,16 @@
 #include "peers/peer.hpp"
 #include "runs.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 
 namespace bin_scenes::bench {
 namespace {
 
+constexpr double given_up = 6.0;   ///< s, simulated: most piles rattle on and never sleep as a whole
+constexpr double slow_for = 0.25;  ///< s: what has just come in is slow for a moment as well
+constexpr int seeds = 2;
 constexpr const char* exact[] = {"channel_u",   "bolt_hex", "ring_24",   "nut_hex",
                                  "clip_spring", "washer",   "gear_spur", "bracket_l"};
 constexpr const char* decomposed[] = {"conrod", "pipe_tee"};  ///< on the hulls that solver `bullet` uses
@@ -27,8 +31,16 @@ Pieces shapes_of(const PartModel& part, const Request& request, const std::strin
   return shapes;
 }
 
-/// CPU seconds of stock Bullet from request until it sleeps, and until `as_long` (s, simulated) are over; it is stopped
-/// when both are known.
+/// CPU seconds from request until a mark, and how much was simulated by then.
+struct Mark {
+  std::optional<double> cpu_s, simulated_s;
+  void set(double cpu, double simulated) {
+    if (!cpu_s) cpu_s = cpu, simulated_s = simulated;
+  }
+};
+
+/// Stock Bullet until all parts are slow together, until all are asleep, and for `as_long` (s, simulated); it is
+/// stopped when all is known, or after `given_up` simulated seconds.
 Row bullet_row(const Request& request, const std::string& pieces, double as_long) {
   const double begin = cpu_seconds();
   const std::vector<PartModelPtr> parts = load_parts(request);
@@ -38,13 +50,17 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   settings.iterations = 10;
   settings.pieces = {shapes_of(*parts.front(), request, pieces)};
   const std::size_t shapes = settings.pieces.front().size();
-  std::optional<double> cpu_asleep, simulated_asleep, cpu_as_long;
+  Mark slow, asleep, same, last;
   std::atomic<bool> known{false};
-  settings.watch = [&](double simulated, bool asleep) {
+  double moved = 0.0;
+  settings.watch = [&](double simulated, PeerRest rest) {
     const double cpu = cpu_seconds() - begin;
-    if (!cpu_as_long && simulated >= as_long) cpu_as_long = cpu;
-    if (!cpu_asleep && asleep) cpu_asleep = cpu, simulated_asleep = simulated;
-    known = cpu_as_long && cpu_asleep;
+    if (simulated >= as_long) same.set(cpu, simulated);
+    if (rest == PeerRest::moves) moved = simulated;
+    if (simulated - moved >= slow_for) slow.set(cpu, simulated);
+    if (rest == PeerRest::asleep) asleep.set(cpu, simulated);
+    last = {cpu, simulated};
+    known = (same.cpu_s && asleep.cpu_s) || simulated >= std::max(as_long, given_up);
   };
   RunHooks hooks;
   hooks.cancel = &known;
@@ -53,16 +69,21 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   } catch (const Error& stopped) {
     if (stopped.kind() != ErrorKind::cancelled) throw;
   }
-  const double end = cpu_seconds() - begin;  // a pour that ended before has taken no longer
-  return Row()
-      .info("shapes", shapes)
-      .exact("slept", static_cast<int>(cpu_asleep.has_value()))
-      .measure("bullet_asleep_cpu_s", cpu_asleep.value_or(end))
-      .measure("bullet_asleep_simulated_s", simulated_asleep.value_or(request.pour.limit))
-      .measure("bullet_as_long_cpu_s", cpu_as_long.value_or(end));
+  Row row;
+  row.info("shapes", shapes);
+  const auto add = [&](const std::string& name, const Mark& mark) {
+    const Mark& reached = mark.cpu_s ? mark : last;  // never, or not after: a pour that rests takes no more time
+    row.exact("bullet_" + name, static_cast<int>(mark.cpu_s.has_value()))
+        .measure("bullet_" + name + "_cpu_s", *reached.cpu_s)
+        .measure("bullet_" + name + "_simulated_s", *reached.simulated_s);
+  };
+  add("slow", slow);
+  add("asleep", asleep);
+  add("as_long", same);
+  return row;
 }
 
-void part_row(Run& out, const std::string& part, bool has_pieces, int seeds) {
+void part_row(Run& out, const std::string& part, bool has_pieces) {
   const std::size_t count = out.quick() ? 8 : 150;
   const Row key = Row().key("part", part).key("bodies", count);
   if (!out.wanted(key)) return;
@@ -70,7 +91,7 @@ void part_row(Run& out, const std::string& part, bool has_pieces, int seeds) {
   request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
   warm_up(request);
   std::vector<Row> scenes;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = 1; seed <= (out.quick() ? 1 : seeds); ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
     const Isolated ours = isolated([&] {
       choose_solver(request, "sphere");
@@ -86,7 +107,7 @@ void part_row(Run& out, const std::string& part, bool has_pieces, int seeds) {
         isolated([&] { return bullet_row(request, pieces, ours.row.number("simulated_s")); }, 300.0);
     if (!bullet.good) return out.row(Row(key).append(bullet.row));
     Row scene = Row(ours.row).append(bullet.row).info("pieces", has_pieces ? "exact" : "hulls");
-    for (const std::string until : {"asleep", "as_long"})
+    for (const std::string until : {"slow", "asleep", "as_long"})
       scene.measure("share_of_" + until, scene.number("cpu_s") / scene.number("bullet_" + until + "_cpu_s"));
     scenes.push_back(scene);
   }
@@ -95,10 +116,10 @@ void part_row(Run& out, const std::string& part, bool has_pieces, int seeds) {
 
 void run(Run& out) {
   for (const char* part : exact) {
-    part_row(out, part, true, out.quick() ? 1 : 3);
+    part_row(out, part, true);
     if (out.quick()) return;
   }
-  for (const char* part : decomposed) part_row(out, part, false, 3);
+  for (const char* part : decomposed) part_row(out, part, false);
 }
 
 const Registration registration{"times", "scene time of the default solver against stock Bullet's", {"part", "bodies"}, run};

@@ -98,8 +98,14 @@ class BulletWorld final : public PeerWorld {
     state.velocity = {from_bt(body.getLinearVelocity()), from_bt(body.getAngularVelocity())};
     return state;
   }
-  /// Slower than Bullet's thresholds for its 2 s, whether or not the island around it already is as well.
-  bool asleep(std::size_t b) const override { return bodies_[b]->wantsSleeping(); }
+  /// Asleep is any body that has been slow for 2 s, whether or not all of its island has.
+  PeerRest rest(std::size_t b) const override {
+    btRigidBody& body = *bodies_[b];
+    if (body.wantsSleeping()) return PeerRest::asleep;
+    const bool slow = body.getLinearVelocity().length() < body.getLinearSleepingThreshold() &&
+                      body.getAngularVelocity().length() < body.getAngularSleepingThreshold();
+    return slow ? PeerRest::slow : PeerRest::moves;
+  }
 
  private:
   void add_box(const Vec3& lower, const Vec3& upper) {

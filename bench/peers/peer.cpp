@@ -53,7 +53,7 @@ class PeerSolver final : public Solver {
       for (int k = 0; k < steps; ++k) {
         slot.world->step(settings_.time_step);
         ++slot.steps;
-        if (settings_.watch) settings_.watch(static_cast<double>(slot.steps) * settings_.time_step, all_asleep(slot));
+        if (settings_.watch) settings_.watch(static_cast<double>(slot.steps) * settings_.time_step, rest_of(slot));
       }
     }
     return steps * settings_.time_step;
@@ -89,10 +89,11 @@ class PeerSolver final : public Solver {
 
  private:
   struct Slot;
-  static bool all_asleep(const Slot& slot) {
-    for (std::size_t b = 0; b < slot.in.size(); ++b)
-      if (!slot.in[b] || !slot.world->asleep(b)) return false;
-    return true;
+  static PeerRest rest_of(const Slot& slot) {
+    PeerRest least = PeerRest::asleep;
+    for (std::size_t b = 0; b < slot.in.size() && least != PeerRest::moves; ++b)
+      least = slot.in[b] ? std::min(least, slot.world->rest(b)) : PeerRest::moves;
+    return least;
   }
   struct Slot {
     WorldDef def;

@@ -13,13 +13,16 @@
 
 namespace bin_scenes::bench {
 
+/// By an engine's own sleeping, if it has one and it is on: slow is below its thresholds, asleep is so for its time.
+enum class PeerRest { moves, slow, asleep };
+
 struct PeerSettings {
   std::string engine;  ///< "bullet_stock", "ode", "dart"
   double time_step = 0.01;
   int iterations = 20;         ///< sweeps of the contact solver per step
   std::vector<Pieces> pieces;  ///< by part of the world (m)
-  /// Told after each step: simulated time, and whether all bodies are in and the engine's own sleeping has all of them.
-  std::function<void(double simulated_s, bool asleep)> watch;
+  /// Told after each step: simulated time, and the least rest of all bodies (moves while one is not in yet).
+  std::function<void(double simulated_s, PeerRest rest)> watch;
 };
 
 /// What an engine has to do; units of the caller (m, kg, s).
@@ -29,8 +32,8 @@ class PeerWorld {
   virtual void insert(std::size_t body, const BodyState& state) = 0;
   virtual void remove(std::size_t body) = 0;
   virtual void step(double dt) = 0;
-  virtual BodyState state(std::size_t body) const = 0;      ///< of a body that is in
-  virtual bool asleep(std::size_t) const { return false; }  ///< by the engine's own rule, if it has one and it is on
+  virtual BodyState state(std::size_t body) const = 0;  ///< of a body that is in
+  virtual PeerRest rest(std::size_t) const { return PeerRest::moves; }
 };
 
 constexpr double bullet_stock_margin = 0.002;  ///< m around each hull: what rests, rests so far above the floor

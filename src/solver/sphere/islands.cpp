@@ -1,6 +1,7 @@
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 
 namespace bin_scenes::sphere {
@@ -82,6 +83,17 @@ void wake(World& world, std::uint32_t body) {
     }
 }
 
+namespace {
+
+/// A pass, and what it takes added to `ms`.
+void timed(void (*pass)(World&), World& world, double& ms) {
+  const auto begin = std::chrono::steady_clock::now();
+  pass(world);
+  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
 void step(World& world) {
   ++world.counters.steps;
   bool any_moves = false;
@@ -90,11 +102,12 @@ void step(World& world) {
     world.counters.asleep_steps += b.present && b.asleep;
   }
   if (!any_moves) return;
-  find_pairs(world);
-  find_contacts(world);
-  color_manifolds(world);
-  solve(world);
-  update_sleep(world);
+  Spent& spent = world.spent;
+  timed(find_pairs, world, spent.broad_phase);
+  timed(find_contacts, world, spent.narrow_phase);
+  timed(color_manifolds, world, spent.coloring);
+  timed(solve, world, spent.contact_solver);
+  timed(update_sleep, world, spent.islands);
   if (world.cold_steps > 0) --world.cold_steps;
 }
 

@@ -68,7 +68,7 @@ class SphereSolver final : public Solver {
   }
 
   void remove_world(WorldId id) override {
-    collect(slots_[id]->world.counters);
+    collect(slots_[id]->world);
     *slots_[id] = Slot{};
   }
 
@@ -83,7 +83,6 @@ class SphereSolver final : public Solver {
   void set_phase(WorldId id, Phase phase) override { sphere::set_phase(slots_[id]->world, phase); }
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
-    StageTimer timer(profile_, "step");
     const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
     // Worlds share nothing, so that threads cannot change a result.
     tbb::parallel_for(std::size_t{0}, worlds.size(), [&](std::size_t i) {
@@ -117,7 +116,7 @@ class SphereSolver final : public Solver {
   const Profile& profile() const override {
     shown_ = profile_;
     for (const auto& slot : slots_)
-      if (slot->used) add(shown_, slot->world.counters);
+      if (slot->used) add(shown_, slot->world);
     return shown_;
   }
 
@@ -133,7 +132,15 @@ class SphereSolver final : public Solver {
     return *entry.shape;
   }
 
-  static void add(Profile& p, const Counters& c) {
+  /// Stages are of all worlds: on several threads they add up to more than the time that passed.
+  static void add(Profile& p, const World& world) {
+    const Spent& s = world.spent;
+    p.add("broad_phase", s.broad_phase);
+    p.add("narrow_phase", s.narrow_phase);
+    p.add("coloring", s.coloring);
+    p.add("contact_solver", s.contact_solver);
+    p.add("islands", s.islands);
+    const Counters& c = world.counters;
     p.count("steps", c.steps);
     p.count("body_steps_in_free_fall", c.free_steps);
     p.count("body_steps_asleep", c.asleep_steps);
@@ -148,7 +155,7 @@ class SphereSolver final : public Solver {
     p.count("contacts", c.contacts);
     p.count("contacts_reduced", c.dropped);
   }
-  void collect(const Counters& c) { add(profile_, c); }
+  void collect(const World& world) { add(profile_, world); }
 
   struct Entry {
     PartModelPtr part;

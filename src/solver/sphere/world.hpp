@@ -112,6 +112,11 @@ struct Counters {
   }
 };
 
+/// Wall time of the passes so far (ms), by file; the profile shows it, nothing else looks at it.
+struct Spent {
+  double broad_phase = 0, narrow_phase = 0, coloring = 0, contact_solver = 0, islands = 0;
+};
+
 struct World {
   Settings settings;
   std::vector<const Shape*> shapes;
@@ -131,6 +136,7 @@ struct World {
   std::vector<std::uint32_t> order;           ///< manifolds by color
   std::vector<std::uint32_t> color_start;
   Counters counters;
+  Spent spent;
 
   const Softness& softness() const { return pressed ? settings.stiff : settings.soft; }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
