@@ -15,6 +15,7 @@ namespace bin_scenes::bench {
 namespace {
 
 constexpr double touching = 2e-3;  ///< clearance / diagonal that counts as a contact
+constexpr int gpu_seeds = 6;       ///< a scene takes long where llvmpipe is the device
 
 /// What one scene says, each a sample of values over its parts (packing: one value).
 struct Looks {
@@ -102,9 +103,10 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   return order;
 }
 
-/// Distances from a random half of the reference: of as many candidate scenes, or (without candidates) of the other
-/// half. Both sides are equally large, so that sampling noise is the same in both.
-std::vector<double> distances(const std::vector<Looks>& reference, const std::vector<Looks>& candidates, Field field) {
+/// Distances from a random half of the reference: of at most as many candidate scenes, or (without candidates) of
+/// `count` scenes of the other half. With equal counts sampling noise is the same in both.
+std::vector<double> distances(const std::vector<Looks>& reference, const std::vector<Looks>& candidates, Field field,
+                              std::size_t count) {
   constexpr int splits = 40;
   std::vector<double> out;
   Random random(1, 0, Stream::probe);
@@ -114,10 +116,12 @@ std::vector<double> distances(const std::vector<Looks>& reference, const std::ve
     const std::vector<std::size_t> a(order.begin(), order.begin() + static_cast<long>(half));
     std::vector<double> other;
     if (candidates.empty()) {
-      other = pooled(reference, {order.begin() + static_cast<long>(half), order.end()}, field);
+      std::vector<std::size_t> rest(order.begin() + static_cast<long>(half), order.end());
+      rest.resize(std::min(count, rest.size()));
+      other = pooled(reference, rest, field);
     } else {
       std::vector<std::size_t> all = shuffled(candidates.size(), random);
-      all.resize(std::min(half, all.size()));
+      all.resize(std::min({half, count, all.size()}));
       other = pooled(candidates, all, field);
     }
     out.push_back(wasserstein(pooled(reference, a, field), other));
@@ -159,9 +163,11 @@ void run(Run& out) {
   const std::vector<Looks> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
   for (const std::string name : {"sphere fine", "sphere", "sphere/gpu", "sphere coarse", "sphere coarser", "bullet"}) {
     if (!out.wanted(Row().key("part", part).key("solver", name))) continue;
+    const int poured = name == "sphere/gpu" ? std::min(seeds, gpu_seeds) : seeds;
     const bool itself = name == "sphere fine";
-    const std::vector<Looks> candidates =
-        itself || reference.empty() ? std::vector<Looks>{} : poured_over(request_for(name), seeds, limit_cpu_s, failed);
+    const std::vector<Looks> candidates = itself || reference.empty()
+                                              ? std::vector<Looks>{}
+                                              : poured_over(request_for(name), poured, limit_cpu_s, failed);
     for (const Measure& measure : measures) {
       Row row;
       row.key("part", part).key("bodies", count).key("solver", name).key("measure", measure.name);
@@ -172,9 +178,9 @@ void run(Run& out) {
       const std::vector<Looks>& scenes = itself ? reference : candidates;
       std::vector<std::size_t> all(scenes.size());
       for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-      const std::vector<double> own = distances(reference, {}, measure.field);
+      const std::vector<double> own = distances(reference, {}, measure.field, scenes.size());
       const std::vector<double> values = pooled(scenes, all, measure.field);
-      const std::vector<double> distance = distances(reference, candidates, measure.field);
+      const std::vector<double> distance = distances(reference, candidates, measure.field, scenes.size());
       double mean = 0.0;
       for (const double v : values) mean += v / static_cast<double>(values.size());
       out.row(row.exact("seeds", scenes.size())

@@ -1,9 +1,12 @@
-/// Work-precision diagram: error of the final scene over scene time, each solver over its settings, on parts whose
-/// exact convex pieces are known, so that other engines get the exact shape and the referee judges all alike.
+/// Work-precision diagram: error of the final scene over scene time, each solver over its settings. Where the exact
+/// convex pieces of a part are known, other engines get the exact shape and the referee judges all alike.
 #include "framework/benchmark.hpp"
 #include "judged.hpp"
+#include "solver/step_limit.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <set>
 
 namespace bin_scenes::bench {
 namespace {
@@ -15,7 +18,7 @@ struct Setting {
   std::optional<PeerSettings> peer;
 };
 
-std::vector<Setting> settings(bool quick) {
+std::vector<Setting> settings_of_solvers(bool quick) {
   std::vector<Setting> all;
   const auto add = [&](const std::string& solver, const std::string& varied, double value,
                        const std::function<void(SolverSettings&)>& change) {
@@ -29,34 +32,30 @@ std::vector<Setting> settings(bool quick) {
   const SphereSettings sphere;
   const BulletSettings bullet;
   add("sphere", "default", 0, [](SolverSettings&) {});
-  for (const double factor : {8.0, 4.0, 2.0, 0.5}) {
-    if (quick && factor != 4.0) continue;
+  for (const double factor : {4.0, 2.0, 0.5}) {
+    if (quick && factor != 2.0) continue;
     const double dt = factor * sphere.time_step;
     add("sphere", "time_step", dt, [=](SolverSettings& s) { s.sphere.time_step = dt; });
   }
   if (!quick) {
-    for (const double factor : {0.5, 2.0, 4.0}) {
-      const int steps = std::max(1, static_cast<int>(std::lround(factor * sphere.sub_steps)));
+    for (const int steps : {1, 4 * sphere.sub_steps})
       add("sphere", "sub_steps", steps, [=](SolverSettings& s) { s.sphere.sub_steps = steps; });
-    }
-    for (const double factor : {0.25, 0.5, 3.0}) {
+    for (const double factor : {0.25, 3.0}) {
       const int samples = static_cast<int>(std::lround(factor * sphere.fine_samples));
       add("sphere", "fine_samples", samples, [=](SolverSettings& s) {
         s.sphere.fine_samples = samples;
         s.sphere.coarse_samples = std::min(s.sphere.coarse_samples, samples);
       });
     }
-    for (const double factor : {4.0, 2.0, 0.5}) {
+    for (const double factor : {2.0, 0.5}) {
       const double cell = factor * sphere.field_cell;
       add("sphere", "field_cell", cell, [=](SolverSettings& s) { s.sphere.field_cell = cell; });
     }
-    for (const int steps : {1, 4}) {
-      add("sphere/thesis", "sub_steps", steps, [=](SolverSettings& s) { s.thesis.sub_steps = steps; });
-      all.back().sleeping = "no";
-    }
+    add("sphere/thesis", "default", 0, [](SolverSettings&) {});
+    all.back().sleeping = "no";
   }
   for (const bool sleeping : {true, false}) {
-    for (const double factor : {4.0, 1.0, 0.5}) {
+    for (const double factor : {1.0, 0.5}) {
       if (quick && (!sleeping || factor != 1.0)) continue;
       const double dt = factor * bullet.time_step;
       add("bullet", "time_step", dt, [=](SolverSettings& s) {
@@ -66,9 +65,15 @@ std::vector<Setting> settings(bool quick) {
       all.back().sleeping = sleeping ? "yes" : "no";
     }
   }
-  for (const double rate : quick ? std::vector<double>{240} : std::vector<double>{100, 240, 1000}) {
+  return all;
+}
+
+/// They need the exact pieces.
+std::vector<Setting> settings_of_peers(bool quick) {
+  std::vector<Setting> all;
+  for (const double rate : quick ? std::vector<double>{240} : std::vector<double>{100, 240}) {
     for (const char* engine : {"bullet_stock", "ode", "dart"}) {
-      if (std::string(engine) == "dart" && rate > 240) continue;  // its dense systems take minutes a scene as it is
+      if (std::string(engine) == "dart" && rate > 100) continue;  // its dense systems take minutes a scene as it is
       const bool stock = std::string(engine) == "bullet_stock";
       Setting peer{engine, stock ? "yes" : "no", "time_step", Row::text(1.0 / rate), {}, PeerSettings{}};
       peer.peer->engine = engine;
@@ -78,6 +83,12 @@ std::vector<Setting> settings(bool quick) {
     }
   }
   return all;
+}
+
+/// The step (s) that a setting of `sphere` makes of its time_step for parts of this size: long ones are cut.
+double step_of(const Request& request, double diagonal) {
+  const double dt = request.solver.sphere.time_step;
+  return dt / step_cuts(dt, request.gravity.norm(), diagonal);
 }
 
 bool dominates(const Row& a, const Row& b, const std::string& error) {
@@ -100,46 +111,56 @@ void mark_front(std::vector<Row>& rows, const std::string& error, const std::str
   }
 }
 
-void run(Run& out) {
-  struct Pile {
-    const char* part;
-    std::size_t count;
-    int seeds;
-  };
-  const std::vector<Pile> piles = out.quick() ? std::vector<Pile>{{"channel_u", 8, 1}}
-                                              : std::vector<Pile>{{"channel_u", 32, 2}, {"ring_24", 16, 1}};
-  for (const Pile& pile : piles) {
-    for (const Setting& setting : settings(out.quick())) {
-      Row row;
-      row.key("part", pile.part)
-          .key("bodies", pile.count)
-          .key("solver", setting.solver)
-          .key("sleeping", setting.sleeping);
-      row.key("varied", setting.varied).key("value", setting.value);
-      if (!out.wanted(row)) continue;
-      if (setting.apply) {
-        Request request = bin_of(pile.part, pile.count);
-        setting.apply(request);
-        warm_up(request);
-      }
-      std::vector<Row> scenes;
-      for (int seed = 1; seed <= pile.seeds; ++seed) {
-        Request request = bin_of(pile.part, pile.count);
-        request.seed = static_cast<std::uint64_t>(seed);
-        if (setting.apply) setting.apply(request);
-        scenes.push_back(judged_scene(out.scratch(), request, Run::pieces(pile.part), setting.peer,
-                                      {out.quick() ? 20.0 : 60.0, true}));
-        if (scenes.back().at("scenes").empty()) break;
-      }
-      row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes));
-      out.row(row);
+constexpr const char* parts[] = {"channel_u", "ring_24", "bolt_hex",   "nut_hex",  "clip_spring", "washer", "bracket_l",
+                                 "gear_spur", "conrod",  "pipe_elbow", "pipe_tee", "mug",         "teapot"};
+
+void curves(Run& out, const std::string& part) {
+  const std::size_t count = out.quick() ? 8 : 32;
+  const bool exact = std::filesystem::exists(Run::pieces(part));
+  std::vector<Setting> settings = settings_of_solvers(out.quick());
+  if (exact)
+    for (const Setting& peer : settings_of_peers(out.quick())) settings.push_back(peer);
+  const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
+  std::set<double> steps;  // a time_step that is cut to the step of another setting is the same run
+  for (const Setting& setting : settings) {
+    Request request = bin_of(part, count);
+    Row row;
+    row.key("part", part)
+        .key("bodies", count)
+        .key("solver", setting.solver)
+        .key("sleeping", setting.sleeping)
+        .key("varied", setting.varied)
+        .key("value", setting.value);
+    if (setting.apply) setting.apply(request);
+    if (setting.solver == "sphere") {
+      const double step = step_of(request, diagonal);
+      if ((setting.varied == "default" || setting.varied == "time_step") && !steps.insert(step).second) continue;
+      row.info("step_s", step);
     }
-    std::vector<Row> rows;
-    for (std::size_t r = 0; r < out.table().rows.size(); ++r)
-      if (out.table().rows[r].at("part") == pile.part) rows.push_back(out.table().row(r));
-    mark_front(rows, "penetration_p95_rel", "front_penetration");
-    mark_front(rows, "drift_p95_rel", "front_drift");
-    for (const Row& row : rows) out.amend(row);
+    if (!out.wanted(row)) continue;
+    if (setting.apply) warm_up(request);
+    std::vector<Row> scenes;
+    for (int seed = 1; seed <= (out.quick() ? 1 : 2); ++seed) {
+      request.seed = static_cast<std::uint64_t>(seed);
+      scenes.push_back(
+          judged_scene(out.scratch(), request, Run::pieces(part), setting.peer, {out.quick() ? 20.0 : 30.0, exact}));
+      if (scenes.back().at("scenes").empty()) break;
+    }
+    out.row(row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes)));
+  }
+  std::vector<Row> rows;
+  for (std::size_t r = 0; r < out.table().rows.size(); ++r)
+    if (const Row row = out.table().row(r); row.at("part") == part && row.at("bodies") == Row::text(count))
+      rows.push_back(row);
+  mark_front(rows, "penetration_p95_rel", "front_penetration");
+  if (exact) mark_front(rows, "drift_p95_rel", "front_drift");
+  for (const Row& row : rows) out.amend(row);
+}
+
+void run(Run& out) {
+  for (const char* part : parts) {
+    curves(out, part);
+    if (out.quick()) return;
   }
 }
 
