@@ -1,5 +1,6 @@
 #include "generate/model_store.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace bin_scenes {
@@ -15,6 +16,19 @@ std::string key_of(const std::string& path, const LoadOptions& options) {
                     (options.require_closed ? "|closed|" : "|open|");
   key += std::to_string(std::filesystem::file_size(path, ignored)) + "|";
   return key + std::to_string(std::filesystem::last_write_time(path, ignored).time_since_epoch().count());
+}
+
+void check_sizes(const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin) {
+  if (bin) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (request.parts[i].unit) largest = std::max(largest, parts[i]->diagonal());
+    check_plausible_bin(bin->mesh(), request.bin, largest);
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const PartLine& line = request.parts[i];
+    check_plausible_size(parts[i]->mesh(), request.bin, line.path, line.unit, bin ? &bin->mesh() : nullptr);
+  }
 }
 
 }  // namespace
@@ -45,8 +59,8 @@ void ModelStore::load(const Request& request) {
     options.scale = line.scale;
     options.thickness = line.thickness;
     parts.push_back(get(line.path, options));
-    check_plausible_size(parts.back()->mesh(), request.bin, line.path, line.unit);
   }
+  check_sizes(request, parts, bin);
   models_ = std::move(used);
   parts_ = std::move(parts);
   bin_ = std::move(bin);

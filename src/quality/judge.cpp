@@ -177,6 +177,10 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
     report.reasons.push_back("penetration " + percent(worst_bin) + " of part " + std::to_string(worst_bin_part) +
                              " and the bin is above accept.penetration " + percent(request.accept.penetration));
   }
+  const auto is_in = [](const ScenePart& p) { return p.state != PartState::not_poured && p.state != PartState::fixed; };
+  if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
+    report.reasons.push_back("nothing was poured: no part found room below the rim");
+  }
   if (!report.escaped.empty() && !request.accept.escaped) report.reasons.push_back(listed(report.escaped) + " escaped");
   if (!report.at_rest && !request.seconds) {
     const auto moving = std::count_if(scene.parts.begin(), scene.parts.end(),

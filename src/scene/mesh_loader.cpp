@@ -200,6 +200,11 @@ class Repair {
   }
 
   void thicken() {
+    if (*options_.thickness > diagonal_) {
+      throw input_error("the thickness of " + number(*options_.thickness) + " m is more than the part is large, " +
+                            number(diagonal_) + " m",
+                        where_, "give the thickness of its walls in m, or check the part's unit and scale");
+    }
     if (repair::open_edges(mesh_) == 0) {
       flag("thickness_unused",
            "the surface is closed: the thickness of " + number(*options_.thickness) + " m is not used",
@@ -311,34 +316,67 @@ LoadedMesh load_mesh(const std::string& path, const LoadOptions& options) {
   return loaded;
 }
 
-void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given) {
-  if (bin.kind == Bin::Kind::mesh) return;
-  const bool is_box = bin.kind == Bin::Kind::box;
-  const double bin_diagonal = is_box ? bin.inner_size.norm() : 10.0;
-  const double bin_side = is_box ? bin.inner_size.maxCoeff() : 10.0;
-  const double diagonal = mesh.bounds().diagonal();
-  const bool too_large = diagonal > bin_diagonal, too_small = !given && diagonal < bin_side / 2000.0;
+namespace {
+
+constexpr double kLargestUnasked = 10.0;  ///< m: of what is read without a unit and has nothing to be compared with
+constexpr double kTimesSmaller = 2000.0;  ///< than the bin: a part that was read without a unit is not
+
+std::string text_of(const Vec3& size) {
+  return number(size.x()) + " x " + number(size.y()) + " x " + number(size.z()) + " m";
+}
+
+/// The unit that makes a file of plausible size whose numbers, read in metres, span `size`. Parts are drawn in units
+/// that they are not much smaller than: no file of numbers below one half is taken for millimetres.
+std::optional<Unit> likely_unit(double size, double above, double below) {
+  for (const Unit unit : {Unit::millimetre, Unit::centimetre, Unit::inch}) {
+    const double then = size * metres_per(unit);
+    if (size >= 0.5 && then > above && then < below) return unit;
+  }
+  return std::nullopt;
+}
+
+std::string advice(Unit unit, double size) {
+  return std::string("probably it is meant in ") + name_of(unit) + ", which makes it " +
+         number(size * metres_per(unit)) + " m: give \"unit: " + name_of(unit) + "\"";
+}
+
+}  // namespace
+
+void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given,
+                          const Mesh* bin_mesh) {
+  Vec3 room = Vec3::Constant(kLargestUnasked);
+  std::string place = "a scene without walls (at most " + number(kLargestUnasked) + " m)";
+  double room_diagonal = kLargestUnasked;
+  if (bin.kind == Bin::Kind::box || (bin.kind == Bin::Kind::mesh && bin_mesh)) {
+    room = bin.kind == Bin::Kind::box ? bin.inner_size : bin_mesh->bounds().size();
+    room_diagonal = room.norm();
+    place = "the bin of " + text_of(room);
+  }
+  const double diagonal = mesh.bounds().diagonal(), side = room.maxCoeff();
+  const bool too_large = diagonal > room_diagonal, too_small = !given && diagonal < side / kTimesSmaller;
   if (!too_large && !too_small) return;
 
-  const std::string place = is_box ? "the bin of " + number(bin.inner_size.x()) + " x " + number(bin.inner_size.y()) +
-                                         " x " + number(bin.inner_size.z()) + " m"
-                                   : "a scene without walls (at most 10 m)";
   const std::string what = "the part is " + number(diagonal) + " m across" +
                            (given ? "" : " read in its own unit or metres") + ": too " +
                            (too_large ? "large" : "small") + " for " + place;
-  std::string remedy = "enlarge the bin, or check the part's unit and scale";
-  if (too_small) remedy = "give its unit, or a scale";
+  std::string remedy = too_large ? "enlarge the bin, or check the part's unit and scale" : "give its unit, or a scale";
+  if (bin.kind == Bin::Kind::mesh) remedy += "; check the bin's unit too";
   if (!given) {
-    for (const Unit unit : {Unit::millimetre, Unit::centimetre, Unit::inch}) {
-      const double then = diagonal * metres_per(unit);
-      if (then < 0.75 * bin_side && then > bin_side / 200.0) {
-        remedy = std::string("probably it is meant in ") + name_of(unit) + ", which makes it " + number(then) +
-                 " m: give \"unit: " + name_of(unit) + "\"";
-        break;
-      }
-    }
+    if (const std::optional<Unit> unit = likely_unit(diagonal, side / 200.0, 0.75 * side))
+      remedy = advice(*unit, diagonal);
   }
   throw input_error(what, path, remedy);
+}
+
+void check_plausible_bin(const Mesh& mesh, const Bin& bin, double largest_part) {
+  const Vec3 size = mesh.bounds().size();
+  const bool alone = size.norm() > kLargestUnasked;
+  const bool beside_parts = largest_part > 0.0 && size.maxCoeff() > kTimesSmaller * largest_part;
+  if (bin.unit || !(alone || beside_parts)) return;
+  std::string what = "the bin is " + text_of(size) + " read in its own unit or metres";
+  if (beside_parts) what += ", and its largest part is " + number(largest_part) + " m across";
+  const std::optional<Unit> unit = likely_unit(size.norm(), largest_part, kLargestUnasked);
+  throw input_error(what, bin.mesh, unit ? advice(*unit, size.norm()) : "give its unit: bin.unit");
 }
 
 }  // namespace bin_scenes

@@ -92,6 +92,23 @@ TEST(Judge, EscapedAndMovingPartsAreReasons) {
   EXPECT_TRUE(heap.judged().accepted);
 }
 
+TEST(Judge, ASceneInWhichNothingWasPouredIsSetApart) {
+  Heap heap;
+  heap.place(0, 0, 0.05).state = PartState::fixed;
+  EXPECT_TRUE(heap.judged().accepted) << "an obstacle alone is what was asked for";
+  for (int i = 0; i < 2; ++i) {
+    ScenePart& part = heap.place(0, 0, 0);
+    part.state = PartState::not_poured;
+    part.pose = Pose::none();
+  }
+  heap.scene.report.not_poured = {1, 2};
+  EXPECT_EQ(heap.judged().reasons, std::vector<std::string>{"nothing was poured: no part found room below the rim"});
+  heap.request.seconds = 1.0;
+  EXPECT_FALSE(heap.judged().accepted);
+  heap.place(0.3, 0, 0.05);
+  EXPECT_TRUE(heap.judged().accepted);
+}
+
 TEST(Drift, MoveOfTheCentreAndTurn) {
   Heap before, after;
   before.place(0, 0, 0.05);

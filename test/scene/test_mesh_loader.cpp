@@ -275,6 +275,8 @@ TEST_F(MeshLoader, SmallHolesAreClosedLargeOnesAreAnErrorOrAShell) {
   EXPECT_TRUE(has_flag(shell.report, "shell_thickened"));
   EXPECT_NEAR(volume(shell.mesh), 0.05, 0.002);
   EXPECT_TRUE(has_flag(repair_mesh(box_mesh({1, 1, 1}), options, "part").report, "thickness_unused"));
+  options.thickness = 2.0;
+  EXPECT_CONTAINS(repair_error(tray, options), "the thickness of 2 m is more than the part is large");
   options = {};
   options.require_closed = false;
   const LoadedMesh open = repair_mesh(tray, options, "part");
@@ -439,10 +441,57 @@ TEST_F(MeshLoader, ImplausibleSizesNameTheLikelyUnit) {
   EXPECT_CONTAINS(large, "too large for the bin of 0.4 x 0.3 x 0.2 m");
   EXPECT_FALSE(contains(large, "probably"));
 
+  const Bin small = [] {
+    Bin bin;
+    bin.inner_size = Vec3::Constant(0.01);
+    return bin;
+  }();
+  const std::string cube = error_of(
+      [&] {
+        check_plausible_size(box_mesh({0.03, 0.03, 0.03}), small, "part.stl", {});
+      },
+      "part.stl");
+  EXPECT_CONTAINS(cube, "too large for the bin of 0.01 x 0.01 x 0.01 m");
+  EXPECT_FALSE(contains(cube, "probably")) << "no file holds a part of 0.05 mm in numbers of 0.03: " << cube;
+
   Bin floor;
   floor.kind = Bin::Kind::floor;
   EXPECT_NO_THROW(check_plausible_size(box_mesh({1, 1, 1}), floor, "part.stl", std::nullopt));
   EXPECT_THROW(check_plausible_size(box_mesh({50, 50, 50}), floor, "part.stl", std::nullopt), Error);
+}
+
+TEST_F(MeshLoader, PartsAreMeasuredAgainstABinThatIsAMesh) {
+  Bin bin;
+  bin.kind = Bin::Kind::mesh;
+  bin.mesh = "mug.stl";
+  bin.unit = Unit::millimetre;
+  const Mesh mug = box_mesh({0.1, 0.08, 0.09}, {3, 0, 0});
+  const auto text = [&](double size, std::optional<Unit> given) {
+    const Mesh part = box_mesh({size, size, size});
+    return error_of([&] { check_plausible_size(part, bin, "nut.stl", given, &mug); }, "nut.stl");
+  };
+  EXPECT_NO_THROW(check_plausible_size(box_mesh({0.02, 0.02, 0.02}), bin, "nut.stl", std::nullopt, &mug));
+  const std::string metres = text(20.0, std::nullopt);
+  EXPECT_CONTAINS(metres, "too large for the bin of 0.1 x 0.08 x 0.09 m");
+  EXPECT_CONTAINS(metres, "unit: mm");
+  EXPECT_CONTAINS(text(0.2, Unit::millimetre), "too large");
+  EXPECT_CONTAINS(text(1e-5, std::nullopt), "too small");
+}
+
+TEST_F(MeshLoader, ABinOfImplausibleSizeIsRefusedWithTheLikelyUnit) {
+  Bin bin;
+  bin.kind = Bin::Kind::mesh;
+  bin.mesh = "mug.stl";
+  const Mesh mug = box_mesh({100, 80, 90});
+  const auto text = [&](const Mesh& mesh, double part) {
+    return error_of([&] { check_plausible_bin(mesh, bin, part); }, "mug.stl");
+  };
+  EXPECT_CONTAINS(text(mug, 0.0), "unit: mm") << "whatever the parts are";
+  EXPECT_CONTAINS(text(mug, 0.02), "unit: mm");
+  EXPECT_CONTAINS(text(box_mesh({4, 4, 4}), 0.001), "the bin is 4 x 4 x 4 m");
+  EXPECT_NO_THROW(check_plausible_bin(box_mesh({4, 4, 4}), bin, 0.02));
+  bin.unit = Unit::metre;
+  EXPECT_NO_THROW(check_plausible_bin(mug, bin, 0.02)) << "who says so gets a bin of 100 m";
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 /// Gap: of every resting part the free way along gravity before it touches another part or the bin; 0 for a part that
 /// overlaps one. Parts with nothing at all below them are left out, and so is everything without gravity.
 /// Accepted, unless a pair or a part and the bin overlap by more than accept.penetration, parts escaped (and
-/// accept.escaped is not set), or the scene is not at rest (and no exact time was asked for).
+/// accept.escaped is not set), none of the parts that should have been poured was, or the scene is not at rest (and no
+/// exact time was asked for).
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
            const PartModelPtr& bin_model = nullptr);
 

@@ -61,7 +61,14 @@ LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string&
 
 /// Throws an input Error when a part does not fit the bin (diagonal above the bin's), or when no unit was given and it
 /// is below 1/2000 of the bin's longest side; without a unit the error names the likely one. An endless floor or free
-/// flight stands for a bin of 10 m. A bin that is a mesh sets no limit here.
-void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given);
+/// flight stands for a bin of 10 m.
+/// @param bin_mesh  of a bin that is one; its bounds are the bin's size.
+void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given,
+                          const Mesh* bin_mesh = nullptr);
+
+/// Throws an input Error when the mesh of a bin was read without a unit and is more than 10 m across, or its longest
+/// side more than 2000 times as long as the largest part; the error names the likely unit.
+/// @param largest_part  m: diagonal of the largest part whose unit was given; 0: none was.
+void check_plausible_bin(const Mesh& mesh, const Bin& bin, double largest_part);
 
 }  // namespace bin_scenes
