@@ -50,6 +50,7 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
     if (part.state == PartState::fixed) continue;
     ++outcome.parts;
     outcome.resting += part.state == PartState::resting;
+    if (part.state == PartState::not_poured) continue;  // it has no pose
     if (!part.pose.finite()) fails("not finite");
     highest = std::max(highest, (part.pose * parts[part.line]->mass().center).z());
   }

@@ -12,19 +12,17 @@ double density_of(const PartLine& line, const PartModel& part) {
 
 }  // namespace
 
-void Watch::begin(const std::vector<BodyState>& states) {
+void Watch::begin() {
   for (std::size_t line = 0; line < request_.parts.size(); ++line)
     for (std::size_t copy = 0; copy < request_.parts[line].count; ++copy) {
       const double density = density_of(request_.parts[line], *parts_[line]);
-      Body body{line, density * parts_[line]->mass().volume, density * parts_[line]->mass().inertia};
-      body.first = states[bodies_.size()].pose;
-      bodies_.push_back(body);
+      bodies_.push_back({line, density * parts_[line]->mass().volume, density * parts_[line]->mass().inertia});
     }
 }
 
 void Watch::look(const std::vector<BodyState>& states) {
   const bool at_start = bodies_.empty();
-  if (at_start) begin(states);
+  if (at_start) begin();
   double energy = 0.0, put_in = 0.0, scale = 0.0;
   Momentum sum;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -32,6 +30,9 @@ void Watch::look(const std::vector<BodyState>& states) {
     if (request_.parts[body.line].fixed) continue;
     const PartModel& part = *parts_[body.line];
     const BodyState& state = states[i];
+    if (!body.entered && !state.pose.finite()) continue;  // it waits for its turn
+    if (!body.entered) body.first = state.pose;
+    body.entered = true;
     if (!state.velocity.linear.allFinite() || !state.velocity.angular.allFinite()) {
       finite_ = false;
       continue;
@@ -44,7 +45,7 @@ void Watch::look(const std::vector<BodyState>& states) {
     const double kinetic = 0.5 * momentum.dot(state.velocity.linear) + 0.5 * spin.dot(state.velocity.angular);
     const double now = kinetic - body.mass * request_.gravity.dot(center);
     const bool moved = state.pose.position != body.first.position || kinetic > 0.0;
-    if (!body.seen_moving) {  // still where it started, waiting for its turn, or just in
+    if (!body.seen_moving) {  // still where it started, or just in
       body.brought = now;
       body.entry = center;
     }
@@ -63,7 +64,7 @@ void Watch::look(const std::vector<BodyState>& states) {
   if (at_start) {
     first_ = sum;
     scale_ = scale;
-    about_ /= mass_;
+    if (mass_ > 0.0) about_ /= mass_;
   }
   scale_ = std::max(scale_, scale);
   gain_ = std::max(gain_, (energy - put_in) / scale_);

@@ -15,7 +15,7 @@ class Watch {
   /// `parts` by part line; both must live as long as the watch looks.
   Watch(const Request& request, const std::vector<PartModelPtr>& parts) : request_(request), parts_(parts) {}
 
-  /// One sample, the first at time 0. Poses of parts that have not entered yet stand still.
+  /// One sample, the first at time 0. Parts that have not entered yet have no pose.
   void look(const std::vector<BodyState>& states);
 
   /// Largest energy above what had been put in so far / all that was put in. What a part brings in: its energy when it
@@ -32,7 +32,7 @@ class Watch {
     std::size_t line;
     double mass;
     Mat3 inertia;  ///< body frame
-    bool seen_moving = false;
+    bool entered = false, seen_moving = false;
     Pose first = {};
     Vec3 entry = Vec3::Zero();
     double brought = 0.0;
@@ -41,7 +41,7 @@ class Watch {
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
     double linear_sum = 0.0, angular_sum = 0.0;
   };
-  void begin(const std::vector<BodyState>& states);
+  void begin();
 
   const Request& request_;
   const std::vector<PartModelPtr>& parts_;

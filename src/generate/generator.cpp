@@ -102,10 +102,10 @@ struct Generator::State {
     scene.report.drift = drift(before, moved, models.parts());
   }
 
-  void see(Result& result, const Request& request) {
+  void see(Result& result, const Request& request, bool silhouettes) {
     Scene& scene = result.scene;
     if (!camera) camera = std::make_unique<RangeCamera>();
-    result.images = camera->render(scene, request, models.parts(), models.bin());
+    result.images = camera->render(scene, request, models.parts(), models.bin(), silhouettes);
     for (const RangeImage& image : result.images) {
       for (ScenePart& part : scene.parts) {
         const double seen = static_cast<double>(image.visible.at(part.id));
@@ -162,7 +162,7 @@ void Generator::generate(const Request& request, const Options& options, const s
       {
         StageTimer timer(rendering, "render");
         reporter.phase("render", result.scene.index, result.scene.parts.size());
-        state_->see(result, request);
+        state_->see(result, request, options.silhouettes);
       }
       result.scene.report.profile.merge(rendering);
     }
@@ -180,6 +180,7 @@ void Generator::generate(const Request& request, const Options& options, const s
   };
   pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
     Report& report = scene.report;
+    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
     report.solver_reason = solver_reason;
     if (place == 0) report.profile.merge(loading);
     for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it

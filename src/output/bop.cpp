@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 namespace bin_scenes {
 
@@ -67,11 +68,40 @@ std::vector<Box> visible_boxes(const RangeImage& image, std::size_t parts) {
   return boxes;
 }
 
-void write_mask(const std::string& path, const RangeImage& image, int id) {
+std::vector<std::uint8_t> visible_mask(const RangeImage& image, int id) {
   std::vector<std::uint8_t> mask(image.label.size());
   std::transform(image.label.begin(), image.label.end(), mask.begin(),
                  [&](std::uint16_t label) { return label == id + 1 ? 255 : 0; });
-  write_png8(path, image.sensor.width, image.sensor.height, 1, mask);
+  return mask;
+}
+
+std::vector<std::uint8_t> whole_mask(const RangeImage& image, int id) {
+  const std::vector<bool>& silhouette = image.silhouette.at(static_cast<std::size_t>(id));
+  std::vector<std::uint8_t> mask(silhouette.size());
+  std::transform(silhouette.begin(), silhouette.end(), mask.begin(), [](bool in) { return in ? 255 : 0; });
+  return mask;
+}
+
+/// Parts that have a pose, each at the place of its id as far as ids go without a gap; the last ones fill the gaps.
+std::vector<const ScenePart*> in_places(const Scene& scene) {
+  std::vector<const ScenePart*> there;
+  for (const ScenePart& part : scene.parts) {
+    if (part.state != PartState::not_poured && part.pose.finite()) there.push_back(&part);
+  }
+  std::vector<const ScenePart*> places(there.size(), nullptr), late;
+  for (const ScenePart* part : there) {
+    const auto id = static_cast<std::size_t>(part->id);
+    if (id < places.size()) {
+      places[id] = part;
+    } else {
+      late.push_back(part);
+    }
+  }
+  auto next = late.begin();
+  for (const ScenePart*& place : places) {
+    if (!place) place = *next++;
+  }
+  return places;
 }
 
 void write_gray(const std::string& path, const RangeImage& image) {
@@ -106,7 +136,9 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
                const std::vector<RangeImage>& images) {
   const fs::path root(directory);
   for (const char* folder : {"depth", "gray", "mask_visib"}) make_directory(root / folder);
+  if (!images.empty() && !images[0].silhouette.empty()) make_directory(root / "mask");
   const std::vector<int> object_ids = bop_object_ids(parts);
+  const std::vector<const ScenePart*> places = in_places(scene);
   Json camera = Json::object(), truth = Json::object(), info = Json::object();
   for (std::size_t n = 0; n < images.size(); ++n) {
     const RangeImage& image = images[n];
@@ -122,12 +154,18 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
     const std::vector<Box> boxes = visible_boxes(image, scene.parts.size());
     truth[key] = Json::array();
     info[key] = Json::array();
-    for (const ScenePart& part : scene.parts) {
-      if (!part.pose.finite()) continue;  // never poured: there is no pose to tell
+    for (const ScenePart* placed : places) {
+      const ScenePart& part = *placed;
       const Pose pose = bin_in_camera * part.pose;
       const std::size_t visible = image.visible.at(part.id), total = image.total.at(part.id);
-      write_mask((root / "mask_visib" / (file + "_" + six_digits(truth[key].size()) + ".png")).string(), image,
-                 part.id);
+      for (const std::size_t number : std::set<std::size_t>{truth[key].size(), static_cast<std::size_t>(part.id)}) {
+        const std::string name = file + "_" + six_digits(number) + ".png";
+        const auto write = [&](const char* folder, const std::vector<std::uint8_t>& mask) {
+          write_png8((root / folder / name).string(), image.sensor.width, image.sensor.height, 1, mask);
+        };
+        write("mask_visib", visible_mask(image, part.id));
+        if (!image.silhouette.empty()) write("mask", whole_mask(image, part.id));
+      }
       truth[key].push_back({{"cam_R_m2c", row_major(pose.orientation.toRotationMatrix())},
                             {"cam_t_m2c", in_mm(pose.position)},
                             {"obj_id", object_ids.at(part.line)},
@@ -146,7 +184,7 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
 }
 
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts) {
-  const fs::path models = fs::path(directory) / "models";
+  const fs::path models(directory);
   make_directory(models);
   const std::vector<int> ids = bop_object_ids(parts);
   Json info = Json::object();

@@ -58,7 +58,8 @@ Json json_of(const Sensor& sensor) {
 }
 
 Json json_of(const ScenePart& part) {
-  Json json = {{"id", part.id}, {"line", part.line}, {"model", part.model}, {"pose", json_of(part.pose)}};
+  Json json = {{"id", part.id}, {"line", part.line}, {"model", part.model}};
+  json["pose"] = part.pose.finite() ? json_of(part.pose) : Json();
   json["state"] = name_of(part.state);
   if (part.velocity.linear != Vec3::Zero() || part.velocity.angular != Vec3::Zero()) {
     json["velocity"] = {{"linear", json_of(part.velocity.linear)}, {"angular", json_of(part.velocity.angular)}};
@@ -109,7 +110,7 @@ Json json_of(const Report& report) {
   return json;
 }
 
-// Reading. nlohmann's exceptions name the key and the type; the file is added by read_scene_json.
+// Reading. nlohmann's exceptions name the key and the type; read_scene_json adds the file and the place in it.
 
 Vec3 vec3_of(const Json& json) {
   Vec3 v;
@@ -119,6 +120,7 @@ Vec3 vec3_of(const Json& json) {
 }
 
 Pose pose_of(const Json& json) {
+  if (json.is_null()) return Pose::none();
   Pose pose;
   pose.position = vec3_of(json.at("position"));
   const Json& q = json.at("orientation_xyzw");
@@ -142,6 +144,12 @@ std::size_t line_of(const Json& json, const std::string& model, std::vector<std:
   if (known != models.end()) return static_cast<std::size_t>(known - models.begin());
   models.push_back(model);
   return models.size() - 1;
+}
+
+/// What nlohmann says of a value, without the name of its exception.
+std::string plain(const std::string& what) {
+  const std::size_t end = what.find("] ");
+  return what.rfind("[json.", 0) == 0 && end != std::string::npos ? what.substr(end + 2) : what;
 }
 
 Report report_of(const Json& json) {
@@ -169,6 +177,9 @@ std::string scene_json(const Scene& scene, const Request& request) {
   json["request_sha256"] = request.text_sha256;
   json["sensors"] = Json::array();
   for (const Sensor& sensor : scene.sensors) json["sensors"].push_back(json_of(sensor));
+  for (std::size_t line = 0; line < scene.model_sha256.size() && line < request.parts.size(); ++line) {
+    json["models"].push_back({{"model", request.parts[line].model}, {"sha256", scene.model_sha256[line]}});
+  }
   json["parts"] = Json::array();
   for (const ScenePart& part : scene.parts) json["parts"].push_back(json_of(part));
   json["report"] = json_of(scene.report);
@@ -178,15 +189,21 @@ std::string scene_json(const Scene& scene, const Request& request) {
 Scene read_scene_json(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw input_error("cannot be read", path, "name a scene.json that is there");
-  std::string where = "the file";
+  std::string where = "format";
   try {
     const Json json = Json::parse(file);
-    where = "format";
     if (json.at("format") != kFormat) throw std::runtime_error("is not " + std::string(kFormat));
     Scene scene;
     where = "seed and index";
     scene.seed = json.at("seed").get<std::uint64_t>();
     scene.index = json.at("index").get<std::size_t>();
+    where = "models";
+    if (json.contains("models")) {
+      for (const Json& model : json.at("models")) {
+        scene.model_sha256.push_back(model.at("sha256").get<std::string>());
+      }
+    }
+    where = "parts";
     std::vector<std::string> models;
     for (const Json& item : json.at("parts")) {
       where = "parts[" + std::to_string(scene.parts.size()) + "]";
@@ -210,10 +227,12 @@ Scene read_scene_json(const std::string& path) {
     where = "report";
     if (json.contains("report")) scene.report = report_of(json.at("report"));
     return scene;
-  } catch (const Error&) {
-    throw;
+  } catch (const Json::parse_error& error) {
+    throw input_error("is no JSON, or cut off: it cannot be read from byte " + std::to_string(error.byte) + " on", path,
+                      "give a scene.json of format " + std::string(kFormat));
   } catch (const std::exception& error) {
-    throw input_error(where + ": " + error.what(), path, "give a scene.json of format " + std::string(kFormat));
+    throw input_error("'" + where + "': " + plain(error.what()), path,
+                      "give a scene.json of format " + std::string(kFormat));
   }
 }
 

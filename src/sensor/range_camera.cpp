@@ -108,6 +108,8 @@ struct RangeCamera::State {
 
   RangeImage render(const Scene& scene, const Sensor& sensor, const Bin& bin, const std::vector<PartModelPtr>& parts,
                     const PartModelPtr& bin_model);
+  std::vector<std::vector<bool>> silhouettes(const Scene& scene, const Sensor& sensor,
+                                             const std::vector<PartModelPtr>& parts);
 };
 
 namespace {
@@ -184,8 +186,32 @@ RangeImage RangeCamera::State::render(const Scene& scene, const Sensor& sensor, 
   return image;
 }
 
+/// By part id.
+std::vector<std::vector<bool>> RangeCamera::State::silhouettes(const Scene& scene, const Sensor& sensor,
+                                                               const std::vector<PartModelPtr>& parts) {
+  const Pose view = sensor.pose->inverse();
+  gl::Target target(sensor.width, sensor.height, {gl::Target::Channel::float1, gl::Target::Channel::uint16});
+  std::vector<std::uint16_t> labels(static_cast<std::size_t>(sensor.width) * sensor.height);
+  std::vector<std::vector<bool>> all;
+  for (const ScenePart& part : scene.parts) {
+    const auto id = static_cast<std::size_t>(part.id);
+    if (id >= all.size()) all.resize(id + 1);
+    if (!present(part)) continue;
+    target.begin();
+    program.use();
+    set_projection(program, sensor);
+    program.set("label", 1u);
+    set_pose(program, view * part.pose);
+    surface_of(parts[part.line]).draw();
+    target.read(1, labels.data());
+    all[id].assign(labels.begin(), labels.end());
+  }
+  return all;
+}
+
 std::vector<RangeImage> RangeCamera::render(const Scene& scene, const Request& request,
-                                            const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model) {
+                                            const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
+                                            bool silhouettes) {
   for (const ScenePart& part : scene.parts) {
     if (part.id < 0 || part.id >= 65535) {
       throw input_error("part " + std::to_string(part.id) + " has no 16-bit label", "sensors",
@@ -204,6 +230,7 @@ std::vector<RangeImage> RangeCamera::render(const Scene& scene, const Request& r
   for (const Sensor& sensor : request.sensors) {
     const Sensor full = resolved(sensor, request.bin, bin_model ? &bounds : nullptr);
     images.push_back(state_->render(scene, full, request.bin, parts, bin_model));
+    if (silhouettes) images.back().silhouette = state_->silhouettes(scene, full, parts);
   }
   return images;
 }

@@ -80,9 +80,7 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
       states_(plan.world.bodies.size()),
       place_(plan.world.bodies.size(), Place::waiting),
       rest_(plan.world.bodies.size()) {
-  // Parts that never find room must have some finite pose in every output.
-  const Vec3 aside(plan.opening.lower.x(), plan.opening.lower.y(), plan.entry_height);
-  for (BodyState& state : states_) state.pose.position = aside;
+  for (BodyState& state : states_) state.pose = Pose::none();  // until a part is let in
 
   WorldDef def = plan.world;
   const bool entering = std::any_of(plan.request.parts.begin(), plan.request.parts.end(),

@@ -84,16 +84,45 @@ TEST_F(Bop, CameraInfoMasksAndCountsBelongTogether) {
 
 TEST_F(Bop, APartThatWasNeverPouredIsLeftOutAndIdsStay) {
   Scene scene = small_scene();
-  scene.parts[1].pose.position.setConstant(std::nan(""));
-  write_bop(dir.string(), scene, {bolt, nut}, {small_image()});
+  scene.parts.push_back(scene.parts[0]);
+  scene.parts[3].id = 3;
+  scene.parts[1].state = PartState::not_poured;
+  scene.parts[1].pose = Pose::none();
+  RangeImage image = small_image();
+  image.visible.push_back(0);
+  image.total.push_back(5);
+  write_bop(dir.string(), scene, {bolt, nut}, {image});
   const Json gt = json("scene_gt.json").at("0");
-  ASSERT_EQ(gt.size(), 2u);
-  EXPECT_EQ(gt.at(1).at("id"), 2);
+  ASSERT_EQ(gt.size(), 3u);
+  const int ids[] = {0, 3, 2};  // the last one stands where part 1 is missing
+  for (int place = 0; place < 3; ++place) {
+    EXPECT_EQ(gt.at(place).at("id"), ids[place]);
+    const Png mask = read_png(path("mask_visib/000000_00000" + std::to_string(place) + ".png"));
+    for (std::size_t i = 0; i < image.label.size(); ++i) {
+      ASSERT_EQ(mask.samples[i], image.label[i] == ids[place] + 1 ? 255 : 0) << place << " " << i;
+    }
+  }
+  EXPECT_EQ(text("mask_visib/000000_000003.png"), text("mask_visib/000000_000001.png")) << "under its id as well";
+}
+
+TEST_F(Bop, MasksAreOfTheVisibleAndOfTheWholePart) {
+  RangeImage image = small_image();
+  write_bop(path("seen"), small_scene(), {bolt, nut}, {image});
+  EXPECT_FALSE(std::filesystem::exists(path("seen/mask"))) << "silhouettes were not asked for";
+  image.silhouette.assign(3, std::vector<bool>(image.label.size()));
+  for (std::size_t i = 0; i < image.total[1]; ++i) image.silhouette[1][3 * i] = true;
+  write_bop(path("all"), small_scene(), {bolt, nut}, {image});
+  const Png whole = read_png(path("all/mask/000000_000001.png"));
+  const Png visible = read_png(path("all/mask_visib/000000_000001.png"));
+  for (std::size_t i = 0; i < image.label.size(); ++i) {
+    EXPECT_EQ(whole.samples[i], i % 3 == 0 && i < 30 ? 255 : 0) << i;
+    EXPECT_EQ(visible.samples[i], 0) << i;
+  }
 }
 
 TEST_F(Bop, LinesOfOneModelShareAnObject) {
   EXPECT_EQ(bop_object_ids({bolt, nut, bolt}), (std::vector<int>{1, 2, 1}));
-  write_bop_models(dir.string(), {bolt, nut, bolt});
+  write_bop_models(path("models"), {bolt, nut, bolt});
   const Json info = json("models/models_info.json");
   EXPECT_EQ(info.size(), 2u);
   EXPECT_NEAR(info.at("1").at("size_x").get<double>(), 20.0, 1e-9);

@@ -60,11 +60,27 @@ TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
   EXPECT_EQ(report.at("penetration").at("pair"), nlohmann::json({0, 2}));
 }
 
+TEST_F(SceneJson, TellsWhatItsModelsWereByTheirBytes) {
+  Scene scene = small_scene();
+  scene.model_sha256 = {"b0", "a1"};
+  Request r = request();
+  r.parts.resize(2);
+  r.parts[0].model = "bolt.stl";
+  r.parts[1].model = "../nut.stl";
+  write_text(path("scene.json"), scene_json(scene, r));
+  EXPECT_EQ(nlohmann::json::parse(text("scene.json")).at("models").at(1),
+            nlohmann::json({{"model", "../nut.stl"}, {"sha256", "a1"}}));
+  EXPECT_EQ(read_scene_json(path("scene.json")).model_sha256, scene.model_sha256);
+}
+
 TEST_F(SceneJson, APartWithoutAPoseStaysWithoutOne) {
   Scene scene = small_scene();
-  scene.parts[1].pose.position.setConstant(std::nan(""));
+  scene.parts[1].pose = Pose::none();
   scene.parts[1].state = PartState::not_poured;
   write_text(path("scene.json"), scene_json(scene, request()));
+  const auto json = nlohmann::json::parse(text("scene.json"));
+  EXPECT_TRUE(json.at("parts").at(1).at("pose").is_null());
+  EXPECT_EQ(json.at("parts").at(1).at("id"), 1);
   const Scene back = read_scene_json(path("scene.json"));
   EXPECT_TRUE(std::isnan(back.parts[1].pose.position.x()));
   EXPECT_EQ(back.parts[1].state, PartState::not_poured);
@@ -80,9 +96,13 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
       EXPECT_NE(std::string(error.what()).find("scene.json"), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("exception"), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   };
-  expect("{", "the file");
+  expect("{", "is no JSON, or cut off");
+  expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
+  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': type must be number");
   expect("[]", "format");
   expect(R"({"format": "bin_scenes/9"})", "bin_scenes/1");
   const std::string head = R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [{"id": 0, "model": "a")";

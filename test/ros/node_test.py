@@ -396,6 +396,32 @@ class NodeTest(unittest.TestCase):
             info = subprocess.run(["rosbag", "info", path], check=True, capture_output=True, text=True, timeout=60)
             self.assertIn("sensor_msgs/PointCloud2", info.stdout)
 
+    def test_what_was_never_poured_is_in_no_frame_marker_or_label(self):
+        with tempfile.TemporaryDirectory() as folder:
+            request = os.path.join(folder, "request.yaml")
+            model = os.path.join(os.environ["BIN_SCENES_MODELS"], "nut_hex.stl")
+            with open(request, "w") as file:
+                file.write("bin: {inner_size: [0.06, 0.05, 0.03]}\nsolver: {type: bullet}\nparts:\n"
+                           "  - {model: %s, unit: mm, count: 40}\nsensors: [{width: 120, height: 100}]\n" % model)
+            subprocess.run([rospy.get_param("/tool"), "generate", request, "--out", folder, "--formats", "bag",
+                            "--set", "accept.escaped=true"], check=True, timeout=120)
+            messages = {}
+            with rosbag.Bag(os.path.join(folder, "scene_000000", "scene.bag")) as bag:
+                for name, message, _ in bag.read_messages():
+                    messages[name] = message
+        parts = messages["/scene"].parts
+        missing = set(messages["/scene"].report.not_poured)
+        self.assertGreater(len(missing), 0)
+        self.assertLess(len(missing), 40)
+        self.assertEqual([p.id for p in parts], list(range(40)))
+        there = {p.id for p in parts} - missing
+        for part in parts:
+            self.assertEqual(math.isfinite(part.pose.position.x), part.id in there)
+        self.assertEqual({t.child_frame_id for t in messages["/tf"].transforms}, {"part_%04d" % i for i in there})
+        self.assertEqual({m.id for m in messages["/markers"].markers if m.ns == "parts"}, there)
+        seen = set(np.unique(data.image_array(messages["/labels/image_raw"]))) - {0}
+        self.assertTrue(seen and seen <= {i + 1 for i in there})
+
     def recording(self, path):
         """{topic: (last message, connection header)} of a `rosbag record` while the node makes one scene."""
         topics = ["/tf", "/tf_static"] + ["/" + name for name in TOPICS]

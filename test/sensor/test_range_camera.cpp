@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -100,6 +101,28 @@ TEST(RangeCamera, PixelsOfABoxAreItsProjectedArea) {
   const double f = image.sensor.k[0];
   EXPECT_NEAR(static_cast<double>(image.visible[0]), 0.2 * f * 0.1 * f, 0.3 * f + 4.0);  // half the outline
   EXPECT_EQ(image.visible[0], image.total[0]);
+}
+
+TEST(RangeCamera, SilhouettesAreOfEachPartAlone) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.2, 0.1, 0.1}));
+  stage.place(box, at(0, 0, 1));
+  stage.place(box, at(0.05, 0.02, 1.3));  // partly behind the first
+  stage.place(box, at(0, 0, 2));
+  stage.scene.parts[2].state = PartState::not_poured;
+  EXPECT_TRUE(stage.render().silhouette.empty()) << "only if asked for";
+  const RangeImage image = RangeCamera().render(stage.scene, stage.request, stage.models, nullptr, true).front();
+  ASSERT_EQ(image.silhouette.size(), 3u);
+  EXPECT_TRUE(image.silhouette[2].empty());
+  ASSERT_LT(image.visible[1], image.total[1]);
+  for (std::size_t id = 0; id < 2; ++id) {
+    const std::vector<bool>& pixels = image.silhouette[id];
+    ASSERT_EQ(pixels.size(), image.label.size());
+    EXPECT_EQ(static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), true)), image.total[id]);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      ASSERT_TRUE(pixels[i] || image.label[i] != id + 1) << "what is seen belongs to it";
+    }
+  }
 }
 
 TEST(RangeCamera, ManyEqualPartsKeepTheirOwnLabels) {

@@ -27,6 +27,8 @@ struct Pose {
     return {-(back * position), back};
   }
   bool finite() const { return position.allFinite() && orientation.coeffs().allFinite(); }
+  /// Of what is nowhere: not finite.
+  static Pose none() { return {Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity()}; }
 };
 
 /// Velocity of a rigid body's centre of mass (m/s) and its angular velocity (rad/s), both in the parent's frame.

@@ -22,7 +22,8 @@ class Generator {
     std::vector<RangeImage> images;  ///< only if asked for
   };
   struct Options {
-    bool render = true;  ///< false: no sensor image is made (nobody looks)
+    bool render = true;        ///< false: no sensor image is made (nobody looks)
+    bool silhouettes = false;  ///< of every part in every image, as if it were alone
     RunHooks hooks;
   };
 

@@ -12,8 +12,9 @@
 
 namespace bin_scenes {
 
-/// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null. Only report.wall_s,
-/// report.stages_ms and report.counters may differ between two runs of a request on one class of device.
+/// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null, and so is the pose of a
+/// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of a
+/// request on one class of device.
 std::string scene_json(const Scene& scene, const Request& request);
 /// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
 Scene read_scene_json(const std::string& path);
@@ -31,12 +32,15 @@ bool pcd_supported();
 void write_pngs(const std::string& directory, const RangeImage& image);
 
 /// One scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md): a camera
-/// is an image of the scene; lengths in mm; depth/, gray/, mask_visib/, scene_gt.json, scene_gt_info.json,
-/// scene_camera.json. A part's entry also carries its `id`, which is its place in the list unless parts before it
-/// were never poured. `parts[line]` are the models.
+/// is an image of the scene; lengths in mm; depth/, gray/, mask/, mask_visib/, scene_gt.json, scene_gt_info.json,
+/// scene_camera.json. mask/ needs the images' silhouettes. `parts[line]` are the models.
+///
+/// BOP numbers masks by the entry's place in scene_gt, we by the part's id. An entry carries its `id`, and stands at that
+/// place wherever it can: only where parts were never poured, the last ones take the places that are left free, and
+/// their masks lie there under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
-/// models/obj_<obj_id>.ply and models_info.json (mm) of a BOP data set.
+/// The folder models of a BOP data set: obj_<obj_id>.ply and models_info.json (mm).
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts);
 /// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);

@@ -18,7 +18,7 @@ struct ScenePart {
   int id = 0;             ///< stable across every output
   std::size_t line = 0;   ///< index into Request::parts
   std::string model;      ///< as the user wrote it
-  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame
+  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured
   Twist velocity;         ///< of the centre of mass, when the simulation ended
   PartState state = PartState::moving;
   std::map<std::string, double> visible_fraction;  ///< by sensor name
@@ -27,6 +27,7 @@ struct ScenePart {
 struct Scene {
   std::uint64_t seed = 0;
   std::size_t index = 0;
+  std::vector<std::string> model_sha256;  ///< by part line: of the model file's bytes; empty: not known
   std::vector<ScenePart> parts;
   std::vector<Sensor> sensors;  ///< with pose and K filled in
   Report report;

@@ -24,6 +24,8 @@ struct RangeImage {
   std::vector<std::array<float, 3>> normal;  ///< of the surface, towards the camera; NaN = invalid
   std::vector<float> intensity;              ///< 0..1, cosine of incidence
   std::vector<std::size_t> visible, total;   ///< pixels per part id: seen, and seen if it were alone
+  std::vector<std::vector<bool>> silhouette;  ///< by part id: the pixels of `total`; empty unless asked for, and for parts
+                                              ///< that are not there
 };
 
 /// Point of a pixel in the optical frame (m); NaN where depth is.
@@ -41,8 +43,9 @@ class RangeCamera {
   ~RangeCamera();
   /// Renders every sensor of the request. Meshes are uploaded once per model and kept while the model lives. Parts
   /// that were not poured or whose pose is not finite are not there. The same scene gives the same bits each time.
+  /// @param silhouettes  also RangeImage::silhouette, which costs one more image a part.
   std::vector<RangeImage> render(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                                 const PartModelPtr& bin_model = nullptr);
+                                 const PartModelPtr& bin_model = nullptr, bool silhouettes = false);
 
  private:
   struct State;
