@@ -20,22 +20,22 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 
-/// The options that stand for keys of the request, in the words of --set.
-std::vector<std::string> overrides_of(const GenerateOptions& options) {
+/// The options that stand for keys of the request.
+std::vector<Override> overrides_of(const GenerateOptions& options) {
   for (const std::string& item : options.set) {
     if (item.find('=') == std::string::npos) {
       throw input_error("expected key=value, found '" + item + "'", "--set", "put the request before the options");
     }
   }
-  std::vector<std::string> overrides = options.set;
-  const auto add = [&](const char* key, const std::optional<std::string>& value) {
-    if (value) overrides.push_back(std::string(key) + "=" + *value);
+  std::vector<Override> overrides(options.set.begin(), options.set.end());
+  const auto add = [&](const char* option, const char* key, const std::optional<std::string>& value) {
+    if (value) overrides.emplace_back(std::string(key) + "=" + *value, option);
   };
-  add("seed", options.seed);
-  add("scenes", options.scenes);
-  add("first", options.first);
-  add("solver.type", options.solver);
-  add("seconds", options.seconds);
+  add("--seed", "seed", options.seed);
+  add("--scenes", "scenes", options.scenes);
+  add("--first", "first", options.first);
+  add("--solver", "solver.type", options.solver);
+  add("--seconds", "seconds", options.seconds);
   return overrides;
 }
 
@@ -82,9 +82,9 @@ std::string joined(const std::vector<std::string>& reasons) {
 int generate(const GenerateOptions& options) {
   Request request = read_request(options.request, overrides_of(options));
   SceneStore store(options.out, options.formats);
-  if (store.needs_images() && request.sensors.empty()) {
+  if (store.needs_sensors() && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
-                      "add `sensors: [{name: camera}]`, or ask for --formats json alone");
+                      "add `sensors: [{name: camera}]`, or ask for --formats json,bag alone");
   }
   if (!options.trace.empty() && request.scenes != 1) {
     throw input_error("a trace holds one scene, but " + std::to_string(request.scenes) + " are asked for", "--trace",
@@ -96,10 +96,11 @@ int generate(const GenerateOptions& options) {
 
   std::set<std::size_t> there;
   std::vector<std::pair<std::size_t, std::string>> apart;
-  if (!options.overwrite && options.trace.empty()) {
+  if (!options.overwrite) {
     for (const std::size_t index : store.indices(request)) {
       const SceneStore::Found found = store.find(index, request);
-      if (found != SceneStore::Found::nothing) there.insert(index);
+      if (!options.trace.empty() || found == SceneStore::Found::nothing) continue;  // to trace it is to make it again
+      there.insert(index);
       if (found == SceneStore::Found::set_apart) apart.emplace_back(index, joined(store.reasons(index)));
     }
   }
@@ -115,14 +116,13 @@ int generate(const GenerateOptions& options) {
   std::unique_ptr<TraceFile> trace;
   Generator::Options run;
   run.render = store.needs_images();
+  run.silhouettes = store.needs_silhouettes();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress); };
   if (!options.trace.empty()) {
+    trace = std::make_unique<TraceFile>(options.trace);
     run.hooks.trace_rate = options.trace_rate;
-    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-      if (!trace) trace = std::make_unique<TraceFile>(options.trace);
-      trace->add(time, states);
-    };
+    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) { trace->add(time, states); };
   }
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;

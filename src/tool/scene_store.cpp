@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 namespace bin_scenes {
@@ -71,19 +72,71 @@ void check_writable(const fs::path& directory) {
   }
 }
 
-/// `fill` writes into a hidden folder, which takes its name once it is whole. Errors name the folder it was to become.
-template <typename Fill>
-void write_whole(const std::string& target, const Fill& fill) {
-  Temporary whole(target);
-  try {
-    fill(whole.path());
-  } catch (const Error& error) {
-    std::string where = error.where();
-    if (where.rfind(whole.path(), 0) == 0) where.replace(0, whole.path().size(), target);
-    throw Error(error.kind(), error.problem(), where, error.remedy());
-  }
-  whole.commit();
+/// scene.json of a folder, no object if it is damaged; none if there is none.
+std::optional<nlohmann::json> scene_in(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / "scene.json");
+  if (!file) return std::nullopt;
+  return nlohmann::json::parse(file, nullptr, false);
 }
+
+bool is_of(const Request& request, const nlohmann::json& scene) {
+  return scene.is_object() && scene.value("request_sha256", nlohmann::json()) == request.text_sha256;
+}
+
+/// Folders that are written under hidden names and take their own only when all of them are whole. Without commit()
+/// nothing of them is left, nor of the directories above them that were made for them.
+class WholeFolders {
+ public:
+  WholeFolders() = default;
+  WholeFolders(const WholeFolders&) = delete;
+  WholeFolders& operator=(const WholeFolders&) = delete;
+  ~WholeFolders() {
+    folders_.clear();
+    for (auto made = made_.rbegin(); made != made_.rend(); ++made) {
+      std::error_code not_empty;
+      fs::remove(*made, not_empty);
+    }
+  }
+
+  /// `fill` writes into the folder it is given. Its errors name the folder that it was to become.
+  template <typename Fill>
+  void write(const fs::path& target, const Fill& fill) {
+    make_parents(target);
+    folders_.push_back(std::make_unique<Temporary>(target.string()));
+    const std::string& hidden = folders_.back()->path();
+    try {
+      make_directory(hidden);
+      fill(hidden);
+    } catch (const Error& error) {
+      std::string where = error.where();
+      if (where.rfind(hidden, 0) == 0) where.replace(0, hidden.size(), target.string());
+      throw Error(error.kind(), error.problem(), where, error.remedy());
+    }
+  }
+
+  /// In the order in which they were written.
+  void commit() {
+    for (const auto& folder : folders_) folder->commit();
+    made_.clear();
+  }
+
+ private:
+  void make_parents(const fs::path& target) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path place = target.parent_path(); !place.empty() && !fs::exists(place, ignored);
+         place = place.parent_path()) {
+      missing.push_back(place);
+    }
+    for (auto place = missing.rbegin(); place != missing.rend(); ++place) {
+      make_directory(*place);
+      made_.push_back(*place);
+    }
+  }
+
+  std::vector<std::unique_ptr<Temporary>> folders_;
+  std::vector<fs::path> made_;  ///< outermost first
+};
 
 }  // namespace
 
@@ -93,8 +146,14 @@ SceneStore::SceneStore(const std::string& directory, const std::vector<std::stri
   check_writable(directory);
 }
 
+bool SceneStore::needs_sensors() const {
+  return wants("pcd") || wants("png") || wants("bop");
+}
 bool SceneStore::needs_images() const {
-  return formats_.size() > formats_.count("json");
+  return needs_sensors() || wants("bag");
+}
+bool SceneStore::needs_silhouettes() const {
+  return wants("bop");
 }
 
 fs::path SceneStore::root(bool accepted) const {
@@ -103,6 +162,10 @@ fs::path SceneStore::root(bool accepted) const {
 
 std::string SceneStore::folder(std::size_t index, bool accepted) const {
   return (root(accepted) / ("scene_" + six_digits(index))).string();
+}
+
+fs::path SceneStore::bop_folder(std::size_t index, bool accepted) const {
+  return root(accepted) / "bop" / "train" / six_digits(index);
 }
 
 bool SceneStore::complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const {
@@ -116,7 +179,7 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
   }
-  return !wants("bop") || there(root(accepted) / "bop" / "train" / six_digits(index) / "scene_gt.json");
+  return !wants("bop") || there(bop_folder(index, accepted) / "scene_gt.json");
 }
 
 std::set<std::size_t> SceneStore::indices(const Request& request) const {
@@ -134,14 +197,13 @@ std::set<std::size_t> SceneStore::indices(const Request& request) const {
 SceneStore::Found SceneStore::find(std::size_t index, const Request& request) const {
   for (const bool accepted : {true, false}) {
     const std::string path = folder(index, accepted);
-    std::ifstream file(fs::path(path) / "scene.json");
-    if (!file) continue;
-    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object()) {
+    const std::optional<nlohmann::json> json = scene_in(path);
+    if (!json) continue;
+    if (!json->is_object()) {
       throw input_error("scene.json is there already, but it is cut off or damaged", path,
                         "remove this folder, and the scene is made anew");
     }
-    if (json.value("request_sha256", nlohmann::json()) != request.text_sha256) {
+    if (!is_of(request, *json)) {
       throw input_error("there is a scene of another request already", path,
                         "name another --out, or replace it with --overwrite");
     }
@@ -157,19 +219,8 @@ std::vector<std::string> SceneStore::reasons(std::size_t index) const {
 void SceneStore::write(const Generator::Result& result, const Request& request, const Generator& generator) {
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
-  const std::string target = folder(scene.index, accepted);
-  const fs::path root = fs::path(target).parent_path();
-  make_directory(root);
-
-  if (wants("bop")) {
-    make_directory(root / "bop" / "train");
-    if (models_written_.insert(accepted).second) write_bop_models((root / "bop").string(), generator.parts());
-    write_whole((root / "bop" / "train" / six_digits(scene.index)).string(),
-                [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
-  }
-
-  write_whole(target, [&](const std::string& hidden) {
-    make_directory(hidden);
+  WholeFolders folders;
+  folders.write(folder(scene.index, accepted), [&](const std::string& hidden) {
     const fs::path base(hidden);
     for (const RangeImage& image : result.images) {
       if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
@@ -181,10 +232,24 @@ void SceneStore::write(const Generator::Result& result, const Request& request, 
     }
     write_text((base / "scene.json").string(), scene_json(scene, request));
   });
+  if (wants("bop")) {
+    if (models_written_.count(accepted) == 0) {
+      folders.write(root(accepted) / "bop" / "models",
+                    [&](const std::string& hidden) { write_bop_models(hidden, generator.parts()); });
+    }
+    folders.write(bop_folder(scene.index, accepted),
+                  [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
+  }
 
-  // With --overwrite the scene may have been on the other side before.
+  // What an earlier scene of this index left behind, on either side, shows another scene.
   std::error_code ignored;
+  const std::optional<nlohmann::json> earlier = scene_in(folder(scene.index, accepted));
+  const bool same = earlier && is_of(request, *earlier);
+  folders.commit();
+  if (wants("bop")) models_written_.insert(accepted);
+  if (!wants("bop") && !same) fs::remove_all(bop_folder(scene.index, accepted), ignored);
   fs::remove_all(folder(scene.index, !accepted), ignored);
+  fs::remove_all(bop_folder(scene.index, !accepted), ignored);
 }
 
 }  // namespace bin_scenes

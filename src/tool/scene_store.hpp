@@ -21,8 +21,9 @@ class SceneStore {
   /// Checks the formats and that `directory` can be written, and makes nothing yet.
   SceneStore(const std::string& directory, const std::vector<std::string>& formats);
 
-  /// True if a format shows what a sensor sees.
-  bool needs_images() const;
+  bool needs_sensors() const;      ///< some format shows nothing but what a sensor sees
+  bool needs_images() const;       ///< some format holds what sensors see, if there are any
+  bool needs_silhouettes() const;  ///< some format shows each part alone
 
   /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
@@ -33,12 +34,15 @@ class SceneStore {
   /// Reasons of a scene that is there, set apart.
   std::vector<std::string> reasons(std::size_t index) const;
 
+  /// All folders of the scene, or none of them where one cannot be written. What an earlier scene of this index left on
+  /// the other side goes.
   void write(const Generator::Result& result, const Request& request, const Generator& generator);
 
  private:
   bool wants(const char* format) const { return formats_.count(format) != 0; }
   std::filesystem::path root(bool accepted) const;
   std::string folder(std::size_t index, bool accepted) const;
+  std::filesystem::path bop_folder(std::size_t index, bool accepted) const;
   bool complete(const std::string& folder, std::size_t index, const Request& request, bool accepted) const;
 
   std::string directory_;

@@ -15,6 +15,7 @@ namespace bin_scenes {
 /// bin frame, SI units, 17 digits. Parts that are not in the bin yet have no row. The file appears with finish().
 class TraceFile {
  public:
+  /// Throws an environment Error where no file can be written, before anything is simulated.
   explicit TraceFile(const std::string& path);
   ~TraceFile();
   void add(double time, const std::vector<BodyState>& states);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 namespace bin_scenes {
@@ -106,6 +107,23 @@ TEST_F(CommandLine, BadRequestsEndWithCodeTwoAndNothingWritten) {
   expect_failure("inspect box.stl --unit parsec", 2, {"parsec"});
 }
 
+TEST_F(CommandLine, OptionsAreNamedAsTheyWereTyped) {
+  expect_failure("generate request.yaml --out out --seconds -1", 2, {"--seconds: 'seconds': must be above 0"});
+  expect_failure("generate request.yaml --out out --scenes 0", 2, {"--scenes: "});
+  expect_failure("generate request.yaml --out out --seed 1.5", 2, {"--seed: "});
+  expect_failure("generate request.yaml --out out --solver fast", 2, {"--solver: "});
+}
+
+TEST_F(CommandLine, ABinThatIsAMeshIsMeasuredAgainstItsParts) {
+  put("crate.stl", box_stl(80));  // in mm, as the nuts
+  put("nut.stl", box_stl(15));
+  const std::string bin = "bin: {mesh: crate.stl}\nsolver: {type: bullet}\nparts: [{model: nut.stl, count: 3}]\n";
+  put("bad.yaml", bin);
+  expect_failure("generate bad.yaml --out out", 2, {"crate.stl: the bin is 80 x 80 x 80 m", "unit: mm"});
+  expect_failure("generate bad.yaml --out out --set parts[0].unit=mm", 2, {"crate.stl", "unit: mm"});
+  expect_failure("generate bad.yaml --out out --set bin.unit=mm", 2, {"nut.stl: the part is 26 m", "unit: mm"});
+}
+
 TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
   put("file", "");
   expect_failure("generate request.yaml --out file/deeper", 3, {"not a directory"});
@@ -133,6 +151,92 @@ TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten)
       EXPECT_NE(entry.path().filename(), "scene_000000");
     }
   }
+}
+
+TEST_F(CommandLine, OnAFullDiskNoSceneIsThereWithoutTheOtherHalf) {
+  // KiB a file: at first nothing fits, then some files of the scene, of its BOP data, or of both.
+  std::size_t failed = 0;
+  for (const std::string blocks : {"1", "4", "6", "8", "12"}) {
+    const Outcome full = run("generate request.yaml --out out --formats json,bop --set parts[0].count=12" +
+                                 std::string(" --set 'sensors=[{name: top, width: 96, height: 72}]'"),
+                             "trap '' XFSZ; ulimit -f " + blocks + ";");
+    if (full.code == 0) break;
+    ++failed;
+    EXPECT_EQ(full.code, 3) << full.err;
+    EXPECT_FALSE(fs::exists(dir / "out")) << blocks << ": not even empty directories";
+  }
+  EXPECT_GT(failed, 0u);
+}
+
+TEST_F(CommandLine, WhatAnEarlierSceneLeftOnTheOtherSideGoes) {
+  const std::string formats = " --formats json,bop --overwrite --set 'sensors=[{name: top, width: 64, height: 48}]'";
+  const std::string moving = " --set pour.limit=0.26";
+  EXPECT_EQ(run("generate request.yaml --out out" + formats).code, 0);
+  EXPECT_TRUE(fs::exists(dir / "out/bop/train/000000"));
+  EXPECT_EQ(run("generate request.yaml --out out" + moving + formats).code, 1);
+  EXPECT_TRUE(fs::exists(dir / "out/set_apart/bop/train/000000"));
+  EXPECT_FALSE(fs::exists(dir / "out/scene_000000"));
+  EXPECT_FALSE(fs::exists(dir / "out/bop/train/000000")) << "of a scene that is gone";
+  EXPECT_EQ(run("generate request.yaml --out out" + formats).code, 0);
+  EXPECT_FALSE(fs::exists(dir / "out/set_apart/bop/train/000000"));
+  EXPECT_FALSE(fs::exists(dir / "out/set_apart/scene_000000"));
+  EXPECT_EQ(run("generate request.yaml --out out --seed 4 --overwrite").code, 0);
+  EXPECT_FALSE(fs::exists(dir / "out/bop/train/000000")) << "of another request";
+}
+
+TEST_F(CommandLine, AnOverfullBinIsTheSameInEveryOutput) {
+  const Outcome outcome =
+      run("generate request.yaml --out out --formats json,png,bop --set parts[0].count=40 "
+          "--set bin.inner_size=[0.1,0.09,0.06] --set accept.escaped=true "
+          "--set 'sensors=[{name: top, width: 96, height: 72}]'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json scene = json("out/scene_000000/scene.json");
+  std::set<int> there, missing;
+  for (const Json& part : scene.at("parts")) {
+    EXPECT_EQ(part.at("id"), there.size() + missing.size());
+    const bool poured = part.at("state") != "not_poured";
+    EXPECT_EQ(part.at("pose").is_null(), !poured) << part;
+    (poured ? there : missing).insert(part.at("id").get<int>());
+  }
+  EXPECT_EQ(scene.at("report").at("not_poured").get<std::set<int>>(), missing);
+  ASSERT_FALSE(missing.empty());
+  ASSERT_FALSE(there.empty());
+
+  const fs::path bop = "out/bop/train/000000";
+  const Json truth = json(bop / "scene_gt.json").at("0");
+  std::set<int> told;
+  for (std::size_t place = 0; place < truth.size(); ++place) {
+    const int id = truth.at(place).at("id");
+    told.insert(id);
+    if (static_cast<std::size_t>(id) < truth.size()) {
+      EXPECT_EQ(place, static_cast<std::size_t>(id));
+    }
+    for (const char* folder : {"mask", "mask_visib"}) {
+      const auto mask = [&](std::size_t number) {
+        char name[32];
+        std::snprintf(name, sizeof(name), "000000_%06zu.png", number);
+        return text(bop / folder / name);
+      };
+      EXPECT_FALSE(mask(place).empty());
+      EXPECT_EQ(mask(place), mask(static_cast<std::size_t>(id))) << "found by its place and by its id";
+    }
+  }
+  EXPECT_EQ(told, there);
+  EXPECT_EQ(truth.size(), there.size());
+
+  // A scene to go on from has the parts that are there.
+  put("next.yaml",
+      "bin: {inner_size: [0.1, 0.09, 0.06]}\nsolver: {type: bullet}\n"
+      "pour: {pattern: given, scene: out/scene_000000/scene.json}\nparts: [{model: ./box.stl}]\n");
+  EXPECT_LE(run("generate next.yaml --out next --seconds 0.1").code, 1);
+  EXPECT_EQ(json("next/scene_000000/scene.json").at("parts").size(),
+            there.size() - scene.at("report").at("escaped").size());
+}
+
+TEST_F(CommandLine, ASceneInWhichNothingWasPouredIsSetApart) {
+  const Outcome outcome = run("generate request.yaml --out out --set bin.inner_size=[0.0401,0.0401,0.2]");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("nothing was poured"), std::string::npos) << outcome.err;
 }
 
 TEST_F(CommandLine, MakesScenesQuietlyAndTheSameAgain) {
@@ -229,6 +333,31 @@ TEST_F(CommandLine, ATraceFollowsFreeFall) {
   EXPECT_LE(rows, 12);
 }
 
+TEST_F(CommandLine, ATraceIsRefusedBeforeAnythingIsSimulated) {
+  fs::create_directories(dir / "folder");
+  const std::string endless = " --set pour.limit=1e5 --seconds 1e5";
+  expect_failure("generate request.yaml --out out --trace folder" + endless, 3, {"folder", "is a directory"});
+  EXPECT_TRUE(fs::is_directory(dir / "folder"));
+  expect_failure("generate request.yaml --out out --trace nowhere/t.csv" + endless, 3, {"nowhere/t.csv"});
+
+  EXPECT_EQ(run("generate request.yaml --out kept").code, 0);
+  const std::string before = text("kept/scene_000000/scene.json");
+  const Outcome other = run("generate request.yaml --out kept --seed 4 --trace t.csv");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("another request"), std::string::npos) << other.err;
+  EXPECT_EQ(text("kept/scene_000000/scene.json"), before);
+  EXPECT_FALSE(fs::exists(dir / "t.csv"));
+  EXPECT_EQ(run("generate request.yaml --out kept --trace t.csv").code, 0) << "the same scene may be traced";
+  EXPECT_TRUE(fs::exists(dir / "t.csv"));
+}
+
+TEST_F(CommandLine, ABagNeedsNoSensor) {
+  const Outcome outcome = run("generate request.yaml --out out --formats bag");
+  const bool ros = run("doctor").out.find("ros       ok") != std::string::npos;
+  EXPECT_EQ(outcome.code, ros ? 0 : 3) << outcome.err;
+  EXPECT_EQ(fs::exists(dir / "out/scene_000000/scene.bag"), ros);
+}
+
 TEST_F(CommandLine, VerboseTellsStagesAndCounters) {
   const Outcome outcome = run("generate request.yaml --out out --verbose");
   EXPECT_EQ(outcome.code, 0);
@@ -240,9 +369,10 @@ TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {
   const std::string sensor = " --set 'sensors=[{name: top, width: 64, height: 48}]'";
   const Outcome outcome = run("generate request.yaml --out out --formats json,png,bop" + sensor);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* file : {"out/scene_000000/top.png", "out/scene_000000/top_depth.png",
-                           "out/scene_000000/top_labels.png", "out/bop/train/000000/scene_gt.json",
-                           "out/bop/train/000000/mask_visib/000000_000002.png", "out/bop/models/obj_000001.ply"}) {
+  for (const char* file :
+       {"out/scene_000000/top.png", "out/scene_000000/top_depth.png", "out/scene_000000/top_labels.png",
+        "out/bop/train/000000/scene_gt.json", "out/bop/train/000000/mask_visib/000000_000002.png",
+        "out/bop/train/000000/mask/000000_000002.png", "out/bop/models/obj_000001.ply"}) {
     EXPECT_TRUE(fs::exists(dir / file)) << file;
   }
   EXPECT_EQ(json("out/scene_000000/scene.json").at("sensors").at(0).at("K").size(), 9u);
