@@ -9,12 +9,23 @@ namespace bin_scenes::config {
 
 namespace {
 
+/// A short list of values as it is written.
+std::string shown_list(const YAML::Node& list) {
+  constexpr std::size_t shortest = 9;
+  std::string text;
+  for (const YAML::Node& item : list) {
+    if (!item.IsScalar() || list.size() >= shortest) return "a list of " + std::to_string(list.size());
+    text += (text.empty() ? "" : ", ") + item.Scalar();
+  }
+  return "[" + text + "]";
+}
+
 std::string shown(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
       return node.Scalar().empty() ? "an empty text" : "'" + node.Scalar() + "'";
     case YAML::NodeType::Sequence:
-      return "a list of " + std::to_string(node.size());
+      return shown_list(node);
     case YAML::NodeType::Map:
       return "a map";
     default:
@@ -52,14 +63,14 @@ void Source::remember(const std::string& path, const YAML::Node& node) {
 
 std::string Source::where(std::string path) const {
   while (true) {
-    if (overrides_.count(path)) return "--set " + path;
+    if (const auto set = overrides_.find(path); set != overrides_.end()) return set->second;
     const auto line = lines_.find(path);
     if (line != lines_.end()) {
       // A value inside an overridden one has the line of the override's text, which is no line of the file.
       for (std::string outer = path; !outer.empty();) {
         const std::size_t cut = outer.find_last_of(".[");
         outer.resize(cut == std::string::npos ? 0 : cut);
-        if (overrides_.count(outer)) return "--set " + outer;
+        if (const auto set = overrides_.find(outer); set != overrides_.end()) return set->second;
       }
       return file_ + ":" + std::to_string(line->second);
     }

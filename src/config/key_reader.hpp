@@ -13,20 +13,21 @@
 
 namespace bin_scenes::config {
 
-/// Where the values of a request come from, for messages: a line of the file, or a --set.
+/// Where the values of a request come from, for messages: a line of the file, or what overrides it.
 class Source {
  public:
-  Source(std::string file, std::set<std::string> overrides)
+  /// @param overrides  path -> what the user wrote: "--set path", "--seconds"
+  Source(std::string file, std::map<std::string, std::string> overrides)
       : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
   void remember(const std::string& path, const YAML::Node& node);
-  /// "file:12", "--set path", or the place of the nearest enclosing key if `path` itself is not in the file.
+  /// "file:12", "--set path" or the like, or the place of the nearest enclosing key if `path` itself is not in the file.
   std::string where(std::string path) const;
   bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
 
  private:
   std::string file_;
-  std::set<std::string> overrides_;
+  std::map<std::string, std::string> overrides_;
   std::map<std::string, int> lines_;
 };
 
@@ -41,7 +42,8 @@ class KeyReader {
       try {
         read_value(node, value);
       } catch (const Mismatch& mismatch) {
-        throw wrong_type(path_of(key.name), mismatch.expected, node);
+        const YAML::Node item = mismatch.item < node.size() && node.IsSequence() ? node[mismatch.item] : node;
+        throw wrong_type(path_of(key.name) + mismatch.index(), mismatch.expected, item);
       }
     }
   }

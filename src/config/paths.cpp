@@ -80,7 +80,7 @@ std::string similar_file(const fs::path& path) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), ignored)) {
-    names.push_back(entry.path().filename().string());
+    if (entry.is_regular_file(ignored)) names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
   return nearest(path.filename().string(), names);

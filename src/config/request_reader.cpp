@@ -6,10 +6,12 @@
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 
 namespace bin_scenes {
 
@@ -47,10 +49,11 @@ std::string joined(const std::vector<std::string>& words) {
   return path;
 }
 
-/// Puts one "path=value" into the tree, and returns the path.
-std::string apply_override(YAML::Node root, const std::string& text) {
+/// Puts one "path=value" into the tree, and returns the path with its origin.
+std::pair<std::string, std::string> apply_override(YAML::Node root, const Override& override) {
+  const std::string& text = override.assignment;
   const std::size_t equals = text.find('=');
-  const std::string where = "--set " + text;
+  const std::string where = override.origin.empty() ? "--set " + text : override.origin;
   if (equals == 0 || equals == std::string::npos) {
     throw input_error("expected key=value", where, "for instance solver.type=bullet");
   }
@@ -79,7 +82,8 @@ std::string apply_override(YAML::Node root, const std::string& text) {
     }
   }
   node = value;
-  return joined(words);
+  const std::string path = joined(words);
+  return {path, override.origin.empty() ? "--set " + path : override.origin};
 }
 
 YAML::Node parse(const std::string& text, const std::string& file) {
@@ -102,13 +106,27 @@ YAML::Node parse(const std::string& text, const std::string& file) {
 
 using Where = std::function<std::string(const std::string& path)>;
 
+/// Whether a line of the request is of the model that the scene's line was made of: the same bytes, wherever they lie.
+/// A scene that does not tell them has only the name of the file.
+bool is_model_of(const PartLine& line, const Scene& scene, std::size_t index) {
+  if (index < scene.model_sha256.size() && !scene.model_sha256[index].empty()) {
+    return scene.model_sha256[index] == sha256_hex(bytes_of(line.path));
+  }
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename(); };
+  return std::all_of(scene.parts.begin(), scene.parts.end(),
+                     [&](const ScenePart& part) { return part.line != index || name(part.model) == name(line.model); });
+}
+
 /// Start poses of the part lines from an earlier scene. Its parts know the index of their line.
 void go_on_from_scene(Request& request, const Where& where, const std::function<bool(const std::string&)>& given) {
   const Scene scene = read_scene_json(request.pour.scene);
   std::vector<std::vector<Pose>> poses(request.parts.size());
   std::vector<std::vector<Twist>> velocities(request.parts.size());
+  std::vector<bool> same;
+  for (std::size_t line = 0; line < request.parts.size(); ++line)
+    same.push_back(is_model_of(request.parts[line], scene, line));
   for (const ScenePart& part : scene.parts) {
-    if (part.line >= request.parts.size() || part.model != request.parts[part.line].model) {
+    if (part.line >= request.parts.size() || !same[part.line]) {
       throw input_error("part " + std::to_string(part.id) + " of '" + request.pour.scene + "' is a '" + part.model +
                             "' of part line " + std::to_string(part.line) + ", which the request does not have",
                         where("pour.scene"), "list the same models in the same order as for that scene");
@@ -163,13 +181,15 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
 }
 
 Request read(const std::string& text, const std::string& file, const std::string& base,
-             const std::vector<std::string>& overrides, const PathRules& rules) {
+             const std::vector<Override>& overrides, const PathRules& rules) {
   YAML::Node root = parse(text, file);
-  std::set<std::string> set_paths;
-  for (const std::string& item : overrides) {
-    if (root.IsMap()) set_paths.insert(apply_override(root, item));
+  std::map<std::string, std::string> origins;
+  for (const Override& item : overrides) {
+    if (!root.IsMap()) continue;
+    const auto [path, origin] = apply_override(root, item);
+    origins[path] = origin;
   }
-  Source source(file, set_paths);
+  Source source(file, std::move(origins));
   if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
   Request request;
   KeyReader reader(root, "", source);
@@ -185,7 +205,7 @@ Request read(const std::string& text, const std::string& file, const std::string
 
 }  // namespace config
 
-Request read_request(const std::string& path, const std::vector<std::string>& overrides, const PathRules& rules) {
+Request read_request(const std::string& path, const std::vector<Override>& overrides, const PathRules& rules) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
   if (!std::filesystem::exists(absolute, error)) {
@@ -198,7 +218,7 @@ Request read_request(const std::string& path, const std::vector<std::string>& ov
 }
 
 Request read_request_text(const std::string& yaml, const std::string& base_directory,
-                          const std::vector<std::string>& overrides, const PathRules& rules) {
+                          const std::vector<Override>& overrides, const PathRules& rules) {
   return config::read(yaml, "request", base_directory, overrides, rules);
 }
 

@@ -70,7 +70,12 @@ void read_items(const YAML::Node& node, std::vector<Item>& items) {
   items.clear();
   for (const YAML::Node& item : node) {
     items.emplace_back();
-    read_value(item, items.back());
+    try {
+      read_value(item, items.back());
+    } catch (Mismatch& mismatch) {
+      mismatch.item = items.size() - 1;
+      throw;
+    }
   }
 }
 

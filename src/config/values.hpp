@@ -14,7 +14,12 @@ namespace bin_scenes::config {
 
 /// What a reader expected instead of what it found; the caller knows file, line and key.
 struct Mismatch {
+  static constexpr std::size_t whole = static_cast<std::size_t>(-1);
+
   std::string expected;
+  std::size_t item = whole;  ///< of a list, where one of its items is to blame
+
+  std::string index() const { return item == whole ? "" : "[" + std::to_string(item) + "]"; }
 };
 
 void read_value(const YAML::Node& node, bool& value);

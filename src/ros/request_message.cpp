@@ -162,10 +162,10 @@ void check_inside(const std::string& file, const std::vector<std::string>& roots
 
 }  // namespace
 
-std::vector<std::string> overrides_from(const bin_scenes_msgs::SceneRequest& message) {
-  std::vector<std::string> overrides;
+std::vector<Override> overrides_from(const bin_scenes_msgs::SceneRequest& message) {
+  std::vector<Override> overrides;
   const auto add = [&](const std::string& key, const YAML::Node& value) {
-    overrides.push_back(key + "=" + flow(value));
+    overrides.emplace_back(key + "=" + flow(value), "the request message");
   };
   if (is_set(message.seed, "seed")) add("seed", YAML::Node(message.seed[0]));
   if (is_set(message.index, "index")) add("first", YAML::Node(message.index[0]));
@@ -195,7 +195,7 @@ std::vector<std::string> overrides_from(const bin_scenes_msgs::SceneRequest& mes
 }
 
 Request request_from(const bin_scenes_msgs::SceneRequest& message, const PathRules& rules) {
-  const std::vector<std::string> overrides = overrides_from(message);
+  const std::vector<Override> overrides = overrides_from(message);
   if (!message.file.empty() && !message.yaml.empty()) {
     throw input_error("a request file and a request text are both given", "file, yaml", "give one of them");
   }

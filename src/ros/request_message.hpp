@@ -12,7 +12,7 @@ namespace bin_scenes {
 
 /// The fields that are set, then `set`, each as "key.path=value" in YAML. Throws an input Error for an optional field
 /// with more than one value and for an unknown kind of bin.
-std::vector<std::string> overrides_from(const bin_scenes_msgs::SceneRequest& message);
+std::vector<Override> overrides_from(const bin_scenes_msgs::SceneRequest& message);
 
 /// Reads file or text with the overrides on top. Relative paths start at the file's folder, else at rules.roots[0].
 /// Throws an input Error, also if `file` lies outside of rules.roots (unless that is empty: anywhere).

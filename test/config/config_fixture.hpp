@@ -32,12 +32,12 @@ class ConfigTest : public ::testing::Test {
     return (dir / name).string();
   }
 
-  Request read(const std::string& yaml, const std::vector<std::string>& overrides = {}, const PathRules& rules = {}) {
+  Request read(const std::string& yaml, const std::vector<Override>& overrides = {}, const PathRules& rules = {}) {
     return read_request(put("request.yaml", yaml), overrides, rules);
   }
 
   /// Message of the input Error that reading ends in; fails the test if it does not.
-  std::string refusal(const std::string& yaml, const std::vector<std::string>& overrides = {},
+  std::string refusal(const std::string& yaml, const std::vector<Override>& overrides = {},
                       const PathRules& rules = {}) {
     try {
       read(yaml, overrides, rules);
@@ -51,7 +51,7 @@ class ConfigTest : public ::testing::Test {
   }
 
   void expect_refused(const std::string& yaml, const std::vector<std::string>& words,
-                      const std::vector<std::string>& overrides = {}) {
+                      const std::vector<Override>& overrides = {}) {
     const std::string message = refusal(yaml, overrides);
     for (const std::string& word : words) {
       EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' is not in: " << message;

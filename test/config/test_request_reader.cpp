@@ -1,3 +1,5 @@
+#include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -50,7 +52,7 @@ solver:
   preset: thesis
   bullet: {time_step: 0.005, iterations: 30, margin: 0.01, sleeping: false, hull_error: 0.02, max_hulls: 16}
   thesis: {time_step: 0.02, sub_steps: 2, iterations: 5, bias: 0.3, slop: 0.02, rest_velocity: 0.1, voxels: 12,
-           tightness: 0.75, modified_normals: false, grid_size: 64, cell_size: 2, contacts_per_sphere: 8}
+           tightness: 0.75, radii: [0.1, 0.04], modified_normals: false, grid_size: 64, cell_size: 2, contacts_per_sphere: 8}
   sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
 sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
@@ -216,10 +218,10 @@ TEST_F(ConfigTest, WrongTypesSayWhatWasExpectedAndWhatWasFound) {
   expect_refused(bolts + "    count: 2.5\n", {"whole number", "'2.5'"});
   expect_refused(bolts + "    count: 99999999999999999999999\n", {"whole number"});
   expect_refused(bolts + "    friction: .nan\n", {"number", "'.nan'"});
-  expect_refused(bolts + "    friction: [1]\n", {"expected number", "a list of 1"});
+  expect_refused(bolts + "    friction: [1]\n", {"expected number", "found [1]"});
   expect_refused(bolts + "    fixed: yes\n", {"true or false", "'yes'"});
   expect_refused(bolts + "    unit: meter\n", {"m | cm | mm | inch", "'meter'"});
-  expect_refused(bolts + "gravity: [0, 0]\n", {"request.yaml:3", "[x, y, z]", "a list of 2"});
+  expect_refused(bolts + "gravity: [0, 0]\n", {"request.yaml:3", "[x, y, z]", "found [0, 0]"});
   expect_refused(bolts + "gravity: -9.81\n", {"[x, y, z]", "'-9.81'"});
   expect_refused(bolts + "solver: bullet\n", {"'solver'", "a map of keys", "'bullet'"});
   expect_refused(bolts + "sensors: {name: a}\n", {"'sensors'", "a list"});
@@ -314,6 +316,78 @@ TEST_F(ConfigTest, GoesOnFromAnEarlierScene) {
   expect_refused(given + bolts, {"scene.json", "format"});
 }
 
+TEST_F(ConfigTest, APartOfAnEarlierSceneIsKnownByItsBytesWhereverItLies) {
+  Scene scene;
+  scene.model_sha256 = {sha256_hex("solid bolt")};
+  scene.parts.emplace_back();
+  scene.parts[0].model = "bolt.stl";
+  scene.parts[0].state = PartState::resting;
+  Request made;
+  made.parts.emplace_back();
+  made.parts[0].model = "bolt.stl";
+  put("scene.json", scene_json(scene, made));
+  const std::string given = "pour: {pattern: given, scene: " + (dir / "scene.json").string() + "}\n";
+  put("deeper/twin.stl", "solid bolt");
+  EXPECT_EQ(read(given + "parts: [{model: deeper/twin.stl}]").parts[0].poses.size(), 1u);
+  std::ofstream(dir / "deeper/request.yaml") << given << "parts: [{model: ../bolt.stl}]";
+  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
+  put("bolt.stl", "solid other");
+  expect_refused(given + "parts: [{model: bolt.stl}]", {"'bolt.stl' of part line 0"});
+
+  // A scene of somebody else tells no bytes: its names have to do.
+  scene.model_sha256.clear();
+  put("scene.json", scene_json(scene, made));
+  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
+}
+
+TEST_F(ConfigTest, PartsThatWereNeverPouredHaveNothingToGoOnFrom) {
+  Scene scene;
+  for (int id = 0; id < 2; ++id) {
+    scene.parts.emplace_back();
+    scene.parts[id].id = id;
+    scene.parts[id].model = "bolt.stl";
+    scene.parts[id].state = id == 0 ? PartState::not_poured : PartState::resting;
+  }
+  scene.parts[0].pose = Pose::none();
+  scene.parts[1].pose.position.z() = 0.5;
+  put("scene.json", scene_json(scene, {}));
+  const Request r = read("pour: {pattern: given, scene: scene.json}\nparts: [{model: bolt.stl}]");
+  ASSERT_EQ(r.parts[0].poses.size(), 1u);
+  EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.5);
+}
+
+TEST_F(ConfigTest, MessagesNameWhatTheUserWrote) {
+  expect_refused(bolts, {"--seconds", "above 0", "-1"}, {{"seconds=-1", "--seconds"}});
+  expect_refused(bolts, {"--seed", "whole number", "1.5"}, {{"seed=1.5", "--seed"}});
+  expect_refused(bolts, {"--scenes", "at least 1"}, {{"scenes=0", "--scenes"}});
+  expect_refused(bolts, {"--set seconds"}, {"seconds=-1"});
+  for (const Override& item : {Override("seconds=-1", "--seconds"), Override("parts=[{model: 5}]", "the message")})
+    EXPECT_EQ(refusal(bolts, {item}).find("--set"), std::string::npos);
+}
+
+TEST_F(ConfigTest, ABadItemOfAListIsNamed) {
+  expect_refused("parts: [{model: bolt.stl, count: 2, poses: [[0, 0, 1], [0, 0, 2, 0, 0, 0, 0]]}]\n",
+                 {"'parts[0].poses[1]'", "length 1", "[0, 0, 2, 0, 0, 0, 0]"});
+  expect_refused("parts: [{model: bolt.stl, poses: [[0, 0, 1]], velocities: [[1, 2]]}]\n",
+                 {"'parts[0].velocities[0]'", "[1, 2]"});
+}
+
+TEST_F(ConfigTest, ModelsAreNotTakenForDirectories) {
+  std::filesystem::create_directories(dir / "out");
+  std::filesystem::create_directories(dir / "bolt.st");
+  const std::string number = refusal("parts: [{model: 5}]\n");
+  EXPECT_EQ(number.find("did you mean"), std::string::npos) << number;
+  expect_refused("parts: [{model: bolt.sl}]\n", {"did you mean 'bolt.stl'"});
+}
+
+TEST_F(ConfigTest, RadiiOfSpheresFall) {
+  const auto radii = [](const std::string& list) { return Override("solver.thesis.radii=" + list); };
+  EXPECT_EQ(read(bolts, {radii("[0.1, 0.04]")}).solver.thesis.radii, (std::vector<double>{0.1, 0.04}));
+  expect_refused(bolts, {"radii[1]", "largest first"}, {radii("[0.04, 0.1]")});
+  expect_refused(bolts, {"radii[0]", "at most 0.5"}, {radii("[0.6]")});
+  expect_refused(bolts, {"radii[0]", "at least"}, {radii("[0]")});
+}
+
 TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
   const std::string hash = read(bolts).text_sha256;
   EXPECT_EQ(hash.size(), 64u);
@@ -321,6 +395,7 @@ TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
   EXPECT_EQ(read("# a remark\n" + bolts + "pour: {pattern: rain}\n").text_sha256, hash);
   EXPECT_NE(read("seed: 1\n" + bolts).text_sha256, hash);
   EXPECT_NE(read(bolts, {"solver.type=bullet"}).text_sha256, hash);
+  EXPECT_NE(read(bolts, {"solver.thesis.radii=[0.1]"}).text_sha256, hash);
   put("bolt.stl", "solid other");
   EXPECT_NE(read(bolts).text_sha256, hash) << "the model itself has changed";
 }

@@ -17,6 +17,7 @@ TEST(Nearest, FindsTheClosestOrNothing) {
   EXPECT_EQ(nearest("fricton", {"restitution", "friction", "fixed"}), "friction");
   EXPECT_EQ(nearest("zzzzzzz", {"restitution", "friction", "fixed"}), "");
   EXPECT_EQ(nearest("word", {}), "");
+  EXPECT_EQ(nearest("5", {"out", "x"}), "") << "nothing in common";
 }
 
 }  // namespace

@@ -152,6 +152,8 @@ TEST(RequestMessage, BadInputIsOneClearError) {
   m = one_bolt();
   m.parts[0].unit = "parsec";
   EXPECT_NE(error_of(m).find("unit"), std::string::npos);
+  EXPECT_NE(error_of(m).find("the request message"), std::string::npos) << error_of(m);
+  EXPECT_EQ(error_of(m).find("--set"), std::string::npos) << "nobody typed that: " << error_of(m);
   m = one_bolt();
   m.set = {"solver.tipe=bullet"};
   EXPECT_NE(error_of(m).find("type"), std::string::npos);  // the nearest known key

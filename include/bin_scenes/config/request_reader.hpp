@@ -16,11 +16,19 @@ struct PathRules {
       packages;  ///< package:// name -> directory, besides ROS_PACKAGE_PATH
 };
 
-/// `overrides`: "path.to.key=value" as given to --set. Throws an input Error with file, line and key.
-Request read_request(const std::string& path, const std::vector<std::string>& overrides = {},
-                     const PathRules& rules = {});
+/// "path.to.key=value", as given to --set or by what stands for it.
+struct Override {
+  std::string assignment;
+  std::string origin;  ///< what the user wrote, for messages: "--seconds"; empty: --set
+
+  Override(std::string text, std::string given_by = "") : assignment(std::move(text)), origin(std::move(given_by)) {}
+  Override(const char* text) : assignment(text) {}
+};
+
+/// Throws an input Error with file, line and key.
+Request read_request(const std::string& path, const std::vector<Override>& overrides = {}, const PathRules& rules = {});
 Request read_request_text(const std::string& yaml, const std::string& base_directory,
-                          const std::vector<std::string>& overrides = {}, const PathRules& rules = {});
+                          const std::vector<Override>& overrides = {}, const PathRules& rules = {});
 
 /// Every key with its value, readable back.
 std::string write_request(const Request& request);
