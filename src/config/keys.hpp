@@ -149,6 +149,11 @@ void visit(Visitor& v, ThesisSettings& s) {
   v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square"}, s.voxels);
   v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface"},
           s.tightness);
+  v.field({"radii", "",
+           "radii of spheres / the part's longest side, largest first, instead of voxels: large spheres fill the inside, "
+           "the smallest the surface",
+           !s.radii.empty()},
+          s.radii);
   v.field({"modified_normals", "", "face spheres carry the true surface's normal: stable with fewer iterations"},
           s.modified_normals);
   v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube"}, s.grid_size);

@@ -48,7 +48,9 @@ double body_bytes(const Request& request, const PartModel* part) {
     return kPerBody + kPerHull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }
   if (solver.preset == SolverSettings::Preset::standard) return kPerBody + kContactsPerBody * kPerContact;
-  const double spheres = 6.0 * std::pow(solver.thesis.voxels / solver.thesis.tightness, 2);
+  const ThesisSettings& thesis = solver.thesis;
+  const double across = thesis.radii.empty() ? thesis.voxels : 0.5 / thesis.radii.back();
+  const double spheres = 6.0 * std::pow(across / thesis.tightness, 2);
   return kPerBody + spheres * (kPerSphere + kPerSphereContact * solver.thesis.contacts_per_sphere);
 }
 

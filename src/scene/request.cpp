@@ -180,6 +180,11 @@ void check_solver(const SolverSettings& solver) {
   at_least("solver.thesis.rest_velocity", t.rest_velocity, 0.0, 100.0, "m/s; 0 = 2 g time_step");
   at_least("solver.thesis.voxels", t.voxels, 1, 512, "voxels along the longest side");
   above("solver.thesis.tightness", t.tightness, 0.0, 1.0, "voxel pitch / sphere diameter");
+  for (std::size_t i = 0; i < t.radii.size(); ++i) {
+    const std::string key = "solver.thesis.radii[" + std::to_string(i) + "]";
+    at_least(key, t.radii[i], 0.5 / 512, 0.5, "of the part's longest side; half of it fills a ball");
+    if (i > 0 && t.radii[i] >= t.radii[i - 1]) refuse(key, "is no smaller than the one before", "largest first");
+  }
   at_least("solver.thesis.grid_size", t.grid_size, 1, 1024, "cells per axis");
   at_least("solver.thesis.cell_size", t.cell_size, 1.0, 1000.0, "sphere diameters");
   at_least("solver.thesis.contacts_per_sphere", t.contacts_per_sphere, 1, 1024, "4 in the thesis");

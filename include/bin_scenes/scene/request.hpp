@@ -90,6 +90,8 @@ struct ThesisSettings {
   double rest_velocity = 0.0;    ///< m/s below which restitution is 0; 0 = 2 g dt
   int voxels = 10;               ///< voxels along the part's longest side
   double tightness = 1.0;        ///< voxel pitch / sphere diameter; < 1 = overlapping spheres, smoother surface
+  std::vector<double> radii;     ///< / the part's longest side, largest first, instead of voxels; large spheres fill the
+                                 ///< inside, the smallest the surface
   bool modified_normals = true;  ///< face spheres carry the true surface's normal
   int grid_size = 128;           ///< cells per axis of the collision grid
   double cell_size = 1.0;        ///< cell edge / largest sphere diameter, >= 1
