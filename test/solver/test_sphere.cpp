@@ -30,6 +30,23 @@ TEST(SphereCounters, PairsAreCulledUntilTheyTouch) {
   EXPECT_LT(count("pairs_culled"), count("pairs") - count("pairs_recycled"));
 }
 
+TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
+  const auto flags = [](double cell) {
+    SphereSettings settings;
+    settings.field_cell = cell;
+    Lab lab(make_sphere_solver(settings));
+    lab.place(box(Vec3(0.04, 0.03, 0.02)), Vec3(0, 0, 0.1));
+    lab.place(box(Vec3(0.04, 0.03, 0.02)), Vec3(0, 0, 0.2));
+    lab.begin(Phase::pour);
+    return lab.solver().flags(0);
+  };
+  EXPECT_TRUE(flags(0.01).empty());
+  const std::vector<Flag> found = flags(1e-4);
+  ASSERT_EQ(found.size(), 1u) << "once, however many parts there are";
+  EXPECT_EQ(found[0].code, "field_coarsened");
+  EXPECT_NE(found[0].remedy.find("set solver.sphere.field_cell to 0.00"), std::string::npos) << found[0].remedy;
+}
+
 // Forces of a stack that begins at rest are not known yet: found in too few sweeps, they lean, and so does the stack.
 TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);

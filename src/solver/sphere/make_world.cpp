@@ -69,8 +69,14 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
 }
 
 std::vector<Flag> flags_of(const World& world) {
-  if (world.cuts == 1) return {};
-  return {step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_size)};
+  std::vector<Flag> flags;
+  if (world.cuts > 1)
+    flags.push_back(
+        step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_size));
+  for (auto shape = world.shapes.begin(); shape != world.shapes.end(); ++shape)
+    if (std::find(world.shapes.begin(), shape, *shape) == shape)  // lines may share one
+      flags.insert(flags.end(), (*shape)->flags.begin(), (*shape)->flags.end());
+  return flags;
 }
 
 void place(World& world, std::size_t body, const BodyState& state) {

@@ -14,7 +14,7 @@ namespace bin_scenes::sphere {
 World make_world(const WorldDef& def, const SphereSettings& settings,
                  const std::function<const Shape&(const PartModelPtr&)>& shape_of);
 
-/// What the user should know of a world's settings: a time step that is too long for its parts is cut.
+/// What the user should know of a world: a time step that is too long for its parts is cut; the flags of its shapes.
 std::vector<Flag> flags_of(const World& world);
 
 /// Puts a body where the state says, awake.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <future>
+#include <iomanip>
+#include <sstream>
 
 namespace bin_scenes::sphere {
 
@@ -76,6 +78,19 @@ double size_at_contacts(const PartModel& part) {
   return part.load_report().closed ? std::min(part.diagonal(), thin * thickness) : part.diagonal();
 }
 
+Flag coarsened_flag(const PartModel& part, double asked, const DistanceField& field) {
+  const auto text = [](double value) {
+    std::ostringstream out;
+    out << std::setprecision(3) << value;
+    return out.str();
+  };
+  const double got = field.cell / part.diagonal();
+  return {"field_coarsened",
+          "the distance field of " + part.path() + " has cells of " + text(got) + " of its diagonal instead of " +
+              text(asked) + ", which would take more than " + std::to_string(FieldOptions().max_nodes) + " nodes",
+          "set solver.sphere.field_cell to " + text(1.005 * got) + " or more, or live with the coarser field"};
+}
+
 }  // namespace
 
 Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell) {
@@ -114,6 +129,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   shape.field.ny = field.nodes[1];
   shape.field.nz = field.nodes[2];
   shape.field.values = field.values.data();
+  if (field.coarsened) shape.flags.push_back(coarsened_flag(part, field_cell, field));
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
   return shape;

@@ -18,6 +18,7 @@ struct Shape {
   float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
   float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
+  std::vector<Flag> flags;                 ///< what the user should know of it
 };
 
 /// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at.
