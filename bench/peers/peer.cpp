@@ -1,6 +1,7 @@
 #include "peers/peer.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "solver/step_limit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,16 +48,19 @@ class PeerSolver final : public Solver {
   void set_phase(WorldId, Phase) override {}
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "step");
-    const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
+    const Steps steps = steps_in(seconds, settings_.time_step);
     for (const WorldId id : worlds) {
       Slot& slot = slots_.at(id);
-      for (int k = 0; k < steps; ++k) {
-        slot.world->step(settings_.time_step);
+      const auto step = [&](double length) {
+        slot.world->step(length);
+        slot.time += length;
         ++slot.steps;
-        if (settings_.watch) settings_.watch(static_cast<double>(slot.steps) * settings_.time_step, rest_of(slot));
-      }
+        if (settings_.watch) settings_.watch(slot.time, rest_of(slot));
+      };
+      for (std::uint64_t k = 0; k < steps.whole; ++k) step(settings_.time_step);
+      if (steps.rest > 0.0) step(steps.rest);
     }
-    return steps * settings_.time_step;
+    return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
   std::vector<BodyState> states(WorldId world) const override {
     const Slot& slot = slots_.at(world);
@@ -101,6 +105,7 @@ class PeerSolver final : public Solver {
     std::vector<bool> in;
     std::vector<BodyState> last;
     std::uint64_t steps = 0;
+    double time = 0.0;  ///< s
   };
   PeerSettings settings_;
   std::map<WorldId, Slot> slots_;

@@ -1,6 +1,7 @@
 #include "bin_scenes/solver/pour.hpp"
 
 #include "pour_world.hpp"
+#include "step_limit.hpp"
 
 #include "bin_scenes/core/error.hpp"
 
@@ -26,7 +27,7 @@ struct Running {
 struct Group {
   std::vector<Running> running;
   std::uint64_t left = 0;       ///< steps to the end of the slice
-  std::uint64_t clock = 0;      ///< steps; only its remainders matter, worlds start and end on whole slices
+  std::uint64_t clock = 0;      ///< steps of the world that is traced
   bool begun = false;           ///< a piece of the slice
   std::uint64_t under_way = 0;  ///< its steps
   double seconds = 0.0;         ///< simulated by them
@@ -37,9 +38,10 @@ struct Group {
   }
 };
 
-/// Largest whole number of steps that ends no later than any of the marks that lie ahead.
-std::uint64_t steps_until_mark(std::uint64_t now, std::uint64_t every) {
-  return every - now % every;
+/// Step at whose end the next sample of a trace is due: the one nearest to a multiple of 1 / rate (Hz).
+std::uint64_t next_sample(std::uint64_t now, double rate, double step) {
+  const double number = std::floor((static_cast<double>(now) + 0.5) * step * rate) + 1.0;
+  return std::max(now + 1, static_cast<std::uint64_t>(std::llround(number / (rate * step))));
 }
 
 }  // namespace
@@ -91,12 +93,8 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
           const std::function<void(std::size_t, Scene&&)>& poured) {
   const PourPlan plan(request, parts, std::move(bin_model));
   const double step = solver.step_size();
-  const auto whole_steps = [&](double seconds) {
-    return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds / step)));
-  };
-  const std::uint64_t slice = whole_steps(slice_seconds);
+  const auto slice = static_cast<std::uint64_t>(std::max(1.0, std::round(slice_seconds / step)));
   const bool tracing = hooks.trace && hooks.trace_rate > 0.0;
-  const std::uint64_t trace_every = tracing ? whole_steps(1.0 / hooks.trace_rate) : slice;
   // Trace samples count from each world's own start, so a traced world runs by itself. It makes no other difference.
   const std::size_t at_once = tracing ? 1 : std::max<std::size_t>(1, solver.worlds_at_once());
   std::vector<Group> groups(solver.works_aside() && at_once > 1 ? 2 : 1);
@@ -104,11 +102,17 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
 
   std::size_t next = 0, done = 0;
   double fraction = 0.0;
+  double last_sample = 0.0;  // s
   const Profile before = solver.profile();
 
+  const auto sample = [&](Running& r) {
+    last_sample = r.world->time();
+    hooks.trace(r.world->index(), last_sample, r.world->states());
+  };
   const auto finish_if = [&](Group& group, auto&& over) {
     const auto finished = [&](Running& r) {
       if (!over(*r.world)) return false;
+      if (tracing && r.world->time() > last_sample) sample(r);
       Scene scene = r.world->scene();
       scene.report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - r.begin).count();
       r.world.reset();
@@ -125,29 +129,32 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
       group.running.push_back({next, nullptr, std::chrono::steady_clock::now()});
       Running& r = group.running.back();
       r.world = std::make_unique<PourWorld>(plan, solver, indices[next++]);
-      if (tracing) hooks.trace(r.world->index(), 0.0, r.world->states());
+      if (tracing) sample(r);
     }
     group.left = slice;
   };
   // A slice, in pieces that also end where a trace sample or a world's set time is due.
   const auto begin_piece = [&](Group& group) {
     std::uint64_t steps = group.left;
-    if (tracing) steps = std::min(steps, steps_until_mark(group.clock, trace_every));
-    for (const Running& r : group.running) steps = std::min(steps, r.world->steps_left(step));
-    group.under_way = steps;
-    if (steps > 0) group.seconds = solver.begin(group.ids(), static_cast<double>(steps) * step);
+    if (tracing) steps = std::min(steps, next_sample(group.clock, hooks.trace_rate, step) - group.clock);
+    double seconds = static_cast<double>(steps) * step;
+    for (const Running& r : group.running) seconds = std::min(seconds, r.world->time_left());
+    group.under_way = steps_in(seconds, step).count();
+    if (group.under_way > 0) group.seconds = solver.begin(group.ids(), seconds);
   };
   const auto end_piece = [&](Group& group) {
     if (group.under_way > 0) {
       solver.finish(group.ids());
       for (Running& r : group.running) r.world->advanced(group.seconds);
+      const bool due =
+          tracing && group.clock + group.under_way == next_sample(group.clock, hooks.trace_rate, step);
       group.clock += group.under_way;
       group.left -= group.under_way;
-      if (tracing && group.clock % trace_every == 0)
-        for (Running& r : group.running) hooks.trace(r.world->index(), r.world->time(), r.world->states());
+      if (due)
+        for (Running& r : group.running) sample(r);
     }
     finish_if(group, [&](PourWorld& world) {
-      if (world.steps_left(step) > 0) return false;
+      if (world.time_left() > 0.0) return false;
       world.judge();
       return true;
     });

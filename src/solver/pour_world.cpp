@@ -1,4 +1,5 @@
 #include "pour_world.hpp"
+#include "step_limit.hpp"
 
 #include "bin_scenes/core/error.hpp"
 
@@ -160,9 +161,10 @@ const std::vector<BodyState>& PourWorld::states() {
   return states_;
 }
 
-std::uint64_t PourWorld::steps_left(double step) const {
-  if (!plan_.request.seconds) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(std::max(0.0, std::round((*plan_.request.seconds - time_) / step)));
+double PourWorld::time_left() const {
+  if (!plan_.request.seconds) return std::numeric_limits<double>::infinity();
+  const double left = *plan_.request.seconds - time_;
+  return steps_in(left, solver_.step_size()).count() > 0 ? left : 0.0;
 }
 
 bool PourWorld::outside(const Vec3& center) const {
@@ -305,7 +307,7 @@ void PourWorld::settle() {
 }
 
 bool PourWorld::over() const {
-  if (plan_.request.seconds) return false;  // steps_left() decides
+  if (plan_.request.seconds) return false;  // time_left() decides
   return (waiting_.empty() && phase_ == Phase::press && all_rest()) || time_ >= plan_.request.pour.limit;
 }
 

@@ -34,8 +34,8 @@ class PourWorld {
   WorldId id() const { return id_; }
   double time() const { return time_; }
   const std::vector<BodyState>& states();
-  /// Whole steps of `step` s until the request's set time; very many without one.
-  std::uint64_t steps_left(double step) const;
+  /// s until the request's set time; infinity without one.
+  double time_left() const;
 
   void advanced(double seconds) { time_ += seconds, fresh_ = false; }
   /// Judges rest and escape, lets parts in, cuts the walls back. Call on whole slices.

@@ -1,4 +1,4 @@
-/// How long a time step may be for the parts that are simulated with it: what is a short step for a part of 5 cm lets
+/// How a stretch of simulated time is cut into steps, and how long a step may be for the parts that are simulated with it: what is a short step for a part of 5 cm lets
 /// one of half a millimetre fall by its own height. Shared by the solvers, which lie below this layer's library:
 /// hence inline.
 #pragma once
@@ -7,10 +7,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
 namespace bin_scenes {
+
+/// Steps that make up a stretch of simulated time.
+struct Steps {
+  std::uint64_t whole = 0;
+  double rest = 0.0;  ///< s: of a last, shorter step; 0: none
+
+  std::uint64_t count() const { return whole + (rest > 0.0 ? 1 : 0); }
+};
+
+/// A rest below a millionth of a step is rounding, not time.
+inline Steps steps_in(double seconds, double step) {
+  constexpr double rounding = 1e-6;
+  Steps steps;
+  steps.whole = static_cast<std::uint64_t>(std::max(0.0, std::floor(seconds / step + rounding)));
+  const double rest = seconds - static_cast<double>(steps.whole) * step;
+  if (rest > rounding * step) steps.rest = rest;
+  return steps;
+}
 
 /// Steps into which a time step (s) must be cut for parts whose smallest bounding diagonal is given (m), under gravity
 /// (m/s2), so that what is at rest falls by no more than 0.2 % of that diagonal in one. With longer steps contacts that

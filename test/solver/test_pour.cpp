@@ -94,24 +94,67 @@ TEST(Pour, ThreadsChangeNothing) {
 TEST(Pour, TracingChangesNothingButTells) {
   Request request = request_of(3);
   request.seconds = 0.2;
-  std::vector<double> times;
+  std::vector<BodyState> last;
   RunHooks hooks;
   hooks.trace_rate = 100.0;
-  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-    times.push_back(time);
+  hooks.trace = [&](std::size_t, double, const std::vector<BodyState>& states) {
     EXPECT_EQ(states.size(), 3u);
+    last = states;
   };
   const Scene traced = poured(request, {0}, hooks)[0];
   EXPECT_EQ(traced.report.state_hash, poured(request, {0})[0].report.state_hash);
-  ASSERT_GE(times.size(), 20u);
-  EXPECT_EQ(times.front(), 0.0);
-  EXPECT_GT(times.back(), 0.18);
+  for (std::size_t id = 0; id < 3; ++id)
+    EXPECT_EQ(last[id].pose.position, traced.parts[id].pose.position) << "the last sample is the scene";
+}
+
+TEST(Pour, TracesAreSampledBySimulatedTime) {
+  const double step = BulletSettings().time_step;
+  Request request = request_of(1);
+  request.seconds = 1.001;  // no whole number of steps
+  for (const double rate : {20.0, 50.0, 100.0, 1000.0}) {
+    std::vector<double> times;
+    RunHooks hooks;
+    hooks.trace_rate = rate;
+    hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { times.push_back(time); };
+    poured(request, {0}, hooks);
+    EXPECT_EQ(times.front(), 0.0);
+    EXPECT_NEAR(times.back(), 1.001, 1e-12) << "the last sample is the end";
+    if (rate > 1.0 / step) {
+      EXPECT_EQ(times.size(), 242u) << "a sample a step";
+      continue;
+    }
+    ASSERT_EQ(times.size(), static_cast<std::size_t>(rate) + 2);
+    for (std::size_t k = 0; k + 1 < times.size(); ++k)
+      EXPECT_NEAR(times[k], static_cast<double>(k) / rate, 0.5 * step + 1e-9) << rate;
+  }
+  request.seconds.reset();
+  std::vector<double> times;
+  RunHooks hooks;
+  hooks.trace_rate = 7.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { times.push_back(time); };
+  const Scene scene = poured(request, {0}, hooks)[0];
+  EXPECT_EQ(times.back(), scene.report.simulated_s);
 }
 
 TEST(Pour, SetTimeIsKeptExactly) {
   Request request = request_of(2);
-  request.seconds = 0.25;
-  EXPECT_NEAR(poured(request, {0})[0].report.simulated_s, 0.25, 1e-9);
+  request.bin.kind = Bin::Kind::none;
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].poses = {Pose{Vec3(0, 0, 2), Quat::Identity()}, Pose{Vec3(1, 0, 2), Quat::Identity()}};
+  request.parts[0].velocities = {Twist{Vec3(1, 0, 0), Vec3::Zero()}, Twist{}};
+  for (const double seconds : {0.0011, 0.25, 0.333}) {
+    request.seconds = seconds;
+    for (const SolverType type : {SolverType::bullet, SolverType::sphere}) {
+      request.solver.type = type;
+      request.solver.sphere.device = SphereSettings::Device::cpu;
+      std::string reason;
+      const auto solver = make_solver(request, {small_box()}, reason);
+      const Scene scene = pour(request, {small_box()}, *solver, {0})[0];
+      EXPECT_NEAR(scene.report.simulated_s, seconds, 1e-12) << name_of(type);
+      EXPECT_NEAR(scene.parts[0].pose.position.x(), seconds, 1e-6) << "at 1 m/s";
+      EXPECT_NEAR(scene.parts[0].velocity.linear.z(), -9.81 * seconds, 1e-5);
+    }
+  }
 }
 
 TEST(Pour, WhatFindsNoRoomIsReported) {
@@ -122,7 +165,11 @@ TEST(Pour, WhatFindsNoRoomIsReported) {
   EXPECT_LT(scene.report.not_poured.size(), 60u);
   for (const int id : scene.report.not_poured)
     EXPECT_EQ(scene.parts[static_cast<std::size_t>(id)].state, PartState::not_poured);
-  for (const ScenePart& part : scene.parts) EXPECT_TRUE(part.pose.finite());
+  for (std::size_t id = 0; id < scene.parts.size(); ++id) {
+    const ScenePart& part = scene.parts[id];
+    EXPECT_EQ(part.id, static_cast<int>(id));
+    EXPECT_EQ(part.pose.finite(), part.state != PartState::not_poured) << "what never lay anywhere has no pose";
+  }
   ASSERT_FALSE(scene.report.flags.empty());
   EXPECT_EQ(scene.report.flags.back().code, "not_poured");
 }

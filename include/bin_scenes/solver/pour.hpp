@@ -22,7 +22,8 @@ struct Progress {
 struct RunHooks {
   std::function<void(const Progress&)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< polled often; throws Error(cancelled)
-  /// Called at `trace_rate` (Hz, simulated time) with the states of every body: the --trace option.
+  /// Called with the states of every body: the --trace option. At the start, at the ends of steps that lie nearest to
+  /// whole multiples of 1 / `trace_rate` (Hz, simulated time; at most once a step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
 };
@@ -42,7 +43,8 @@ WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts
 /// floor area (at any height), below the floor, or not finite, has escaped: it is taken out of the world and keeps its
 /// last finite pose. A part that lies above the rim but within the floor area has not. With a mesh bin the bounds of
 /// the mesh stand for the inner box, with an endless floor only falling through it counts, with no bin only NaN.
-/// A part that finds no room below the rim while everything else has come to rest is not poured.
+/// A part that finds no room below the rim while everything else has come to rest is not poured: it keeps its id, and
+/// its pose is Pose::none().
 ///
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.

@@ -61,8 +61,9 @@ class Solver {
   virtual void remove(WorldId world, std::size_t body) = 0;
   virtual void set_phase(WorldId world, Phase phase) = 0;
 
-  /// Simulates the next `seconds` of each listed world; rounds to whole steps, at least one, and returns the
-  /// simulated time (the same for every world). Never depends on wall time.
+  /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one that
+  /// is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.
+  /// Never depends on wall time.
   virtual double advance(const std::vector<WorldId>& worlds, double seconds) = 0;
   /// advance() in two halves: begin() may return while a device still works on these worlds; nothing may be asked of
   /// them, nor may they be changed, before finish() with the same list. Others may be begun and finished meanwhile.

@@ -3,6 +3,7 @@
 #include "world.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "solver/step_limit.hpp"
 
 #include <cmath>
 #include <map>
@@ -41,7 +42,7 @@ class BulletSolver : public Solver {
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "bullet_step");
-    const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
+    const Steps steps = steps_in(seconds, settings_.time_step);
     for (const WorldId id : worlds) {
       bullet::World& world = at(id);
       const bullet::World::Counters before = world.counters();
@@ -53,7 +54,7 @@ class BulletSolver : public Solver {
       profile_.count("pairs", after.pairs - before.pairs);
       profile_.count("contacts", after.contacts - before.contacts);
     }
-    return steps * settings_.time_step;
+    return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 
   std::vector<BodyState> states(WorldId world) const override { return at(world).states(); }

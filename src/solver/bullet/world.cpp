@@ -1,7 +1,6 @@
 #include "world.hpp"
 
 #include "convert.hpp"
-#include "solver/step_limit.hpp"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -211,9 +210,9 @@ void World::remove(std::size_t index) {
   body.rigid.reset();
 }
 
-int World::cuts() const {
+int World::cuts(double dt) const {
   if (!settings_.cut_steps) return 1;
-  const double dt = time_step_, fall = def_.gravity.norm() * scale_ * dt * dt;
+  const double fall = def_.gravity.norm() * scale_ * dt * dt;
   double way = 0.0;  // of the fastest part, without what gravity adds
   bool moves = false;
   double thinnest = std::numeric_limits<double>::infinity();
@@ -232,17 +231,20 @@ int World::cuts() const {
   return std::max({1, exact, whole((way + fall) / (0.5 * thinnest), most_cuts)});
 }
 
-void World::advance(int steps) {
+void World::advance(const Steps& steps) {
   set_globals();
-  for (int s = 0; s < steps * shortening_; ++s) {
-    const int n = cuts();
-    const double dt = time_step_ / n;
-    // A sub-step takes two sweeps; cutting a step does not make sub-steps any shorter than they are.
-    world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
-    for (int k = 0; k < n; ++k) {
-      world_.stepSimulation(dt, 0);
-      count();
-    }
+  const auto shortening = static_cast<std::uint64_t>(shortening_);
+  for (std::uint64_t s = 0; s < steps.whole * shortening; ++s) step(time_step_);
+  for (std::uint64_t s = 0; steps.rest > 0.0 && s < shortening; ++s) step(steps.rest / shortening_);
+}
+
+void World::step(double seconds) {
+  const int n = cuts(seconds);
+  // A sub-step takes two sweeps; cutting a step does not make sub-steps any shorter than they are.
+  world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
+  for (int k = 0; k < n; ++k) {
+    world_.stepSimulation(seconds / n, 0);
+    count();
   }
 }
 

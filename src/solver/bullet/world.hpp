@@ -7,6 +7,7 @@
 #include "shape.hpp"
 
 #include "bin_scenes/solver/solver.hpp"
+#include "solver/step_limit.hpp"
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -31,8 +32,8 @@ class World {
 
   void insert(std::size_t body, const BodyState& state);
   void remove(std::size_t body);
-  /// `steps` times the settings' time step, each cut so that the fastest part moves a small share of its size at once.
-  void advance(int steps);
+  /// Each step is cut so that the fastest part moves a small share of its size at once.
+  void advance(const Steps& steps);
 
   std::vector<BodyState> states() const;
   std::vector<bool> asleep() const;
@@ -47,7 +48,8 @@ class World {
   struct Body;
   void add_static(btCollisionShape* shape, const btTransform& pose);
   void add_walls(double wall_height);
-  int cuts() const;
+  void step(double seconds);
+  int cuts(double dt) const;
   void count();
   btTransform body_transform(const Body& body, const Pose& pose) const;
 

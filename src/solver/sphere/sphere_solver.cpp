@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/step_limit.hpp"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -50,6 +51,17 @@ void step_in_cuts(World& world) {
   for (int k = 0; k < cuts; ++k) step(world);
 }
 
+/// @param time_step  s: the setting, which small parts need to be cut
+void advance_world(World& world, const Steps& steps, double time_step) {
+  const auto cuts = static_cast<std::uint64_t>(world.cuts);
+  for (std::uint64_t k = 0; k < steps.whole * cuts; ++k) step_in_cuts(world);
+  if (steps.rest == 0.0) return;
+  const float whole_step = world.whole_step;
+  world.whole_step *= static_cast<float>(steps.rest / time_step);
+  for (std::uint64_t k = 0; k < cuts; ++k) step_in_cuts(world);
+  world.whole_step = whole_step;
+}
+
 class SphereSolver final : public Solver {
  public:
   explicit SphereSolver(const SphereSettings& settings) : settings_(settings) {}
@@ -83,13 +95,11 @@ class SphereSolver final : public Solver {
   void set_phase(WorldId id, Phase phase) override { sphere::set_phase(slots_[id]->world, phase); }
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
-    const int steps = std::max(1, static_cast<int>(std::lround(seconds / settings_.time_step)));
+    const Steps steps = steps_in(seconds, settings_.time_step);
     // Worlds share nothing, so that threads cannot change a result.
-    tbb::parallel_for(std::size_t{0}, worlds.size(), [&](std::size_t i) {
-      World& world = slots_[worlds[i]]->world;
-      for (int k = 0; k < steps * world.cuts; ++k) step_in_cuts(world);
-    });
-    return steps * settings_.time_step;
+    tbb::parallel_for(std::size_t{0}, worlds.size(),
+                      [&](std::size_t i) { advance_world(slots_[worlds[i]]->world, steps, settings_.time_step); });
+    return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 
   std::vector<BodyState> states(WorldId id) const override {

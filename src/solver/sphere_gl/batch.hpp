@@ -65,8 +65,8 @@ class Batch {
   void download(Slot slot, sphere::World& world) const;
   ManifoldImage manifolds(Slot slot) const;
 
-  /// Worlds that the passes work on from now on.
-  void run(const std::vector<Slot>& slots);
+  /// Worlds that the passes work on from now on, and the share of a whole step that their steps are.
+  void run(const std::vector<Slot>& slots, float share = 1.0f);
   void step();
 
   // The passes in their order, for what is at turn: at first the worlds of one group each, or the first large one.

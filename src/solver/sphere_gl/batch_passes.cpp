@@ -5,7 +5,7 @@
 
 namespace bin_scenes::sphere_gl {
 
-void Batch::run(const std::vector<Slot>& slots) {
+void Batch::run(const std::vector<Slot>& slots, float share) {
   std::vector<gpu::uint> list;
   running_large_.clear();
   for (const Slot slot : slots) {
@@ -22,7 +22,9 @@ void Batch::run(const std::vector<Slot>& slots) {
   running_.upload(0, list.data(), list.size());
   running_count_ = list.size();
   at_turn_ = running_count_ == 0 && !running_large_.empty() ? &running_large_.front() : nullptr;
-  settings_.upload(0, &settings_block_, 1);
+  gpu::SphereSettingsBlock settings = settings_block_;
+  settings.time_step *= share;
+  settings_.upload(0, &settings, 1);
   if (!bound_) bind();
 }
 

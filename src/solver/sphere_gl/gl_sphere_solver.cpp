@@ -5,6 +5,7 @@
 #include "bin_scenes/gl/traffic.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere_gl/batch.hpp"
+#include "solver/step_limit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,8 @@ struct Flight {
   std::vector<WorldId> ids;
   std::vector<Batch::Slot> slots;
   std::unique_ptr<gl::ReadBack> back;
+  float share = 1.0f;  ///< of a whole step that each of the steps is
+  float rest = 0.0f;   ///< the same of a last one that is yet to come; 0: none
 };
 
 class GlSphereSolver final : public Solver {
@@ -102,32 +105,34 @@ class GlSphereSolver final : public Solver {
   double begin(const std::vector<WorldId>& ids, double seconds) override {
     gl::Device::current().make_current();
     const gl::TrafficCount count(profile_);
-    const auto steps = static_cast<std::uint64_t>(std::max(1L, std::lround(seconds / settings_.time_step)));
-    Flight flight{ids, {}, spare_back()};
-    std::uint64_t most = 0;
-    for (const WorldId id : ids) {
-      Resident& r = world(id);
-      for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
-      r.changed.clear();
-      const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
-      most = std::max(most, own);
-      r.steps += own;
-      r.progress.steps_left = static_cast<gpu::uint>(own);
-      batch_.upload_progress(r.slot, r.progress);
-      flight.slots.push_back(r.slot);
+    const Steps steps = steps_in(seconds, settings_.time_step);
+    if (steps.count() == 0) return 0.0;
+    Flight flight;
+    flight.ids = ids;
+    flight.back = spare_back();
+    const auto rest = static_cast<float>(steps.rest / settings_.time_step);
+    if (steps.whole > 0) {
+      flight.rest = rest;
+      start(flight, steps.whole, 1.0f);
+    } else {
+      start(flight, 1, rest);
     }
-    issue(flight, most);
     flights_.push_back(std::move(flight));
-    return static_cast<double>(steps) * settings_.time_step;
+    return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 
   void finish(const std::vector<WorldId>& ids) override {
     gl::Device::current().make_current();
     const gl::TrafficCount count(profile_);
     const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
+    if (at == flights_.end()) return;
     Flight flight = std::move(*at);
     flights_.erase(at);
     while (const std::uint64_t left = look(flight)) issue(flight, left);
+    if (flight.rest > 0.0f) {
+      start(flight, 1, flight.rest);
+      while (const std::uint64_t left = look(flight)) issue(flight, left);
+    }
     read_states(flight);
     spare_.push_back(std::move(flight.back));
     batch_.timer().collect(profile_);
@@ -185,8 +190,26 @@ class GlSphereSolver final : public Solver {
     return back;
   }
 
+  void start(Flight& flight, std::uint64_t steps, float share) {
+    flight.share = share;
+    flight.slots.clear();
+    std::uint64_t most = 0;
+    for (const WorldId id : flight.ids) {
+      Resident& r = world(id);
+      for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
+      r.changed.clear();
+      const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
+      most = std::max(most, own);
+      r.steps += own;
+      r.progress.steps_left = static_cast<gpu::uint>(own);
+      batch_.upload_progress(r.slot, r.progress);
+      flight.slots.push_back(r.slot);
+    }
+    issue(flight, most);
+  }
+
   void issue(Flight& flight, std::uint64_t left) {
-    batch_.run(flight.slots);
+    batch_.run(flight.slots, flight.share);
     for (std::uint64_t k = 0; k < std::min(left, steps_per_look); ++k) batch_.step();
     batch_.request(flight.slots, *flight.back);
   }

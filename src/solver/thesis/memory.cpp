@@ -74,7 +74,7 @@ void lay_grid(const World& world, const ThesisSettings& settings, double horizon
 }  // namespace
 
 Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
-               double horizon, std::vector<BodyIndex>& index) {
+               double horizon, std::vector<BodyIndex>& index, double share) {
   Memory m;
   index.clear();
   const double dt = settings.time_step / settings.sub_steps;
@@ -133,7 +133,7 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
   for (gpu::ThesisBody& body : m.bodies)
     if (body.inverse_inertia.w == 0.0f) body.range.x += word(moving);
 
-  m.settings.time_step = static_cast<float>(dt);
+  m.settings.time_step = static_cast<float>(share * dt);
   m.settings.bias = static_cast<float>(settings.bias / dt);
   m.settings.slop = static_cast<float>(settings.slop);
   m.settings.modified_normals = settings.modified_normals ? 1 : 0;

@@ -55,8 +55,9 @@ struct Capacity {
 
 /// Lays out the present bodies of the worlds. `horizon`: simulated seconds until the next call (s), for the grid.
 /// @param index filled with where each body of Memory came from.
+/// @param share of a whole step that the next steps are: a shorter one pushes as fast and bounces as little.
 Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
-               double horizon, std::vector<BodyIndex>& index);
+               double horizon, std::vector<BodyIndex>& index, double share = 1.0);
 
 /// Gives the arrays that a step leaves behind their sizes, as the device's buffers have them.
 void size_scratch(Memory& memory);

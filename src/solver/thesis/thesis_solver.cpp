@@ -5,6 +5,7 @@
 #include "bin_scenes/gl/traffic.hpp"
 #include "memory.hpp"
 #include "passes.hpp"
+#include "solver/step_limit.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -17,6 +18,15 @@ namespace {
 constexpr std::size_t most_contacts = 64;  // per sphere; a sphere among equal ones touches a dozen
 // Steps between looks at the status. A look waits for the device and lays the grid anew about the bodies.
 constexpr std::uint64_t steps_per_look = 8;
+
+VoxelOptions voxels_of(const PartModel& part, const ThesisSettings& settings) {
+  VoxelOptions options;
+  options.voxels = settings.voxels;
+  options.tightness = settings.tightness;
+  const double longest = part.mesh().bounds().size().maxCoeff();
+  for (const double share : settings.radii) options.radii.push_back(share * longest);
+  return options;
+}
 }  // namespace
 
 struct ThesisSolver::State {
@@ -37,7 +47,8 @@ struct ThesisSolver::State {
     return found->second;
   }
 
-  void run(const std::vector<thesis::World*>& batch, std::uint64_t steps);
+  /// @param share  of a whole step that each of them is
+  void run(const std::vector<thesis::World*>& batch, std::uint64_t steps, double share);
   bool grow_if_full(const gpu::ThesisStatus& status, std::size_t moving_spheres,
                     const std::vector<gpu::ThesisNeed>& needs);
   std::vector<std::vector<thesis::World*>> split(const std::vector<thesis::World*>& all) const;
@@ -49,12 +60,9 @@ ThesisSolver::~ThesisSolver() = default;
 
 WorldId ThesisSolver::add_world(const WorldDef& def) {
   const ThesisSettings& settings = state_->settings;
-  VoxelOptions options;
-  options.voxels = settings.voxels;
-  options.tightness = settings.tightness;
   std::vector<thesis::Shape> shapes;
   for (const PartModelPtr& part : def.parts)
-    shapes.push_back(thesis::make_shape(part->spheres(options).spheres, part->mass()));
+    shapes.push_back(thesis::make_shape(part->spheres(voxels_of(*part, settings)).spheres, part->mass()));
   thesis::World world = thesis::make_world(def, shapes, settings);
   if (def.bin.kind == Bin::Kind::mesh && def.bin_model && !shapes.empty()) {
     // As fine as the finest part, so that nothing slips between the bin's spheres.
@@ -62,6 +70,8 @@ WorldId ThesisSolver::add_world(const WorldDef& def) {
     for (const thesis::Shape& shape : shapes)
       for (const Sphere& sphere : shape.spheres) radius = std::min(radius, sphere.radius);
     const double pitch = 2.0 * radius * settings.tightness;
+    VoxelOptions options;
+    options.tightness = settings.tightness;
     options.voxels = static_cast<int>(std::ceil(def.bin_model->mesh().bounds().size().maxCoeff() / pitch));
     for (const Sphere& sphere : def.bin_model->spheres(options).spheres)
       world.bin_spheres.push_back(
@@ -97,17 +107,20 @@ void ThesisSolver::set_phase(WorldId, Phase) {}
 double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
   gl::Device::current().make_current();
   const gl::TrafficCount count(state_->profile);
-  const auto steps = static_cast<std::uint64_t>(std::max(1LL, std::llround(seconds / step_size())));
+  const Steps steps = steps_in(seconds, step_size());
   std::vector<thesis::World*> worlds;
   for (WorldId id : ids) {
     worlds.push_back(&state_->world(id));
-    worlds.back()->steps += steps;
+    worlds.back()->steps += steps.count();
   }
-  for (const std::vector<thesis::World*>& batch : state_->split(worlds)) state_->run(batch, steps);
-  state_->profile.count("steps", steps * worlds.size());
+  for (const std::vector<thesis::World*>& batch : state_->split(worlds)) {
+    state_->run(batch, steps.whole, 1.0);
+    if (steps.rest > 0.0) state_->run(batch, 1, steps.rest / step_size());
+  }
+  state_->profile.count("steps", steps.count() * worlds.size());
   state_->passes.timer().collect(state_->profile, true);
   state_->profile.counters["gl_bytes_held"] = state_->passes.bytes();
-  return static_cast<double>(steps) * step_size();
+  return static_cast<double>(steps.whole) * step_size() + steps.rest;
 }
 
 /// Worlds together as long as no buffer grows beyond half of what the driver allows; alone if need be.
@@ -128,12 +141,13 @@ std::vector<std::vector<thesis::World*>> ThesisSolver::State::split(const std::v
   return batches;
 }
 
-void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uint64_t steps) {
+void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uint64_t steps, double share) {
   for (std::uint64_t done = 0; done < steps;) {
     const std::uint64_t now = std::min(steps_per_look, steps - done);
-    const double horizon = static_cast<double>(now) * settings.time_step / settings.sub_steps;
+    const double horizon = share * static_cast<double>(now) * settings.time_step / settings.sub_steps;
     std::vector<thesis::BodyIndex> index;
-    const thesis::Memory memory = thesis::lay_out({batch.begin(), batch.end()}, settings, capacity, horizon, index);
+    const thesis::Memory memory =
+        thesis::lay_out({batch.begin(), batch.end()}, settings, capacity, horizon, index, share);
     passes.load(memory);
     for (std::uint64_t i = 0; i < now; ++i) passes.step();
     const gpu::ThesisStatus status = passes.status();

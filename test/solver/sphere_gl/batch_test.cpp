@@ -76,6 +76,20 @@ TEST(SphereGlBatch, SameRunSameBits) {
   EXPECT_NE(fallen(0), fallen(1)) << "the hash does not see the states";
 }
 
+TEST(SphereGlBatch, AStretchEndsWithAShorterStep) {
+  Handful handful(0);
+  handful.def.bin.kind = Bin::Kind::none;
+  const auto solver = make_gl_sphere_solver(coarse());
+  const WorldId id = handful.add(*solver);
+  for (const double seconds : {0.0011, 0.0502}) {
+    const BodyState before = solver->states(id)[0];
+    EXPECT_NEAR(solver->advance({id}, seconds), seconds, 1e-12);
+    const BodyState after = solver->states(id)[0];
+    EXPECT_NEAR(after.velocity.linear.z() - before.velocity.linear.z(), -9.81 * seconds, 1e-5);
+  }
+  EXPECT_EQ(solver->steps(id), 1u + 21u);
+}
+
 TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
   const auto solver = make_gl_sphere_solver(coarse());
   std::vector<WorldId> ids;

@@ -45,6 +45,19 @@ TEST(ThesisPhysics, FreeFall) {
   EXPECT_EQ(solver.profile().counters.at("contacts"), 0u);
 }
 
+TEST(ThesisPhysics, AStretchEndsWithAShorterStep) {
+  ThesisSolver solver;
+  WorldBuilder world;
+  world.def.bin.kind = Bin::Kind::none;
+  world.body(world.shape(ball(0.01)), Vec3(0, 0, 2), Vec3(1, 0, 0));
+  const WorldId id = world.add(solver);
+  EXPECT_NEAR(solver.advance({id}, 0.0011), 0.0011, 1e-12);
+  EXPECT_NEAR(solver.advance({id}, 0.0333), 0.0333, 1e-12);
+  EXPECT_NEAR(solver.states(id)[0].pose.position.x(), 0.0344, 1e-6);
+  EXPECT_NEAR(solver.states(id)[0].velocity.linear.z(), -g * 0.0344, 1e-5);
+  EXPECT_EQ(solver.steps(id), 1u + 4u);
+}
+
 // Figures 3.2 to 3.4: two rods meet along their whole length. Without mass splitting every contact gives the whole
 // impulse. Equal masses, elastic: they exchange velocities.
 TEST(ThesisPhysics, RodsThatMeetAtManyPointsExchangeVelocities) {
