@@ -11,9 +11,9 @@ struct Pile {
   const char* part;
   int judged;  ///< seeds that the referee sees: it takes minutes for parts of many pieces; 0: no exact pieces
 };
-constexpr Pile piles[] = {{"channel_u", 10}, {"ring_24", 10},  {"bolt_hex", 10}, {"bracket_l", 3}, {"clip_spring", 3},
-                          {"conrod", 0},     {"gear_spur", 3}, {"mug", 0},       {"nut_hex", 3},   {"pipe_elbow", 0},
-                          {"pipe_tee", 0},   {"teapot", 0},    {"washer", 3}};
+constexpr Pile piles[] = {{"channel_u", 10}, {"ring_24", 10},  {"bolt_hex", 10}, {"bracket_l", 1}, {"clip_spring", 1},
+                          {"conrod", 0},     {"gear_spur", 1}, {"mug", 0},       {"nut_hex", 1},   {"pipe_elbow", 0},
+                          {"pipe_tee", 0},   {"teapot", 0},    {"washer", 1}};
 
 void run(Run& out) {
   const std::size_t count = out.quick() ? 8 : 150;
