@@ -143,11 +143,13 @@ Row measured(const Form& form, const Request& request) {
       .row;
 }
 
-/// The slope of error over step in doubled logarithms, where a line explains nine tenths of how they vary.
+/// The slope of error over step in doubled logarithms, where a line explains nine tenths of how they vary. What grows
+/// as steps get shorter is rounding that adds up.
 std::string order_of(const std::vector<double>& steps, const std::vector<double>& errors) {
   constexpr std::size_t fewest = 4;
   const bool line = steps.size() >= fewest && explained_by_exponent(steps, errors) >= 0.9;
-  return line ? Row::text(fitted_exponent(steps, errors)) : "no order";
+  const double order = fitted_exponent(steps, errors);
+  return line && order > 0.0 ? Row::text(order) : "no order";
 }
 
 void run(Run& out) {
