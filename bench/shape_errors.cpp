@@ -5,9 +5,12 @@
 #include "requests.hpp"
 #include "runs.hpp"
 
+#include <cmath>
+
 namespace bin_scenes::bench {
 namespace {
 
+constexpr double rounding = 1e-9;  ///< of float32 meshes; less is no error
 constexpr const char* parts[] = {"bolt_hex", "bracket_l",  "channel_u", "clip_spring", "conrod", "gear_spur", "mug",
                                  "nut_hex",  "pipe_elbow", "pipe_tee",  "ring_24",     "teapot", "washer"};
 
@@ -59,13 +62,14 @@ void run(Run& out) {
       const auto measured = [&] {
         const PartModelPtr part = load_parts(bin_of(name, 1)).front();
         const ShapeError error = proxy.error(*part);
+        const auto rounded = [](double value) { return std::abs(value) < rounding ? 0.0 : value; };
         return Row()
             .exact("count", proxy.count(*part))
-            .exact("to_mesh_mean_rel", error.to_mesh_mean)
-            .exact("to_mesh_max_rel", error.to_mesh_max)
-            .exact("from_mesh_mean_rel", error.from_mesh_mean)
-            .exact("from_mesh_max_rel", error.from_mesh_max)
-            .exact("volume_rel", error.volume);
+            .exact("to_mesh_mean_rel", rounded(error.to_mesh_mean))
+            .exact("to_mesh_max_rel", rounded(error.to_mesh_max))
+            .exact("from_mesh_mean_rel", rounded(error.from_mesh_mean))
+            .exact("from_mesh_max_rel", rounded(error.from_mesh_max))
+            .exact("volume_rel", rounded(error.volume));
       };
       out.row(Row(key).append(isolated(measured, 120.0).row));
     }
