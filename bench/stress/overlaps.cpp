@@ -60,7 +60,7 @@ std::vector<Row> overlaps(bool soak) {
     const double share = 0.01 * percent;
     Row row{"overlap",
             "by " + std::to_string(percent) + " % of a part",
-            percent == 10 ? both_forms : both,
+            soak && percent == 10 ? both_forms : both,
             {two_cubes(share)},
             {}};
     row.cases.push_back(into_floor(0.99 * share));  // at half a part the centre would start outside the bin
@@ -73,6 +73,7 @@ std::vector<Row> overlaps(bool soak) {
         "each contact is pushed out its own nearest way; deep inside, that is not the way that parts "
         "the two, and opposite ways make energy";
     if (percent >= 25) row.known["sphere: 27 cubes in a lattice"] = nearest;
+    if (percent == 10) row.known["sphere/gpu: 27 cubes in a lattice"] = nearest;
     if (percent >= 50) row.known["sphere: two cubes side by side"] = nearest;
     rows.push_back(row);
   }
