@@ -77,7 +77,9 @@ void run(Run& out) {
   }
 }
 
-const Registration registration{"shape_errors", "distance and volume of field, hulls and spheres against the mesh",
+const Registration registration{"shape_errors",
+                                "distance and volume of field, hulls and spheres against the mesh",
+                                {"part", "proxy", "solver"},
                                 run};
 
 }  // namespace
