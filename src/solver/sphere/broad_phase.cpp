@@ -1,6 +1,9 @@
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace bin_scenes::sphere {
 
@@ -10,6 +13,14 @@ struct Bounds {
   Vec3f lower, upper;
   float margin;
   std::uint32_t body;
+  int strip;  ///< first that the box lies in
+};
+
+/// A box in one of the strips that it lies in.
+struct Entry {
+  int strip;
+  float lower_x;
+  std::uint32_t box;
 };
 
 /// Way the surface of a body may move in one step, and the distance at which contacts are kept.
@@ -27,7 +38,24 @@ Bounds bounds_of(const World& world, std::uint32_t i) {
   const float margin = reach(world, b);
   const Vec3f center = b.x + b.rotation * s.box_center;
   const Vec3f half = b.rotation.cwiseAbs() * s.box_half + Vec3f::Constant(margin);
-  return {center - half, center + half, margin, i};
+  return {center - half, center + half, margin, i, 0};
+}
+
+/// Width along y (m) of the strips: some two boxes, and no box lies in more than a few dozen. Few boxes share one
+/// strip, for sorting those that lie in several costs more than it saves.
+float strip_width(const std::vector<Bounds>& boxes) {
+  if (boxes.size() < 512) return std::numeric_limits<float>::infinity();
+  float sum = 0.0f, widest = 0.0f;
+  for (const Bounds& box : boxes) {
+    const float width = box.upper.y() - box.lower.y();
+    sum += width;
+    widest = std::max(widest, width);
+  }
+  return std::max({2.0f * sum / static_cast<float>(boxes.size()), widest / 32.0f, 1e-9f});
+}
+
+int strip_at(float y, float width) {
+  return static_cast<int>(std::fmax(-1e9f, std::fmin(1e9f, std::floor(y / width))));
 }
 
 /// Separating axis test on the six face normals of both oriented boxes: rejects most pairs whose upright boxes meet.
@@ -52,12 +80,15 @@ bool near_ground(const World& world, const Bounds& box) {
 
 }  // namespace
 
-/// Sort and sweep along x over upright boxes, then oriented boxes. Pairs of bodies that do not move are left out,
-/// unless they were in contact already (their manifold waits, untouched, until one of them wakes).
+/// Sort and sweep along x over upright boxes, in strips along y, then oriented boxes: on a wide floor a sweep meets
+/// what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left out, unless they
+/// were in contact already (their manifold waits, untouched, until one of them wakes).
 void find_pairs(World& world) {
   static thread_local std::vector<Bounds> boxes;
+  static thread_local std::vector<Entry> entries;
   static thread_local std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
   boxes.clear();
+  entries.clear();
   found.clear();
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
     Body& b = world.bodies[i];
@@ -66,19 +97,27 @@ void find_pairs(World& world) {
     b.world_inverse_inertia =
         b.inverse_mass > 0 ? Mat3f(b.rotation * b.inverse_inertia * b.rotation.transpose()) : Mat3f(Mat3f::Zero());
     boxes.push_back(bounds_of(world, i));
+    if (b.moves() && near_ground(world, boxes.back())) found.emplace_back(i, ground);
   }
-  std::sort(boxes.begin(), boxes.end(), [](const Bounds& a, const Bounds& b) {
-    return std::make_pair(a.lower.x(), a.body) < std::make_pair(b.lower.x(), b.body);
+  const float width = strip_width(boxes);
+  for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+    boxes[k].strip = strip_at(boxes[k].lower.y(), width);
+    const int last = strip_at(boxes[k].upper.y(), width);
+    for (int strip = boxes[k].strip; strip <= last; ++strip) entries.push_back({strip, boxes[k].lower.x(), k});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.strip, a.lower_x, a.box) < std::tie(b.strip, b.lower_x, b.box);
   });
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Bounds& p = boxes[i];
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Bounds& p = boxes[entries[i].box];
     const bool p_moves = world.bodies[p.body].moves();
-    if (p_moves && near_ground(world, p)) found.emplace_back(p.body, ground);
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower.x() <= p.upper.x(); ++j) {
-      const Bounds& r = boxes[j];
+    for (std::size_t j = i + 1;
+         j < entries.size() && entries[j].strip == entries[i].strip && entries[j].lower_x <= p.upper.x(); ++j) {
+      const Bounds& r = boxes[entries[j].box];
       if (r.lower.y() > p.upper.y() || p.lower.y() > r.upper.y() || r.lower.z() > p.upper.z() ||
           p.lower.z() > r.upper.z())
         continue;
+      if (std::max(p.strip, r.strip) != entries[i].strip) continue;  // met in an earlier strip
       if (!p_moves && !world.bodies[r.body].moves()) continue;
       if (boxes_apart(world, world.bodies[p.body], world.bodies[r.body], p.margin + r.margin)) continue;
       found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));

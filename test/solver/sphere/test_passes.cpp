@@ -158,6 +158,34 @@ TEST(BroadPhase, FindsEveryPairWhoseSurfacesAreNear) {
   EXPECT_LT(found.size(), 60u * 59u / 4u);
 }
 
+TEST(BroadPhase, APairIsFoundWhateverElseIsThere) {
+  PartModelPtr part, bar;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02}, 0.02), rail = box_shape(bar, {0.02, 3.0, 0.02}, 0.1);
+  World world = world_of_boxes(shape, 600);  // enough for strips
+  world.shapes.push_back(&rail);
+  Random random(4, 0, Stream::probe);
+  for (Body& b : world.bodies) {  // many boxes wide, and on both sides of zero
+    b.q = random.orientation().cast<float>();
+    b.x = Vec3f(random.uniform(-0.15, 0.15), random.uniform(-3.0, 3.0), random.uniform(-0.03, 0.03));
+  }
+  world.bodies[7].shape = 1;  // through half of the others
+  world.bodies[7].q = Quatf::Identity();
+  const std::vector<Body> bodies = world.bodies;
+  find_pairs(world);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found, alone;
+  for (const Manifold& m : world.manifolds) found.emplace_back(m.a, m.b);
+  World two = world;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    for (std::uint32_t j = i + 1; j < bodies.size(); ++j) {
+      two.manifolds.clear();
+      two.bodies.assign({bodies[i], bodies[j]});
+      find_pairs(two);
+      if (!two.manifolds.empty()) alone.emplace_back(i, j);
+    }
+  EXPECT_EQ(found, alone);
+  EXPECT_GT(found.size(), 100u);
+}
+
 TEST(NarrowPhase, CornerInAFaceGivesDepthAndNormal) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.06}, 0.005);
