@@ -55,15 +55,9 @@ tests() {
   echo "        all tests: $((SECONDS - start)) s"
 }
 
-# The time stamps of a scene.json: total and mean per step of each stage.
-stages() {
-  [[ -f $1 ]] || return 0
-  awk '/"steps":/ { gsub(/[^0-9]/, "", $2); steps = $2 }
-       /"stages_ms": \{/ { inside = 1; next }
-       inside && /\}/ { inside = 0 }
-       inside { name = $1; ms = $2; gsub(/[":,]/, "", name); gsub(/,/, "", ms); total[name] = ms }
-       END { for (name in total) printf "        %-24s %10.3f ms in all %10.4f ms/step\n", name, total[name], total[name] / (steps ? steps : 1) }' \
-      "$1" | sort
+# Rows of a benchmark, printed one below the other.
+rows() {
+  [[ -f $1 ]] && grep -v '^#' "$1" | sed 's/^/        /' || true
 }
 
 {
@@ -78,34 +72,39 @@ cat "$out/doctor.log"
 # Shaders and solvers first: what builds on them means nothing if they are wrong.
 tests gl solver sensor generate
 
-# The thesis's 512 teapots, 200 of its 2000 steps, stage by stage.
-for iterations in 10 5; do
-  name=teapots_$iterations
-  step "$name" 90 "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/$name" --overwrite \
-    --seconds "$([[ $quick ]] && echo 0.1 || echo 2)" --formats json --set "solver.thesis.iterations=$iterations" \
-    ${quick:+--set "parts[0].count=64"}
-  stages "$out/$name/scene_000000/scene.json"
+# The full rows are for a GPU: llvmpipe needs hours for them.
+software=$(grep -qiE 'llvmpipe|softpipe|swrast' "$out/doctor.log" && echo 1)
+small=$quick$software
+bench() {  # NAME LIMIT ARGUMENTS...
+  local name=$1 limit=$2
+  shift 2
+  step "bench_$name" "$limit" "$bundle/run" bin_scenes_bench --out "$out/bench" ${small:+--quick} "$@"
+}
+
+# One scene alone, and accepted scenes a second of 512 in one run.
+bench throughput 120 --filter throughput --rows solver=sphere/gpu
+rows "$out/bench/throughput.csv"
+
+# The thesis's teapots, 256 to 1024, stage by stage, then its other tables.
+bench teapots 90 --filter thesis_tables --rows table=teapots --rows 'setting=*sphere/thesis*'
+for table in spheres_per_body static_spheres bodies grid_size cell_size; do
+  bench "$table" 40 --filter thesis_tables --rows "table=$table"
 done
+rows "$out/bench/thesis_tables.csv"
 
-# The demo's scene with its pictures, and many of them at once.
-step conrods 120 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/conrods" --overwrite \
-  --formats json,png ${quick:+--set "parts[0].count=20"}
-scenes=$([[ $quick ]] && echo 2 || echo 64) parts=$([[ $quick ]] && echo 20 || echo 256)
-start=$SECONDS
-step batch 120 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/batch" --overwrite \
-  --scenes "$scenes" --formats json --set "parts[0].count=$parts" --set "bin.inner_size=[0.5, 0.4, 0.3]"
-accepted=$(grep -l '"accepted": true' "$out"/batch/scene_*/scene.json 2>/dev/null | wc -l)
-echo "        $scenes scenes of $parts parts in $((SECONDS - start)) s, $accepted accepted"
+# The goals of the default solver on the device, by the report's own figures.
+bench goals 120 --filter goals --rows solver=sphere/gpu
+rows "$out/bench/goals.csv"
 
-# The tables: small forms of each, so that all fit. On a CPU that others use too, one may take longer.
-table_limit=$([[ $quick ]] && echo 200 || echo 120)
-for name in thesis_tables growth skipping closed_forms; do
-  step "bench_$name" "$table_limit" "$bundle/run" bin_scenes_bench --quick --filter "$name" --out "$out/bench"
-done
+# One world of up to 65,536 parts, and up to 1024 worlds.
+bench growth 100 --filter growth --rows solver=sphere/gpu
 
-# One world of up to 65,536 parts, and up to 1024 worlds, on the device.
-[[ $quick ]] || step bench_growth_gpu 150 "$bundle/run" bin_scenes_bench --filter growth --rows solver=sphere/gpu \
-  --out "$out/bench_gpu"
+# The demo's scene with its pictures.
+step conrods 60 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/conrods" --overwrite \
+  --formats json,png ${small:+--set "parts[0].count=20"}
+
+small=1
+for name in skipping closed_forms; do bench "$name" 60 --filter "$name"; done
 
 if (( ${#failed[@]} )); then
   echo "failed: ${failed[*]}" | tee "$out/failed.txt"

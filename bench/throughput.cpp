@@ -1,0 +1,71 @@
+/// How fast scenes come: one alone, and many in one run. Simulation alone first, then the whole job with judging.
+#include "framework/benchmark.hpp"
+#include "framework/isolated.hpp"
+#include "runs.hpp"
+
+#include <chrono>
+#include <numeric>
+
+namespace bin_scenes::bench {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Row timed(Request request, std::size_t scenes) {
+  request.scenes = scenes;
+  const std::vector<PartModelPtr> parts = load_parts(request);
+  std::vector<std::size_t> indices(scenes);
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  std::string reason;
+  double simulation_s = 0.0;
+  {
+    const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+    pour(request, parts, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
+    const auto begin = std::chrono::steady_clock::now();
+    pour(request, parts, *solver, indices);
+    simulation_s = seconds_since(begin);
+  }
+  Generator generator;
+  Generator::Options options;
+  options.render = false;
+  double judging_ms = 0.0;
+  std::size_t accepted = 0;
+  const double cpu_begin = cpu_seconds();
+  const auto begin = std::chrono::steady_clock::now();
+  generator.generate(request, options, [&](Generator::Result&& result) {
+    const Report& report = result.scene.report;
+    accepted += report.accepted ? 1 : 0;
+    const auto quality = report.profile.stages_ms.find("quality");
+    if (quality != report.profile.stages_ms.end()) judging_ms += quality->second;
+  });
+  const double whole_s = seconds_since(begin);
+  const auto count = static_cast<double>(scenes);
+  return Row()
+      .measure("simulation_s", simulation_s)
+      .measure("whole_s", whole_s)
+      .measure("whole_cpu_s", cpu_seconds() - cpu_begin)
+      .measure("judging_ms", judging_ms / count)
+      .exact("accepted", accepted)
+      .measure("accepted_per_s", static_cast<double>(accepted) / whole_s);
+}
+
+void run(Run& out) {
+  const std::size_t parts = out.quick() ? 12 : 256;
+  for (const char* solver : {"sphere/gpu", "sphere"})
+    for (const std::size_t scenes : {std::size_t{1}, std::size_t{out.quick() ? 4u : 512u}}) {
+      const Row key = Row().key("solver", solver).key("bodies", parts).key("scenes", scenes);
+      if (!out.wanted(key)) continue;
+      Request request = bin_of("conrod", parts);
+      choose_solver(request, "sphere");
+      warm_up(request);
+      choose_solver(request, solver);
+      out.row(Row(key).append(isolated([&] { return timed(request, scenes); }, 7200.0).row));
+    }
+}
+
+const Registration registration{"throughput", "one scene alone, and accepted scenes a second in one run of 512", run};
+
+}  // namespace
+}  // namespace bin_scenes::bench
