@@ -9,6 +9,7 @@
 #include "bin_scenes/solver/pour.hpp"
 #include "solver/thesis/scenes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -41,6 +42,27 @@ Row times(const Profile& profile, double steps, double wall_ms) {
   Row row;
   for (const std::string& stage : stages) row.measure(stage + "_ms", sums[stage]);
   return row.measure("total_ms", total).measure("wall_ms", wall_ms / steps).exact("steps", steps);
+}
+
+/// What a step asks of the device, and of its memory.
+Row asked_for(const Profile& profile, double steps) {
+  const auto a_step = [&](const char* counter) { return static_cast<double>(profile.counters.at(counter)) / steps; };
+  return Row()
+      .exact("contacts", a_step("contacts"))
+      .exact("grid_cells", a_step("grid_cells"))
+      .exact("dispatches", a_step("gl_dispatches"))
+      .exact("barriers", a_step("gl_barriers"))
+      .exact("bytes_uploaded", a_step("gl_bytes_uploaded"))
+      .exact("bytes_read_back", a_step("gl_bytes_read_back"))
+      .exact("held_mb", 1e-6 * static_cast<double>(profile.counters.at("gl_bytes_held")));
+}
+
+/// Bodies that are no longer above the bin's floor.
+std::size_t outside(const std::vector<BodyState>& states, const Vec3& inner_size) {
+  return static_cast<std::size_t>(std::count_if(states.begin(), states.end(), [&](const BodyState& s) {
+    const Vec3& p = s.pose.position;
+    return !(std::abs(p.x()) <= 0.5 * inner_size.x() && std::abs(p.y()) <= 0.5 * inner_size.y() && p.z() >= 0.0);
+  }));
 }
 
 /// Published figures: stages in their order, then the total; fewer numbers are the total alone.
@@ -122,12 +144,12 @@ Row timed(const Cubes& cubes, const ThesisSettings& settings, int steps) {
                const auto start = std::chrono::steady_clock::now();
                solver.advance({id}, steps * settings.time_step);
                const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-               const double contacts = static_cast<double>(solver.profile().counters.at("contacts")) / steps;
                return Row()
                    .exact("spheres",
                           cubes.bodies * static_cast<std::size_t>(cubes.edge * cubes.edge * cubes.edge) + fixed)
                    .exact("static_spheres", fixed)
-                   .exact("contacts", contacts)
+                   .exact("escaped", outside(solver.states(id), builder.def.bin.inner_size))
+                   .append(asked_for(solver.profile(), steps))
                    .append(times(solver.profile(), steps, wall.count()));
              },
              limit_s)
@@ -329,13 +351,19 @@ void teapot_table(Run& out) {
           const Scene scene = pour(request, parts, *solver, {0}).at(0);
           const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
           Row row;
-          if (c.iterations) row.exact("spheres_per_body", spheres).exact("spheres", spheres * count);
+          if (c.iterations)
+            row.exact("spheres_per_body", spheres)
+                .exact("spheres", spheres * count)
+                .append(asked_for(solver->profile(), seconds / 0.01));
           return row.exact("escaped", scene.report.escaped.size())
               .append(times(solver->profile(), seconds / 0.01, wall.count()));
         },
         limit_s);
-    out.row(
-        Row(keys).exact("bodies", count).append(one.row).append(published(out.quick() ? std::vector<double>() : c.ms)));
+    out.row(Row(keys)
+                .exact("bodies", count)
+
+                .append(one.row)
+                .append(published(out.quick() ? std::vector<double>() : c.ms)));
   }
 }
 

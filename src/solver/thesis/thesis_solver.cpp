@@ -169,6 +169,7 @@ void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uin
       if (index[b].body < world.bodies.size()) world.states[index[b].body] = states[b];
     }
     profile.count("contacts", status.contacts);
+    profile.count("grid_cells", memory.settings.cells * now);
     done += now;
   }
 }
