@@ -57,12 +57,16 @@ ShapeError errors(const MeshQuery& query, const Distances& to_mesh, double proxy
 /// surface is crossed, so that inside remains inside.
 class DistanceWalk {
  public:
-  explicit DistanceWalk(const MeshQuery& query) : query_(query) {}
+  explicit DistanceWalk(const MeshQuery& query) : query_(query) {
+    const Aabb box = query.mesh().bounds();
+    rounding_ = 1e-12 * box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).norm();
+  }
 
   double go_to(const Vec3& p) {
     const double way = (p - place_).norm();
     known_ = known_ && way < distance_;
-    distance_ = query_.nearest(p, (1.0 + 1e-9) * (distance_ + way)).distance;
+    // Distances are off by the rounding of places: where one vertex is come to twice, by more than all of the way.
+    distance_ = query_.nearest(p, distance_ + way + rounding_).distance;
     place_ = p;
     return distance_;
   }
@@ -74,6 +78,7 @@ class DistanceWalk {
 
  private:
   const MeshQuery& query_;
+  double rounding_;  // of places, and more
   Vec3 place_ = Vec3::Zero();
   double distance_ = std::numeric_limits<double>::infinity();
   bool known_ = false, inside_ = false;

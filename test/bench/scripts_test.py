@@ -117,5 +117,33 @@ class Scripts(unittest.TestCase):
         self.assertIn("scripts/build", missing.stderr)
 
 
+class InspectAll(unittest.TestCase):
+    """bench/inspect_all on tools that say what is given."""
+
+    def ends(self, report, code=0):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "models").mkdir()
+            (root / "models/part.stl").touch()
+            tool = root / "tool"
+            tool.write_text("#!/bin/sh\ncat <<'END'\n%s\nEND\nexit %d\n" % (report, code))
+            tool.chmod(0o755)
+            run = subprocess.run([ROOT / "bench/inspect_all", tool, root / "models"], capture_output=True, text=True)
+            return run.returncode, run.stdout
+
+    def test_a_report_of_figures_is_good(self):
+        self.assertEqual(self.ends('{"watertight": true, "size": [1.5, 2]}')[0], 0)
+
+    def test_a_figure_that_is_none_fails_and_is_named(self):
+        for none in ("null", "NaN", "Infinity"):
+            code, text = self.ends('{"watertight": true, "proxies": {"hulls": {"error": [0.1, %s]}}}' % none)
+            self.assertEqual(code, 1)
+            self.assertIn("no figure: proxies.hulls.error[1]", text)
+
+    def test_no_report_fails(self):
+        self.assertEqual(self.ends("hulls 63")[0], 1)
+        self.assertEqual(self.ends("{}", 9)[0], 1)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -203,6 +203,19 @@ TEST_F(PartModelTest, HullErrorOfAConvexPartIsZero) {
   EXPECT_NEAR(error.volume, 0.0, 1e-6);
 }
 
+// Each vertex of a hull is come to from several faces, each time rounded another way.
+TEST_F(PartModelTest, HullErrorIsFiniteFarFromTheOrigin) {
+  Random random(1, 0, Stream::probe);
+  for (int i = 0; i < 50; ++i) {
+    const Quat turn = random.orientation();
+    Mesh bar = box_mesh(Vec3(1, 0.005, 0.005));
+    for (Vec3& v : bar.vertices) v = turn * v + Vec3(50, 30, 7);
+    ConvexHulls hulls;
+    hulls.hulls = {bar};
+    EXPECT_LT(shape_error(hulls, MeshQuery(bar)).to_mesh_max, 1e-12) << i;
+  }
+}
+
 // One sphere in a cube of side a: its surface is at most a (sqrt(3) - 1) / 2 from the corners, and touches the faces.
 TEST_F(PartModelTest, SphereErrorOfOneVoxelInACube) {
   const double a = 0.05, diagonal = a * std::sqrt(3.0);
