@@ -70,7 +70,11 @@ void visit(Visitor& v, Bin& bin) {
 
 template <class Visitor>
 void visit(Visitor& v, PartLine& part) {
-  v.field({"model", "", "mesh file: path relative to the request, absolute, or package://name/path"}, part.model);
+  v.field({"model", "",
+           "mesh file: path relative to the request, absolute, or package://name/path; a closed solid: holes of at "
+           "most 2 % of its diagonal around are closed and the report says so, larger ones are an error unless "
+           "thickness is given"},
+          part.model);
   v.field({"unit", "",
            "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
            "bin, which is an error that names the likely unit"},
@@ -134,7 +138,11 @@ void visit(Visitor& v, BulletSettings& s) {
            "largest surface error of the convex decomposition / part diagonal; smaller = more hulls, cost grows with "
            "their square"},
           s.hull_error);
-  v.field({"max_hulls", "", "cap on hulls per part"}, s.max_hulls);
+  v.field({"hull_volume_error", "",
+           "by how much the hulls together may be larger than the part / its volume; smaller = more hulls; the report "
+           "says where max_hulls does not do for it"},
+          s.hull_volume_error);
+  v.field({"max_hulls", "", "cap on hulls per part; it goes before both errors"}, s.max_hulls);
 }
 
 template <class Visitor>
@@ -213,6 +221,10 @@ void visit(Visitor& v, Acceptance& accept) {
   v.field(
       {"penetration", "", "largest penetration of any pair / smaller part's diagonal; deeper: the scene is set apart"},
       accept.penetration);
+  v.field({"gap", "",
+           "largest way that a part at rest could fall before it touches what is below / its diagonal; farther: the "
+           "scene is set apart"},
+          accept.gap);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
 }
 
@@ -231,7 +243,10 @@ void visit(Visitor& v, Request& request) {
   v.list({"sensors", "", "range cameras; none = no images"}, request.sensors);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulate exactly this long instead of until rest"}, request.seconds);
-  v.field({"drift_check", "", "run on for 0.5 s and report how far parts move"}, request.drift_check);
+  v.field({"drift_check", "",
+           "run on from rest for 0.5 s and report how far parts move; by the same solver with the same settings, so it "
+           "tells whether the scene rests for that solver, not whether it would for another"},
+          request.drift_check);
   v.field({"memory_budget", "byte", "a request estimated above it is refused with the figure"}, request.memory_budget);
 }
 

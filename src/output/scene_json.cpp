@@ -91,6 +91,8 @@ Json json_of(const Report& report) {
   penetration["pairs"] = p.pairs;
   penetration["p95_relative"] = p.p95_relative;
   penetration["max_relative"] = p.max_relative;
+  penetration["bin_median"] = p.bin_median;
+  penetration["bin_p95"] = p.bin_p95;
   penetration["bin_max"] = p.bin_max;
   penetration["bin_part"] = p.bin_part;
   json["gap"] = json_of(report.gap);

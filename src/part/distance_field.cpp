@@ -1,7 +1,7 @@
 #include "bin_scenes/part/distance_field.hpp"
 
+#include "core/in_parallel.hpp"
 #include "field_sign.hpp"
-#include "in_parallel.hpp"
 #include "triangle.hpp"
 
 #include "bin_scenes/core/error.hpp"

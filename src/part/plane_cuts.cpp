@@ -1,6 +1,6 @@
 #include "plane_cuts.hpp"
 
-#include "in_parallel.hpp"
+#include "core/in_parallel.hpp"
 
 #include "bin_scenes/part/hull_geometry.hpp"
 

@@ -1,4 +1,5 @@
-#include "bin_scenes/quality/quality.hpp"
+#include "core/in_parallel.hpp"
+#include "gap.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,13 +11,6 @@ namespace {
 
 /// Overlap below this share of the smaller diagonal is the rounding of float32 files, not overlap.
 constexpr double noise = 1e-6;
-
-struct Placed {
-  const ScenePart* part;
-  const MeshQuery* query;
-  double diagonal;
-  Aabb box;  ///< bin frame
-};
 
 std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModelPtr>& models) {
   std::vector<Placed> placed;
@@ -30,47 +24,51 @@ std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModel
   return placed;
 }
 
-/// Pairs with overlapping bounds: sweep along x.
-template <class Visit>
-void for_each_near_pair(const std::vector<Placed>& placed, Visit&& visit) {
+/// Pairs with overlapping bounds, of which one can move: sweep along x.
+std::vector<Overlapping> near_pairs(const std::vector<Placed>& placed) {
   std::vector<std::size_t> order(placed.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
     const double x = placed[i].box.lower.x(), y = placed[j].box.lower.x();
     return x != y ? x < y : i < j;
   });
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  const auto fixed = [&](std::size_t i) { return placed[i].part->state == PartState::fixed; };
+  std::vector<Overlapping> pairs;
   for (std::size_t s = 0; s < order.size(); ++s) {
     const Placed& one = placed[order[s]];
     for (std::size_t t = s + 1; t < order.size() && placed[order[t]].box.lower.x() <= one.box.upper.x(); ++t) {
-      if (one.box.overlaps(placed[order[t]].box)) pairs.push_back(std::minmax(order[s], order[t]));
+      if (!one.box.overlaps(placed[order[t]].box) || (fixed(order[s]) && fixed(order[t]))) continue;
+      const auto [a, b] = std::minmax(order[s], order[t]);
+      pairs.push_back({a, b, {}});
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  for (const auto& [i, j] : pairs) visit(i, j);
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Overlapping& p, const Overlapping& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  return pairs;
 }
 
-/// How far a part can move along `down` before it meets floor or walls of an analytic bin.
-double free_way_to_bin(const Mesh& part, const Pose& pose, const Bin& bin, const Vec3& down, double limit) {
-  double best = limit;
-  const auto plane = [&](const Vec3& x, const Vec3& inwards, double height) {
-    const double slope = -inwards.dot(down);
-    if (slope > 1e-9 && height >= 0.0 && height / slope < best &&
-        (bin.kind != Bin::Kind::box || inwards.z() > 0.0 || (x + height / slope * down).z() < bin.inner_size.z())) {
-      best = height / slope;
-    }
-  };
-  for (const Vec3& vertex : part.vertices) {
-    const Vec3 x = pose * vertex;
-    plane(x, Vec3::UnitZ(), std::max(0.0, x.z()));
-    if (bin.kind != Bin::Kind::box) continue;
-    for (int axis = 0; axis < 2; ++axis) {
-      plane(x, Vec3::Unit(axis), x[axis] + 0.5 * bin.inner_size[axis]);
-      plane(x, -Vec3::Unit(axis), 0.5 * bin.inner_size[axis] - x[axis]);
-    }
-  }
-  return best;
+/// Pairs that overlap, however little.
+std::vector<Overlapping> overlapping_pairs(const std::vector<Placed>& placed) {
+  std::vector<Overlapping> pairs = near_pairs(placed);
+  in_parallel(pairs.size(), [&](std::size_t i) {
+    const Placed &a = placed[pairs[i].a], &b = placed[pairs[i].b];
+    pairs[i].found = penetration(*a.query, a.part->pose, *b.query, b.part->pose);
+  });
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Overlapping& p) { return p.found.depth <= 0.0; }),
+              pairs.end());
+  return pairs;
 }
+
+/// The largest of some figures, and of what it is; the first of equal ones.
+template <class What>
+struct Worst {
+  double value = 0.0;
+  What what{};
+
+  void add(double figure, const What& of) {
+    if (figure > value) value = figure, what = of;
+  }
+};
 
 std::string percent(double fraction) {
   char text[32];
@@ -96,86 +94,74 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
   report.gap = {};
   report.reasons.clear();
   const std::vector<Placed> placed = placed_parts(scene, parts);
-  std::vector<bool> held(placed.size(), false);  // overlaps something, so nothing to fall through
 
   // Overlap of pairs.
+  const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
   std::vector<double> depths, relative;
-  std::array<int, 2> worst_pair = {-1, -1};
-  for_each_near_pair(placed, [&](std::size_t i, std::size_t j) {
-    const Placed &a = placed[i], &b = placed[j];
-    if (a.part->state == PartState::fixed && b.part->state == PartState::fixed) return;
-    const Penetration found = penetration(*a.query, a.part->pose, *b.query, b.part->pose);
-    const double unit = std::min(a.diagonal, b.diagonal);
-    if (found.depth <= noise * unit) return;
-    held[i] = held[j] = true;
-    if (depths.empty() || found.depth > *std::max_element(depths.begin(), depths.end())) {
-      report.penetration.pair = {a.part->id, b.part->id};
-    }
-    if (relative.empty() || found.depth / unit > *std::max_element(relative.begin(), relative.end())) {
-      worst_pair = {a.part->id, b.part->id};
-    }
-    depths.push_back(found.depth);
-    relative.push_back(found.depth / unit);
-  });
+  Worst<std::array<int, 2>> deepest{0.0, {-1, -1}}, worst_pair;
+  for (const Overlapping& pair : overlaps) {
+    const Placed &a = placed[pair.a], &b = placed[pair.b];
+    const double depth = pair.found.depth, unit = std::min(a.diagonal, b.diagonal);
+    if (depth <= noise * unit) continue;
+    deepest.add(depth, {a.part->id, b.part->id});
+    worst_pair.add(depth / unit, {a.part->id, b.part->id});
+    depths.push_back(depth);
+    relative.push_back(depth / unit);
+  }
   static_cast<Quantiles&>(report.penetration) = quantiles(depths);
   const Quantiles shares = quantiles(relative);
+  report.penetration.pair = deepest.what;
   report.penetration.p95_relative = shares.p95;
   report.penetration.max_relative = shares.max;
   report.penetration.pairs = depths.size();
 
   // Overlap with the bin.
   const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
-  double worst_bin = 0.0;
-  int worst_bin_part = -1;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
+  std::vector<double> into_bin(placed.size(), 0.0), bin_depths;
+  in_parallel(placed.size(), [&](std::size_t i) {
     const ScenePart& part = *placed[i].part;
-    if (part.state == PartState::fixed || part.state == PartState::escaped) continue;
-    const double depth = bin_penetration(*placed[i].query, part.pose, request.bin, bin_mesh).depth;
-    if (depth > noise * placed[i].diagonal) held[i] = true;
-    if (depth > report.penetration.bin_max) {
-      report.penetration.bin_max = depth;
-      report.penetration.bin_part = part.id;
-    }
-    if (depth / placed[i].diagonal > worst_bin) {
-      worst_bin = depth / placed[i].diagonal;
-      worst_bin_part = part.id;
-    }
+    if (part.state == PartState::fixed || part.state == PartState::escaped) return;
+    into_bin[i] = bin_penetration(*placed[i].query, part.pose, request.bin, bin_mesh).depth;
+  });
+  Worst<int> deepest_in_bin{0.0, -1}, worst_in_bin;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    deepest_in_bin.add(into_bin[i], placed[i].part->id);
+    worst_in_bin.add(into_bin[i] / placed[i].diagonal, placed[i].part->id);
+    if (into_bin[i] > noise * placed[i].diagonal) bin_depths.push_back(into_bin[i]);
   }
+  const Quantiles in_bin = quantiles(bin_depths);
+  report.penetration.bin_median = in_bin.median;
+  report.penetration.bin_p95 = in_bin.p95;
+  report.penetration.bin_max = deepest_in_bin.value;
+  report.penetration.bin_part = deepest_in_bin.what;
 
   // Free way down of every resting part.
+  Worst<int> worst_gap;
   if (request.gravity.norm() > 0.0) {
-    const Vec3 down = request.gravity.normalized();
-    std::vector<double> ways;
+    const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+    std::vector<double> finite;
     for (std::size_t i = 0; i < placed.size(); ++i) {
-      const Placed& a = placed[i];
-      if (a.part->state != PartState::resting) continue;
-      double way = 0.0;
-      if (!held[i]) {
-        double limit = std::numeric_limits<double>::infinity();
-        if (request.bin.kind == Bin::Kind::mesh && bin_mesh) {
-          limit = free_way(*a.query, a.part->pose, *bin_mesh, request.bin.pose, down, limit);
-        } else if (request.bin.kind != Bin::Kind::none) {
-          limit = free_way_to_bin(a.query->mesh(), a.part->pose, request.bin, down, limit);
-        }
-        way = limit;
-        for (std::size_t j = 0; j < placed.size(); ++j) {
-          if (j != i) way = free_way(*a.query, a.part->pose, *placed[j].query, placed[j].part->pose, down, way);
-        }
-      }
-      if (std::isfinite(way)) ways.push_back(way);
+      if (!std::isfinite(ways[i])) continue;
+      finite.push_back(ways[i]);
+      worst_gap.add(ways[i] / placed[i].diagonal, placed[i].part->id);
     }
-    report.gap = quantiles(ways);
+    report.gap = quantiles(finite);
   }
 
   // Verdict.
-  if (shares.max > request.accept.penetration) {
-    report.reasons.push_back("penetration " + percent(shares.max) + " of part " + std::to_string(worst_pair[0]) +
-                             " and " + std::to_string(worst_pair[1]) + " is above accept.penetration " +
+  if (worst_pair.value > request.accept.penetration) {
+    report.reasons.push_back("penetration " + percent(worst_pair.value) + " of part " +
+                             std::to_string(worst_pair.what[0]) + " and " + std::to_string(worst_pair.what[1]) +
+                             " is above accept.penetration " + percent(request.accept.penetration));
+  }
+  if (worst_in_bin.value > request.accept.penetration) {
+    report.reasons.push_back("penetration " + percent(worst_in_bin.value) + " of part " +
+                             std::to_string(worst_in_bin.what) + " and the bin is above accept.penetration " +
                              percent(request.accept.penetration));
   }
-  if (worst_bin > request.accept.penetration) {
-    report.reasons.push_back("penetration " + percent(worst_bin) + " of part " + std::to_string(worst_bin_part) +
-                             " and the bin is above accept.penetration " + percent(request.accept.penetration));
+  if (worst_gap.value > request.accept.gap) {
+    report.reasons.push_back("part " + std::to_string(worst_gap.what) + " could fall by " + percent(worst_gap.value) +
+                             " of its size, which is above accept.gap " + percent(request.accept.gap));
   }
   const auto is_in = [](const ScenePart& p) { return p.state != PartState::not_poured && p.state != PartState::fixed; };
   if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {

@@ -155,6 +155,8 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.penetration.pair = {report.penetration.pair[0], report.penetration.pair[1]};
   message.penetration.p95_relative = report.penetration.p95_relative;
   message.penetration.max_relative = report.penetration.max_relative;
+  message.penetration.bin_median = report.penetration.bin_median;
+  message.penetration.bin_p95 = report.penetration.bin_p95;
   message.penetration.bin_max = report.penetration.bin_max;
   message.penetration.bin_part = report.penetration.bin_part;
   message.penetration.pairs = report.penetration.pairs;
@@ -192,6 +194,8 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.penetration.pair = {message.penetration.pair[0], message.penetration.pair[1]};
   report.penetration.p95_relative = message.penetration.p95_relative;
   report.penetration.max_relative = message.penetration.max_relative;
+  report.penetration.bin_median = message.penetration.bin_median;
+  report.penetration.bin_p95 = message.penetration.bin_p95;
   report.penetration.bin_max = message.penetration.bin_max;
   report.penetration.bin_part = message.penetration.bin_part;
   report.penetration.pairs = message.penetration.pairs;

@@ -191,7 +191,11 @@ class Repair {
     const repair::Closed closed = repair::close_holes(mesh_, limit);
     report_.holes_closed = closed.small + closed.hidden;
     if (closed.small > 0) {
-      flag("holes_closed", count(closed.small, "hole") + " closed", "check that no opening of the part was meant");
+      const std::string size = options_.max_hole >= 1.0 ? ""
+                                                        : ", at most " + number(100.0 * options_.max_hole) +
+                                                              " % of the diagonal around (" + number(limit) + " m)";
+      flag("holes_closed", count(closed.small, "hole") + " closed" + size,
+           "check that no opening of the part was meant");
     }
     if (closed.hidden > 0) {
       flag("hidden_holes_closed", count(closed.hidden, "hole") + " closed inside another closed shell of the part",

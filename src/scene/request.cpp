@@ -170,6 +170,7 @@ void check_solver(const SolverSettings& solver) {
   at_least("solver.bullet.iterations", b.iterations, 1, 10000, "sweeps per step");
   above("solver.bullet.margin", b.margin, 0.0, 0.2, "fraction of the part's diagonal");
   above("solver.bullet.hull_error", b.hull_error, 0.0, 1.0, "fraction of the part's diagonal");
+  above("solver.bullet.hull_volume_error", b.hull_volume_error, 0.0, 10.0, "fraction of the part's volume");
   at_least("solver.bullet.max_hulls", b.max_hulls, 1, 4096, "hulls per part");
   const ThesisSettings& t = solver.thesis;
   above("solver.thesis.time_step", t.time_step, 0.0, 0.1, step);
@@ -252,6 +253,7 @@ void check(const Request& request) {
     }
   }
   at_least("accept.penetration", request.accept.penetration, 0.0, 1.0, "fraction of the part's diagonal");
+  at_least("accept.gap", request.accept.gap, 0.0, 1.0, "fraction of the part's diagonal");
   if (request.seconds) above("seconds", *request.seconds, 0.0, 1e5, "simulated seconds");
   above("memory_budget", request.memory_budget, 0.0, 1e15, "bytes");
 }

@@ -106,6 +106,8 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].k = {0, 0, 1, 0, 1, 1, 0, 0, 1}; }), "sensors[0].k");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].far = 0.01; }), "sensors[0].far");
   EXPECT_EQ(refused([](Request& r) { r.accept.penetration = -1; }), "accept.penetration");
+  EXPECT_EQ(refused([](Request& r) { r.accept.gap = std::nan(""); }), "accept.gap");
+  EXPECT_EQ(refused([](Request& r) { r.solver.bullet.hull_volume_error = 0; }), "solver.bullet.hull_volume_error");
   EXPECT_EQ(refused([](Request& r) { r.seconds = 0.0; }), "seconds");
   EXPECT_EQ(refused([](Request& r) { r.memory_budget = 0.0; }), "memory_budget");
 }

@@ -1,9 +1,11 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/scene/mesh_loader.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 
@@ -50,14 +52,15 @@ pour:
 solver:
   type: bullet
   preset: thesis
-  bullet: {time_step: 0.005, iterations: 30, margin: 0.01, sleeping: false, hull_error: 0.02, max_hulls: 16}
+  bullet: {time_step: 0.005, iterations: 30, margin: 0.01, sleeping: false, hull_error: 0.02, max_hulls: 16,
+           hull_volume_error: 0.2}
   thesis: {time_step: 0.02, sub_steps: 2, iterations: 5, bias: 0.3, slop: 0.02, rest_velocity: 0.1, voxels: 12,
            tightness: 0.75, radii: [0.1, 0.04], modified_normals: false, grid_size: 64, cell_size: 2, contacts_per_sphere: 8}
   sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
 sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
   - {name: right, k: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
-accept: {penetration: 0.01, escaped: true}
+accept: {penetration: 0.03, gap: 0.04, escaped: true}
 seconds: 1.5
 drift_check: true
 memory_budget: 1e9
@@ -108,6 +111,7 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.solver.bullet.margin, 0.01);
   EXPECT_FALSE(r.solver.bullet.sleeping);
   EXPECT_EQ(r.solver.bullet.hull_error, 0.02);
+  EXPECT_EQ(r.solver.bullet.hull_volume_error, 0.2);
   EXPECT_EQ(r.solver.bullet.max_hulls, 16);
   EXPECT_EQ(r.solver.sphere.device, SphereSettings::Device::cpu);
   EXPECT_EQ(r.solver.thesis.time_step, 0.02);
@@ -137,7 +141,8 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.sensors[0].far, 5.0);
   EXPECT_FALSE(r.sensors[1].pose);
   EXPECT_EQ(r.sensors[1].k[4], 500.0);
-  EXPECT_EQ(r.accept.penetration, 0.01);
+  EXPECT_EQ(r.accept.penetration, 0.03);
+  EXPECT_EQ(r.accept.gap, 0.04);
   EXPECT_TRUE(r.accept.escaped);
   EXPECT_EQ(r.seconds, 1.5);
   EXPECT_TRUE(r.drift_check);
@@ -403,6 +408,9 @@ TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
 TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
   std::ifstream file(std::string(BIN_SCENES_DOCS) + "/request.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
+  char holes[64];
+  std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
+  EXPECT_NE(text.find(holes), std::string::npos);
   EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/request.md";
 }
 

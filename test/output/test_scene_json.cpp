@@ -58,6 +58,9 @@ TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report.at("penetration").at("pair"), nlohmann::json({0, 2}));
+  for (const char* key : {"median", "p95", "max", "bin_median", "bin_p95", "bin_max"}) {
+    EXPECT_TRUE(report.at("penetration").at(key).is_number()) << key;
+  }
 }
 
 TEST_F(SceneJson, TellsWhatItsModelsWereByTheirBytes) {

@@ -58,10 +58,21 @@ TEST(Judge, OverlapIsFoundAndTooMuchOfItNamed) {
   EXPECT_NEAR(report.penetration.bin_max, 0.01, 1e-9);
   EXPECT_EQ(report.penetration.bin_part, 2);
   EXPECT_FALSE(report.accepted);
-  ASSERT_EQ(report.reasons.size(), 1u);
-  EXPECT_EQ(report.reasons[0], "penetration 5.8 % of part 2 and the bin is above accept.penetration 2 %");
-  heap.request.accept.penetration = 0.01;
-  EXPECT_EQ(heap.judged().reasons[0], "penetration 1.2 % of part 0 and 1 is above accept.penetration 1 %");
+  ASSERT_EQ(report.reasons.size(), 2u);
+  EXPECT_EQ(report.reasons[0], "penetration 1.2 % of part 0 and 1 is above accept.penetration 1 %");
+  EXPECT_EQ(report.reasons[1], "penetration 5.8 % of part 2 and the bin is above accept.penetration 1 %");
+  heap.request.accept.penetration = 0.02;
+  EXPECT_EQ(heap.judged().reasons.size(), 1u);
+}
+
+TEST(Judge, OverlapWithTheBinIsCountedLikeThatOfPairs) {
+  Heap heap;
+  for (int i = 0; i < 4; ++i) heap.place(0.2 * i - 0.3, 0, 0.05 - 0.001 * i);  // 0, 1, 2, 3 mm into the floor
+  const Report& report = heap.judged();
+  EXPECT_NEAR(report.penetration.bin_median, 0.002, 1e-9);
+  EXPECT_NEAR(report.penetration.bin_p95, 0.003, 1e-9);
+  EXPECT_NEAR(report.penetration.bin_max, 0.003, 1e-9);
+  EXPECT_EQ(report.penetration.bin_part, 3);
 }
 
 TEST(Judge, GapIsTheFreeWayDown) {
@@ -73,6 +84,60 @@ TEST(Judge, GapIsTheFreeWayDown) {
   EXPECT_NEAR(heap.judged().gap.median, 0.007, 1e-9);
   heap.scene.parts[2].state = PartState::moving;  // no claim to rest
   EXPECT_NEAR(heap.judged().gap.max, 0.007, 1e-9);
+}
+
+TEST(Judge, WhatHangsInTheAirIsAReason) {
+  Heap heap;
+  heap.place(0, 0, 0.05);
+  heap.place(0.4, 0, 0.0520);  // 2 mm above the floor
+  EXPECT_EQ(heap.judged().reasons,
+            (std::vector<std::string>{"part 1 could fall by 1.2 % of its size, which is above accept.gap 0.5 %"}));
+  heap.request.accept.gap = 0.02;
+  EXPECT_TRUE(heap.judged().accepted);
+}
+
+TEST(Judge, OverlapHoldsFromBelowButNotFromTheSide) {
+  Heap heap;
+  heap.place(0, 0, 0.05);
+  ScenePart& other = heap.place(0.02, 0.01, 0.1495);  // half a millimetre into the first
+  EXPECT_NEAR(heap.judged().gap.max, 0.0, 1e-12);
+  other.pose.position = {0.0999, 0.01, 0.12};  // beside it: the floor is 7 cm below
+  EXPECT_NEAR(heap.judged().gap.max, 0.07, 1e-9);
+  other.pose.position = {0.0999999, 0.01, 0.12};
+  EXPECT_NEAR(heap.judged().gap.max, 0.07, 1e-9);
+  other.pose.position = {0.4501, 0.01, 0.12};  // in the wall instead
+  EXPECT_NEAR(heap.judged().gap.max, 0.07, 1e-9);
+  heap.request.gravity = {9.81, 0, 0.1};  // which is now below, and holds it, so that it holds the other
+  EXPECT_NEAR(heap.judged().gap.max, 0.3501 * std::hypot(1, 0.1 / 9.81), 1e-9);
+}
+
+TEST(Judge, SlotTooNarrowHoldsWhatIsInIt) {
+  Heap heap;
+  heap.models[0] = PartModel::from_mesh(test::channel(0.2, 1).mesh, "channel");
+  heap.models.push_back(PartModel::from_mesh(test::bar({0.3, 0.3, 0.3}).mesh, "cube"));
+  heap.request.bin.inner_size = {5, 5, 5};
+  heap.request.parts.resize(2);
+  const Quat upright(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));  // the slot, 0.2 to 0.8 along x, opens upwards
+  heap.place(0, 0, 0).pose.orientation = upright;
+  heap.place(0.3501, 0, 0.6).line = 1;  // 0.1 mm from one wall
+  EXPECT_NEAR(heap.judged().gap.max, 0.25, 1e-9);
+  heap.scene.parts[1].pose.position.x() = 0.3499;  // in that wall
+  EXPECT_NEAR(heap.judged().gap.max, 0.25, 1e-9);
+  heap.models[1] = PartModel::from_mesh(test::bar({0.6002, 0.3, 0.3}).mesh, "wide");
+  heap.scene.parts[1].pose.position.x() = 0.5;  // in both
+  EXPECT_NEAR(heap.judged().gap.max, 0.0, 1e-9);
+}
+
+// The rim holds at its edge what no corner of the part is above.
+TEST(Judge, RimHoldsWhatLiesAcross) {
+  Heap heap;
+  heap.models[0] = PartModel::from_mesh(test::bar({0.4, 0.05, 0.02}).mesh, "bar");
+  const double tilt = 0.2;
+  ScenePart& bar = heap.place(0.5, 0, 1 + 0.01 / std::cos(tilt) + 0.003);
+  bar.pose.orientation = Quat(Eigen::AngleAxisd(-tilt, Vec3::UnitY()));  // the end in the bin is the lower one
+  EXPECT_NEAR(heap.judged().gap.max, 0.003, 1e-9);
+  bar.pose.position.z() -= 0.0031;
+  EXPECT_NEAR(heap.judged().gap.max, 0.0, 1e-9);
 }
 
 TEST(Judge, EscapedAndMovingPartsAreReasons) {

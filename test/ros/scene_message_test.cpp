@@ -83,6 +83,8 @@ TEST(SceneMessage, ReportComesBackWhole) {
   EXPECT_EQ(a.penetration.pair, b.penetration.pair);
   EXPECT_EQ(a.penetration.p95_relative, b.penetration.p95_relative);
   EXPECT_EQ(a.penetration.max_relative, b.penetration.max_relative);
+  EXPECT_EQ(a.penetration.bin_median, b.penetration.bin_median);
+  EXPECT_EQ(a.penetration.bin_p95, b.penetration.bin_p95);
   EXPECT_EQ(a.penetration.bin_max, b.penetration.bin_max);
   EXPECT_EQ(a.penetration.bin_part, b.penetration.bin_part);
   EXPECT_EQ(a.penetration.pairs, b.penetration.pairs);

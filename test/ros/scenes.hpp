@@ -39,6 +39,8 @@ inline Report full_report() {
   r.penetration.pair = {0, 2};
   r.penetration.p95_relative = 4e-4;
   r.penetration.max_relative = 5e-4;
+  r.penetration.bin_median = 4e-5;
+  r.penetration.bin_p95 = 5e-5;
   r.penetration.bin_max = 6e-5;
   r.penetration.bin_part = 1;
   r.penetration.pairs = 9;

@@ -255,7 +255,8 @@ TEST_F(MeshLoader, SmallHolesAreClosedLargeOnesAreAnErrorOrAShell) {
   }
   const LoadedMesh mended = repair_mesh(small, {}, "part");
   EXPECT_EQ(mended.report.holes_closed, 1u);
-  EXPECT_TRUE(has_flag(mended.report, "holes_closed"));
+  ASSERT_TRUE(has_flag(mended.report, "holes_closed"));
+  EXPECT_EQ(mended.report.flags.back().text, "1 hole closed, at most 2 % of the diagonal around (0.0346 m)");
   EXPECT_NEAR(volume(mended.mesh), 1.0, 1e-12);
 
   Mesh tray = box_mesh({1, 1, 1});

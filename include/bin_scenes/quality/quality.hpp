@@ -37,11 +37,12 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 ///
 /// Penetration: of all pairs with a movable part; overlap below 1e-6 of the smaller diagonal is rounding and not
 /// counted; escaped parts count against each other, not against the bin.
-/// Gap: of every resting part the free way along gravity before it touches another part or the bin; 0 for a part that
-/// overlaps one. Parts with nothing at all below them are left out, and so is everything without gravity.
-/// Accepted, unless a pair or a part and the bin overlap by more than accept.penetration, parts escaped (and
-/// accept.escaped is not set), none of the parts that should have been poured was, or the scene is not at rest (and no
-/// exact time was asked for).
+/// Gap: of every resting part the free way along gravity before it touches another part or the bin. What it overlaps
+/// already holds it only if the shortest way out of it leads up, or if it is in the way from the nearest place where the
+/// two do not overlap. Parts with nothing at all below them are left out, and so is everything without gravity.
+/// Accepted, unless a pair or a part and the bin overlap by more than accept.penetration, a part at rest could fall by
+/// more than accept.gap, parts escaped (and accept.escaped is not set), none of the parts that should have been poured
+/// was, or the scene is not at rest (and no exact time was asked for).
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
            const PartModelPtr& bin_model = nullptr);
 

@@ -26,9 +26,9 @@ Quantiles quantiles(std::vector<double> values);
 struct PenetrationReport : Quantiles {
   std::array<int, 2> pair = {-1, -1};  ///< ids of the worst pair; {-1, -1} if nothing overlaps
   double p95_relative = 0.0, max_relative = 0.0;  ///< / smaller part's bounding diagonal
-  double bin_max = 0.0;                ///< worst part against the bin (m)
-  int bin_part = -1;
   std::size_t pairs = 0;               ///< overlapping pairs
+  double bin_median = 0.0, bin_p95 = 0.0, bin_max = 0.0;  ///< over the parts that overlap the bin (m)
+  int bin_part = -1;                   ///< id of the worst of them; -1 if none
 };
 
 struct DriftReport : Quantiles {       ///< m, moved centre of mass over 0.5 s of a re-run
@@ -47,7 +47,7 @@ struct Report {
   std::uint64_t steps = 0;
   Profile profile;
   PenetrationReport penetration;
-  Quantiles gap;                       ///< free way below parts that touch nothing that holds them (m)
+  Quantiles gap;                       ///< free way of the parts at rest along gravity (m)
   DriftReport drift;
   std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite
   std::vector<int> not_poured;         ///< ids that found no room above the heap

@@ -77,6 +77,7 @@ struct BulletSettings {
   double margin = 0.005;           ///< collision margin / part diagonal, shrunk into the hulls; smaller = slower, exacter
   bool sleeping = true;            ///< islands at rest cost nothing
   double hull_error = 0.01;        ///< largest surface error of the convex decomposition / part diagonal
+  double hull_volume_error = 0.05;  ///< by how much the hulls together may be too large / volume
   int max_hulls = 64;              ///< cap on hulls per part; cost per touching pair grows with its square
 };
 
@@ -130,7 +131,8 @@ struct Sensor {
 
 /// When a scene counts as accepted; the report names what failed.
 struct Acceptance {
-  double penetration = 0.02;  ///< largest penetration of any pair / smaller part diagonal
+  double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
+  double gap = 0.005;         ///< largest free way of a part at rest along gravity / its diagonal
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };
 

@@ -20,6 +20,7 @@ void check_settings(const BulletSettings& s) {
   require(s.iterations >= 1 && s.iterations <= 100000, "iterations", "1 to 100000");
   require(s.margin >= 0.0 && s.margin <= 0.1, "margin", "0 to 0.1 of the part's diagonal");
   require(s.hull_error > 0.0 && s.hull_error < 1.0, "hull_error", "above 0, below 1");
+  require(s.hull_volume_error > 0.0 && s.hull_volume_error <= 10.0, "hull_volume_error", "above 0, at most 10");
   require(s.max_hulls >= 1, "max_hulls", "at least 1");
 }
 

@@ -1,0 +1,25 @@
+/// The parts of a scene as the judge sees them.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/quality/quality.hpp"
+#include "bin_scenes/scene/scene.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+struct Placed {
+  const ScenePart* part;
+  const MeshQuery* query;
+  double diagonal;
+  Aabb box;  ///< bin frame
+};
+
+/// Two parts, by their place in the list, that overlap; or touch by less than counts.
+struct Overlapping {
+  std::size_t a, b;
+  Penetration found;  ///< its direction moves b away from a
+};
+
+}  // namespace bin_scenes
