@@ -44,6 +44,7 @@ double body_bytes(const Request& request, const PartModel* part) {
   if (solver.type == SolverType::bullet) {
     HullOptions options;  // the solver needs the same hulls next
     options.max_error = solver.bullet.hull_error;
+    options.max_volume_error = solver.bullet.hull_volume_error;
     options.max_hulls = solver.bullet.max_hulls;
     return kPerBody + kPerHull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }

@@ -6,8 +6,8 @@
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "bin_scenes/part/shape_error.hpp"
+#include "core/in_parallel.hpp"
 #include "hacd_partition.hpp"
-#include "in_parallel.hpp"
 #include "plane_cuts.hpp"
 
 #include <algorithm>
@@ -22,6 +22,9 @@ namespace {
 constexpr double kFieldCell = 0.008, kStep = 0.02;
 // Distance of the places where the error is measured, / diagonal.
 constexpr double kMeasureStep = 0.015;
+// What a hull may stick out at first / max_error, and how often less of it is tried.
+constexpr double kFirstLimit = 0.75;
+constexpr int kTries = 4;
 // Cuts may make this many times the pieces that are allowed: merging makes fewer of them.
 constexpr int kSpare = 3;
 // Patches of HACD to merge from.
@@ -160,45 +163,54 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
 ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
   const Mesh& mesh = query.mesh();
   if (mesh.empty()) throw input_error("a mesh without triangles has no hull", "convex_hulls", "give a closed mesh");
-  if (options.max_hulls < 1 || options.max_vertices < 4 || !(options.max_error > 0)) {
+  if (options.max_hulls < 1 || options.max_vertices < 4 || !(options.max_error > 0) ||
+      !(options.max_volume_error > 0)) {
     throw input_error("hull options out of range", "HullOptions",
-                      "use max_hulls >= 1, max_vertices >= 4 and max_error > 0");
+                      "use max_hulls >= 1, max_vertices >= 4 and errors > 0");
   }
+  const double volume = mass_properties(mesh).volume;
   ConvexHulls best;
-  best.hulls = {convex_hull(mesh.vertices, options.max_vertices)};
-  if (best.hulls[0].empty()) {
+  double excess = std::numeric_limits<double>::infinity();  // its larger error / what is allowed
+  // Keeps hulls that are better than the best so far.
+  const auto judge = [&](std::vector<Mesh> hulls, const Protrusion* protrusion) {
+    const double surface = surface_error(hulls, query, protrusion);
+    const double volume_error = volume > 0 ? union_volume(hulls) / volume - 1 : 0.0;
+    const double found = std::max(surface / options.max_error, volume_error / options.max_volume_error);
+    if (found >= excess) return;
+    excess = found;
+    best = {std::move(hulls), surface, volume_error, found <= 1};
+  };
+  const Mesh whole = convex_hull(mesh.vertices, options.max_vertices);
+  if (whole.empty()) {
     throw input_error("all vertices lie in one plane", "convex_hulls", "give a closed mesh with a volume");
   }
-  best.surface_error = surface_error(best.hulls, query, nullptr);
-  if (best.surface_error > options.max_error && options.max_hulls > 1) {
+  judge({whole}, nullptr);
+  if (!best.met && options.max_hulls > 1) {
     const double diagonal = mesh.bounds().diagonal();
     const Protrusion protrusion(query);
     const SolidMeasure measure{protrusion, [&](const Vec3& p) { return protrusion.inside(p); }};
-    // Keeps the hulls of the pieces, merged and with few vertices, if they are better than the best so far.
+    // The hulls of the pieces, merged and with few vertices; tells how many.
     const auto try_pieces = [&](const std::vector<std::vector<Vec3>>& pieces, double limit) {
       std::vector<Mesh> hulls;
       for (const Piece& piece : merge(pieces, protrusion, limit, 1e-3 * diagonal, options.max_hulls)) {
         Mesh hull = convex_hull(piece.points, options.max_vertices);
         if (!hull.empty()) hulls.push_back(std::move(hull));
       }
-      const double error = hulls.empty() ? 1.0 : surface_error(hulls, query, &protrusion);
-      if (error >= best.surface_error) return;
-      best.hulls = std::move(hulls);
-      best.surface_error = error;
+      const int count = static_cast<int>(hulls.size());
+      if (count > 0) judge(std::move(hulls), &protrusion);
+      return count;
     };
-    const auto missed = [&] { return best.surface_error > options.max_error; };
-    for (const double margin : {0.75, 0.5}) {
-      const double limit = margin * options.max_error * diagonal;
-      // More pieces than the limit allows do not help.
-      if (missed() && static_cast<int>(best.hulls.size()) < options.max_hulls) {
-        try_pieces(plane_cut_pieces(mesh, measure, limit, kSpare * options.max_hulls), limit);
-      }
+    double limit = kFirstLimit * options.max_error * diagonal;
+    for (int i = 0; i < kTries; ++i) {
+      const int count = try_pieces(plane_cut_pieces(mesh, measure, limit, kSpare * options.max_hulls), limit);
+      // More pieces than may be kept do not help.
+      if (best.met || count >= options.max_hulls) break;
+      // What sticks out adds to the volume in proportion.
+      limit *= std::clamp(0.9 / excess, 0.3, 2.0 / 3.0);
     }
-    if (missed()) try_pieces(hacd_patches(mesh, kPatches), 0.75 * options.max_error * diagonal);
+    if (best.surface_error > options.max_error)
+      try_pieces(hacd_patches(mesh, kPatches), kFirstLimit * options.max_error * diagonal);
   }
-  best.met = best.surface_error <= options.max_error;
-  const double volume = mass_properties(mesh).volume;
-  best.volume_error = volume > 0 ? union_volume(best.hulls) / volume - 1 : 0.0;
   return best;
 }
 

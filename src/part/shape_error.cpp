@@ -190,7 +190,8 @@ double union_volume(const std::vector<Mesh>& hulls) {
     planes.emplace_back(hull);
   }
   return volume_by_counting(box, 1 << 16, [&](const Vec3& p) {
-    return std::any_of(planes.begin(), planes.end(), [&](const HullPlanes& hull) { return hull.outside(p) <= 0; });
+    return std::any_of(planes.begin(), planes.end(),
+                       [&](const HullPlanes& hull) { return hull.to_box(p) <= 0 && !hull.outside_by_more(p, 0); });
   });
 }
 

@@ -74,6 +74,7 @@ HullOptions default_hulls() {
   const SolverSettings defaults;
   HullOptions hulls;
   hulls.max_error = defaults.bullet.hull_error;
+  hulls.max_volume_error = defaults.bullet.hull_volume_error;
   hulls.max_hulls = defaults.bullet.max_hulls;
   return hulls;
 }
@@ -182,6 +183,12 @@ void print_text(const Json& j) {
                     std::to_string(n[2].get<int>()),
                 x["field"]["error"]);
     print_error("hulls", std::to_string(x["hulls"]["count"].get<std::size_t>()), x["hulls"]["error"]);
+    if (!x["hulls"]["met"].get<bool>()) {
+      const HullOptions goal = default_hulls();
+      std::printf(
+          "  %-8s these hulls miss their goal, %g %% of the diagonal and %g %% of the volume, with %d at most\n", "",
+          100 * goal.max_error, 100 * goal.max_volume_error, goal.max_hulls);
+    }
     std::printf("  %-8s %zu\n", "samples", x["samples"]["count"].get<std::size_t>());
   }
   const Json& cache = j["cache"];

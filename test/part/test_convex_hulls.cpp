@@ -114,11 +114,31 @@ TEST(HullPlanes, SliversCutNothingOff) {
 TEST(ConvexHulls, TorusStaysOpenInTheMiddle) {
   HullOptions options;
   options.max_error = 0.03;
+  options.max_volume_error = 1.0;
   const ConvexHulls hulls = convex_hulls(torus_mesh(0.04, 0.012, 32, 12), options);
   EXPECT_TRUE(hulls.met) << hulls.surface_error;
   EXPECT_GE(hulls.hulls.size(), 5u);
   EXPECT_LE(hulls.hulls.size(), 24u);
   for (const Mesh& hull : hulls.hulls) EXPECT_GT(HullPlanes(hull).outside(Vec3::Zero()), 0.015);
+}
+
+// A thin ring of few hulls is near everywhere, and yet too large.
+TEST(ConvexHulls, VolumeGoalTakesMoreHullsThanTheSurface) {
+  const Mesh ring = torus_mesh(0.04, 0.003, 96, 12);
+  HullOptions options;
+  options.max_volume_error = 1.0;
+  const ConvexHulls near = convex_hulls(ring, options);
+  EXPECT_TRUE(near.met);
+  EXPECT_LE(near.surface_error, 0.01);
+  EXPECT_GT(near.volume_error, 0.05);
+  options.max_volume_error = 0.05;
+  const ConvexHulls both = convex_hulls(ring, options);
+  EXPECT_TRUE(both.met);
+  EXPECT_LE(both.surface_error, 0.01);
+  EXPECT_LE(both.volume_error, 0.05);
+  EXPECT_GT(both.hulls.size(), near.hulls.size());
+  options.max_hulls = static_cast<int>(near.hulls.size());
+  EXPECT_FALSE(convex_hulls(ring, options).met);
 }
 
 TEST(ConvexHulls, UnreachableGoalIsSaid) {

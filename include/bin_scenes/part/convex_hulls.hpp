@@ -9,8 +9,9 @@
 namespace bin_scenes {
 
 struct HullOptions {
-  double max_error =
-      0.01;  ///< largest surface error / diagonal; hulls are added until it is met or max_hulls is reached
+  // Hulls are added until both errors are met or max_hulls is reached.
+  double max_error = 0.01;         ///< largest surface error / diagonal
+  double max_volume_error = 0.05;  ///< by how much all hulls together may be too large / volume
   int max_hulls = 64;
   int max_vertices = 64;  ///< per hull
 };
@@ -21,14 +22,14 @@ struct ConvexHulls {
   /// the part is no outer surface.
   double surface_error = 0;
   double volume_error = 0;  ///< (volume of union of hulls - volume) / volume
-  bool met = false;         ///< error goal reached
+  bool met = false;         ///< both errors as small as asked for
 };
 
 class MeshQuery;
 
 /// One hull if the part is convex enough. Else it is cut by planes into nearly convex pieces, which are merged while
-/// the hull of two sticks out of the mesh by less than max_error; where that misses the goal, HACD's patches are tried,
-/// too. The best result is kept, with `met` telling whether it is good enough.
+/// the hull of two sticks out of the mesh by less than a share of max_error. Where that misses a goal a smaller share
+/// is tried, then HACD's patches. The best result is kept, with `met` telling whether it is good enough.
 ConvexHulls convex_hulls(const Mesh& mesh, const HullOptions& options = {});
 ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options = {});
 

@@ -51,10 +51,12 @@ PartShape part_shape(const PartModel& part, const BulletSettings& settings, doub
 
   HullOptions options;
   options.max_error = settings.hull_error;
+  options.max_volume_error = settings.hull_volume_error;
   options.max_hulls = settings.max_hulls;
   const ConvexHulls& hulls = part.hulls(options);
   result.hulls_met = hulls.met;
   result.hull_error = hulls.surface_error;
+  result.hull_volume_error = hulls.volume_error;
   const Pose from_model = result.principal.inverse();
   const double margin = settings.margin * part.diagonal() * scale;
   for (const Mesh& hull : hulls.hulls) result.pieces.push_back(hull_shape(hull, from_model, scale, margin));

@@ -16,12 +16,13 @@ namespace bin_scenes::bullet {
 struct PartShape {
   std::unique_ptr<btCollisionShape> shape;
   std::vector<std::unique_ptr<btCollisionShape>> pieces;
-  Pose principal;               ///< principal frame in the model frame, metres
-  Vec3 inertia = Vec3::Ones();  ///< principal moments / mass, square units of the scaled world
-  double radius = 0.0;          ///< bounding sphere about the centre of mass, units of the scaled world
-  double thickness = 1.0;       ///< 2 volume / area: of a plate, and less than the width of anything thicker
-  bool hulls_met = true;        ///< the decomposition reached BulletSettings::hull_error
-  double hull_error = 0.0;      ///< / diagonal
+  Pose principal;                  ///< principal frame in the model frame, metres
+  Vec3 inertia = Vec3::Ones();     ///< principal moments / mass, square units of the scaled world
+  double radius = 0.0;             ///< bounding sphere about the centre of mass, units of the scaled world
+  double thickness = 1.0;          ///< 2 volume / area: of a plate, and less than the width of anything thicker
+  bool hulls_met = true;           ///< the decomposition reached BulletSettings::hull_error and hull_volume_error
+  double hull_error = 0.0;         ///< / diagonal
+  double hull_volume_error = 0.0;  ///< of the union of hulls / volume
 };
 
 /// `scale`: units of the scaled world per metre.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 extern btScalar gContactBreakingThreshold;  // NOLINT: names of Bullet's
 extern btScalar gDeactivationTime;          // NOLINT
@@ -294,10 +295,14 @@ std::vector<Flag> World::flags() const {
   for (std::size_t p = 0; p < def_.parts.size(); ++p) {
     const auto user = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b->def->part == p; });
     if (user == bodies_.end() || (*user)->shape->hulls_met) continue;
-    result.push_back({"hull_error",
-                      "the hulls of " + def_.parts[p]->path() + " leave the mesh by " +
-                          std::to_string(100.0 * (*user)->shape->hull_error) + " % of its diagonal",
-                      "raise solver.bullet.max_hulls or solver.bullet.hull_error, or use the sphere solver"});
+    const PartShape& shape = *(*user)->shape;
+    char errors[96];
+    std::snprintf(errors, sizeof errors,
+                  " leave the mesh by %.2g %% of its diagonal, and their volume is off by %+.2g %%",
+                  100.0 * shape.hull_error, 100.0 * shape.hull_volume_error);
+    result.push_back({"hull_error", "the hulls of " + def_.parts[p]->path() + errors,
+                      "raise solver.bullet.max_hulls, or hull_error and hull_volume_error beside it, or use the sphere "
+                      "solver"});
   }
   return result;
 }
