@@ -65,7 +65,10 @@ void run(Run& out) {
     }
 }
 
-const Registration registration{"throughput", "one scene alone, and accepted scenes a second in one run of 512", run};
+const Registration registration{"throughput",
+                                "one scene alone, and accepted scenes a second in one run of 512",
+                                {"solver", "bodies", "scenes"},
+                                run};
 
 }  // namespace
 }  // namespace bin_scenes::bench
