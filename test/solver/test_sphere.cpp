@@ -35,8 +35,8 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
     SphereSettings settings;
     settings.field_cell = cell;
     Lab lab(make_sphere_solver(settings));
-    lab.place(box(Vec3(0.04, 0.03, 0.02)), Vec3(0, 0, 0.1));
-    lab.place(box(Vec3(0.04, 0.03, 0.02)), Vec3(0, 0, 0.2));
+    const PartModelPtr part = box(Vec3(0.04, 0.03, 0.02));
+    for (const double height : {0.1, 0.2}) lab.place(part, Vec3(0, 0, height));
     lab.begin(Phase::pour);
     return lab.solver().flags(0);
   };
