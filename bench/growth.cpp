@@ -27,6 +27,7 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
   heaps.steps(steps);
   std::vector<double> wall, cpu, part_us;
   double dispatches = 0;
+  const Profile before = heaps.solver().profile();
   for (int k = 0; k < 3; ++k) {
     dispatches = counted(heaps, "gl_dispatches");
     const Heaps::Cost cost = heaps.steps(steps);
@@ -39,6 +40,8 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
                 .measure("step_cpu_ms", cpu)
                 .measure("part_cpu_us", part_us)
                 .exact("asleep_share", heaps.asleep())
+                .info("stages_us", stages_of(heaps.solver().profile().since(before),
+                                             1e3 / (3.0 * steps * static_cast<double>(heaps.bodies()))))
                 .info("device", heaps.solver().device());
   if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
     const double held = counted(heaps, "gl_bytes_held") - counted(heaps, "gl_bytes_shared");

@@ -10,23 +10,18 @@
 
 namespace bin_scenes::bench {
 
-namespace {
-
-/// "step 812, shape 40": the stages that take more than a hundredth of the time.
-std::string stages_of(const Profile& profile) {
+std::string stages_of(const Profile& profile, double scale) {
   double total = 0.0;
   for (const auto& [stage, ms] : profile.stages_ms) total += ms;
   std::string out;
   for (const auto& [stage, ms] : profile.stages_ms) {
     if (ms < 0.01 * total) continue;
     char text[96];
-    std::snprintf(text, sizeof text, "%s%s %.4g", out.empty() ? "" : "; ", stage.c_str(), ms);
+    std::snprintf(text, sizeof text, "%s%s %.4g", out.empty() ? "" : "; ", stage.c_str(), scale * ms);
     out += text;
   }
   return out;
 }
-
-}  // namespace
 
 double cpu_seconds() {
   rusage usage{};

@@ -14,6 +14,9 @@ namespace bin_scenes::bench {
 /// Of all threads of this process so far (s).
 double cpu_seconds();
 
+/// "coloring 1.2; step 812": the stages that take more than a hundredth of the time, in ms times `scale`.
+std::string stages_of(const Profile& profile, double scale = 1.0);
+
 /// One scene, timed from request to final poses: judging and rendering come after.
 struct Poured {
   Scene scene;

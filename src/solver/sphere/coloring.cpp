@@ -23,12 +23,11 @@ void color_manifolds(World& world) {
     if (b_moves) used[m.b] |= bit;
     colors = std::max(colors, m.color + 1);
   }
-  world.color_start.assign(colors + 1, 0);
+  std::vector<std::uint32_t> next(colors + 1, 0);  // of each color in the order
   for (const Manifold& m : world.manifolds)
-    if (m.color >= 0) ++world.color_start[m.color + 1];
-  for (int c = 0; c < colors; ++c) world.color_start[c + 1] += world.color_start[c];
-  world.order.resize(colors ? world.color_start[colors] : 0);
-  std::vector<std::uint32_t> next(world.color_start.begin(), world.color_start.end());
+    if (m.color >= 0) ++next[m.color + 1];
+  for (int c = 0; c < colors; ++c) next[c + 1] += next[c];
+  world.order.resize(next[colors]);
   for (std::uint32_t i = 0; i < world.manifolds.size(); ++i)
     if (world.manifolds[i].color >= 0) world.order[next[world.manifolds[i].color]++] = i;
 }

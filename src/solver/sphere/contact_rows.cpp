@@ -71,28 +71,35 @@ Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& b
 
 }  // namespace
 
-void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows) {
+void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                  std::vector<ContactRows>& rows) {
   static thread_local std::vector<std::uint32_t> order;
-  order = world.order;
+  const Slice manifolds = blocks.manifolds(block);
+  order.assign(manifolds.begin(), manifolds.end());
+  const auto color = [&](std::uint32_t manifold) { return world.manifolds[manifold].color; };
   const auto contacts = [&](std::uint32_t manifold) { return world.manifolds[manifold].contacts.size(); };
   const auto longer = [&](std::uint32_t i, std::uint32_t k) {
     return contacts(i) != contacts(k) ? contacts(i) > contacts(k) : i < k;
   };
-  const auto no_body = static_cast<std::uint32_t>(world.bodies.size());
   std::uint32_t row = 0;
   bundles.clear();
-  for (std::size_t color = 0; color + 1 < world.color_start.size(); ++color) {
-    const std::uint32_t begin = world.color_start[color], end = world.color_start[color + 1];
-    std::sort(order.begin() + begin, order.begin() + end, longer);
-    const std::uint32_t most = color == shared_color ? 1 : lane_count;
-    for (std::uint32_t i = begin; i < end; i += most) {
+  for (auto begin = order.begin(); begin != order.end();) {
+    const int shade = color(*begin);
+    const auto end = std::find_if(begin, order.end(), [&](std::uint32_t i) { return color(i) != shade; });
+    std::sort(begin, end, longer);
+    const std::ptrdiff_t most = shade == shared_color ? 1 : lane_count;
+    while (begin != end) {
       Bundle& bundle = bundles.emplace_back();
-      bundle.a.fill(no_body);
-      bundle.b.fill(no_body);
-      bundle.lanes = static_cast<int>(std::min(most, end - i));
-      std::copy_n(order.begin() + i, bundle.lanes, bundle.manifold.begin());
+      bundle.a.fill(blocks.place(block, ground));
+      bundle.b = bundle.a;
+      bundle.lanes = static_cast<int>(std::min(most, end - begin));
       bundle.first = row;
-      bundle.last = row += static_cast<std::uint32_t>(contacts(order[i]));
+      bundle.last = row += static_cast<std::uint32_t>(contacts(*begin));
+      for (int lane = 0; lane < bundle.lanes; ++lane) {
+        const Manifold& m = world.manifolds[bundle.manifold[lane] = *begin++];
+        bundle.a[lane] = blocks.place(block, m.a);
+        bundle.b[lane] = blocks.place(block, m.b);
+      }
     }
   }
   rows.resize(row);
@@ -106,14 +113,12 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
     const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
-    bundle.a[lane] = m.a;
-    if (b) bundle.b[lane] = m.b;
     bundle.friction[lane] = m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
-    if (motions[m.a].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
-    if (b && motions[m.b].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
+    if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
+    if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Ahead ahead_a(world, &a, h), ahead_b(world, b, h);
     for (std::size_t k = 0; k < m.contacts.size(); ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, h);

@@ -1,6 +1,7 @@
 /// Contacts as the solver works on them: eight at a time, one of each of eight manifolds that share no moving body.
 #pragma once
 
+#include "solver/sphere/blocks.hpp"
 #include "solver/sphere/lanes.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -32,7 +33,7 @@ struct ContactRows {
   Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
 };
 
-using LaneBodies = std::array<std::uint32_t, lane_count>;
+using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
 
 /// Eight manifolds of one color. Empty lanes name the ground for both bodies.
 struct Bundle {
@@ -130,8 +131,9 @@ inline void store(const Velocities& velocities, const Bundle& bundle, std::vecto
   scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
 }
 
-/// The manifolds of a world in bundles, in order of color; the longest of a color first, so that lanes are filled.
-void make_bundles(const World& world, std::vector<Bundle>& bundles, std::vector<ContactRows>& rows);
+/// The manifolds of a block in bundles, in order of color; the longest of a color first, so that lanes are filled.
+void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                  std::vector<ContactRows>& rows);
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);

@@ -1,3 +1,4 @@
+#include "solver/sphere/blocks.hpp"
 #include "solver/sphere/contact_rows.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -6,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace bin_scenes::sphere {
 
@@ -44,19 +46,22 @@ Vec3f vector_of(Quad q) {
   return {q[0], q[1], q[2]};
 }
 
-/// What a step's solve works on. Kept between steps for its memory alone.
+/// What the solve of a block works on. Kept for its memory alone.
 struct Scratch {
-  std::vector<Motion> motions;  ///< of the bodies, and of the ground behind them
-  std::vector<char> free;       ///< bodies that move, and that nothing is near
+  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of all that does not move
+  std::vector<char> free;       ///< bodies that nothing is near
   std::vector<Bundle> bundles;  ///< in order of color
   std::vector<ContactRows> rows;
 };
 
-/// The solve of one step. Bodies that sleep or are fixed take part as if nothing could move them.
+/// The solve of one step of a block. Bodies that sleep or are fixed take part as if nothing could move them.
 class ContactSolver {
  public:
-  ContactSolver(World& world, Scratch& scratch)
+  ContactSolver(World& world, const Blocks& blocks, std::size_t block, Scratch& scratch)
       : world_(world),
+        blocks_(blocks),
+        block_(block),
+        bodies_(blocks.bodies(block)),
         settings_(world.settings),
         h_(settings_.time_step / static_cast<float>(world.sub_steps())),
         softness_(world.softness()),
@@ -67,7 +72,8 @@ class ContactSolver {
         bundles_(scratch.bundles),
         rows_(scratch.rows) {}
 
-  void prepare();     ///< rows from contacts, with the forces of the last step
+  void prepare();  ///< rows from contacts, with the forces of the last step
+  std::uint64_t falling() const { return static_cast<std::uint64_t>(std::count(free_.begin(), free_.end(), 1)); }
   void accelerate();  ///< gravity, gyroscopic term
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
@@ -87,6 +93,9 @@ class ContactSolver {
   void bounce(const Bundle& bundle, LaneMask lanes);
 
   World& world_;
+  const Blocks& blocks_;
+  const std::size_t block_;
+  const Slice bodies_;
   const Settings& settings_;
   const float h_;
   const Softness& softness_;
@@ -99,38 +108,36 @@ class ContactSolver {
 };
 
 void ContactSolver::prepare_motions() {
-  motions_.assign(world_.bodies.size() + 1, Motion{});
-  free_.assign(world_.bodies.size() + 1, 0);
-  for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
-    const Body& b = world_.bodies[i];
-    if (!b.moves()) continue;
+  motions_.assign(bodies_.size() + 1, Motion{});
+  free_.assign(bodies_.size(), 1);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& b = world_.bodies[bodies_[i]];
     motions_[i].v = padded(b.v, b.inverse_mass);
     motions_[i].w = padded(b.w);
-    free_[i] = 1;
   }
 }
 
 void ContactSolver::prepare() {
   prepare_motions();
-  make_bundles(world_, bundles_, rows_);
+  make_bundles(world_, blocks_, block_, bundles_, rows_);
   for_each_in_parallel(bundles_.size(), bundles_per_task,
                        [&](std::size_t i) { sphere::prepare(world_, motions_, h_, bundles_[i], rows_); });
   for (const Bundle& bundle : bundles_)
-    for (int lane = 0; lane < bundle.lanes; ++lane) free_[bundle.a[lane]] = free_[bundle.b[lane]] = 0;
-  for (const char free : free_) world_.counters.free_steps += free;
+    for (int lane = 0; lane < bundle.lanes; ++lane)
+      for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
+        if (i < free_.size()) free_[i] = 0;
 }
 
 /// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
 /// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
 void ContactSolver::accelerate() {
   const Quad gain = padded(h_ * world_.gravity);
-  for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
-    if (motion.inverse_mass() == 0) continue;
     motion.v += gain;
     if (vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f) continue;  // 1e-4 rad a sub-step: the term is rounding
     // Double precision: single would let |L| creep by a thousandth in ten thousand sub-steps.
-    const Body& b = world_.bodies[i];
+    const Body& b = world_.bodies[bodies_[i]];
     const Mat3 r = b.q.cast<double>().normalized().toRotationMatrix();
     const Mat3 inertia = b.inertia.cast<double>(), inverse = b.inverse_inertia.cast<double>();
     const Vec3 w0 = r.transpose() * vector_of(motion.w).cast<double>();
@@ -247,13 +254,13 @@ void ContactSolver::sweep(bool push, bool first) {
 
 void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
-  for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
-    if (motion.inverse_mass() == 0) continue;
     motion.moved += h_ * motion.v;
     if (free_[i]) motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h_ * motion.w;
-    world_.bodies[i].q = integrated(world_.bodies[i].q, vector_of(motion.w), h_);
+    Quatf& q = world_.bodies[bodies_[i]].q;
+    q = integrated(q, vector_of(motion.w), h_);
   }
 }
 
@@ -306,19 +313,18 @@ void ContactSolver::restitute() {
 
 void ContactSolver::finish() {
   for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
-  for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
-    Body& b = world_.bodies[i];
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& b = world_.bodies[bodies_[i]];
     b.v = vector_of(motions_[i].v);
     b.w = vector_of(motions_[i].w);
-    if (b.moves()) b.x += vector_of(motions_[i].moved);
+    b.x += vector_of(motions_[i].moved);
   }
 }
 
-}  // namespace
-
-void solve(World& world) {
+/// Returns how many bodies nothing was near.
+std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
   static thread_local Scratch scratch;
-  ContactSolver solver(world, scratch);
+  ContactSolver solver(world, blocks, block, scratch);
   const int sweeps = world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps;
   solver.prepare();
   for (int k = 0; k < world.sub_steps(); ++k) {
@@ -330,6 +336,18 @@ void solve(World& world) {
   }
   solver.restitute();
   solver.finish();
+  return solver.falling();
+}
+
+}  // namespace
+
+void solve(World& world) {
+  static thread_local Blocks kept;  // for its memory alone
+  Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
+  blocks.make(world);
+  std::atomic<std::uint64_t> falling{0};
+  for_each_in_parallel(blocks.count(), 1, [&](std::size_t block) { falling += solve_block(world, blocks, block); });
+  world.counters.free_steps += falling;
 }
 
 }  // namespace bin_scenes::sphere

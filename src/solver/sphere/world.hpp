@@ -133,8 +133,7 @@ struct World {
   int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones
 
   std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
-  std::vector<std::uint32_t> order;           ///< manifolds by color
-  std::vector<std::uint32_t> color_start;
+  std::vector<std::uint32_t> order;           ///< manifolds with work to do, by color
   Counters counters;
   Spent spent;
 

@@ -1,6 +1,6 @@
 /// The passes of the sphere solver, each by itself against a closed form or a slow and obvious twin.
 #include "bin_scenes/core/random.hpp"
-#include "solver/sphere/world.hpp"
+#include "boxes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,35 +9,6 @@
 
 namespace bin_scenes::sphere {
 namespace {
-
-Mesh box_mesh(const Vec3& size) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.push_back(0.5 * size.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-Shape box_shape(PartModelPtr& part, const Vec3& size, double cell = 0.01) {
-  part = PartModel::from_mesh(box_mesh(size), "box");
-  return make_shape(*part, 64, 400, cell);
-}
-
-World world_of_boxes(const Shape& shape, std::size_t count) {
-  World world;
-  world.shapes = {&shape};
-  world.smallest_size = shape.size;
-  for (std::size_t i = 0; i < count; ++i) {
-    Body b;
-    b.inverse_mass = 1.0f;
-    b.inertia = shape.unit_inertia;
-    b.inverse_inertia = b.inertia.inverse();
-    b.present = true;
-    world.bodies.push_back(b);
-  }
-  return world;
-}
 
 TEST(Shape, AThinPartMeetsOthersAsOneOfFiftyThicknesses) {
   PartModelPtr cube, needle;
@@ -356,18 +327,20 @@ TEST(Color, NoTwoManifoldsOfAColorShareAMovingBody) {
   find_pairs(world);
   find_contacts(world);
   color_manifolds(world);
-  std::size_t ordered = 0;
-  for (std::size_t c = 0; c + 1 < world.color_start.size(); ++c) {
-    std::set<std::uint32_t> seen;
-    for (std::uint32_t i = world.color_start[c]; i < world.color_start[c + 1]; ++i, ++ordered)
-      for (const std::uint32_t b : {world.manifolds[world.order[i]].a, world.manifolds[world.order[i]].b})
-        if (b != ground && world.bodies[b].moves()) {
-          EXPECT_TRUE(seen.insert(b).second);
-        }
+  std::set<std::pair<int, std::uint32_t>> seen;
+  int color = 0;
+  for (const std::uint32_t i : world.order) {
+    const Manifold& m = world.manifolds[i];
+    EXPECT_GE(m.color, color);
+    color = m.color;
+    for (const std::uint32_t b : {m.a, m.b})
+      if (b != ground && world.bodies[b].moves()) {
+        EXPECT_TRUE(seen.emplace(color, b).second);
+      }
   }
   std::size_t with_contacts = 0;
   for (const Manifold& m : world.manifolds) with_contacts += !m.contacts.empty();
-  EXPECT_EQ(ordered, with_contacts);
+  EXPECT_EQ(world.order.size(), with_contacts);
 }
 
 // One soft contact gives way by g / omega^2 under a weight, beyond the overlap that is left alone (slop); several

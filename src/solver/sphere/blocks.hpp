@@ -1,0 +1,57 @@
+/// Parts of a world that are solved one by one: no manifold joins moving bodies of two of them. Their solves give the
+/// same bits in any order or at once, and however wide a world is, what is swept over again and again is a block's
+/// contacts, which the cache holds.
+#pragma once
+
+#include "solver/sphere/world.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// Run of a list.
+struct Slice {
+  const std::uint32_t *first = nullptr, *last = nullptr;
+
+  const std::uint32_t* begin() const { return first; }
+  const std::uint32_t* end() const { return last; }
+  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  std::uint32_t operator[](std::size_t i) const { return first[i]; }
+};
+
+class Blocks {
+ public:
+  /// Blocks have at least so many bodies, but for the last, so that bundles are filled; more where more are joined.
+  static constexpr std::size_t usual_bodies = 256;
+
+  /// Of the world's colored manifolds. Memory is kept from one step to the next.
+  void make(const World& world, std::size_t bodies_of_block = usual_bodies);
+
+  std::size_t count() const { return body_start_.size() - 1; }
+  /// That move; ascending.
+  Slice bodies(std::size_t block) const { return slice(bodies_, body_start_, block); }
+  /// By color, ascending within it.
+  Slice manifolds(std::size_t block) const { return slice(manifolds_, manifold_start_, block); }
+  /// Of a body in its block; of what does not move, or the ground: behind all bodies of `block`.
+  std::uint32_t place(std::size_t block, std::uint32_t body) const {
+    return body == ground || place_[body] == unmoved ? static_cast<std::uint32_t>(bodies(block).size()) : place_[body];
+  }
+
+ private:
+  static constexpr std::uint32_t unmoved = 0xffffffffu;
+  static Slice slice(const std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& start, std::size_t i) {
+    return {list.data() + start[i], list.data() + start[i + 1]};
+  }
+  std::uint32_t root(std::uint32_t body);
+  void join(const World& world);
+  std::uint32_t number(const World& world, std::size_t bodies_of_block);
+
+  std::vector<std::uint32_t> parent_;  ///< of bodies: union-find, the root is the lowest
+  std::vector<std::uint32_t> block_;   ///< of bodies
+  std::vector<std::uint32_t> place_;
+  std::vector<std::uint32_t> bodies_, body_start_, manifolds_, manifold_start_;
+};
+
+}  // namespace bin_scenes::sphere
