@@ -131,7 +131,7 @@ struct SphereState {
 struct SphereTensor {  // when contacts were found
   vec4 diagonal, mixed;  // inverse inertia, world axes
   vec4 orientation;      // xyzw, body -> world
-  vec4 velocity, spin;   // m/s, rad/s; of a ball no spin: the point where it touches stays below it
+  vec4 velocity, spin;   // m/s, rad/s
 };
 
 struct SpherePlane {

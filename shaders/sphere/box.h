@@ -6,9 +6,8 @@ SphereTensor tensor_of(uint body) {
   uint shape = bodies[body].ids.x;
   mat3 t = r * symmetric(shapes[shape].inverse_inertia, shapes[shape].inverse_inertia_mixed) * transpose(r);
   t *= bodies[body].material.x;
-  bool ball = shapes[shape].field.z > 0.0;
   return SphereTensor(vec4(t[0][0], t[1][1], t[2][2], 0.0), vec4(t[0][1], t[0][2], t[1][2], 0.0),
-                      states[body].orientation, states[body].velocity, ball ? vec4(0.0) : states[body].spin);
+                      states[body].orientation, states[body].velocity, states[body].spin);
 }
 
 Box box_of(SphereWorld world, uint body) {

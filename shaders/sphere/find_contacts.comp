@@ -30,12 +30,20 @@ layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate ca
 #include "sphere/cone.h"
 #include "sphere/solid.h"
 #include "sphere/slide.h"
+#include "sphere/placement.h"
 
 uint world_index, clusters_tested, nodes_tested;
 
 SphereSamples samples_of(uint body) {
   uint shape = bodies[body].ids.x;
   return progress[world_index].fine != 0u ? shapes[shape].fine : shapes[shape].coarse;
+}
+
+// Of a body of this world.
+Placement placement_of(uint body) {
+  float refinement = progress[world_index].pressed != 0u ? settings.stiff.w : settings.soft.w;
+  float time_step = progress[world_index].time_step, sub_step = time_step / (float(settings.sub_steps) * refinement);
+  return placement_of(body, half_way(time_step, sub_step));
 }
 
 #include "sphere/contact_place.h"
@@ -142,9 +150,9 @@ void test_samples(View view) {
 
 void test_pair(SpherePair pair, float margin) {
   uint shape_a = bodies[pair.a].ids.x, shape_b = bodies[pair.b].ids.x;
-  mat3 ra = rotation_of(states[pair.a].orientation), rb = rotation_of(states[pair.b].orientation);
-  mat3 b_to_a = transpose(ra) * rb, a_to_b = transpose(b_to_a);
-  vec3 b_in_a = (states[pair.b].position.xyz - states[pair.a].position.xyz) * ra, a_in_b = -(a_to_b * b_in_a);
+  Placement a = placement_of(pair.a), b = placement_of(pair.b);
+  mat3 b_to_a = transpose(a.rotation) * b.rotation, a_to_b = transpose(b_to_a);
+  vec3 b_in_a = (b.position - a.position) * a.rotation, a_in_b = -(a_to_b * b_in_a);
   SphereSamples samples_a = samples_of(pair.a), samples_b = samples_of(pair.b);
   Field field_a = field_of(shape_a), field_b = field_of(shape_b);
   test_samples(View(a_to_b, b_to_a, a_in_b, b_in_a, samples_a, samples_b, field_a, field_b, 0u, margin));
@@ -155,8 +163,9 @@ void test_pair(SpherePair pair, float margin) {
 void test_ground(SpherePair pair, float margin) {
   uint thread = gl_LocalInvocationIndex, shape = bodies[pair.a].ids.x;
   SphereWorld world = worlds[world_index];
-  mat3 ra = rotation_of(states[pair.a].orientation);
-  vec3 position = states[pair.a].position.xyz;
+  Placement a = placement_of(pair.a);
+  mat3 ra = a.rotation;
+  vec3 position = a.position;
   SphereSamples samples = samples_of(pair.a);
   Field own = field_of(shape);
   for (uint k = 0u; k < world.pairs.w; ++k) {

@@ -1,5 +1,5 @@
 // Candidates of one pair, found by all invocations of a group, and the few of them that become contacts. Needs the
-// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of() and
+// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of(), placement_of() and
 // sphere/contact_place.h.
 
 const float FAR = 3.4e38;
@@ -212,13 +212,9 @@ bool take_places(SphereWorld world, uint count) {
 void finish_candidates(SphereWorld world, SpherePair pair) {
   uint thread = gl_LocalInvocationIndex;
   bool ground = pair.b == SPHERE_GROUND;
-  SphereState a = states[pair.a];
-  mat3 ra = rotation_of(a.orientation), rb = mat3(1.0);
-  vec3 b_position = vec3(0.0);
-  if (!ground) {
-    rb = rotation_of(states[pair.b].orientation);
-    b_position = states[pair.b].position.xyz;
-  }
+  Placement a = placement_of(pair.a), b = Placement(vec3(0.0), mat3(1.0));
+  if (!ground) b = placement_of(pair.b);
+  mat3 ra = a.rotation, rb = b.rotation;
   if (lost) any_lost = 1u;
   atomicAdd(found_count, mine);
   bool fine = progress[world_index].fine != 0u;
@@ -236,8 +232,8 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
   if (no_room != 0u) return;
   if (thread < count) {
     vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
-    vec3 on_b = a.position.xyz + ra * (on_a + chosen_on_a[thread].w * normal);
-    if (!ground) on_b = (on_b - b_position) * rb;
+    vec3 on_b = a.position + ra * (on_a + chosen_on_a[thread].w * normal);
+    if (!ground) on_b = (on_b - b.position) * rb;
     // The normal turns with the body whose field it comes from.
     if ((chosen_feature[thread] & SPHERE_SIDE_B) == 0u) normal = ground ? ra * normal : (ra * normal) * rb;
     uint at = world.contacts.x + place[thread], source = chosen_source[thread];

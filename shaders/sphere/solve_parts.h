@@ -3,6 +3,8 @@
 // near), moved_of(i) (since contacts were found), turned_of(i) (rotation vector, since then), i counted in the world.
 // Needs the bindings Settings, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and sphere/body.h.
 
+#include "sphere/placement.h"
+
 SphereWorld world;
 uint list;
 vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
@@ -14,7 +16,7 @@ float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); 
 // A body as one manifold sees it.
 struct Side {
   vec3 v, w, moved, turned, position;
-  vec3 ahead, ahead_turn;  // between the step's start and the mean of its sub-steps' beginnings (m, rad)
+  vec3 ahead, ahead_turn;  // from the step's start to half way through it (m, rad)
   vec4 orientation;
   float inverse_mass;
   vec3 tensor, tensor_mixed;
@@ -31,7 +33,7 @@ Side side_of(uint body) {
   if (s.inverse_mass == 0.0) return s;
   s.v = velocity_of(i).xyz;
   s.w = spin_of(i).xyz;
-  float ahead = 0.5 * (time_step - sub_step());
+  float ahead = half_way(time_step, sub_step());
   s.ahead = ahead * tensors[body].velocity.xyz;
   s.ahead_turn = ahead * tensors[body].spin.xyz;
   s.moved = moved_of(i).xyz;

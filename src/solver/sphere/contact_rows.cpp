@@ -8,17 +8,16 @@ namespace {
 
 constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
 
-/// What a body does between the start of a step and the mean of its sub-steps' beginnings: levers and normals are of
-/// then, as in the symplectic Euler method over the sub-steps, which keeps energy. With levers of the step's start what
-/// hangs gains energy (a yoke on a ridge 8 % a second), with those of its middle it loses as much.
+/// What a body does from the start of a step to the middle of its sub-steps (World::half_way). With levers of the
+/// step's start what hangs gains energy (a yoke on a ridge 8 % a second), with those of the middle of the whole step it
+/// loses as much.
 struct Ahead {
   Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
 
-  Ahead(const World& world, const Body* body, float h) {
+  Ahead(const World& world, const Body* body) {
     if (!body || !body->moves()) return;
-    const float seconds = 0.5f * (world.settings.time_step - h);
-    way = seconds * body->v;
-    if (!world.is_ball(*body)) turn = seconds * body->w;  // the point where a ball touches stays below it
+    way = world.half_way() * body->v;
+    turn = world.half_way() * body->w;
   }
   bool turns() const { return turn.squaredNorm() > least_turn * least_turn; }
 
@@ -119,7 +118,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
-    const Ahead ahead_a(world, &a, h), ahead_b(world, b, h);
+    const Ahead ahead_a(world, &a), ahead_b(world, b);
     for (std::size_t k = 0; k < m.contacts.size(); ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, h);
   }

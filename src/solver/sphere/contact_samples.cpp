@@ -16,12 +16,26 @@ struct Draft {
   std::vector<Vec3> nodes;
   std::vector<Cone> cones;
   std::vector<Edge> edges;
-  std::vector<bool> at_vertex;  ///< by vertex: whether a node lies there
+  std::vector<std::uint32_t> at_vertex;  ///< by vertex: the node that lies there, or `none`
+
+  static constexpr std::uint32_t none = 0xffffffffu;
 
   std::uint32_t add(const Vec3& node, const Cone& cone) {
     nodes.push_back(node);
     cones.push_back(cone);
     return static_cast<std::uint32_t>(nodes.size() - 1);
+  }
+  /// Between two vertices that have nodes, in pieces no longer than `spacing`.
+  void add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Cone& cone, double spacing) {
+    const Vec3 a = mesh.vertices[from], b = mesh.vertices[to];
+    const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
+    std::uint32_t last = at_vertex[from];
+    for (int i = 1; i <= pieces; ++i) {
+      const std::uint32_t next =
+          i == pieces ? at_vertex[to] : add(a + (b - a) * (static_cast<double>(i) / pieces), cone);
+      edges.push_back({last, next, 0, cone});
+      last = next;
+    }
   }
 };
 
@@ -57,27 +71,15 @@ Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   std::vector<const SharpEdge*> around(last.back());
   for (const SharpEdge& edge : sharp.convex)
     for (const std::uint32_t v : {edge.a, edge.b}) around[last[v]++] = &edge;
-  std::vector<std::uint32_t> corner(mesh.vertices.size());
-  draft.at_vertex.resize(mesh.vertices.size());
+  draft.at_vertex.assign(mesh.vertices.size(), Draft::none);
   std::vector<const SharpEdge*> edges;
   std::size_t first = 0;
-  for (std::uint32_t v = 0; v < corner.size(); first = last[v++]) {
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); first = last[v++]) {
     if (first == last[v]) continue;
     edges.assign(around.begin() + first, around.begin() + last[v]);
-    draft.at_vertex[v] = true;
-    corner[v] = draft.add(mesh.vertices[v], sharp.saddles[v] ? Cone{} : corner_cone(mesh, v, edges));
+    draft.at_vertex[v] = draft.add(mesh.vertices[v], sharp.saddles[v] ? Cone{} : corner_cone(mesh, v, edges));
   }
-  for (const SharpEdge& edge : sharp.convex) {
-    const Vec3 a = mesh.vertices[edge.a], b = mesh.vertices[edge.b];
-    const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
-    std::uint32_t last = corner[edge.a];
-    for (int i = 1; i <= pieces; ++i) {
-      const std::uint32_t next =
-          i == pieces ? corner[edge.b] : draft.add(a + (b - a) * (static_cast<double>(i) / pieces), edge.cone);
-      draft.edges.push_back({last, next, 0, edge.cone});
-      last = next;
-    }
-  }
+  for (const SharpEdge& edge : sharp.convex) draft.add_edge(mesh, edge.a, edge.b, edge.cone, spacing);
   return draft;
 }
 
@@ -116,39 +118,119 @@ Cone vertex_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::
   return cone;
 }
 
+/// By how much (m) a curved face may rise above a node of it, as far as the node slides along it.
+double bulge(const Cone& cone, double face_spacing) {
+  return 0.25 * std::min(cone.spread, 0.6f) * face_spacing;
+}
+
+/// Whether the nodes of a draft feel what touches the surface at a point between them: whether one near it is no lower
+/// than `most` (m), or slides there along its face.
+class Feeling {
+ public:
+  Feeling(const Draft& draft, double face_spacing, double most)
+      : draft_(draft), face_spacing_(face_spacing), most_(most), grid_(draft.nodes, face_spacing) {}
+
+  /// `out`: normal of the surface at the point.
+  bool feels(const Vec3& x, const Vec3& out) {
+    if (draft_.nodes.size() > in_grid_ + most_beside_) {
+      grid_ = PointGrid(draft_.nodes, face_spacing_);
+      in_grid_ = draft_.nodes.size();
+    }
+    const auto felt_by = [&](std::size_t i) {
+      constexpr double slid = 0.7;  // of the longest way of a node along its face: it may end early
+      const Vec3 way = x - draft_.nodes[i];
+      const Vec3f& axis = draft_.cones[i].axis;
+      const double height = way.dot(out);
+      return height <= most_ || (height <= bulge(draft_.cones[i], face_spacing_) && way.norm() < slid * face_spacing_ &&
+                                 axis.cast<double>().dot(out) > 0.5);
+    };
+    if (grid_.any_within(x, face_spacing_, felt_by)) return true;
+    for (std::size_t i = in_grid_; i < draft_.nodes.size(); ++i)
+      if ((x - draft_.nodes[i]).norm() < face_spacing_ && felt_by(i)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t most_beside_ =
+      256;  ///< nodes that are looked at one by one until the grid takes them in
+
+  const Draft& draft_;
+  double face_spacing_, most_;
+  PointGrid grid_;
+  std::size_t in_grid_ = draft_.nodes.size();
+};
+
 /// Adds the vertices that stick out between the nodes by more than `most`. Where the folds of a bend lie about the
 /// angle that makes an edge, some of them are edges, and what lies between those counts as covered by their nodes,
 /// which do not slide: nothing felt the crown of a handle.
 void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Draft& draft) {
-  constexpr double slid = 0.7;  // of the longest way of a node along its face: it may end early
   std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertices.size());
   std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = mesh.triangles[t][i];
-      if (draft.at_vertex[v]) continue;
+      if (draft.at_vertex[v] != Draft::none) continue;
       neighbours[v].push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
       normals[v] += mesh.area_vector(t).normalized();
     }
-  const PointGrid grid(draft.nodes, face_spacing);
-  const std::size_t before = draft.nodes.size();
+  Feeling nodes(draft, face_spacing, most);
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (draft.at_vertex[v]) continue;
+    if (draft.at_vertex[v] != Draft::none) continue;
     const Vec3 &x = mesh.vertices[v], out = normals[v].normalized();
-    const auto felt_by = [&](std::size_t i) {
-      const Vec3 way = x - draft.nodes[i];
-      const Vec3f& axis = draft.cones[i].axis;
-      return way.dot(out) <= most || (way.norm() < slid * face_spacing && axis.cast<double>().dot(out) > 0.5);
-    };
-    const auto felt_by_added = [&] {
-      for (std::size_t i = before; i < draft.nodes.size(); ++i)
-        if ((x - draft.nodes[i]).norm() < face_spacing && felt_by(i)) return true;
-      return false;
-    };
     const auto below = [&](std::uint32_t other) { return out.dot(mesh.vertices[other] - x) <= 0; };
     if (!std::all_of(neighbours[v].begin(), neighbours[v].end(), below)) continue;  // it cannot touch first
-    if (grid.any_within(x, face_spacing, felt_by) || felt_by_added()) continue;
-    draft.add(x, vertex_cone(mesh, v, neighbours[v]));
+    if (!nodes.feels(x, out)) draft.at_vertex[v] = draft.add(x, vertex_cone(mesh, v, neighbours[v]));
+  }
+}
+
+/// Directions across a line of a rounded edge, as far as the line stands for its neighbours; none along it.
+Cone ridge_cone(const Vec3& along, const Vec3& out) {
+  constexpr double to_each_side = 0.6;  // rad
+  const Vec3 across = along.cross(out);
+  const Vec3 left = std::cos(to_each_side) * across - std::sin(to_each_side) * out;
+  const Vec3 right = -std::cos(to_each_side) * across - std::sin(to_each_side) * out;
+  Cone cone;
+  for (const Vec3& bound : {left, right, along, Vec3(-along)}) cone.bound[cone.bounds++] = bound.cast<float>();
+  return cone;
+}
+
+/// Adds the long edges of the mesh that stick out between the nodes by more than `most`: the strips of which an edge
+/// that is rounded is made are too narrow for nodes of faces, bend too little for sharp edges, and their vertices lie
+/// at their ends.
+void add_missed_ridges(const Mesh& mesh, double face_spacing, double spacing, double most, Draft& draft) {
+  struct Side {
+    std::uint32_t a, b, beyond;  ///< a < b; third corner of its triangle
+    std::size_t triangle;
+  };
+  std::vector<Side> sides;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
+      if ((mesh.vertices[b] - mesh.vertices[a]).norm() > 0.5 * face_spacing)
+        sides.push_back({a, b, mesh.triangles[t][(i + 2) % 3], t});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.a, s.b, s.triangle) < std::tie(t.a, t.b, t.triangle);
+  });
+  Feeling nodes(draft, face_spacing, most);
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side &one = sides[i], &other = sides[i + 1];
+    if (one.a != other.a || one.b != other.b) continue;
+    const Vec3 a = mesh.vertices[one.a], b = mesh.vertices[one.b], along = (b - a).normalized();
+    const Vec3 normal = mesh.area_vector(one.triangle).normalized();
+    const Vec3 beyond = mesh.vertices[other.beyond] - a;
+    constexpr double least_bend = 0.02;                                                            // rad
+    if (-normal.dot(beyond) < least_bend * (beyond - beyond.dot(along) * along).norm()) continue;  // flat, or concave
+    const Vec3 out = (normal + mesh.area_vector(other.triangle).normalized()).normalized();
+    const int pieces = static_cast<int>(std::ceil((b - a).norm() / (0.5 * face_spacing)));
+    bool missed = false;
+    for (int k = 1; k < pieces && !missed; ++k)
+      missed = !nodes.feels(a + (b - a) * (static_cast<double>(k) / pieces), out);
+    if (!missed) continue;
+    const Cone cone = ridge_cone(along, out);
+    for (const std::uint32_t v : {one.a, one.b})
+      if (draft.at_vertex[v] == Draft::none) draft.at_vertex[v] = draft.add(mesh.vertices[v], cone);
+    draft.add_edge(mesh, one.a, one.b, cone, spacing);
   }
 }
 
@@ -262,17 +344,19 @@ Samples ball_samples(float radius) {
   return samples;
 }
 
-Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle) {
+Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle,
+                     double ridge) {
   const Mesh& mesh = part.mesh();
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
   constexpr double most_missed = 5e-4, most_off = 2e-4;  // of d
+  constexpr double sharpest = 0.75;                      // rad: a chamfer of 45 degrees has edges in any case
   const double most_length = edge_share * count * longest_edge_piece * part.diagonal();
   SharpEdges sharp;
-  for (;; sharp_angle *= 1.3) {
-    const bool sharpest = sharp_angle >= 0.8;
-    if (!sharpest && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
+  for (;; sharp_angle = std::min(1.3 * sharp_angle, sharpest)) {
+    const bool last = sharp_angle >= sharpest;
+    if (!last && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
     sharp = straightened(mesh, sharp_edges(mesh, folds, sharp_angle), most_off * part.diagonal());
-    if (sharpest || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
+    if (last || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
   }
   const double edge_length = sharp_length(mesh, folds, sharp_angle);
   const double spacing = std::max(edge_length / (edge_share * count), 0.004 * part.diagonal());
@@ -288,11 +372,13 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   for (std::size_t i = 0; i < on_faces.size(); ++i) draft.add(on_faces[i].point, cones[i]);
   double face_spacing = 0;
   for (const SurfaceSample& sample : on_faces) face_spacing += sample.spacing / static_cast<double>(on_faces.size());
-  add_missed_vertices(mesh, face_spacing > 0 ? face_spacing : spacing, most_missed * part.diagonal(), draft);
+  const double reach = face_spacing > 0 ? face_spacing : spacing;
+  add_missed_vertices(mesh, reach, most_missed * part.diagonal(), draft);
+  add_missed_ridges(mesh, reach, spacing, ridge * part.diagonal(), draft);
   Samples made = clustered(std::move(draft), part.mass().center, spacing);
   made.face_spacing = static_cast<float>(face_spacing);
   for (const Cone& cone : made.cones)
-    if (!cone.axis.isZero()) made.sag = std::max(made.sag, 0.25f * std::min(cone.spread, 0.6f) * made.face_spacing);
+    if (!cone.axis.isZero()) made.sag = std::max(made.sag, static_cast<float>(bulge(cone, face_spacing)));
   return made;
 }
 

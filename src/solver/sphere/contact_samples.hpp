@@ -59,14 +59,16 @@ struct Samples {
 constexpr double longest_edge_piece = 0.03, edge_share = 0.5;  // of d, of the nodes
 
 /// About `count` nodes: half of them on sharp edges where there are such, the others on faces. `folds` are those of
-/// the part's mesh by `sharp_angle` (rad) or less.
-Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle);
+/// the part's mesh by `sharp_angle` (rad) or less. Long edges that are not sharp get nodes where they stick out between
+/// the others by more than `ridge` (of d).
+Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle,
+                     double ridge);
 
 /// A ball (of that radius, m) needs one node, its centre.
 Samples ball_samples(float radius);
 
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
-constexpr int samples_format = 1;
+constexpr int samples_format = 2;
 
 void put(ByteWriter& out, const Samples& samples);
 void get(ByteReader& in, Samples& samples);

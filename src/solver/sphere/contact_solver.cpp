@@ -63,7 +63,7 @@ class ContactSolver {
         block_(block),
         bodies_(blocks.bodies(block)),
         settings_(world.settings),
-        h_(settings_.time_step / static_cast<float>(world.sub_steps())),
+        h_(world.sub_step()),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),

@@ -1,3 +1,4 @@
+#include "solver/sphere/math.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <tbb/blocked_range.h>
@@ -5,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace bin_scenes::sphere {
 
@@ -21,6 +23,18 @@ using Candidates = std::vector<Candidate>;
 
 constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
 constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;
+
+/// A body half way through the step (World::half_way), where its contacts are found.
+struct Placement {
+  Vec3f x;
+  Mat3f rotation;
+
+  Placement(const World& world, const Body& body) : x(body.x), rotation(body.rotation) {
+    if (!body.moves()) return;
+    x += world.half_way() * body.v;
+    rotation = integrated(body.q, body.w, world.half_way()).toRotationMatrix();
+  }
+};
 
 /// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope
 /// along the edge, which is monotonic where the other surface is convex.
@@ -202,19 +216,21 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
 }
 
 /// Samples of both bodies against the other's field.
-void candidates_of_pair(const World& world, const Manifold& m, float margin, Counters& counters, Candidates& out) {
-  const Body &a = world.bodies[m.a], &b = world.bodies[m.b];
-  const Shape &sa = *world.shapes[a.shape], &sb = *world.shapes[b.shape];
+void candidates_of_pair(const World& world, const Manifold& m, const Placement& a, const Placement& b, float margin,
+                        Counters& counters, Candidates& out) {
+  const Body &body_a = world.bodies[m.a], &body_b = world.bodies[m.b];
+  const Shape &sa = *world.shapes[body_a.shape], &sb = *world.shapes[body_b.shape];
+  const Samples &samples_a = world.samples(body_a), &samples_b = world.samples(body_b);
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
-  test_samples(world.samples(a), sa.field, sb.field, world.samples(b), a_to_b, margin, counters,
+  test_samples(samples_a, sa.field, sb.field, samples_b, a_to_b, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
-                 const Vec3f surface = p - world.samples(a).radius * g;
+                 const Vec3f surface = p - samples_a.radius * g;
                  out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature});
                });
-  test_samples(world.samples(b), sb.field, sa.field, world.samples(a), b_to_a, margin, counters,
+  test_samples(samples_b, sb.field, sa.field, samples_a, b_to_a, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
-                 const Vec3f surface = p - world.samples(b).radius * g;
+                 const Vec3f surface = p - samples_b.radius * g;
                  out.push_back({surface - d * g, surface, g, d, feature | side_b});
                });
 }
@@ -242,9 +258,10 @@ float plane_distance(const World& world, const Plane& plane, const Vec3f& p, Vec
 }
 
 /// Samples of a body against walls and floor.
-void candidates_of_ground(const World& world, const Manifold& m, float margin, Counters& counters, Candidates& out) {
-  const Body& a = world.bodies[m.a];
-  const Samples& samples = world.samples(a);
+void candidates_of_ground(const World& world, const Manifold& m, const Placement& a, float margin, Counters& counters,
+                          Candidates& out) {
+  const Body& body = world.bodies[m.a];
+  const Samples& samples = world.samples(body);
   const Mat3f back = a.rotation.transpose();
   const Carry carry{a.rotation, a.x};
   counters.nodes_possible += samples.nodes.size();
@@ -262,7 +279,7 @@ void candidates_of_ground(const World& world, const Manifold& m, float margin, C
         Vec3f p = carry(samples.nodes[i]), up;
         float d = plane_distance(world, plane, p, up) - samples.radius;
         if (d > margin + samples.sag) continue;
-        slide(samples, world.shapes[a.shape]->field, carry, i, depth, p, up, d);
+        slide(samples, world.shapes[body.shape]->field, carry, i, depth, p, up, d);
         if (d > margin) continue;
         const Vec3f surface = p - samples.radius * up;
         out.push_back({back * (surface - a.x), back * (surface - d * up - a.x), -(back * up), d,
@@ -343,7 +360,7 @@ void carry_forces(const std::vector<Contact>& old, std::vector<Contact>& fresh, 
   }
 }
 
-Contact contact_of(const Candidate& c, const Body& a, const Body* b) {
+Contact contact_of(const Candidate& c, const Placement& a, const Placement* b) {
   Contact contact;
   contact.anchor_a = c.on_a;
   contact.feature = c.feature;
@@ -396,16 +413,18 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
     const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
     const float margin = world.settings.margin * size + (v.norm() + spin + world.gravity.norm() * dt) * dt;
+    const Placement there_a(world, a);
+    const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
     candidates.clear();
     if (b)
-      candidates_of_pair(world, m, margin, counters, candidates);
+      candidates_of_pair(world, m, there_a, *there_b, margin, counters, candidates);
     else
-      candidates_of_ground(world, m, margin, counters, candidates);
+      candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
     reduce(candidates, m, size, world.fine ? max_contacts : max_coarse_contacts, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
-    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], a, b));
+    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));
     carry_forces(m.contacts, fresh, world.samples(a).spacing);
     m.contacts.assign(fresh.begin(), fresh.end());
     m.found = true;

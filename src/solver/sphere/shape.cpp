@@ -52,6 +52,7 @@ BothSamples make_both(const PartModel& part, int coarse, int fine) {
   const double thickness = 2.0 * mass.volume / mass.area;
   const double patches = mass.area / (thickness * thickness);
   constexpr double coarse_angle = 0.5, fine_angle = 0.15;
+  constexpr double coarse_ridge = 4e-3, fine_ridge = 1.5e-3;  // of d; less = a cylinder's facets are all ridges
   const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
   // Edges as sharp as this are no curved face, however many there are: those of a thread, of teeth.
   const double edge_nodes =
@@ -60,8 +61,8 @@ BothSamples make_both(const PartModel& part, int coarse, int fine) {
   const int fine_count = at_least(fine, std::max(patches, edge_nodes));
   BothSamples both;
   std::future<Samples> fine_samples =
-      std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle); });
-  both.coarse = make_samples(part, folds, coarse_count, coarse_angle);
+      std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle, fine_ridge); });
+  both.coarse = make_samples(part, folds, coarse_count, coarse_angle, coarse_ridge);
   both.fine = fine_samples.get();
   return both;
 }

@@ -139,6 +139,11 @@ struct World {
 
   const Softness& softness() const { return pressed ? settings.stiff : settings.soft; }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
+  float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
+  /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts are found, and have their levers and
+  /// normals, where bodies are then, as in the symplectic Euler method over the sub-steps, which keeps energy: with
+  /// those of the start what rolls on an edge is pushed on by the point that it has left.
+  float half_way() const { return 0.5f * (settings.time_step - sub_step()); }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };

@@ -205,8 +205,9 @@ TEST_P(TwinTest, FindContactsChoosesThoseOfTheTwin) {
       same += alike;
     }
     EXPECT_GT(contacts, 300u);
-    // Ties, samples at the margin and descents across a kink of the field fall to either side by rounding.
-    EXPECT_GE(same, world.manifolds.size() - world.manifolds.size() / 40) << "of " << world.manifolds.size();
+    // Ties, samples at the margin and descents across a kink of the field fall to either side by rounding, as does the
+    // pose half way through the step.
+    EXPECT_GE(same, world.manifolds.size() - world.manifolds.size() / 20) << "of " << world.manifolds.size();
   }
 }
 
@@ -242,12 +243,9 @@ TEST_P(TwinTest, APlaceForAContactHasOneOwner) {
 /// Takes colors and order from the device.
 void take_order(World& world) {
   world.order.clear();
-  world.color_start = {0};
-  for (int c = 0; c < SPHERE_COLORS; ++c) {
+  for (int c = 0; c < SPHERE_COLORS; ++c)
     for (std::uint32_t m = 0; m < world.manifolds.size(); ++m)
       if (world.manifolds[m].color == c) world.order.push_back(m);
-    world.color_start.push_back(static_cast<std::uint32_t>(world.order.size()));
-  }
   for (Body& b : world.bodies) {
     b.rotation = b.q.toRotationMatrix();
     b.world_inverse_inertia = b.rotation * b.inverse_inertia * b.rotation.transpose();

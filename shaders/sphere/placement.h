@@ -1,0 +1,16 @@
+// Where a body is half way through the step: contacts are found there, and their levers and normals are of then. Twin:
+// World::half_way(), Placement. Needs the bindings Settings, States and sphere/body.h.
+struct Placement {
+  vec3 position;
+  mat3 rotation;
+};
+
+// s from the start of a step to the mean of its sub-steps' beginnings.
+float half_way(float time_step, float sub_step) { return 0.5 * (time_step - sub_step); }
+
+Placement placement_of(uint body, float half_way) {
+  SphereState s = states[body];
+  if (!moves(body)) return Placement(s.position.xyz, rotation_of(s.orientation));
+  vec4 turned = normalize(quat_multiply(quat_of_turn(half_way * s.spin.xyz), s.orientation));
+  return Placement(s.position.xyz + half_way * s.velocity.xyz, rotation_of(turned));
+}
