@@ -32,3 +32,14 @@ bool turn_into_cone(uint cone, uint first, inout vec3 direction) {
   direction = n / left;
   return true;
 }
+
+// Unit direction in the middle of the cone; 0 of a cone of all directions.
+vec3 middle_of_cone(uint cone, uint first) {
+  uint bounds = cone & 7u, at = first + (cone >> 3);
+  if (bounds == 0u) return vec3(0.0);
+  if (bounds == SPHERE_AXIS) return nodes[at].xyz;
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < bounds; ++i) sum -= nodes[at + i].xyz;
+  float size = length(sum);
+  return size > 0.0 ? sum / size : sum;
+}

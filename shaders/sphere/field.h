@@ -49,3 +49,26 @@ float sample_field(Field f, vec3 point) {
   vec3 unused;
   return sample_field(f, point, unused);
 }
+
+// The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
+// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, however deep it
+// is beyond another. Goes back from `point` through the sample's own body, along the middle of its cone, until it is
+// outside; `gradient` and `distance` are replaced by those of the face it comes out of.
+bool find_way_out(Field f, vec3 point, vec3 back, inout vec3 gradient, inout float distance) {
+  float reach = 4.0 * f.cell, least = 0.25 * f.cell, t = 0.0, before = distance;
+  bool inside = distance < 0.0;
+  while (t < reach) {
+    float way = max(abs(before), least);
+    t += way;
+    float now = sample_field(f, point + t * back);
+    if (now >= 0.0 && inside) {
+      t -= way * now / (now - before);
+      sample_field(f, point + t * back, gradient);
+      distance = -t * dot(back, gradient);
+      return distance <= 0.0;
+    }
+    inside = inside || now < 0.0;
+    before = now;
+  }
+  return false;
+}

@@ -65,6 +65,11 @@ struct View {
   float margin;
 };
 
+// Of the grid where it bends (m).
+float error_of(Field field) {
+  return field.ball > 0.0 ? 0.0 : 0.5 * field.cell;
+}
+
 vec3 carry(View view, uint node) {
   return view.to_field * nodes[view.samples.nodes.x + node].xyz + view.field_offset;
 }
@@ -78,12 +83,22 @@ void emit_from(View view, vec3 point, vec3 gradient, float distance, uint featur
 }
 
 // A candidate, if its own surface can be pressed against the way out of the other.
-void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
+bool press(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
   vec3 pressed = -(away * view.to_field);
-  if (turn_into_cone(cone, view.samples.nodes.x, pressed))
-    emit_from(view, point, -(view.to_field * pressed), distance, feature);
-  else if (distance < -2.0 * view.field.cell)  // deep inside any way out is better than none
+  if (!turn_into_cone(cone, view.samples.nodes.x, pressed)) return false;
+  emit_from(view, point, -(view.to_field * pressed), distance, feature);
+  return true;
+}
+
+void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
+  if (press(view, point, away, distance, cone, feature)) return;
+  if (distance < -2.0 * view.field.cell) {  // deep inside any way out is better than none
     emit_from(view, point, away, distance, feature);
+    return;
+  }
+  if (distance >= error_of(view.field)) return;
+  vec3 back = -(view.to_field * middle_of_cone(cone, view.samples.nodes.x));
+  if (find_way_out(view.field, point, back, away, distance)) press(view, point, away, distance, cone, feature);
 }
 
 void test_node(View view, uint node) {
@@ -118,8 +133,7 @@ void test_edge(View view, uint edge) {
 // All invocations; the field of the other body is in use.
 void test_samples(View view) {
   uint thread = gl_LocalInvocationIndex, count = view.samples.clusters.y;
-  float slack = view.margin + view.samples.size.x + view.samples.size.w;
-  if (view.field.ball == 0.0) slack += 0.5 * view.field.cell;  // of the grid where it bends
+  float slack = view.margin + view.samples.size.x + view.samples.size.w + error_of(view.field);
   if (thread == 0u) near_count = queued = 0u;
   barrier();
   for (uint c = thread; c < count; c += SPHERE_GROUP) {

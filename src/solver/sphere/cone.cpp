@@ -40,4 +40,10 @@ bool Cone::restrict(Vec3f& direction) const {
   return true;
 }
 
+Vec3f Cone::middle() const {
+  Vec3f sum = axis;
+  for (int i = 0; i < bounds; ++i) sum -= bound[i];
+  return sum.normalized();  // of 0: 0
+}
+
 }  // namespace bin_scenes::sphere

@@ -23,6 +23,9 @@ struct Cone {
   /// Turns a unit direction into the cone; false if it lies so far outside that nothing of it is left.
   bool restrict(Vec3f& direction) const;
 
+  /// Unit direction in the middle of the cone; 0 of a cone of all directions.
+  Vec3f middle() const;
+
  private:
   static std::array<Vec3f, max_bounds> filled() {
     std::array<Vec3f, max_bounds> zeros;

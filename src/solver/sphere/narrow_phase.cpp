@@ -145,6 +145,30 @@ void slide(const Samples& samples, const Field& own, const Carry& carry, std::si
   }
 }
 
+/// The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
+/// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, however deep it
+/// is beyond another. Goes back from `point` through the sample's own body, along the middle of its cone, until it is
+/// outside; `gradient` and `distance` are replaced by those of the face it comes out of.
+bool find_way_out(const Field& field, const Vec3f& point, const Vec3f& back, Vec3f& gradient, float& distance) {
+  const float reach = 4.0f * field.cell, least = 0.25f * field.cell;
+  float t = 0, before = distance;
+  bool inside = distance < 0;
+  while (t < reach) {
+    const float way = std::max(std::abs(before), least);
+    t += way;
+    const float now = field.sample(point + t * back);
+    if (now >= 0 && inside) {
+      t -= way * now / (now - before);
+      field.sample(point + t * back, gradient);
+      distance = -t * back.dot(gradient);
+      return distance <= 0;
+    }
+    inside = inside || now < 0;
+    before = now;
+  }
+  return false;
+}
+
 /// Samples against a field, bounding spheres first. `emit(point, gradient, distance, feature)` in the field's frame.
 template <class Emit>
 void test_samples(const Samples& samples, const Field& own, const Field& field, const Samples& other,
@@ -157,12 +181,18 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
   float cluster_distance[group_size], distance[cluster_size];
   Vec3f gradient[cluster_size];  // few are needed
   std::uint32_t known;           // which of them are there
-  const auto offer = [&](const Vec3f& p, const Vec3f& out, float d, const Cone& cone, std::uint32_t feature) {
+  const auto press = [&](const Vec3f& p, const Vec3f& out, float d, const Cone& cone, std::uint32_t feature) {
     Vec3f pressed = -(carry.rotation.transpose() * out);  // how the sample is pressed if `out` is the way out for it
-    if (cone.restrict(pressed))
-      emit(p, Vec3f(-(carry.rotation * pressed)), d, feature);
-    else if (d < -2.0f * field.cell)  // deep inside any way out is better than none
+    if (!cone.restrict(pressed)) return false;
+    emit(p, Vec3f(-(carry.rotation * pressed)), d, feature);
+    return true;
+  };
+  const auto offer = [&](const Vec3f& p, Vec3f out, float d, const Cone& cone, std::uint32_t feature) {
+    if (press(p, out, d, cone, feature)) return;
+    if (d < -2.0f * field.cell)  // deep inside any way out is better than none
       emit(p, out, d, feature);
+    else if (d < error && find_way_out(field, p, -(carry.rotation * cone.middle()), out, d))
+      press(p, out, d, cone, feature);
   };
   counters.nodes_possible += samples.nodes.size();
   for (std::size_t g = 0; g < samples.groups.size(); ++g) {

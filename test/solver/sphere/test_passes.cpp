@@ -284,6 +284,36 @@ TEST(Samples, AChamferHasItsEdgesHoweverManyThereAre) {
   EXPECT_NEAR(along_y, 8 * 0.1, 1e-5);
 }
 
+// Plates side by side on a floor, all their coarse samples on edges that are level with the other's faces: the way out
+// is sideways, not the face at hand, however deep one is in the other.
+TEST(NarrowPhase, PlatesThatLieFlushArePushedApartSideways) {
+  PartModelPtr part;
+  const Vec3 size(0.08, 0.1, 0.006);
+  const Shape shape = box_shape(part, size, 0.004);
+  for (const float overlap : {-1e-4f, 1e-4f, 3e-4f, 6e-4f, 1e-3f}) {  // the field's cell is 0.5 mm
+    for (const float up : {0.0f, 1e-7f, 1e-5f}) {
+      for (const float along : {0.0f, 1e-7f, 0.02f}) {
+        World world = world_of_boxes(shape, 2);
+        world.bodies[1].x = Vec3f(static_cast<float>(size.x()) - overlap, along, up);
+        find_pairs(world);
+        find_contacts(world);
+        ASSERT_EQ(world.manifolds.size(), 1u);
+        const Manifold& m = world.manifolds[0];
+        Aabb span;
+        for (const Contact& c : m.contacts) {
+          const Vec3f way = world.bodies[1].x + c.anchor_b - c.anchor_a;
+          // The grid rounds off what lies within a cell of an edge.
+          EXPECT_NEAR(way.dot(c.normal), -overlap, 0.6f * shape.field.cell) << overlap << " " << up << " " << along;
+          EXPECT_GT(c.normal.x(), 0.9f) << overlap << " " << up << " " << along;
+          span.extend(c.anchor_a.cast<double>());
+        }
+        ASSERT_GE(m.contacts.size(), 2u) << overlap << " " << up << " " << along;
+        EXPECT_GT(span.size().y(), 0.07) << overlap << " " << up << " " << along;
+      }
+    }
+  }
+}
+
 TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.02});
