@@ -8,7 +8,6 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr std::size_t leaf_size = 4;
 constexpr int sah_depth = 32;  // deeper nodes are halved by count, which bounds the depth
 constexpr std::size_t stack_size = 2 + sah_depth + 32;
 constexpr int bins = 12;
@@ -145,7 +144,7 @@ struct MeshQuery::Tree {
     }
     nodes[index].box = box;
     const std::size_t first_corner = corners.size();
-    if (end - begin <= leaf_size) {
+    if (end - begin <= MeshQuery::leaf_size) {
       nodes[index].first = static_cast<std::uint32_t>(first_corner);
       nodes[index].count = static_cast<std::uint32_t>(end - begin);
       std::sort(order.begin() + begin, order.begin() + end);

@@ -36,24 +36,24 @@ double segment_distance2(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3
 }
 
 /// Squared distances of the corners of s from t, of those that lie over it.
-double corner_distance2(const TrianglePoints& s, const TrianglePoints& t) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+double corner_distance2(const TrianglePoints& s, const Facet& facet) {
+  const TrianglePoints& t = facet.points;
   double best = std::numeric_limits<double>::infinity();
-  const double length2 = normal.squaredNorm();
-  if (length2 == 0.0) return best;
+  if (facet.normal.isZero()) return best;
   for (const Vec3& x : s) {
     bool over = true;
-    for (int i = 0; i < 3; ++i) over = over && normal.cross(t[(i + 1) % 3] - t[i]).dot(x - t[i]) >= 0.0;
+    for (int i = 0; i < 3; ++i) over = over && facet.normal.cross(t[(i + 1) % 3] - t[i]).dot(x - t[i]) >= 0.0;
     if (!over) continue;
-    const double height = normal.dot(x - t[0]);
-    best = std::min(best, height * height / length2);
+    const double height = facet.normal.dot(x - t[0]);
+    best = std::min(best, height * height);
   }
   return best;
 }
 
-double triangle_distance(const TrianglePoints& s, const TrianglePoints& t, double tolerance) {
-  if (crossing(s, t, tolerance)) return 0.0;
-  double best = std::min(corner_distance2(s, t), corner_distance2(t, s));
+double triangle_distance(const Facet& one, const Facet& other, double tolerance) {
+  if (crossing(one, other, tolerance)) return 0.0;
+  const TrianglePoints &s = one.points, &t = other.points;
+  double best = std::min(corner_distance2(s, other), corner_distance2(t, one));
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       best = std::min(best, segment_distance2(s[i], s[(i + 1) % 3] - s[i], t[j], t[(j + 1) % 3] - t[j]));
@@ -118,16 +118,14 @@ double clearance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, con
   const double tolerance = touching * std::min(box_a.diagonal(), box_b.diagonal());
   double best = limit;
   walk(
-      a, b,
+      a, Pose(), b, b_in_a,
       [&](const Aabb& one, const Aabb& other) {
         const double distance = box_distance(one, to_a(other));
         return distance >= best ? distance : std::max(distance, box_distance(to_b(one), other));
       },
       [&] { return best; },
-      [&](std::size_t i, std::size_t j) {
-        const TrianglePoints s = points_of(a.mesh(), a.leaf_triangle(i));
-        const TrianglePoints t = moved(b_in_a, points_of(b.mesh(), b.leaf_triangle(j)));
-        if (box_distance(bounds(s), bounds(t)) < best) best = std::min(best, triangle_distance(s, t, tolerance));
+      [&](const Facet& s, const Facet& t) {
+        if (box_distance(s.box, t.box) < best) best = std::min(best, triangle_distance(s, t, tolerance));
       });
   if (best > 0.0 && box_a.overlaps(to_a(box_b)) && (contains(a, b_in_a, b) || contains(b, a_in_b, a))) return 0.0;
   return best;
@@ -149,12 +147,10 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
     return std::max(0.0, one.lower.z() - other.upper.z());
   };
   walk(
-      a, b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
+      a, stand_a, b, stand_b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
       [&] { return best; },
-      [&](std::size_t i, std::size_t j) {
-        const TrianglePoints s = moved(stand_a, points_of(a.mesh(), a.leaf_triangle(i)));
-        const TrianglePoints t = moved(stand_b, points_of(b.mesh(), b.leaf_triangle(j)));
-        if (bound(bounds(s), bounds(t)) < best) best = std::min(best, triangle_way(s, t, down));
+      [&](const Facet& s, const Facet& t) {
+        if (bound(s.box, t.box) < best) best = std::min(best, triangle_way(s.points, t.points, down));
       });
   return best;
 }

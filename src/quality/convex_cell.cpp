@@ -2,10 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <numeric>
+#include <utility>
 
 namespace bin_scenes {
+
+namespace {
+
+/// What one cut needs on the way.
+struct Clipping {
+  struct Cut {
+    int first, second, vertex;
+  };
+  std::vector<double> height;
+  std::vector<Vec3> kept;
+  std::vector<int> renumbered, cap, loop;
+  std::vector<Cut> cuts;
+  std::vector<std::pair<double, int>> order;
+};
+
+}  // namespace
 
 ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
   for (int i = 0; i < 8; ++i) {
@@ -19,13 +34,14 @@ ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
 
 void ConvexCell::clip(const Plane& plane) {
   if (empty()) return;
-  std::vector<double> height(vertices_.size());
+  static thread_local Clipping c;  // kept for its memory: cells are cut by hundreds of planes
+  c.height.resize(vertices_.size());
   bool any_in = false, any_out = false;
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    height[v] = plane.above(vertices_[v]);
-    if (std::abs(height[v]) <= tolerance_) height[v] = 0.0;
-    any_in |= height[v] < 0.0;
-    any_out |= height[v] > 0.0;
+    c.height[v] = plane.above(vertices_[v]);
+    if (std::abs(c.height[v]) <= tolerance_) c.height[v] = 0.0;
+    any_in |= c.height[v] < 0.0;
+    any_out |= c.height[v] > 0.0;
   }
   if (!any_out) return;
   if (!any_in) {
@@ -35,54 +51,66 @@ void ConvexCell::clip(const Plane& plane) {
   }
 
   // Old vertices that stay get new indices as they are met; each cut edge gets one new vertex.
-  std::vector<Vec3> kept;
-  std::vector<int> renumbered(vertices_.size(), -1);
-  std::map<std::pair<int, int>, int> cuts;
-  std::vector<int> cap;
+  c.kept.clear();
+  c.renumbered.assign(vertices_.size(), -1);
+  c.cuts.clear();
+  c.cap.clear();
   const auto keep = [&](int v) {
-    if (renumbered[v] < 0) {
-      renumbered[v] = static_cast<int>(kept.size());
-      kept.push_back(vertices_[v]);
-      if (height[v] == 0.0) cap.push_back(renumbered[v]);
+    if (c.renumbered[v] < 0) {
+      c.renumbered[v] = static_cast<int>(c.kept.size());
+      c.kept.push_back(vertices_[v]);
+      if (c.height[v] == 0.0) c.cap.push_back(c.renumbered[v]);
     }
-    return renumbered[v];
+    return c.renumbered[v];
   };
   const auto cut = [&](int u, int v) {
-    const auto [found, added] = cuts.try_emplace(std::minmax(u, v), static_cast<int>(kept.size()));
-    if (added) {
-      const auto& [first, second] = found->first;
-      const double t = height[first] / (height[first] - height[second]);
-      kept.push_back(vertices_[first] + t * (vertices_[second] - vertices_[first]));
-      cap.push_back(found->second);
+    const auto [first, second] = std::minmax(u, v);
+    for (const Clipping::Cut& known : c.cuts) {
+      if (known.first == first && known.second == second) return known.vertex;
     }
-    return found->second;
+    const int vertex = static_cast<int>(c.kept.size());
+    const double t = c.height[first] / (c.height[first] - c.height[second]);
+    c.kept.push_back(vertices_[first] + t * (vertices_[second] - vertices_[first]));
+    c.cap.push_back(vertex);
+    c.cuts.push_back({first, second, vertex});
+    return vertex;
   };
-  std::vector<Face> faces;
-  for (const Face& face : faces_) {
-    if (std::none_of(face.loop.begin(), face.loop.end(), [&](int v) { return height[v] < 0.0; })) continue;
-    Face part{face.plane, {}};
-    for (std::size_t i = 0; i < face.loop.size(); ++i) {
-      const int u = face.loop[i], v = face.loop[(i + 1) % face.loop.size()];
-      if (height[u] <= 0.0) part.loop.push_back(keep(u));
-      if (height[u] * height[v] < 0.0) part.loop.push_back(cut(u, v));
+  std::size_t stay = 0;
+  for (Face& face : faces_) {
+    const auto any = [&](auto&& holds) { return std::any_of(face.loop.begin(), face.loop.end(), holds); };
+    if (!any([&](int v) { return c.height[v] < 0.0; })) continue;
+    if (any([&](int v) { return c.height[v] > 0.0; })) {
+      c.loop.clear();
+      for (std::size_t i = 0; i < face.loop.size(); ++i) {
+        const int u = face.loop[i], v = face.loop[(i + 1) % face.loop.size()];
+        if (c.height[u] <= 0.0) c.loop.push_back(keep(u));
+        if (c.height[u] * c.height[v] < 0.0) c.loop.push_back(cut(u, v));
+      }
+      face.loop = c.loop;
+    } else {
+      for (int& v : face.loop) v = keep(v);
     }
-    if (part.loop.size() >= 3) faces.push_back(std::move(part));
+    if (face.loop.size() < 3) continue;
+    if (&faces_[stay] != &face) faces_[stay] = std::move(face);
+    ++stay;
   }
+  faces_.resize(stay);
 
   // The cap is convex: its corners in order of angle about their middle.
-  if (cap.size() >= 3) {
+  if (c.cap.size() >= 3) {
     Vec3 middle = Vec3::Zero();
-    for (const int v : cap) middle += kept[v] / static_cast<double>(cap.size());
+    for (const int v : c.cap) middle += c.kept[v] / static_cast<double>(c.cap.size());
     const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
-    std::vector<std::pair<double, int>> order;
-    for (const int v : cap) order.emplace_back(std::atan2(y.dot(kept[v] - middle), x.dot(kept[v] - middle)), v);
-    std::sort(order.begin(), order.end());
-    Face lid{plane, {}};
-    for (const auto& [angle, v] : order) lid.loop.push_back(v);
-    faces.push_back(std::move(lid));
+    c.order.clear();
+    for (const int v : c.cap) {
+      const Vec3 arm = c.kept[v] - middle;
+      c.order.emplace_back(std::atan2(y.dot(arm), x.dot(arm)), v);
+    }
+    std::sort(c.order.begin(), c.order.end());
+    faces_.push_back({plane, {}});
+    for (const auto& [angle, v] : c.order) faces_.back().loop.push_back(v);
   }
-  faces_ = std::move(faces);
-  vertices_ = std::move(kept);
+  std::swap(vertices_, c.kept);
 }
 
 std::vector<ConvexCell::Edge> ConvexCell::edges() const {

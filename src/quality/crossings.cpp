@@ -1,7 +1,9 @@
 #include "crossings.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -21,10 +23,39 @@ bool heights(const TrianglePoints& s, const TrianglePoints& t, const Vec3& norma
   return (above && below) || (in && (above || below));
 }
 
+/// What of the coordinate `axis` the plane at these heights cuts out of a triangle.
+std::pair<double, double> interval(const TrianglePoints& s, const std::array<double, 3>& height, int axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto add = [&](double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double from = s[i][axis], to = s[j][axis];
+    if (height[i] == 0.0) add(from);
+    if (height[i] * height[j] < 0.0) add(from + height[i] / (height[i] - height[j]) * (to - from));
+  }
+  return {low, high};
+}
+
+/// Whether the triangles lie one after the other on the line that their planes share (Moeller 1997), seen along the
+/// axis nearest to it. Most of what long slivers meet does.
+bool one_after_the_other(const TrianglePoints& s, const std::array<double, 3>& hs, const TrianglePoints& t,
+                         const std::array<double, 3>& ht, const Vec3& line, double tolerance) {
+  constexpr double wide = 1e3;  // tolerances: a corner that only touches an edge at a shallow angle is near it for long
+  int axis;
+  line.cwiseAbs().maxCoeff(&axis);
+  const auto [low_s, high_s] = interval(s, hs, axis);
+  const auto [low_t, high_t] = interval(t, ht, axis);
+  return low_s > high_t + wide * tolerance || low_t > high_s + wide * tolerance;
+}
+
 bool over(const TrianglePoints& t, const Vec3& normal, const Vec3& x, double tolerance) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = t[(i + 1) % 3] - t[i];
-    if (normal.cross(edge).dot(x - t[i]) < -tolerance * edge.norm()) return false;
+    const double inward = normal.cross(edge).dot(x - t[i]);
+    if (inward < 0.0 && inward < -tolerance * edge.norm()) return false;
   }
   return true;
 }
@@ -47,16 +78,16 @@ void pierce(const TrianglePoints& s, const std::array<double, 3>& height, const 
 
 }  // namespace
 
-std::optional<Crossing> crossing(const TrianglePoints& s, const TrianglePoints& t, double tolerance) {
-  const Vec3 ns = (s[1] - s[0]).cross(s[2] - s[0]), nt = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double ls = ns.norm(), lt = nt.norm();
-  if (ls == 0.0 || lt == 0.0) return std::nullopt;
+std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance) {
+  if (s.normal.isZero() || t.normal.isZero()) return std::nullopt;
   std::array<double, 3> hs, ht;
-  if (!heights(s, t, nt / lt, tolerance, hs) || !heights(t, s, ns / ls, tolerance, ht)) return std::nullopt;
-  Crossing found{Vec3::Zero(), {}, {}};
+  if (!heights(s.points, t.points, t.normal, tolerance, hs)) return std::nullopt;
+  if (!heights(t.points, s.points, s.normal, tolerance, ht)) return std::nullopt;
+  if (one_after_the_other(s.points, hs, t.points, ht, s.normal.cross(t.normal), tolerance)) return std::nullopt;
+  Crossing found{Vec3::Zero(), {}, {s.triangle, t.triangle}};
   int count = 0;
-  pierce(s, hs, t, nt / lt, tolerance, found.point, count, found.box);
-  pierce(t, ht, s, ns / ls, tolerance, found.point, count, found.box);
+  pierce(s.points, hs, t.points, t.normal, tolerance, found.point, count, found.box);
+  pierce(t.points, ht, s.points, s.normal, tolerance, found.point, count, found.box);
   if (count == 0) return std::nullopt;
   found.point /= count;
   return found;
@@ -66,20 +97,15 @@ std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Po
   std::vector<Crossing> found;
   const BoxMotion to_a(b_in_a), to_b(b_in_a.inverse());
   walk(
-      a, b,
+      a, Pose(), b, b_in_a,
       [&](const Aabb& box_a, const Aabb& box_b) {
         const double gap = axis_gap(box_a, to_a(box_b));
         return gap > tolerance ? gap : std::max(gap, axis_gap(to_b(box_a), box_b));
       },
       [&] { return tolerance + std::numeric_limits<double>::min(); },
-      [&](std::size_t i, std::size_t j) {
-        const TrianglePoints s = points_of(a.mesh(), a.leaf_triangle(i));
-        const TrianglePoints t = moved(b_in_a, points_of(b.mesh(), b.leaf_triangle(j)));
-        if (!bounds(s).overlaps(bounds(t), tolerance)) return;
-        if (auto common = crossing(s, t, tolerance)) {
-          common->triangles = {a.leaf_triangle(i), b.leaf_triangle(j)};
-          found.push_back(*common);
-        }
+      [&](const Facet& s, const Facet& t) {
+        if (!s.box.overlaps(t.box, tolerance)) return;
+        if (const auto common = crossing(s, t, tolerance)) found.push_back(*common);
       });
   return found;
 }

@@ -16,7 +16,7 @@ struct Crossing {
 
 /// None if the triangles are apart, or coplanar (their neighbours then meet instead). Lengths up to `tolerance`
 /// count as zero: triangles that only touch cross in a point or a segment.
-std::optional<Crossing> crossing(const TrianglePoints& s, const TrianglePoints& t, double tolerance);
+std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance);
 
 /// Crossings of all triangles of a with all triangles of b, in the frame of a; `b_in_a` takes b's frame to a's.
 std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance);

@@ -23,6 +23,21 @@ inline Aabb bounds(const TrianglePoints& t) {
   return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
 }
 
+/// A triangle of a placed mesh, with what is asked of it again and again.
+struct Facet {
+  Facet() = default;
+  explicit Facet(const TrianglePoints& points, std::size_t triangle = 0)
+      : points(points),
+        normal((points[1] - points[0]).cross(points[2] - points[0]).normalized()),
+        box(bounds(points)),
+        triangle(triangle) {}
+
+  TrianglePoints points;
+  Vec3 normal;  ///< unit; 0 of one without area
+  Aabb box;
+  std::size_t triangle = 0;  ///< of the mesh
+};
+
 /// A rigid motion ready to bound moved boxes: the box of a turned box (Ericson 2005, section 4.2.6).
 class BoxMotion {
  public:
@@ -39,11 +54,19 @@ class BoxMotion {
 
 /// Depth-first walk over pairs of nodes. `bound(a box, b box)` (each in its own mesh's frame) is a number that no
 /// pair of triangles below can undercut; a pair is entered while it is < limit(). Of two children the one with the
-/// smaller bound comes first. `leaf(i, j)` gets positions for leaf_triangle().
+/// smaller bound comes first. `leaf` gets pairs of triangles, moved by the poses.
 template <class Bound, class Limit, class Leaf>
-void walk(const MeshQuery& a, const MeshQuery& b, Bound&& bound, Limit&& limit, Leaf&& leaf) {
+void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, Bound&& bound, Limit&& limit,
+          Leaf&& leaf) {
   const std::vector<MeshQuery::Node>&na = a.nodes(), &nb = b.nodes();
   if (na.empty() || nb.empty()) return;
+  std::array<Facet, MeshQuery::leaf_size> facets_a, facets_b;
+  const auto place = [](const MeshQuery& query, const Pose& pose, const MeshQuery::Node& node, auto& facets) {
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      const std::size_t triangle = query.leaf_triangle(node.first + k);
+      facets[k] = Facet(moved(pose, points_of(query.mesh(), triangle)), triangle);
+    }
+  };
   struct Entry {
     std::uint32_t i, j;
     double bound;
@@ -55,8 +78,10 @@ void walk(const MeshQuery& a, const MeshQuery& b, Bound&& bound, Limit&& limit, 
     if (!(entry.bound < limit())) continue;
     const MeshQuery::Node &one = na[entry.i], &other = nb[entry.j];
     if (one.count && other.count) {
-      for (std::uint32_t i = one.first; i < one.first + one.count; ++i) {
-        for (std::uint32_t j = other.first; j < other.first + other.count; ++j) leaf(i, j);
+      place(a, pose_a, one, facets_a);
+      place(b, pose_b, other, facets_b);
+      for (std::uint32_t i = 0; i < one.count; ++i) {
+        for (std::uint32_t j = 0; j < other.count; ++j) leaf(facets_a[i], facets_b[j]);
       }
       continue;
     }

@@ -38,6 +38,8 @@ class MeshQuery {
         box, [](void* v, std::size_t t) { (*static_cast<std::remove_reference_t<Visit>*>(v))(t); }, &visit);
   }
 
+  static constexpr std::size_t leaf_size = 4;  ///< triangles in a leaf, at most
+
   /// Node of the tree. Depth-first order: an inner node's first child follows it, `first` is its second child. A leaf
   /// (count > 0) holds the triangles leaf_triangle(first) .. leaf_triangle(first + count - 1).
   struct Node {
