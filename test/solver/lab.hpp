@@ -55,6 +55,22 @@ inline Mesh sphere_mesh(double radius, int subdivisions = 3) {
   return mesh;
 }
 
+/// Upright, with flat faces at heights `low` and `high`.
+inline Mesh prism_mesh(std::uint32_t sides, double radius, double low, double high) {
+  Mesh mesh;
+  for (const double z : {low, high})
+    for (std::uint32_t k = 0; k < sides; ++k) {
+      const double angle = 2.0 * M_PI * k / sides;
+      mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  for (std::uint32_t k = 0; k < sides; ++k) {
+    const std::uint32_t next = (k + 1) % sides;
+    mesh.triangles.insert(mesh.triangles.end(), {{k, next, sides + next}, {k, sides + next, sides + k}});
+    if (k > 1) mesh.triangles.insert(mesh.triangles.end(), {{0, k, k - 1}, {sides, sides + k - 1, sides + k}});
+  }
+  return mesh;
+}
+
 /// A part made of `count` boxes along a circle: concave, a union of convex pieces known exactly.
 inline Mesh ring_mesh(int count, double inner, double outer, double height) {
   Mesh mesh;

@@ -2,6 +2,8 @@
 
 #include "dynamics_world.hpp"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,21 @@ namespace {
 // thousand times as heavy is pressed through.
 constexpr btScalar stiffness = 0.25, damping_ratio = 2.0;
 constexpr btScalar fastest_push = 3.0;  ///< units/s
+
+/// None of walls.
+Motion* motion_of(const btSolverBody& body) {
+  return body.m_originalBody ? static_cast<Motion*>(body.m_originalBody->getUserPointer()) : nullptr;
+}
+
+/// What a moment about `axis` turns a body by; nothing of what is fixed.
+btVector3 turned_by(const btSolverBody& body, const btVector3& axis) {
+  return body.m_originalBody ? body.m_originalBody->getInvInertiaTensorWorld() * axis : btVector3(0, 0, 0);
+}
+
+/// It rolls freely.
+bool is_ball(const btSolverBody& body) {
+  return body.m_originalBody && body.m_originalBody->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
+}
 
 btScalar velocity(const btSolverBody& a, const btSolverBody& b, const btSolverConstraint& row) {
   return row.m_contactNormal1.dot(a.m_linearVelocity + a.m_deltaLinearVelocity) +
@@ -82,11 +99,16 @@ void ContactSolver::begin() {
   rows += static_cast<std::uint64_t>(count);
   contacts_.resize(static_cast<std::size_t>(count));
   ways_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Way());
+  for (int b = 0; b < m_tmpSolverBodyPool.size(); ++b) {
+    const Motion* motion = motion_of(m_tmpSolverBodyPool[b]);
+    if (motion) ways_[b] = {-motion->ahead_moved, -motion->ahead_turned, false};
+  }
   blocks_.clear();
   for (int c = 0; c < count; ++c) {
     btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
     const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
-    contacts_[c] = {point.getDistance(), 0, point.m_appliedImpulse > 0};
+    const btVector3 origin = m_tmpSolverBodyPool[row.m_solverBodyIdA].getWorldTransform().getOrigin();
+    contacts_[c] = {point.getPositionWorldOnA() - origin, point.getDistance(), 0, point.m_appliedImpulse > 0};
     row.m_appliedImpulse = point.m_appliedImpulse;
     m_tmpSolverContactFrictionConstraintPool[row.m_frictionIndex].m_appliedImpulse = point.m_appliedImpulseLateral1;
     m_tmpSolverContactFrictionConstraintPool[row.m_frictionIndex + 1].m_appliedImpulse = point.m_appliedImpulseLateral2;
@@ -119,9 +141,56 @@ void ContactSolver::sweep(btScalar h, bool push_out) {
   // Normal and friction pair of bodies by pair of bodies: a stack of ten stands so with a third of the sweeps it takes
   // when all normals come before all friction. Turning every other sweep round made it fall.
   for (std::size_t k = 0; k + 1 < blocks_.size(); ++k) {
+    if (push_out) resist_turn(blocks_[k], blocks_[k + 1]);
     for (int c = blocks_[k]; c < blocks_[k + 1]; ++c) solve_normal(c, h, push_out ? &soft : nullptr);
     for (int c = blocks_[k]; c < blocks_[k + 1]; ++c) solve_friction(m_tmpSolverContactConstraintPool[c]);
   }
+}
+
+/// A patch resists spin about its normal by 2/3 of its radius times friction, and is tipped over its rim by its radius
+/// times the force. Contacts that lie farther apart do so themselves. Once a sub-step, when the forces of all contacts
+/// have begun: before, turns are those of a body in the air.
+void ContactSolver::resist_turn(int first, int last) {
+  const btSolverConstraint& row = m_tmpSolverContactConstraintPool[first];
+  btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
+  btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+  btScalar impulse = 0;
+  btVector3 center(0, 0, 0), normal(0, 0, 0);
+  for (int c = first; c < last; ++c) {
+    const btSolverConstraint& contact = m_tmpSolverContactConstraintPool[c];
+    impulse += contact.m_appliedImpulse;
+    center += contacts_[c].place * btScalar(contact.m_appliedImpulse);
+    normal += contact.m_contactNormal1 * btScalar(contact.m_appliedImpulse);
+  }
+  if (!(impulse > 0) || normal.fuzzyZero()) return;
+  center /= impulse;
+  normal.normalize();
+  const btVector3 turn =
+      a.m_angularVelocity + a.m_deltaAngularVelocity - b.m_angularVelocity - b.m_deltaAngularVelocity;
+  const btScalar spin = normal.dot(turn);
+  btVector3 tip = turn - spin * normal;
+  const btScalar tipping = tip.length();
+  if (tipping > 0) tip /= tipping;
+  const btVector3 across = normal.cross(tip);
+  btScalar spread = 0, spread_across = 0;  // squares of lengths, times impulse
+  for (int c = first; c < last; ++c) {
+    const btVector3 off = contacts_[c].place - center;
+    const btScalar side = across.dot(off), pressed = m_tmpSolverContactConstraintPool[c].m_appliedImpulse;
+    spread += pressed * off.length2();
+    spread_across += pressed * side * side;
+  }
+  const btScalar widest = 4 * patch_radius * patch_radius * impulse;
+  const auto resist = [&](const btVector3& axis, btScalar speed, btScalar most) {
+    const btVector3 turn_a = turned_by(a, axis), turn_b = turned_by(b, axis);
+    const btScalar k = axis.dot(turn_a + turn_b);
+    if (!(k > 0)) return;
+    const btScalar moment = std::min(std::max(speed / k, -most), most);
+    a.m_deltaAngularVelocity -= turn_a * moment;
+    b.m_deltaAngularVelocity += turn_b * moment;
+  };
+  const btScalar friction = m_tmpSolverContactFrictionConstraintPool[row.m_frictionIndex].m_friction;
+  if (spread <= widest) resist(normal, spin, btScalar(2.0 / 3.0) * patch_radius * friction * impulse);
+  if (spread_across <= widest && !is_ball(a) && !is_ball(b)) resist(tip, tipping, patch_radius * impulse);
 }
 
 void ContactSolver::solve_normal(int c, btScalar h, const Soft* soft) {
@@ -209,11 +278,11 @@ void ContactSolver::hand_over() {
     btSolverBody& body = m_tmpSolverBodyPool[b];
     if (!body.m_originalBody) continue;
     body.m_externalForceImpulse.setZero();  // already in the velocity, sub-step by sub-step
-    auto* motion = static_cast<Motion*>(body.m_originalBody->getUserPointer());
+    Motion* motion = motion_of(body);
     if (!motion) continue;
     motion->touches = ways_[b].touches;
-    motion->moved = ways_[b].moved;
-    motion->turned = ways_[b].turned;
+    motion->moved = motion->ahead_moved + ways_[b].moved;
+    motion->turned = motion->ahead_turned + ways_[b].turned;
   }
 }
 

@@ -10,6 +10,9 @@
 /// Bullet's own sweeps, tried first with 20 to 200 iterations at 240 to 1000 Hz, let a stack of ten boxes sway and
 /// fall.
 ///
+/// Contacts that press within a small patch of each other resist turns as a patch does, as in the sphere solver
+/// (src/solver/sphere/contact_solver.cpp, resist_turn).
+///
 /// Friction is a cone: both tangential impulses of a contact are limited together. A rebound starts at e times the
 /// speed of approach just before the contact first pushed.
 #pragma once
@@ -32,6 +35,10 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
   static void configure(btContactSolverInfo & info);
 
+  /// Of what presses at a point or along a line (units): it is a patch, and resists spin and rolling there. 0: parts
+  /// rock on their edges and facets for as long as they are looked at.
+  btScalar patch_radius = 0;
+
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
 
  protected:
@@ -42,11 +49,12 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
  private:
   struct Contact {
-    btScalar distance;  ///< at detection
+    btVector3 place;    ///< of the contact, from the centre of mass of its first body
+    btScalar distance;  ///< where bodies were at detection
     btScalar approach;  ///< normal velocity before its first push, negative
     bool pushed;
   };
-  /// Way and turn of a solver body since detection.
+  /// Way and turn of a solver body from where it was at detection.
   struct Way {
     btVector3 moved{0, 0, 0}, turned{0, 0, 0};
     bool touches = false;
@@ -60,6 +68,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void begin();
   void warm_start();
   void sweep(btScalar h, bool push_out);
+  void resist_turn(int first, int last);
   void solve_normal(int contact, btScalar h, const Soft* soft);
   void solve_friction(const btSolverConstraint& contact);
   void move(btScalar h);

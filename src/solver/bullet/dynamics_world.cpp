@@ -17,6 +17,10 @@ btQuaternion rotation(const btVector3& turn) {
   return btQuaternion(turn / angle, angle);
 }
 
+btTransform moved(const btTransform& from, const btVector3& way, const btQuaternion& turn) {
+  return btTransform((turn * from.getRotation()).normalized(), from.getOrigin() + way);
+}
+
 Mat3 cross_matrix(const Vec3& v) {
   Mat3 m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -62,6 +66,23 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
   }
 }
 
+void DynamicsWorld::performDiscreteCollisionDetection() {
+  const btScalar dt = getDispatchInfo().m_timeStep;
+  const btScalar half_way = btScalar(0.5) * (dt - dt / btScalar(getSolverInfo().m_numIterations));
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& body = *m_nonStaticRigidBodies[i];
+    Motion& motion = *static_cast<Motion*>(body.getUserPointer());
+    motion.start = body.getWorldTransform();
+    motion.ahead_moved = motion.ahead_turned = btVector3(0, 0, 0);
+    if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
+    motion.ahead_moved = body.getLinearVelocity() * half_way;
+    motion.ahead_turned = body.getAngularVelocity() * half_way;
+    body.setWorldTransform(moved(motion.start, motion.ahead_moved, rotation(motion.ahead_turned)));
+    body.updateInertiaTensor();
+  }
+  btDiscreteDynamicsWorld::performDiscreteCollisionDetection();
+}
+
 void DynamicsWorld::integrateTransforms(btScalar dt) {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
@@ -71,11 +92,7 @@ void DynamicsWorld::integrateTransforms(btScalar dt) {
     const btVector3 way =
         motion.touches ? motion.moved : (motion.linear + body.getLinearVelocity()) * (btScalar(0.5) * dt);
     const btQuaternion turn = motion.touches ? rotation(motion.turned) : motion.turn;
-    const btTransform& now = body.getWorldTransform();
-    btTransform next;
-    next.setOrigin(now.getOrigin() + way);
-    next.setRotation((turn * now.getRotation()).normalized());
-    body.proceedToTransform(next);
+    body.proceedToTransform(moved(motion.start, way, turn));
   }
 }
 

@@ -47,25 +47,36 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
     corners.push_back({point, depth});
   }
 
-  /// Keeps the four corners that span the most: the outermost, the one farthest from it, and the farthest on either
-  /// side of the line between them. A manifold holds four points and lets every further one push out another: the
-  /// crossings of edges that almost coincide took the places of corners in turn, each time without its impulse.
-  void spread() {
+  /// Keeps four corners: of the deepest the outermost, the one farthest from it, and the farthest on either side of the
+  /// line between them, where a corner counts for less the farther it is from touching. A manifold holds four points
+  /// and lets every further one push out another: the crossings of edges that almost coincide took the places of
+  /// corners in turn, each time without its impulse. Without depths, what rolls over a rim met its next corner when it
+  /// was already under, and was lifted out of it: a bolt wobbled on its head without end, and rose.
+  void spread(btScalar reach) {
     constexpr int most = MANIFOLD_CACHE_SIZE;
+    constexpr btScalar same = 0.02;  // of the reach: depths of one face at rest
     if (corners.size() <= most) return;
     btVector3 middle(0, 0, 0);
-    for (int i = 0; i < corners.size(); ++i) middle += corners[i].point / btScalar(corners.size());
+    btScalar deepest = BT_LARGE_FLOAT;
+    for (int i = 0; i < corners.size(); ++i) {
+      middle += corners[i].point / btScalar(corners.size());
+      deepest = std::min(deepest, corners[i].depth);
+    }
     const auto choose = [&](int place, const auto& measure) {
       int best = place;
       for (int i = place + 1; i < corners.size(); ++i)
-        if (measure(corners[i].point) > measure(corners[best].point)) best = i;
+        if (measure(corners[i]) > measure(corners[best])) best = i;
       corners.swap(place, best);
     };
-    choose(0, [&](const btVector3& p) { return p.distance2(middle); });
-    choose(1, [&](const btVector3& p) { return p.distance2(corners[0].point); });
-    const btVector3 across = normal.cross(corners[1].point - corners[0].point), origin = corners[0].point;
-    choose(2, [&](const btVector3& p) { return across.dot(p - origin); });
-    choose(3, [&](const btVector3& p) { return -across.dot(p - origin); });
+    const auto nearness = [&](const Corner& c) { return btScalar(1) - (c.depth - deepest) / reach; };
+    choose(0, [&](const Corner& c) {
+      return c.depth <= deepest + same * reach ? c.point.distance2(middle) : deepest - c.depth;
+    });
+    const btVector3 origin = corners[0].point;
+    choose(1, [&](const Corner& c) { return nearness(c) * c.point.distance(origin); });
+    const btVector3 across = normal.cross(corners[1].point - origin);
+    choose(2, [&](const Corner& c) { return nearness(c) * across.dot(c.point - origin); });
+    choose(3, [&](const Corner& c) { return -nearness(c) * across.dot(c.point - origin); });
     corners.resizeNoInitialize(most);
   }
 
@@ -128,7 +139,7 @@ void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCo
       btPolyhedralContactClipping::clipHullAgainstHull(nearest.normal, *faces_a, *faces_b, input.m_transformA,
                                                        input.m_transformB, nearest.distance, reach, clipped_a_,
                                                        clipped_b_, patch);
-    patch.spread();
+    patch.spread(reach);
     const btScalar deepest = patch.pass_on(*result);
     // GJK's own point lies anywhere in a patch and would push a corner out of the four a manifold keeps, another one
     // every step; it is needed only where the patch misses it (an edge on an edge).

@@ -1,6 +1,7 @@
 #include "shape.hpp"
 
 #include "convert.hpp"
+#include "polyhedron.hpp"
 
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
@@ -16,12 +17,15 @@ namespace {
 
 /// Margins only keep GJK away from touching cores; hulls with polyhedral features report distances without them, so
 /// the outer surface is the true one whatever the margin is.
-std::unique_ptr<btCollisionShape> hull_shape(const Mesh& hull, const Pose& from_model, double scale, double margin) {
+std::unique_ptr<btCollisionShape> hull_shape(Mesh hull, const Pose& from_model, double scale, double margin) {
+  constexpr double flat = 1e-5;  // units of the scaled world
+  for (Vec3& v : hull.vertices) v = scale * (from_model * v);
   auto shape = std::make_unique<btConvexHullShape>();
-  for (const Vec3& v : hull.vertices) shape->addPoint(to_bt(Vec3(scale * (from_model * v))), false);
+  for (const Vec3& v : hull.vertices) shape->addPoint(to_bt(v), false);
   shape->setMargin(margin);
   shape->recalcLocalAabb();
-  shape->initializePolyhedralFeatures();
+  btConvexPolyhedron faces = polyhedron_of(hull, flat);
+  shape->setPolyhedralFeatures(faces);
   return shape;
 }
 

@@ -24,9 +24,10 @@ constexpr int most_cuts = 512;        ///< no more for the sake of a part that w
 constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
 // Half the edge of an endless floor. At 3e5 the rounding of its contacts lets a box creep on a slope it should rest on.
 constexpr double endless = 1e4;
-constexpr double sleep_speed = 1e-3;  ///< units/s, a quarter of what Pour::rest_move allows by default
-constexpr double sleep_turn = 1e-2;   ///< rad/s, likewise of Pour::rest_turn
-constexpr double sleep_time = 0.5;    ///< s an island must stay below both
+constexpr double patch_radius = 1e-3;  ///< of the smallest part, as Settings::patch_radius of the sphere solver
+constexpr double sleep_speed = 1e-3;   ///< units/s, a quarter of what Pour::rest_move allows by default
+constexpr double sleep_turn = 1e-2;    ///< rad/s, likewise of Pour::rest_turn
+constexpr double sleep_time = 0.5;     ///< s an island must stay below both
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
   return std::sqrt(a->getFriction() * b->getFriction());
@@ -102,6 +103,7 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
 
   btContactSolverInfo& info = world_.getSolverInfo();
   ContactSolver::configure(info);
+  contact_solver_.patch_radius = patch_radius * smallest_diagonal(def) * scale_;
   info.m_restitutionVelocityThreshold = 2.0 * def.gravity.norm() * scale_ * time_step_;
 
   Vec3 unset = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
