@@ -2,8 +2,6 @@
 
 #include "dynamics_world.hpp"
 
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -28,9 +26,8 @@ btVector3 turned_by(const btSolverBody& body, const btVector3& axis) {
   return body.m_originalBody ? body.m_originalBody->getInvInertiaTensorWorld() * axis : btVector3(0, 0, 0);
 }
 
-/// It rolls freely.
-bool is_ball(const btSolverBody& body) {
-  return body.m_originalBody && body.m_originalBody->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
+bool is_no_ball(const btSolverBody& body) {
+  return !body.m_originalBody || !is_ball(*body.m_originalBody);
 }
 
 btScalar velocity(const btSolverBody& a, const btSolverBody& b, const btSolverConstraint& row) {
@@ -190,7 +187,7 @@ void ContactSolver::resist_turn(int first, int last) {
   };
   const btScalar friction = m_tmpSolverContactFrictionConstraintPool[row.m_frictionIndex].m_friction;
   if (spread <= widest) resist(normal, spin, btScalar(2.0 / 3.0) * patch_radius * friction * impulse);
-  if (spread_across <= widest && !is_ball(a) && !is_ball(b)) resist(tip, tipping, patch_radius * impulse);
+  if (spread_across <= widest && is_no_ball(a) && is_no_ball(b)) resist(tip, tipping, patch_radius * impulse);
 }
 
 void ContactSolver::solve_normal(int c, btScalar h, const Soft* soft) {

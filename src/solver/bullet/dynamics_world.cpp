@@ -2,6 +2,8 @@
 
 #include "convert.hpp"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +30,10 @@ Mat3 cross_matrix(const Vec3& v) {
 }
 
 }  // namespace
+
+bool is_ball(const btCollisionObject& body) {
+  return body.getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
+}
 
 Vec3 torque_free_step(const Vec3& inertia, const Vec3& angular, double dt) {
   const Mat3 I = inertia.asDiagonal();
@@ -74,7 +80,7 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
     Motion& motion = *static_cast<Motion*>(body.getUserPointer());
     motion.start = body.getWorldTransform();
     motion.ahead_moved = motion.ahead_turned = btVector3(0, 0, 0);
-    if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
+    if (body.isStaticOrKinematicObject() || !body.isActive() || is_ball(body)) continue;
     motion.ahead_moved = body.getLinearVelocity() * half_way;
     motion.ahead_turned = body.getAngularVelocity() * half_way;
     body.setWorldTransform(moved(motion.start, motion.ahead_moved, rotation(motion.ahead_turned)));
@@ -86,8 +92,12 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
 void DynamicsWorld::integrateTransforms(btScalar dt) {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
-    if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
     const Motion& motion = *static_cast<const Motion*>(body.getUserPointer());
+    if (body.isStaticOrKinematicObject()) continue;
+    if (!body.isActive()) {
+      body.setWorldTransform(motion.start);  // it may have fallen asleep since
+      continue;
+    }
     // Gravity alone acts through the whole step, so the mean of the velocities carries a free body (exact parabola).
     const btVector3 way =
         motion.touches ? motion.moved : (motion.linear + body.getLinearVelocity()) * (btScalar(0.5) * dt);

@@ -20,6 +20,9 @@ struct Motion {
   btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< way and turn to where its contacts are found
 };
 
+/// Its levers do not turn with it, and it rolls freely.
+bool is_ball(const btCollisionObject& body);
+
 /// Angle (rad) a body may turn in one torque-free step: Newton converges, and the path of its axis is followed.
 constexpr double turn_per_step = 0.1;
 
