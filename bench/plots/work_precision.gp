@@ -1,14 +1,15 @@
 # needs: work_precision.csv
 set termoption noenhanced
+# Parts that other engines poured as well: one column each.
 table = results.'/work_precision.csv'
-parts = system("awk -F, '!/^#/ && $1 != \"part\" && !seen[$1]++ { printf \"%s \", $1 }' '".table."'")
+parts = system("awk -F, '$3 == \"bullet_stock\" && !seen[$1]++ { printf \"%s \", $1 }' '".table."'")
 set logscale xy
 set format '%g'
 set xlabel 'CPU s a scene'
 array names = ['sphere: default', 'sphere: time step', 'sphere: sub-steps', 'sphere: samples', 'sphere: field cell', \
   'sphere/thesis', 'bullet, sleeping', 'bullet, no sleeping', 'Bullet as it comes', 'ODE', 'DART']
 array series = ['sphere|yes|default', 'sphere|yes|time_step', 'sphere|yes|sub_steps', 'sphere|yes|fine_samples', \
-  'sphere|yes|field_cell', 'sphere/thesis|no|sub_steps', 'bullet|yes|time_step', 'bullet|no|time_step', \
+  'sphere|yes|field_cell', 'sphere/thesis|no|default', 'bullet|yes|time_step', 'bullet|no|time_step', \
   'bullet_stock|yes|time_step', 'ode|no|time_step', 'dart|no|time_step']
 array colours = ['#000000', '#0072b2', '#0072b2', '#0072b2', '#0072b2', '#009e73', '#d55e00', '#d55e00', '#d55e00', '#cc79a7', '#e69f00']
 array shapes = [3, 7, 6, 4, 8, 9, 5, 4, 2, 11, 13]
@@ -19,20 +20,28 @@ array errors = ['penetration_p95_rel', 'drift_p95_rel']
 array fronts = ['front_penetration', 'front_drift']
 array labels = ['penetration p95 / diagonal', 'drift p95 / diagonal']
 array goals = [0.003, 0.01]
-set multiplot layout 2, words(parts) columnsfirst title 'Error over time; line: Pareto front, grey: goal'
+set key off
+set multiplot layout 2, words(parts) + 1 columnsfirst title 'Error over time; line: Pareto front, grey: goal'
 do for [p=1:words(parts)] {
   part = word(parts, p)
   do for [e=1:2] {
     set title part offset 0, -0.6
     set ylabel labels[e]
-    if (p == words(parts) && e == 1) { set key outside right top Left reverse samplen 0.5 font ',9' } else { set key off }
-    if (p == words(parts)) { set rmargin 22 }
     plot goals[e] with lines linecolor rgb '#999999' dashtype 2 notitle, \
       table using (strcol('part') eq part && strcol(fronts[e]) eq 'yes' ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
         smooth unique with lines linecolor rgb '#bbbbbb' linewidth 3 notitle, \
       for [i=1:|series|] table using (strcol('part') eq part && name(i) ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
-        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) notitle, \
-      for [i=1:|series|] keyentry with points pointtype shapes[i] linecolor rgb colours[i] title names[i]
+        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) notitle
   }
 }
+# The key, in a column of its own.
+unset logscale
+unset border
+unset tics
+unset title
+unset xlabel
+unset ylabel
+set key left top Left reverse samplen 0.5 font ',9'
+plot [0:1] [0:1] NaN notitle, \
+  for [i=1:|series|] keyentry with points pointtype shapes[i] linecolor rgb colours[i] title names[i]
 unset multiplot
