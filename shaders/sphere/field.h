@@ -51,9 +51,9 @@ float sample_field(Field f, vec3 point) {
 }
 
 // The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
-// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, however deep it
-// is beyond another. Goes back from `point` through the sample's own body, along the middle of its cone, until it is
-// outside; `gradient` and `distance` are replaced by those of the face it comes out of.
+// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, although it is
+// deeper in behind another. Goes back from `point` through the sample's own body, along the middle of its cone, for at
+// most four cells, until it is outside; `gradient` and `distance` are replaced by those of the face it comes out of.
 bool find_way_out(Field f, vec3 point, vec3 back, inout vec3 gradient, inout float distance) {
   float reach = 4.0 * f.cell, least = 0.25 * f.cell, t = 0.0, before = distance;
   bool inside = distance < 0.0;

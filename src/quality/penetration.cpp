@@ -31,25 +31,25 @@ constexpr double tile = 8.0;          // a region wider than this many reaches i
 
 /// The faces of one mesh that reach into a box. Large triangles define the planes, small ones join them.
 std::vector<Plane> planes_near(const OverlapSide& side, const Pose& to_frame, const Aabb& box, double unit) {
-  struct Facet {
+  struct Sized {
     TrianglePoints points;
     Vec3 normal;  // times twice the area
     double area;
     std::size_t triangle;
   };
-  std::vector<Facet> facets;
+  std::vector<Sized> facets;
   side.query.overlapping(BoxMotion(to_frame.inverse())(box), [&](std::size_t triangle) {
     const TrianglePoints t = moved(to_frame, points_of(side.query.mesh(), triangle));
     if (!bounds(t).overlaps(box)) return;
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
     if (normal.squaredNorm() > 0.0) facets.push_back({t, normal, normal.norm(), triangle});
   });
-  std::sort(facets.begin(), facets.end(), [](const Facet& s, const Facet& t) {
+  std::sort(facets.begin(), facets.end(), [](const Sized& s, const Sized& t) {
     return s.area != t.area ? s.area > t.area : s.triangle < t.triangle;
   });
   std::vector<Plane> planes;
   const Vec3 front = to_frame * side.front;
-  for (const Facet& f : facets) {
+  for (const Sized& f : facets) {
     const auto& [p, q, r] = f.points;
     Plane plane{f.normal / f.area, 0.0};
     plane.offset = plane.normal.dot(p + q + r) / 3.0;

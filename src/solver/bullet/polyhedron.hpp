@@ -9,8 +9,8 @@ namespace bin_scenes::bullet {
 
 /// @param hull convex, closed; its triangles wind outwards
 /// Triangles in one plane, up to `flat` in the hull's unit, are one face. Bullet's own initializePolyhedralFeatures
-/// leaves them triangles where the face has corners along a straight edge: what lies on the face of a bolt's head then
-/// touches in one triangle after the other, and corners are met when they are already under.
+/// splits some planes into several faces, and clipping those misses corners: what rolls over the rim of a bolt's head
+/// meets them when they are already under (docs/solver.md).
 btConvexPolyhedron polyhedron_of(const Mesh& hull, double flat);
 
 }  // namespace bin_scenes::bullet

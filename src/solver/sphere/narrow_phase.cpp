@@ -146,9 +146,9 @@ void slide(const Samples& samples, const Field& own, const Carry& carry, std::si
 }
 
 /// The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
-/// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, however deep it
-/// is beyond another. Goes back from `point` through the sample's own body, along the middle of its cone, until it is
-/// outside; `gradient` and `distance` are replaced by those of the face it comes out of.
+/// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, although it is
+/// deeper in behind another. Goes back from `point` through the sample's own body, along the middle of its cone, for at
+/// most four cells, until it is outside; `gradient` and `distance` are replaced by those of the face it comes out of.
 bool find_way_out(const Field& field, const Vec3f& point, const Vec3f& back, Vec3f& gradient, float& distance) {
   const float reach = 4.0f * field.cell, least = 0.25f * field.cell;
   float t = 0, before = distance;
