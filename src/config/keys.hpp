@@ -130,7 +130,10 @@ void visit(Visitor& v, BulletSettings& s) {
            "steps that are too long for small or fast parts are cut; false = such parts sink into each other or pass "
            "through: for measuring what long steps do"},
           s.cut_steps);
-  v.field({"iterations", "", "sequential-impulse sweeps per step; more = stiffer piles, linear cost"}, s.iterations);
+  v.field(
+      {"iterations", "",
+       "sequential-impulse sweeps per step, two a sub-step, and as many that relax; more = stiffer piles, linear cost"},
+      s.iterations);
   v.field({"margin", "", "collision margin / part diagonal, shrunk into the hulls; smaller = slower and exacter"},
           s.margin);
   v.field({"sleeping", "", "islands at rest cost nothing; false = every part is simulated to the end"}, s.sleeping);
@@ -157,11 +160,12 @@ void visit(Visitor& v, ThesisSettings& s) {
   v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square"}, s.voxels);
   v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface"},
           s.tightness);
-  v.field({"radii", "",
-           "radii of spheres / the part's longest side, largest first, instead of voxels: large spheres fill the inside, "
-           "the smallest the surface",
-           !s.radii.empty()},
-          s.radii);
+  v.field(
+      {"radii", "",
+       "radii of spheres / the part's longest side, largest first, instead of voxels: large spheres fill the inside, "
+       "the smallest the surface",
+       !s.radii.empty()},
+      s.radii);
   v.field({"modified_normals", "", "face spheres carry the true surface's normal: stable with fewer iterations"},
           s.modified_normals);
   v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube"}, s.grid_size);
@@ -180,9 +184,11 @@ void visit(Visitor& v, SphereSettings& s) {
            "through: for measuring what long steps do"},
           s.cut_steps);
   v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
-  v.field({"coarse_samples", "", "surface samples per part while pouring, at least: thin parts get more"}, s.coarse_samples);
-  v.field({"fine_samples", "", "surface samples per part while settling, at least; more = less penetration, linear cost"},
-          s.fine_samples);
+  v.field({"coarse_samples", "", "surface samples per part while pouring, at least: thin parts get more"},
+          s.coarse_samples);
+  v.field(
+      {"fine_samples", "", "surface samples per part while settling, at least; more = less penetration, linear cost"},
+      s.fine_samples);
   v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
           s.field_cell);
   v.field({"device", "",

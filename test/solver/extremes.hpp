@@ -68,6 +68,24 @@ TEST_P(Extremes, WhatWobblesOnItsRimComesToLie) {
   EXPECT_LT(lab.state(0).velocity.angular.norm(), 0.05);
 }
 
+/// Rings of many pieces: a load that runs through hundreds of contacts.
+TEST_P(Extremes, RingsOnEachOtherStandStill) {
+  Lab lab = this->lab();
+  const double height = 0.012;
+  const PartModelPtr ring = PartModel::from_mesh(ring_mesh(12, 0.018, 0.03, height), "ring");
+  constexpr int rings = 6;
+  for (int k = 0; k < rings; ++k)
+    lab.place(ring, Vec3(0, 0, (k + 0.5) * height), Quat(Eigen::AngleAxisd(k % 2 * 1e-5, Vec3::UnitZ())));
+  lab.simulate(0.5);
+  std::vector<Vec3> centers;
+  for (int k = 0; k < rings; ++k) centers.push_back(lab.center(k));
+  for (int k = 0; k < 20; ++k) {
+    lab.simulate(0.01);
+    for (int r = 0; r < rings; ++r) EXPECT_LT(lab.state(r).velocity.linear.norm(), 2e-3) << "ring " << r;
+  }
+  for (int r = 0; r < rings; ++r) EXPECT_LT((lab.center(r) - centers[r]).norm(), 2e-5) << "ring " << r;
+}
+
 TEST_P(Extremes, SheetsOfAFifthOfAMillimetreStopEachOther) {
   const double thickness = 2e-4;
   Lab lab = this->lab();

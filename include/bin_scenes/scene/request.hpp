@@ -73,7 +73,8 @@ const char* name_of(SolverType type);
 struct BulletSettings {
   double time_step = 1.0 / 240.0;  ///< s; larger is faster and lets thin parts interlock
   bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
-  int iterations = 40;             ///< contact sweeps per step, two a sub-step; more = stiffer piles, linear cost
+  int iterations = 40;             ///< contact sweeps per step, two a sub-step, and as many that relax; more =
+                                   ///< stiffer piles, linear cost
   double margin = 0.005;           ///< collision margin / part diagonal, shrunk into the hulls; smaller = slower, exacter
   bool sleeping = true;            ///< islands at rest cost nothing
   double hull_error = 0.01;        ///< largest surface error of the convex decomposition / part diagonal

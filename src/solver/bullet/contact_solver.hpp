@@ -65,9 +65,12 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
     btScalar rate, mass_share, impulse_share;
   };
 
+  /// Pushing lets overlap out; relaxing takes back the velocity that this left.
+  enum class Sweep { first_push, push, relax };
+
   void begin();
   void warm_start();
-  void sweep(btScalar h, bool push_out);
+  void sweep(btScalar h, Sweep kind);
   void resist_turn(int first, int last);
   void solve_normal(int contact, btScalar h, const Soft* soft);
   void solve_friction(const btSolverConstraint& contact);

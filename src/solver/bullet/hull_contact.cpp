@@ -36,6 +36,7 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
   struct Corner {
     btVector3 point;
     btScalar depth;
+    bool known;  ///< the manifold has it already
   };
   btVector3 normal{0, 0, 0};
   btAlignedObjectArray<Corner> corners;
@@ -44,18 +45,23 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
   void setShapeIdentifiersB(int, int) override {}
   void addContactPoint(const btVector3& normal_on_b, const btVector3& point, btScalar depth) override {
     normal = normal_on_b;
-    corners.push_back({point, depth});
+    corners.push_back({point, depth, false});
   }
 
   /// Keeps four corners: of the deepest the outermost, the one farthest from it, and the farthest on either side of the
   /// line between them, where a corner counts for less the farther it is from touching. A manifold holds four points
   /// and lets every further one push out another: the crossings of edges that almost coincide took the places of
   /// corners in turn, each time without its impulse. Without depths, what rolls over a rim met its next corner when it
-  /// was already under, and was lifted out of it: a bolt wobbled on its head without end, and rose.
-  void spread(btScalar reach) {
+  /// was already under, and was lifted out of it: a bolt wobbled on its head without end, and rose. A corner that the
+  /// manifold has counts for more: of two as good, one and then the other would be taken, each without its impulse.
+  void spread(btScalar reach, const btPersistentManifold& manifold) {
     constexpr int most = MANIFOLD_CACHE_SIZE;
     constexpr btScalar same = 0.02;  // of the reach: depths of one face at rest
+    constexpr btScalar stay = 0.1;   // what a corner that is known counts for more
     if (corners.size() <= most) return;
+    for (int i = 0; i < corners.size(); ++i)
+      for (int k = 0; k < manifold.getNumContacts() && !corners[i].known; ++k)
+        corners[i].known = corners[i].point.distance(manifold.getContactPoint(k).getPositionWorldOnB()) < reach;
     btVector3 middle(0, 0, 0);
     btScalar deepest = BT_LARGE_FLOAT;
     for (int i = 0; i < corners.size(); ++i) {
@@ -63,12 +69,15 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
       deepest = std::min(deepest, corners[i].depth);
     }
     const auto choose = [&](int place, const auto& measure) {
+      const auto value = [&](const Corner& c) { return measure(c) * (c.known ? 1 + stay : btScalar(1)); };
       int best = place;
       for (int i = place + 1; i < corners.size(); ++i)
-        if (measure(corners[i]) > measure(corners[best])) best = i;
+        if (value(corners[i]) > value(corners[best])) best = i;
       corners.swap(place, best);
     };
-    const auto nearness = [&](const Corner& c) { return btScalar(1) - (c.depth - deepest) / reach; };
+    const auto nearness = [&](const Corner& c) {
+      return btScalar(1) - std::max(btScalar(0), c.depth - deepest - same * reach) / reach;
+    };
     choose(0, [&](const Corner& c) {
       return c.depth <= deepest + same * reach ? c.point.distance2(middle) : deepest - c.depth;
     });
@@ -139,7 +148,7 @@ void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCo
       btPolyhedralContactClipping::clipHullAgainstHull(nearest.normal, *faces_a, *faces_b, input.m_transformA,
                                                        input.m_transformB, nearest.distance, reach, clipped_a_,
                                                        clipped_b_, patch);
-    patch.spread(reach);
+    patch.spread(reach, *manifold_);
     const btScalar deepest = patch.pass_on(*result);
     // GJK's own point lies anywhere in a patch and would push a corner out of the four a manifold keeps, another one
     // every step; it is needed only where the patch misses it (an edge on an edge).
