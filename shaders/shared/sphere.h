@@ -81,8 +81,9 @@ struct SphereSettingsBlock {
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and again after
   uint cold_sweeps;        // the same in the first steps of a world
-  float patch_radius, pressed_patch_radius;  // d: of what presses at a point or along a line; while pressed
+  float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts
+  uint unused0;
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 

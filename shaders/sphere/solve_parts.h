@@ -7,15 +7,9 @@
 
 SphereWorld world;
 uint list;
-vec4 softness;       // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
-float patch_radius;  // d
+vec4 softness;  // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
 
 float time_step;  // s, of this step
-
-void set_softness(bool pressed) {
-  softness = pressed ? settings.stiff : settings.soft;
-  patch_radius = pressed ? settings.pressed_patch_radius : settings.patch_radius;
-}
 
 float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); }
 
@@ -105,7 +99,7 @@ void resist_turn(SpherePair pair, inout Side a, inout Side b) {
     spread += row.impulse.x * dot(off, off);
     spread_across += row.impulse.x * side * side;
   }
-  float radius = patch_radius * world.gravity.w, widest = 4.0 * radius * radius * impulse;
+  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * impulse;
   if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(pair) * impulse, a, b);
   if (spread_across <= widest && !is_ball(pair.a) && !is_ball(pair.b))
     resist(tip_axis, dot(tip_axis, tipping), radius * impulse, a, b);

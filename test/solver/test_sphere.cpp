@@ -61,11 +61,11 @@ TEST(SphereBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
 }
 
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
-  EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.soft.patch_radius), 1.0, 0.02);
+  EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
 TEST(SphereSwing, AboutARidgeIsLostToThePatchOfTheContact) {
-  EXPECT_NEAR(swing_lost(Lab(sphere_default.make()), sphere::Settings{}.soft.patch_radius), 1.0, 0.05);
+  EXPECT_NEAR(swing_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);

@@ -42,7 +42,7 @@ void main() {
   world = worlds[large_world];
   if (idle() || i >= world.bodies.y) return;
   time_step = progress[large_world].time_step;
-  set_softness(progress[large_world].pressed != 0u);
+  softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
   if (stage == BODIES_BEGIN)
     begin_body(i);
   else if (stage == BODIES_VELOCITIES)

@@ -58,7 +58,7 @@ void main() {
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
   if (only_cold && progress[large_world].cold_steps == 0u) return;
   time_step = progress[large_world].time_step;
-  set_softness(progress[large_world].pressed != 0u);
+  softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
   list = large.list;
 #ifdef REST
   sweep_rest();

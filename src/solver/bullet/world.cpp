@@ -24,7 +24,7 @@ constexpr int most_cuts = 512;        ///< no more for the sake of a part that w
 constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
 // Half the edge of an endless floor. At 3e5 the rounding of its contacts lets a box creep on a slope it should rest on.
 constexpr double endless = 1e4;
-constexpr double patch_radius = 1e-3;  ///< of the smallest part, as of soft contacts of the sphere solver
+constexpr double patch_radius = 1e-3;  ///< of the smallest part, as Settings::patch_radius of the sphere solver
 constexpr double sleep_speed = 1e-3;   ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;    ///< rad/s, likewise of Pour::rest_turn
 constexpr double sleep_time = 0.5;     ///< s an island must stay below both

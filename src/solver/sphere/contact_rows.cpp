@@ -115,7 +115,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.friction[lane] = m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
-    bundle.tipping_arm[lane] = rolls ? 0.0f : world.softness().patch_radius * world.smallest_size;
+    bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Ahead ahead_a(world, &a), ahead_b(world, b);

@@ -192,7 +192,7 @@ void ContactSolver::resist_turn(const Bundle& bundle, Velocities& u) const {
     spread += c.normal_impulse * dot(off, off);
     spread_across += c.normal_impulse * side * side;
   }
-  const float radius = softness_.patch_radius * world_.smallest_size;
+  const float radius = settings_.patch_radius * world_.smallest_size;
   const Lanes widest = 4.0f * radius * radius * impulse;
   const auto resist = [&](const LaneVec& axis, Lanes speed, Lanes most) {
     const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;

@@ -22,8 +22,6 @@ struct Softness {
   float damping_ratio;  ///< of soft contacts; below 1 they ring
   float slop;           ///< d left overlapping, so that contacts persist
   int refinement;       ///< sub-steps in place of one; overlap under load falls with its square, cost rises with it
-  float patch_radius;   ///< d: of what presses at a point or along a line; resists spin and rolling there. 0: what two
-                        ///< points hold swings about them without end; larger: wheels stop, leaning parts stay so
 };
 
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
@@ -34,8 +32,10 @@ struct Settings {
   int sweeps = 2;       ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
   int cold_sweeps = 4;  ///< the same in the first steps of a world, when contacts have no forces to begin with
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
-  Softness soft{0.25f, 10.0f, 2e-4f, 1, 1e-3f};     ///< of contacts while bodies move: takes energy out of rocking
-  Softness stiff{0.35f, 10.0f, 2.5e-5f, 4, 2e-4f};  ///< while they are pressed: leaves no overlap, props up nothing
+  Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
+  Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
+  float patch_radius = 1e-3f;       ///< d: of what presses at a point or along a line; resists spin and rolling there.
+                                    ///< 0: what two points hold swings about them without end; larger: wheels stop
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far

@@ -50,8 +50,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.cold_sweeps = static_cast<gpu::uint>(s.cold_sweeps);
   out.soft = softness(s.soft);
   out.stiff = softness(s.stiff);
-  out.patch_radius = s.soft.patch_radius;
-  out.pressed_patch_radius = s.stiff.patch_radius;
+  out.patch_radius = s.patch_radius;
   out.push_speed = s.push_speed;
   out.margin = s.margin;
   out.recycle = s.recycle;

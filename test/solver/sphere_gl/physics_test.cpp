@@ -29,11 +29,11 @@ TEST(SphereGlBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
 }
 
 TEST(SphereGlSpin, IsLostToThePatchOfAContact) {
-  EXPECT_NEAR(spin_lost(Lab(sphere_gl.make()), sphere::Settings{}.soft.patch_radius), 1.0, 0.02);
+  EXPECT_NEAR(spin_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
 TEST(SphereGlSwing, AboutARidgeIsLostToThePatchOfTheContact) {
-  EXPECT_NEAR(swing_lost(Lab(sphere_gl.make()), sphere::Settings{}.soft.patch_radius), 1.0, 0.05);
+  EXPECT_NEAR(swing_lost(Lab(sphere_gl.make()), sphere::Settings{}.patch_radius), 1.0, 0.05);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
