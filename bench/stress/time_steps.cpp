@@ -35,7 +35,6 @@ std::vector<Row> time_steps(bool soak) {
       row.cases.back().request.bin.inner_size.z() = 0.16;
     }
     if (soak && hertz <= 30) row.known["sphere: 40 cubes"] = restarted;
-    if (soak && hertz == 2000) row.known["bullet: 40 cubes"] = restarted;
     rows.push_back(row);
   }
   return rows;

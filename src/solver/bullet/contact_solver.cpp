@@ -121,11 +121,20 @@ void ContactSolver::begin() {
 }
 
 void ContactSolver::warm_start() {
+  const auto first = [&](const btSolverConstraint& row) -> btSolverBody& {
+    return m_tmpSolverBodyPool[row.m_solverBodyIdA];
+  };
+  const auto second = [&](const btSolverConstraint& row) -> btSolverBody& {
+    return m_tmpSolverBodyPool[row.m_solverBodyIdB];
+  };
+  // All of them before any force acts: between forces, bodies have speeds that they never had.
   for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
     const btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
-    btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
-    btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-    if (!contacts_[c].pushed) contacts_[c].approach = velocity(a, b, row);
+    if (!contacts_[c].pushed) contacts_[c].approach = velocity(first(row), second(row), row);
+  }
+  for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
+    const btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
+    btSolverBody &a = first(row), &b = second(row);
     apply(a, b, row, row.m_appliedImpulse);
     for (int k = 0; k < 2; ++k) {
       const btSolverConstraint& tangent = m_tmpSolverContactFrictionConstraintPool[row.m_frictionIndex + k];

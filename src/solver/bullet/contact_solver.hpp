@@ -1,7 +1,7 @@
 /// Contacts of one island, solved in sub-steps: Bullet finds them (one collision detection a step) and lays out their
 /// rows; this class replaces its sweeps and the integration of what touches.
 ///
-///   for each sub-step h:  gravity -> warm start -> sweep with soft push-out -> move -> sweep without (relaxation)
+///   for each sub-step h:  gravity -> warm start -> sweeps with soft push-out -> move -> sweeps without (relaxation)
 ///   at the end of the step: rebound
 ///
 /// Separations follow the bodies between detections through the rows' own Jacobians. Small steps beat many sweeps of
