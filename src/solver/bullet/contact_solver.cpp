@@ -12,8 +12,8 @@ namespace {
 // Soft push-out (Catto 2011, "Soft constraints", eqs for a damped oscillator): a quarter of the sub-step rate is as
 // stiff as stays stable; at critical damping a light part under one a thousand times as heavy is pressed through.
 constexpr btScalar stiffness = 0.25, damping_ratio = 2.0;
-/// Units left overlapping. With none, contacts at rest open and close from step to step, and twenty rings hop higher and
-/// higher; ten boxes sink by it, by a quarter of what they may drift.
+/// Units left overlapping. With none, contacts at rest open and close from step to step, and twenty rings hop higher
+/// and higher; ten boxes sink by it, by a quarter of what they may drift.
 constexpr btScalar slop = 1.5e-5;
 /// Before bodies move in a sub-step, and again after. With one, three cubes tremble on each other, and ten rings.
 constexpr int sweeps = 2;
