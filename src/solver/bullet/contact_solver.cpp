@@ -15,8 +15,6 @@ constexpr btScalar stiffness = 0.25, damping_ratio = 2.0;
 /// Units left overlapping. With none, contacts at rest open and close from step to step, and twenty rings hop higher
 /// and higher; ten boxes sink by it, by a quarter of what they may drift.
 constexpr btScalar slop = 1.5e-5;
-/// Before bodies move in a sub-step, and again after. With one, three cubes tremble on each other, and ten rings.
-constexpr int sweeps = 2;
 constexpr btScalar fastest_push = 3.0;  ///< units/s
 
 /// None of walls.

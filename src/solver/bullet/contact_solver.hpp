@@ -32,6 +32,9 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
+  /// Before bodies move in a sub-step, and again after. With one, three cubes tremble on each other, and ten rings.
+  static constexpr int sweeps = 2;
+
   /// Flags and numbers of btContactSolverInfo this solver is written for; m_numIterations is the number of sub-steps.
   static void configure(btContactSolverInfo & info);
 

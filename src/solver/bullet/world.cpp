@@ -243,9 +243,8 @@ void World::advance(const Steps& steps) {
 
 void World::step(double seconds) {
   const int n = cuts(seconds);
-  // Iterations as Bullet counts them, a pair a sub-step; cutting a step does not make sub-steps any shorter than they
-  // are.
-  world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / 2 + n - 1) / n);
+  // Cutting a step does not make sub-steps any shorter than they are.
+  world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / ContactSolver::sweeps + n - 1) / n);
   for (int k = 0; k < n; ++k) {
     world_.stepSimulation(seconds / n, 0);
     count();
