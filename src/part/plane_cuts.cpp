@@ -245,10 +245,15 @@ class Cutter {
       if (std::min(start, end) < -tolerance_) below.edges.push_back(e);
       if (std::max(start, end) > tolerance_) above.edges.push_back(e);
     }
+    const double before = piece.protrusion;
     std::swap(piece, pieces_.back());
     pieces_.pop_back();
+    const std::size_t others = pieces_.size();
     add(std::move(below));
     add(std::move(above));
+    // A slice that leaves no volume on one side and the other as it was would be followed by the same without end: of
+    // surfaces that overlap themselves.
+    if (pieces_.size() == others + 1 && pieces_.back().protrusion > 0.9 * before) pieces_.back().final = true;
     return true;
   }
 

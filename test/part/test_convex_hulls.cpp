@@ -151,6 +151,28 @@ TEST(ConvexHulls, UnreachableGoalIsSaid) {
   EXPECT_GT(hulls.surface_error, 0.001);
 }
 
+// Caps fanned out from a corner between two teeth lie over each other. Slices without volume were cut off them for ever.
+TEST(ConvexHulls, OfAGearWhoseCapsOverlapThemselvesEnd) {
+  constexpr std::uint32_t corners = 40;
+  Mesh gear;
+  for (const double z : {-0.005, 0.005})
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const double angle = 2.0 * M_PI * k / corners, radius = std::cos(10.0 * angle) > 0.0 ? 0.02 : 0.017;
+      gear.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  for (std::uint32_t k = 0; k < corners; ++k) {
+    const std::uint32_t next = (k + 1) % corners;
+    gear.triangles.push_back({k, next, corners + next});
+    gear.triangles.push_back({k, corners + next, corners + k});
+    if (k < 2) continue;
+    gear.triangles.push_back({0, k, k - 1});
+    gear.triangles.push_back({corners, corners + k - 1, corners + k});
+  }
+  const ConvexHulls hulls = convex_hulls(gear, {});
+  EXPECT_GE(hulls.hulls.size(), 10u);
+  EXPECT_LE(hulls.surface_error, 0.02);
+}
+
 TEST(ConvexHulls, ObjHasAnObjectPerHull) {
   ConvexHulls hulls;
   hulls.hulls = {box_mesh(Vec3::Constant(0.05)), box_mesh(Vec3::Constant(0.02), Vec3(0.1, 0, 0))};
