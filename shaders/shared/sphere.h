@@ -35,10 +35,6 @@
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_MAX_CONTACTS 16      // per pair, after reduction
 #define SPHERE_MAX_COARSE_CONTACTS 8  // the same on coarse samples
-#define SPHERE_MAX_FACES 4          // directions of normals that are told apart in a pair
-#define SPHERE_MAX_DIRECTIONS 4     // in which bodies may tilt on a face
-#define SPHERE_ENOUGH_CONTACTS 8    // up to which those farthest from the chosen ones are taken too
-#define SPHERE_LIKE 0.9             // cosine between normals of one face
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
@@ -86,8 +82,8 @@ struct SphereSettingsBlock {
   uint sweeps;             // over all contacts before bodies move, and again after
   uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
-  float tilt;              // rad: contacts of a face are those met first when bodies tilt so far
   uint cut_steps;          // 1: for fast parts
+  uint unused0;
   vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
@@ -188,8 +184,8 @@ struct SphereContact {
 
 struct SphereCandidate {
   vec4 on_a;         // frame of a; w: separation
-  vec4 normal;       // a -> b, frame of a; w: likeness to that of its face, then way to the nearest chosen one
-  uvec4 feature;     // y: its face; z: 1 = was a contact in the last step
+  vec4 normal;       // a -> b, frame of a; w: distance to the nearest chosen candidate
+  uvec4 feature;     // y: 1 = was a contact in the last step
 };
 
 struct SphereStatus {  // stands before the list of jobs

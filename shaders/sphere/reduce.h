@@ -73,7 +73,7 @@ void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
   for (uint k = 0u; k < old_count; ++k)
     if (old_found != 0u && feature_of(old[k]) == feature) known = 1u;
   candidates[candidate_place(mine++)] =
-      SphereCandidate(vec4(on_a, separation), vec4(normal, -FAR), uvec4(feature, 0u, known, 0u));
+      SphereCandidate(vec4(on_a, separation), vec4(normal, FAR), uvec4(feature, known, 0u, 0u));
 }
 
 // 64-bit sum, for what a big world counts beyond 2^32 between two looks.
@@ -83,9 +83,9 @@ void count_possible(uint n) {
 }
 
 // The candidate with the largest key of all invocations, ties by feature, becomes number n of the chosen; false if
-// every key is 0. `round` counts the calls for a pair.
-bool choose(uint n, uint round, uint key, uint k) {
-  uint turn = round & 1u, feature = NO_SOURCE;
+// every key is 0.
+bool choose(uint n, uint key, uint k) {
+  uint turn = n & 1u, feature = NO_SOURCE;
   if (key > 0u) {
     feature = candidates[candidate_place(k)].feature.x;
     atomicMax(highest[turn], key);
@@ -103,110 +103,51 @@ bool choose(uint n, uint round, uint key, uint k) {
     chosen_on_a[n] = c.on_a;
     chosen_normal[n] = c.normal;
     chosen_feature[n] = feature;
+    candidates[candidate_place(k)].normal.w = -1.0;
   }
   barrier();
   return true;
 }
 
-// Floats in their order as keys, all above 0.
-uint key_of(float x) {
-  uint bits = floatBitsToUint(x);
-  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+// Floats as keys: larger keys for smaller separations.
+uint depth_key(float separation) {
+  uint bits = floatBitsToUint(separation);
+  return (bits & 0x80000000u) != 0u ? bits : ~(bits | 0x80000000u);
 }
 
-struct Best {
-  uint key, k, feature;
-};
-const Best NONE = Best(0u, 0u, NO_SOURCE);
-
-void offer_best(inout Best best, SphereCandidate c, uint k, float score) {
-  uint key = key_of(score);
-  if (key > best.key || key == best.key && c.feature.x < best.feature) best = Best(key, k, c.feature.x);
-}
-
-// Number k of `count` directions in the plane of a face, evenly all around.
-vec3 direction_in(vec3 normal, uint k, uint count) {
-  vec3 first = normalize(cross(normal, abs(normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
-  float angle = 2.0 * 3.14159265 * (float(k) + 0.5) / float(count);
-  return cos(angle) * first + sin(angle) * cross(normal, first);
-}
-
-float way_between(vec3 on_a, vec3 normal, uint i, float size) {
-  return length(on_a - chosen_on_a[i].xyz) + 0.3 * size * length(normal - chosen_normal[i].xyz);
-}
-
-// Whether number n of the chosen is one that was chosen before.
-bool is_twin(uint n, float size) {
-  for (uint i = 0u; i < n; ++i)
-    if (way_between(chosen_on_a[n].xyz, chosen_normal[n].xyz, i, size) < 1e-3 * size) return true;
-  return false;
-}
-
-// The deepest stands for a face, the deepest whose normal is unlike its own for another, and so on; a candidate belongs
-// to the face whose normal is most like its own. Returns how many faces there are.
-uint choose_faces(uint most, inout uint round) {
-  uint n = 0u;
-  for (bool more = true; more;) {
-    Best deepest = NONE;
-    for (uint k = 0u; k < mine; ++k) {
-      SphereCandidate c = candidates[candidate_place(k)];
-      if (n > 0u) {
-        float now = dot(c.normal.xyz, chosen_normal[n - 1u].xyz);
-        if (now > c.normal.w) {
-          c.normal.w = now;
-          candidates[candidate_place(k)].normal.w = now;
-          candidates[candidate_place(k)].feature.y = n - 1u;
-        }
-      }
-      if (c.normal.w < SPHERE_LIKE) offer_best(deepest, c, k, -c.on_a.w);
-    }
-    more = n < most && choose(n, round++, deepest.key, deepest.k);
-    if (more) ++n;
-  }
-  return n;
-}
-
-// Those of each face that are met first when the bodies tilt on it, to one side after the other.
-void choose_outermost(float size, uint most, inout uint n, inout uint round) {
-  uint faces = n, count = min(SPHERE_MAX_DIRECTIONS, (most - faces) / faces);
-  for (uint face = 0u; face < faces; ++face)
-    for (uint d = 0u; d < count; ++d) {
-      vec3 direction = direction_in(chosen_normal[face].xyz, d, count);
-      Best outermost = NONE;
-      for (uint k = 0u; k < mine; ++k) {
-        SphereCandidate c = candidates[candidate_place(k)];
-        if (c.feature.y == face) offer_best(outermost, c, k, dot(direction, c.on_a.xyz) - c.on_a.w / settings.tilt);
-      }
-      choose(n, round++, outermost.key, outermost.k);
-      if (!is_twin(n, size)) ++n;
-    }
-}
-
-// Those farthest from the ones chosen, in position and normal alike, deep ones preferred; contacts of the last step
-// have a small advantage, so that the choice does not flicker.
-void choose_far(float size, uint most, inout uint n, inout uint round) {
-  for (uint seen = 0u; n < most; ++n) {
-    Best best = NONE;
-    for (uint k = 0u; k < mine; ++k) {
-      SphereCandidate c = candidates[candidate_place(k)];
-      float apart = seen == 0u ? FAR : c.normal.w;
-      for (uint i = seen; i < n; ++i) apart = min(apart, way_between(c.on_a.xyz, c.normal.xyz, i, size));
-      candidates[candidate_place(k)].normal.w = apart;
-      if (apart < 1e-3 * size) continue;
-      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
-      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 2.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.z);
-      if (score > 0.0) offer_best(best, c, k, score);
-    }
-    seen = n;
-    if (!choose(n, round++, best.key, best.k)) return;
-  }
-}
-
+// The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
+// preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
 uint reduce(float size, uint most) {
-  uint round = 0u, n = choose_faces(min(SPHERE_MAX_FACES, most), round);
-  if (n == 0u) return 0u;
-  choose_outermost(size, most, n, round);
-  choose_far(size, min(SPHERE_ENOUGH_CONTACTS, most), n, round);
+  uint key = 0u, best = 0u;
+  for (uint k = 0u; k < mine; ++k) {
+    SphereCandidate c = candidates[candidate_place(k)];
+    uint depth = depth_key(c.on_a.w);
+    if (depth > key || depth == key && c.feature.x < candidates[candidate_place(best)].feature.x) {
+      key = depth;
+      best = k;
+    }
+  }
+  uint n = 0u;
+  while (choose(n, key, best)) {
+    if (++n == most) break;
+    key = 0u;
+    vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u].xyz;
+    for (uint k = 0u; k < mine; ++k) {
+      SphereCandidate c = candidates[candidate_place(k)];
+      if (c.normal.w < 0.0) continue;
+      float apart = min(c.normal.w, length(c.on_a.xyz - on_a) + 0.3 * size * length(c.normal.xyz - normal));
+      if (apart < 1e-3 * size) apart = -1.0;  // a twin of a chosen one
+      candidates[candidate_place(k)].normal.w = apart;
+      if (apart < 0.0) continue;
+      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
+      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 2.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.y);
+      uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
+      if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
+        key = value;
+        best = k;
+      }
+    }
+  }
   return n;
 }
 

@@ -1,5 +1,4 @@
 #include "solver/sphere/math.hpp"
-#include "solver/sphere/reduce.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <tbb/blocked_range.h>
@@ -13,6 +12,13 @@ namespace bin_scenes::sphere {
 
 namespace {
 
+/// A point where two surfaces are close, before reduction. Everything in the frame of `a`.
+struct Candidate {
+  Vec3f on_a, on_b;  ///< nearest points
+  Vec3f normal;      ///< a -> b
+  float separation;
+  std::uint32_t feature;
+};
 using Candidates = std::vector<Candidate>;
 
 constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
@@ -250,12 +256,12 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   test_samples(samples_a, sa.field, sb.field, samples_b, a_to_b, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - samples_a.radius * g;
-                 out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature, false});
+                 out.push_back({b_to_a(surface), b_to_a(surface - d * g), -(b_to_a.rotation * g), d, feature});
                });
   test_samples(samples_b, sb.field, sa.field, samples_a, b_to_a, margin, counters,
                [&](const Vec3f& p, const Vec3f& g, float d, std::uint32_t feature) {
                  const Vec3f surface = p - samples_b.radius * g;
-                 out.push_back({surface - d * g, surface, g, d, feature | side_b, false});
+                 out.push_back({surface - d * g, surface, g, d, feature | side_b});
                });
 }
 
@@ -307,9 +313,55 @@ void candidates_of_ground(const World& world, const Manifold& m, const Placement
         if (d > margin) continue;
         const Vec3f surface = p - samples.radius * up;
         out.push_back({back * (surface - a.x), back * (surface - d * up - a.x), -(back * up), d,
-                       static_cast<std::uint32_t>(i + k * 0x1000000u), false});
+                       static_cast<std::uint32_t>(i + k * 0x1000000u)});
       }
     }
+  }
+}
+
+/// The few contacts that stand for all: the deepest, then again and again the one farthest from those chosen, in
+/// position and normal alike, deep ones preferred; contacts of the last step have a small advantage, so that the
+/// choice does not flicker.
+void reduce(const Candidates& candidates, const Manifold& old, float size, int most, std::vector<int>& chosen) {
+  chosen.clear();
+  if (candidates.empty()) return;
+  static thread_local std::vector<float> apart, advantage;
+  apart.assign(candidates.size(), std::numeric_limits<float>::max());
+  advantage.assign(candidates.size(), 0.0f);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
+    const float separation = candidates[i].separation;
+    advantage[i] = 8.0f * std::max(0.0f, -separation) - 2.0f * std::max(0.0f, separation);
+    for (const Contact& c : old.contacts)
+      if (c.feature == candidates[i].feature) advantage[i] += 0.05f * size;
+  }
+  int next = 0;
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
+  const float least = 1e-3f * size;
+  while (static_cast<int>(chosen.size()) < most) {
+    chosen.push_back(next);
+    const Candidate& c = candidates[next];
+    apart[next] = -1;
+    float best = 0;
+    int best_i = -1;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (apart[i] < 0) continue;
+      const Candidate& p = candidates[i];
+      const float way = (p.on_a - c.on_a).norm() + 0.3f * size * (p.normal - c.normal).norm();
+      apart[i] = std::min(apart[i], way);
+      if (apart[i] < least) {
+        apart[i] = -1;  // a twin of a chosen one
+        continue;
+      }
+      const float score = apart[i] + advantage[i];
+      if (score > best) {
+        best = score;
+        best_i = static_cast<int>(i);
+      }
+    }
+    if (best_i < 0) return;
+    next = best_i;
   }
 }
 
@@ -399,10 +451,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     else
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
-    for (Candidate& c : candidates)
-      c.known = std::any_of(m.contacts.begin(), m.contacts.end(),
-                            [&](const Contact& old) { return old.feature == c.feature; });
-    reduce(candidates, size, world.settings.tilt, world.fine ? max_contacts : max_coarse_contacts, chosen);
+    reduce(candidates, m, size, world.fine ? max_contacts : max_coarse_contacts, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
     for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));

@@ -38,8 +38,6 @@ struct Settings {
                                     ///< 0: what two points hold swings about them without end; larger: wheels stop
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
-  float tilt = 0.014f;              ///< rad: contacts of a face are those met first when bodies tilt so far; above 0.018
-                                    ///< the grid's rounding decides, and stacks lean; at 0.005 nuts rock on
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
   float coarse_recycle = 3e-3f;     ///< d: the same on coarse samples, where precision is not wanted yet
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce

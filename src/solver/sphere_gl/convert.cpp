@@ -1,7 +1,5 @@
 #include "solver/sphere_gl/convert.hpp"
 
-#include "solver/sphere/reduce.hpp"
-
 #include <cmath>
 
 namespace bin_scenes::sphere_gl {
@@ -10,9 +8,6 @@ using namespace sphere;
 
 static_assert(max_contacts == SPHERE_MAX_CONTACTS && max_coarse_contacts == SPHERE_MAX_COARSE_CONTACTS,
               "the pass keeps as many as the twin");
-static_assert(max_faces == SPHERE_MAX_FACES && max_directions == SPHERE_MAX_DIRECTIONS &&
-                  enough_contacts == SPHERE_ENOUGH_CONTACTS && like == static_cast<float>(SPHERE_LIKE),
-              "the pass chooses as the twin does");
 
 namespace {
 
@@ -56,7 +51,6 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.soft = softness(s.soft);
   out.stiff = softness(s.stiff);
   out.patch_radius = s.patch_radius;
-  out.tilt = s.tilt;
   out.push_speed = s.push_speed;
   out.margin = s.margin;
   out.recycle = s.recycle;
