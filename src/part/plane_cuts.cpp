@@ -251,8 +251,8 @@ class Cutter {
     const std::size_t others = pieces_.size();
     add(std::move(below));
     add(std::move(above));
-    // A slice that leaves no volume on one side and the other as it was would be followed by the same without end: of
-    // surfaces that overlap themselves.
+    // Where a surface overlaps itself, a cut may leave no volume on one side and nearly all of the protrusion on the
+    // other. It adds no piece, so max_pieces would never end a row of such cuts.
     if (pieces_.size() == others + 1 && pieces_.back().protrusion > 0.9 * before) pieces_.back().final = true;
     return true;
   }
