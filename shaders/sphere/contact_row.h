@@ -1,4 +1,4 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, struct Side and
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, struct Side and
 // shared/rotation.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
@@ -11,7 +11,7 @@ vec3 tangent_2(vec3 n) { return cross(n, tangent_1(n)); }
 
 float friction_of(SpherePair pair) {
   float other = pair.b == SPHERE_GROUND ? world.ground.x : bodies[pair.b].material.y;
-  return sqrt(bodies[pair.a].material.y * other);
+  return grip * sqrt(bodies[pair.a].material.y * other);
 }
 float restitution_of(SpherePair pair) {
   return max(bodies[pair.a].material.z, pair.b == SPHERE_GROUND ? world.ground.y : bodies[pair.b].material.z);

@@ -77,8 +77,7 @@ void main() {
   world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   ordered = progress[w].ordered;
-  time_step = progress[w].time_step;
-  softness = progress[w].pressed != 0u ? settings.stiff : settings.soft;
+  take_step_of(w);
   list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];

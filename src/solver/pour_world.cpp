@@ -11,7 +11,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
-constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed for the rest of it
+constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are probed for as long, then pressed
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 double largest_diagonal(const WorldDef& world) {
@@ -293,7 +293,12 @@ void PourWorld::look() {
   let_in();
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
-  if (phase_ == Phase::settle && all_still(calm)) enter(Phase::press);
+  if (phase_ == Phase::settle && all_still(calm)) enter(probed_ ? Phase::press : Phase::probe);
+  if (phase_ == Phase::probe) {
+    probed_ = true;
+    if (!all_still(calm)) enter(Phase::settle);
+    if (all_still(2.0 * calm)) enter(Phase::press);
+  }
   // Stiff contacts take little out of rocking: not for what gets under way, nor for a start that was not at rest.
   const bool started_moving = goes_on_ && time_ >= calm && !all_still(0.5 * calm);
   if (phase_ == Phase::press && (!all_slow() || started_moving)) enter(Phase::settle);

@@ -75,10 +75,11 @@ inline Slide slide(Lab lab) {
 
 /// Way in one second of a flat box with mu = 0.5 on a slope, m. A tilted gravity stands for it; `heading` is the
 /// direction down it, which must not matter.
-inline double slip(Lab lab, double angle, double heading) {
+inline double slip(Lab lab, double angle, double heading, Phase phase = Phase::pour) {
   lab.def().gravity =
       g * Vec3(std::sin(angle) * std::cos(heading), std::sin(angle) * std::sin(heading), -std::cos(angle));
   const auto body = lab.place(box({0.05, 0.05, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(0.5));
+  lab.begin(phase);
   lab.simulate(1.0);
   return lab.center(body).head<2>().norm();
 }

@@ -307,6 +307,52 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
 }
 
+/// Its bodies hover where they are put, but for a jump of the first one whenever it is probed; notes its phases.
+class HoveringSolver : public Solver {
+ public:
+  explicit HoveringSolver(double jump) : jump_(jump) {}
+  std::vector<Phase> phases;
+
+  WorldId add_world(const WorldDef& def) override {
+    states_.resize(def.bodies.size());
+    return 0;
+  }
+  void remove_world(WorldId) override {}
+  void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
+  void remove(WorldId, std::size_t) override {}
+  void set_phase(WorldId, Phase phase) override {
+    phases.push_back(phase);
+    if (phase == Phase::probe) states_[0].pose.position.x() += jump_;
+  }
+  double advance(const std::vector<WorldId>&, double seconds) override { return seconds; }
+  std::vector<BodyState> states(WorldId) const override { return states_; }
+  std::vector<bool> asleep(WorldId) const override { return std::vector<bool>(states_.size(), false); }
+  double step_size() const override { return 1e-3; }
+  std::uint64_t steps(WorldId) const override { return 0; }
+  const Profile& profile() const override { return profile_; }
+  std::vector<Flag> flags(WorldId) const override { return {}; }
+  std::string name() const override { return "hovering"; }
+  std::string device() const override { return "cpu"; }
+
+ private:
+  double jump_;
+  std::vector<BodyState> states_;
+  Profile profile_;
+};
+
+TEST(Pour, WhatLiesStillIsProbedOnceAndThenPressed) {
+  const auto phases_of = [](double jump) {
+    HoveringSolver solver(jump);
+    Request request = request_of(2);
+    const Scene scene = pour(request, {small_box()}, solver, {0})[0];
+    EXPECT_TRUE(scene.report.at_rest);
+    return solver.phases;
+  };
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, settle, probe, press}));
+  EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, probe, settle, press})) << "it moved when probed";
+}
+
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {
   Lab lab(make_bullet_solver({}));
   const auto below = lab.place(small_box(), Vec3(0, 0, 0.01)), above = lab.place(small_box(), Vec3(0, 0, 0.03));

@@ -47,6 +47,14 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
   EXPECT_NE(found[0].remedy.find("set solver.sphere.field_cell to 0.00"), std::string::npos) << found[0].remedy;
 }
 
+// On a slope of 0.475 a box stands with friction 0.5 and slides with nine tenths of it.
+TEST(SphereProbe, WhatHoldsByLessThanATenthSlides) {
+  const double angle = std::atan(0.475), grip = sphere::Settings{}.probe_grip;
+  EXPECT_LT(slip(Lab(sphere_default.make()), angle, 0.3, Phase::press), 1e-5);
+  const double expected = 0.5 * g * (std::sin(angle) - grip * 0.5 * std::cos(angle));
+  EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, Phase::probe) / expected, 1.0, 5e-3);
+}
+
 // Forces of a stack that begins at rest are not known yet: found in too few sweeps, they lean, and so does the stack.
 TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);

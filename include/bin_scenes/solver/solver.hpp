@@ -43,9 +43,10 @@ struct WorldDef {
 
 using WorldId = std::size_t;
 
-/// Pouring tolerates coarse shapes; settling must be exact; once everything lies still, contacts are pressed out as stiff
-/// as they can be, for what overlaps then would overlap for good. A solver may ignore the hint.
-enum class Phase { pour, settle, press };
+/// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, friction holds a little less for
+/// a moment: what is near its limit goes now, and not under the next engine. Then contacts are pressed out as stiff as
+/// they can be, for what overlaps then would overlap for good. A solver may ignore the hint.
+enum class Phase { pour, settle, probe, press };
 
 class Solver {
  public:

@@ -41,8 +41,7 @@ void main() {
   uint i = thread_index();
   world = worlds[large_world];
   if (idle() || i >= world.bodies.y) return;
-  time_step = progress[large_world].time_step;
-  softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
+  take_step_of(large_world);
   if (stage == BODIES_BEGIN)
     begin_body(i);
   else if (stage == BODIES_VELOCITIES)

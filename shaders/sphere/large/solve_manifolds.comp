@@ -57,8 +57,7 @@ void main() {
   world = worlds[large_world];
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
   if (only_cold && progress[large_world].cold_steps == 0u) return;
-  time_step = progress[large_world].time_step;
-  softness = progress[large_world].pressed != 0u ? settings.stiff : settings.soft;
+  take_step_of(large_world);
   list = large.list;
 #ifdef REST
   sweep_rest();

@@ -112,7 +112,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
     const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
-    bundle.friction[lane] = m.friction;
+    bundle.friction[lane] = world.grip * m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;

@@ -92,17 +92,25 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still_q = b.q;
 }
 
-void set_phase(World& world, Phase phase) {
+bool take_phase(World& world, Phase phase) {
   const bool fine = phase != Phase::pour, pressed = phase == Phase::press;
-  if (fine == world.fine && pressed == world.pressed) return;
+  const float grip = phase == Phase::probe ? world.settings.probe_grip : 1.0f;
+  if (fine == world.fine && pressed == world.pressed && grip == world.grip) return false;
+  world.fine = fine;
+  world.pressed = pressed;
+  world.grip = grip;
+  return true;
+}
+
+void set_phase(World& world, Phase phase) {
+  const bool fine = world.fine;
+  if (!take_phase(world, phase)) return;
   if (fine != world.fine)
     for (Manifold& m : world.manifolds) m.found = false;  // node numbers mean other points now
   for (Body& b : world.bodies) {
     b.asleep = false;
     b.still = 0;
   }
-  world.fine = fine;
-  world.pressed = pressed;
 }
 
 BodyState state_of(const World& world, std::size_t body) {

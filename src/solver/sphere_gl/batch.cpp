@@ -163,8 +163,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   std::iota(places.begin(), places.end(), static_cast<gpu::uint>(contacts));
   set_free_places(image.contacts, places, progress);
   contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
-  progress.fine = world.fine ? 1 : 0;
-  progress.pressed = world.pressed ? 1 : 0;
+  tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   upload_progress(slot, progress);
   return slot;

@@ -61,6 +61,12 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   return out;
 }
 
+void tell_phase(const World& world, gpu::SphereProgress& progress) {
+  progress.fine = world.fine ? 1 : 0;
+  progress.pressed = world.pressed ? 1 : 0;
+  progress.grip = world.grip;
+}
+
 gpu::SpherePlane to_gpu(const Plane& plane) {
   return {vec4(plane.normal, plane.offset), {plane.wall ? 1u : 0u, 0, 0, 0}};
 }

@@ -86,13 +86,10 @@ class GlSphereSolver final : public Solver {
 
   void set_phase(WorldId id, Phase phase) override {
     Resident& r = world(id);
-    const bool fine = phase != Phase::pour, pressed = phase == Phase::press;
-    if (r.world.fine == fine && r.world.pressed == pressed) return;
+    const bool fine = r.world.fine;
+    if (!sphere::take_phase(r.world, phase)) return;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
-    r.world.fine = fine;
-    r.world.pressed = pressed;
-    r.progress.fine = fine ? 1 : 0;
-    r.progress.pressed = pressed ? 1 : 0;
+    tell_phase(r.world, r.progress);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
   }
 
