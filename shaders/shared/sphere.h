@@ -107,6 +107,7 @@ struct SphereProgress {
   uint cuts_left;                            // of a whole step
   uint cold_steps;                           // yet to come, with more sweeps
   float grip;                                // share of friction that holds
+  uint unused0, unused1, unused2;            // states, read back behind the progress of worlds, begin on 16 bytes
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -198,7 +199,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 132, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 144, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
