@@ -1,5 +1,5 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, struct Side and
-// shared/rotation.h.
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, struct Side
+// and shared/rotation.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 

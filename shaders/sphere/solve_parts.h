@@ -1,7 +1,8 @@
 // Bodies and manifolds in the solve: what one invocation does with one of them. Whoever includes this says where
 // velocities lie: velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is
 // near), moved_of(i) (since contacts were found), turned_of(i) (rotation vector, since then), i counted in the world.
-// Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and sphere/body.h.
+// Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and
+// sphere/body.h.
 
 #include "sphere/placement.h"
 
@@ -11,6 +12,7 @@ vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps 
 float grip;       // share of friction that holds
 float time_step;  // s, of this step
 
+// What holds for the step of world w.
 void take_step_of(uint w) {
   time_step = progress[w].time_step;
   softness = progress[w].pressed != 0u ? settings.stiff : settings.soft;

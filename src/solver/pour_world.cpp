@@ -293,9 +293,10 @@ void PourWorld::look() {
   let_in();
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
-  if (phase_ == Phase::settle && all_still(calm)) enter(probed_ ? Phase::press : Phase::probe);
-  if (phase_ == Phase::probe) {
+  if (phase_ == Phase::settle && all_still(calm)) {
+    enter(probed_ ? Phase::press : Phase::probe);
     probed_ = true;
+  } else if (phase_ == Phase::probe) {  // from the next look on: however short the window, it takes some time
     if (!all_still(calm)) enter(Phase::settle);
     if (all_still(2.0 * calm)) enter(Phase::press);
   }

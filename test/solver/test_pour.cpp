@@ -312,6 +312,7 @@ class HoveringSolver : public Solver {
  public:
   explicit HoveringSolver(double jump) : jump_(jump) {}
   std::vector<Phase> phases;
+  double probed_s = 0.0;
 
   WorldId add_world(const WorldDef& def) override {
     states_.resize(def.bodies.size());
@@ -324,7 +325,10 @@ class HoveringSolver : public Solver {
     phases.push_back(phase);
     if (phase == Phase::probe) states_[0].pose.position.x() += jump_;
   }
-  double advance(const std::vector<WorldId>&, double seconds) override { return seconds; }
+  double advance(const std::vector<WorldId>&, double seconds) override {
+    if (!phases.empty() && phases.back() == Phase::probe) probed_s += seconds;
+    return seconds;
+  }
   std::vector<BodyState> states(WorldId) const override { return states_; }
   std::vector<bool> asleep(WorldId) const override { return std::vector<bool>(states_.size(), false); }
   double step_size() const override { return 1e-3; }
@@ -341,15 +345,21 @@ class HoveringSolver : public Solver {
 };
 
 TEST(Pour, WhatLiesStillIsProbedOnceAndThenPressed) {
-  const auto phases_of = [](double jump) {
+  const auto phases_of = [](double jump, double rest_window = 0.25) {
     HoveringSolver solver(jump);
     Request request = request_of(2);
+    request.pour.rest_window = rest_window;
     const Scene scene = pour(request, {small_box()}, solver, {0})[0];
     EXPECT_TRUE(scene.report.at_rest);
+    EXPECT_GT(solver.probed_s, 0.0);
+    if (jump == 0.0) {
+      EXPECT_GE(solver.probed_s, 0.4 * rest_window * (1.0 - 1e-9)) << "as long as it lay still before";
+    }
     return solver.phases;
   };
   const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
   EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, settle, probe, press}));
+  EXPECT_EQ(phases_of(0.0, 0.01), (std::vector<Phase>{pour, settle, probe, press})) << "a window shorter than a look";
   EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, probe, settle, press})) << "it moved when probed";
 }
 
