@@ -1,5 +1,5 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, struct Side
-// and shared/rotation.h.
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, struct
+// Side and shared/rotation.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
@@ -77,7 +77,7 @@ void prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
   contacts[at].normal.w = speed_at_blow(row, a, b);
-  contacts[at].force = vec4(sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
+  contacts[at].force = vec4(kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
 }
 
 void warm_start(uint at, inout Side a, inout Side b) {

@@ -10,6 +10,7 @@ SphereWorld world;
 uint list;
 vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
 float grip;       // share of friction that holds
+float kept;       // share of the last step's forces that this one begins with
 float time_step;  // s, of this step
 
 // What holds for the step of world w.
@@ -17,6 +18,7 @@ void take_step_of(uint w) {
   time_step = progress[w].time_step;
   softness = progress[w].pressed != 0u ? settings.stiff : settings.soft;
   grip = progress[w].grip;
+  kept = progress[w].forgets != 0u ? 0.0 : 1.0;
 }
 
 float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); }

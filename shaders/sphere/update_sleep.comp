@@ -68,6 +68,7 @@ void main() {
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     if (progress[w].cold_steps != 0u) --progress[w].cold_steps;
+    progress[w].forgets = 0u;
     ++progress[w].steps;
   }
 }

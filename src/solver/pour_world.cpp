@@ -11,7 +11,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
-constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are probed for as long, then pressed
+constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed, then probed
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 double largest_diagonal(const WorldDef& world) {
@@ -101,6 +101,7 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
   else
     start_rain();
   goes_on_ = !entering && all_slow();
+  probed_ = goes_on_;                 // what was at rest is not put to the test again
   if (goes_on_) enter(Phase::press);  // a heap that goes on from rest would sink on softer or coarser contacts
   fresh_ = true;
 }
@@ -293,16 +294,23 @@ void PourWorld::look() {
   let_in();
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
-  if (phase_ == Phase::settle && all_still(calm)) {
-    enter(probed_ ? Phase::press : Phase::probe);
+  if (phase_ == Phase::probe) {  // since an earlier look: however short the window, it takes some time
+    if (!all_still(calm))
+      enter(Phase::settle);
+    else if (all_rest())
+      enter(Phase::press);
+  } else if (phase_ == Phase::press && !probed_ && all_still(calm)) {
+    enter(Phase::probe);
     probed_ = true;
-  } else if (phase_ == Phase::probe) {  // from the next look on: however short the window, it takes some time
-    if (!all_still(calm)) enter(Phase::settle);
-    if (all_still(2.0 * calm)) enter(Phase::press);
+  } else if (phase_ == Phase::settle && all_still(calm)) {
+    enter(Phase::press);
   }
   // Stiff contacts take little out of rocking: not for what gets under way, nor for a start that was not at rest.
   const bool started_moving = goes_on_ && time_ >= calm && !all_still(0.5 * calm);
-  if (phase_ == Phase::press && (!all_slow() || started_moving)) enter(Phase::settle);
+  if (phase_ == Phase::press && (!all_slow() || started_moving)) {
+    probed_ = probed_ && !started_moving;
+    enter(Phase::settle);
+  }
   if (time_ >= calm) goes_on_ = false;
 }
 
@@ -314,7 +322,7 @@ void PourWorld::settle() {
 
 bool PourWorld::over() const {
   if (plan_.request.seconds) return false;  // time_left() decides
-  return (waiting_.empty() && phase_ == Phase::press && all_rest()) || time_ >= plan_.request.pour.limit;
+  return (waiting_.empty() && phase_ == Phase::press && probed_ && all_rest()) || time_ >= plan_.request.pour.limit;
 }
 
 Progress PourWorld::progress() const {

@@ -43,10 +43,11 @@ struct WorldDef {
 
 using WorldId = std::size_t;
 
-/// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, friction holds a little less for
-/// a moment: what is near its limit goes now, and not under the next engine. Then contacts are pressed out as stiff as
-/// they can be, for what overlaps then would overlap for good. A solver may ignore the hint.
-enum class Phase { pour, settle, probe, press };
+/// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, contacts are pressed out as
+/// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: stiff as before, it
+/// begins without forces, as under the next engine, and friction holds a little less; what is near its limit goes now,
+/// and not there. A solver may ignore the hint.
+enum class Phase { pour, settle, press, probe };
 
 class Solver {
  public:
@@ -62,8 +63,8 @@ class Solver {
   virtual void remove(WorldId world, std::size_t body) = 0;
   virtual void set_phase(WorldId world, Phase phase) = 0;
 
-  /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one that
-  /// is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.
+  /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one
+  /// that is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.
   /// Never depends on wall time.
   virtual double advance(const std::vector<WorldId>& worlds, double seconds) = 0;
   /// advance() in two halves: begin() may return while a device still works on these worlds; nothing may be asked of

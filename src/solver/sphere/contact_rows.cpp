@@ -25,7 +25,7 @@ struct Ahead {
 };
 
 void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, const Ahead& ahead_a,
-              const Ahead& ahead_b, float h) {
+              const Ahead& ahead_b, float warm) {
   const bool field_of_a = c.feature >> 31;
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
   Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
@@ -42,9 +42,9 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body
   rows.tangent.set(lane, t1);
   rows.ra.set(lane, ra);
   rows.rb.set(lane, rb);
-  rows.normal_impulse[lane] = h * c.normal_force;
-  rows.t1_impulse[lane] = h * c.friction_force.dot(t1);
-  rows.t2_impulse[lane] = h * c.friction_force.dot(c.normal.cross(t1));
+  rows.normal_impulse[lane] = warm * c.normal_force;
+  rows.t1_impulse[lane] = warm * c.friction_force.dot(t1);
+  rows.t2_impulse[lane] = warm * c.friction_force.dot(c.normal.cross(t1));
 }
 
 /// Mass that an impulse along `direction` meets; 0 in empty lanes.
@@ -108,6 +108,7 @@ BIN_SCENES_WIDE
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
              std::vector<ContactRows>& rows) {
   std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});
+  const float warm = world.forgets ? 0.0f : h;  // s for which the last forces have acted when the sweeps begin
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
@@ -120,7 +121,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Ahead ahead_a(world, &a), ahead_b(world, b);
     for (std::size_t k = 0; k < m.contacts.size(); ++k)
-      set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, h);
+      set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
   }
   const Velocities velocities = velocities_of(bundle, motions);
   const Vec3f& g = world.gravity;

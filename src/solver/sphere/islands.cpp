@@ -109,6 +109,7 @@ void step(World& world) {
   timed(solve, world, spent.contact_solver);
   timed(update_sleep, world, spent.islands);
   if (world.cold_steps > 0) --world.cold_steps;
+  world.forgets = false;
 }
 
 }  // namespace bin_scenes::sphere

@@ -129,6 +129,7 @@ struct World {
   bool fine = false;                      ///< exact samples
   bool pressed = false;                   ///< stiff contacts
   float grip = 1;                         ///< share of friction that holds
+  bool forgets = false;                   ///< the next step begins without the forces of the last one
   int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while nothing is fast

@@ -65,6 +65,7 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
   progress.pressed = world.pressed ? 1 : 0;
   progress.grip = world.grip;
+  progress.forgets = world.forgets ? 1 : 0;
 }
 
 gpu::SpherePlane to_gpu(const Plane& plane) {

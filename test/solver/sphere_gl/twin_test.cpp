@@ -296,6 +296,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     SCOPED_TRACE(static_cast<int>(phase));
     Batch batch(GetParam().capacity);
     World world = heap_of(40, 4);
+    for (int k = 0; k < 3; ++k) step(world);  // now contacts have forces, which a probe forgets
     sphere::take_phase(world, phase);
     world.fine = false;  // a full group with exact samples fails on llvmpipe: docs/solver.md, "Not there yet"
     world.bodies[20].asleep = true;
