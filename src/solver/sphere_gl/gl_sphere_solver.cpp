@@ -41,10 +41,16 @@ struct Flight {
   float rest = 0.0f;   ///< the same of a last one that is yet to come; 0: none
 };
 
+/// What the device can do of it.
+Capacity fitting(Capacity capacity) {
+  if (gl::Device::current().software()) capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
+  return capacity;
+}
+
 class GlSphereSolver final : public Solver {
  public:
   GlSphereSolver(const SphereSettings& settings, const Capacity& capacity)
-      : settings_(settings), bodies_(capacity.bodies), batch_(capacity) {}
+      : settings_(settings), bodies_(capacity.bodies), batch_(fitting(capacity)) {}
 
   WorldId add_world(const WorldDef& def) override {
     if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())

@@ -17,6 +17,10 @@ struct Capacity {
   std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
   std::size_t colors = 16;  ///< of a large world that have dispatches of their own, a sweep; others share a group
 };
+
+/// Capacity::group_bodies on a software device, at most: llvmpipe ends the loops of an invocation after 65,535 turns,
+/// without a word. A group of 358 bodies that overlap at random came to that, a pile of 150 needs an eighth of it.
+constexpr std::size_t software_group_bodies = 192;
 }  // namespace sphere_gl
 
 /// Bodies that a world may have, fixed ones and a mesh bin among them.
