@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <optional>
 
 namespace bin_scenes::bench {
@@ -32,18 +33,26 @@ Pieces shapes_of(const PartModel& part, const Request& request, const std::strin
   return shapes;
 }
 
-/// CPU seconds from request until a mark, and how much was simulated by then.
+/// Seconds from a request on, of all threads and of the wall.
+class Clock {
+ public:
+  double cpu_s() const { return cpu_seconds() - cpu_; }
+  double wall_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+
+ private:
+  double cpu_ = cpu_seconds();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+/// What a request had cost by a mark, and how much was simulated by then.
 struct Mark {
-  std::optional<double> cpu_s, simulated_s;
-  void set(double cpu, double simulated) {
-    if (!cpu_s) cpu_s = cpu, simulated_s = simulated;
-  }
+  double cpu_s = 0.0, wall_s = 0.0, simulated_s = 0.0;
 };
 
 /// Stock Bullet until all parts are slow together, until all are asleep, and for `as_long` (s, simulated); it is
 /// stopped when all is known, or after `given_up` simulated seconds.
 Row bullet_row(const Request& request, const std::string& pieces, double as_long) {
-  const double begin = cpu_seconds();
+  const Clock clock;
   const std::vector<PartModelPtr> parts = load_parts(request);
   PeerSettings settings;
   settings.engine = "bullet_stock";
@@ -51,17 +60,20 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   settings.iterations = 10;
   settings.pieces = {shapes_of(*parts.front(), request, pieces)};
   const std::size_t shapes = settings.pieces.front().size();
-  Mark slow, asleep, same, last;
+  std::optional<Mark> slow, asleep, same;
+  Mark now;
   std::atomic<bool> known{false};
   double moved = 0.0;
   settings.watch = [&](double simulated, PeerRest rest) {
-    const double cpu = cpu_seconds() - begin;
-    if (simulated >= as_long) same.set(cpu, simulated);
+    now = {clock.cpu_s(), clock.wall_s(), simulated};
+    const auto reach = [&](std::optional<Mark>& mark, bool reached) {
+      if (!mark && reached) mark = now;
+    };
     if (rest == PeerRest::moves) moved = simulated;
-    if (simulated - moved >= slow_for) slow.set(cpu, simulated);
-    if (rest == PeerRest::asleep) asleep.set(cpu, simulated);
-    last = {cpu, simulated};
-    known = (same.cpu_s && asleep.cpu_s) || simulated >= std::max(as_long, given_up);
+    reach(same, simulated >= as_long);
+    reach(slow, simulated - moved >= slow_for);
+    reach(asleep, rest == PeerRest::asleep);
+    known = (same && asleep) || simulated >= std::max(as_long, given_up);
   };
   RunHooks hooks;
   hooks.cancel = &known;
@@ -72,11 +84,12 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   }
   Row row;
   row.info("shapes", shapes);
-  const auto add = [&](const std::string& name, const Mark& mark) {
-    const Mark& reached = mark.cpu_s ? mark : last;  // never, or not after: a pour that rests takes no more time
-    row.exact("bullet_" + name, static_cast<int>(mark.cpu_s.has_value()))
-        .measure("bullet_" + name + "_cpu_s", *reached.cpu_s)
-        .measure("bullet_" + name + "_simulated_s", *reached.simulated_s);
+  const auto add = [&](const std::string& name, const std::optional<Mark>& mark) {
+    const Mark reached = mark.value_or(now);  // never, or not after: a pour that rests takes no more time
+    row.exact("bullet_" + name, static_cast<int>(mark.has_value()))
+        .measure("bullet_" + name + "_cpu_s", reached.cpu_s)
+        .measure("bullet_" + name + "_scene_s", reached.wall_s)
+        .measure("bullet_" + name + "_simulated_s", reached.simulated_s);
   };
   add("slow", slow);
   add("asleep", asleep);
@@ -101,6 +114,7 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
       return Row()
           .exact("scenes", 1)
           .measure("cpu_s", figures.number("cpu_s"))
+          .measure("scene_s", figures.number("scene_s"))
           .measure("simulated_s", figures.number("simulated_s"));
     });
     if (!ours.good) return out.row(Row(key).append(ours.row));
@@ -110,7 +124,9 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
     if (!bullet.good) return out.row(Row(key).append(bullet.row));
     Row scene = Row(ours.row).append(bullet.row).info("pieces", has_pieces ? "exact" : "hulls");
     for (const std::string until : {"slow", "asleep", "as_long"})
-      scene.measure("share_of_" + until, scene.number("cpu_s") / scene.number("bullet_" + until + "_cpu_s"));
+      for (const std::string of : {"cpu_s", "scene_s"})
+        scene.measure((of == "cpu_s" ? "share_of_" : "scene_share_of_") + until,
+                      scene.number(of) / scene.number("bullet_" + until + "_" + of));
     spent += std::max(scene.number("bullet_asleep_cpu_s"), scene.number("bullet_as_long_cpu_s"));
     scenes.push_back(scene);
   }
