@@ -4,7 +4,6 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -37,14 +36,13 @@ Poured pour_timed(const Request& request) {
   Generator generator;
   Generator::Options options;
   options.render = false;
-  const auto begin = std::chrono::steady_clock::now();
-  const double cpu_begin = cpu_seconds();
+  const Clock clock;
   bool judging = false;
   options.hooks.progress = [&](const Progress& progress) {
     if (judging || progress.phase != "quality") return;  // the first word of the judge: the poses are final
     judging = true;
-    out.scene_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    out.cpu_s = cpu_seconds() - cpu_begin;
+    out.scene_s = clock.wall_s();
+    out.cpu_s = clock.cpu_s();
   };
   generator.generate(request, options, [&](Generator::Result&& result) { out.scene = std::move(result.scene); });
   out.parts = generator.parts();
@@ -63,13 +61,12 @@ std::vector<PartModelPtr> load_parts(const Request& request) {
 
 Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
-  const auto begin = std::chrono::steady_clock::now();
-  const double cpu_begin = cpu_seconds();
+  const Clock clock;
   out.parts = load_parts(request);
   const std::unique_ptr<Solver> solver = make(out.parts);
   out.scene = std::move(pour(request, out.parts, *solver, {request.first}).front());
-  out.scene_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  out.cpu_s = cpu_seconds() - cpu_begin;
+  out.scene_s = clock.wall_s();
+  out.cpu_s = clock.cpu_s();
   judge(out.scene, request, out.parts);
   return out;
 }

@@ -5,6 +5,7 @@
 #include "framework/table.hpp"
 #include "requests.hpp"
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,6 +14,17 @@ namespace bin_scenes::bench {
 
 /// Of all threads of this process so far (s).
 double cpu_seconds();
+
+/// Seconds since it was made, of all threads and of the wall.
+class Clock {
+ public:
+  double cpu_s() const { return cpu_seconds() - cpu_; }
+  double wall_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+
+ private:
+  double cpu_ = cpu_seconds();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
 
 /// "coloring 1.2; step 812": the stages that take more than a hundredth of the time, in ms times `scale`.
 std::string stages_of(const Profile& profile, double scale = 1.0);

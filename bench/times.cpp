@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <optional>
 
 namespace bin_scenes::bench {
@@ -32,17 +31,6 @@ Pieces shapes_of(const PartModel& part, const Request& request, const std::strin
   for (const Mesh& hull : part.hulls(options).hulls) shapes.push_back(hull.vertices);
   return shapes;
 }
-
-/// Seconds from a request on, of all threads and of the wall.
-class Clock {
- public:
-  double cpu_s() const { return cpu_seconds() - cpu_; }
-  double wall_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
-
- private:
-  double cpu_ = cpu_seconds();
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
 
 /// What a request had cost by a mark, and how much was simulated by then.
 struct Mark {

@@ -307,10 +307,11 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
 }
 
-/// Its bodies hover where they are put, but for a jump of the first one whenever it is probed; notes its phases.
+/// Its bodies hover where they are put, but for a jump of the first one whenever it is probed, and slow creeping of it
+/// to begin with; notes its phases.
 class HoveringSolver : public Solver {
  public:
-  explicit HoveringSolver(double jump) : jump_(jump) {}
+  explicit HoveringSolver(double jump, double creeps_s = 0.0) : jump_(jump), creeps_s_(creeps_s) {}
   std::vector<Phase> phases;
   double probed_s = 0.0;
 
@@ -327,6 +328,8 @@ class HoveringSolver : public Solver {
   }
   double advance(const std::vector<WorldId>&, double seconds) override {
     if (!phases.empty() && phases.back() == Phase::probe) probed_s += seconds;
+    if (creeps_s_ > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
+    creeps_s_ -= seconds;
     return seconds;
   }
   std::vector<BodyState> states(WorldId) const override { return states_; }
@@ -339,7 +342,7 @@ class HoveringSolver : public Solver {
   std::string device() const override { return "cpu"; }
 
  private:
-  double jump_;
+  double jump_, creeps_s_;
   std::vector<BodyState> states_;
   Profile profile_;
 };
@@ -362,6 +365,20 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedOnce) {
   EXPECT_EQ(phases_of(0.0, 0.01), (std::vector<Phase>{pour, settle, press, probe, press}))
       << "a window shorter than a look";
   EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, press, probe, settle, press})) << "it moved when probed";
+}
+
+TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
+  const auto phases_of = [](double creeps_s) {
+    HoveringSolver solver(0.0, creeps_s);
+    Request request = request_of(2);
+    request.pour.pattern = Pour::Pattern::given;
+    for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
+    EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+    return solver.phases;
+  };
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, press}));
+  EXPECT_EQ(phases_of(0.5), (std::vector<Phase>{pour, press, settle, press, probe, press}));
 }
 
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {

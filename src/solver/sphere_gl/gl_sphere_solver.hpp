@@ -18,8 +18,9 @@ struct Capacity {
   std::size_t colors = 16;  ///< of a large world that have dispatches of their own, a sweep; others share a group
 };
 
-/// Capacity::group_bodies on a software device, at most: llvmpipe ends the loops of an invocation after 65,535 turns,
-/// without a word. A group of 358 bodies that overlap at random came to that, a pile of 150 needs an eighth of it.
+/// Capacity::group_bodies on a software device, at most. One group that pressed 358 bodies in a heap of random overlaps
+/// got wrong velocities on llvmpipe, without a word; a limit on turns of loops is taken to be why (docs/solver.md, "Not
+/// there yet"). A group of 160 such bodies is right.
 constexpr std::size_t software_group_bodies = 192;
 }  // namespace sphere_gl
 
