@@ -33,11 +33,13 @@
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
-#define SPHERE_MAX_CONTACTS 16      // per pair, after reduction
-#define SPHERE_MAX_COARSE_CONTACTS 8  // the same on coarse samples
+#define SPHERE_MAX_CONTACTS 8       // per pair, after reduction
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
+#define SPHERE_MAX_WAYS 4           // out of a point near sharp edges
+#define SPHERE_EDGE_BLOCK 4u        // cells of the field on a side of a block of edges
+#define SPHERE_EDGE_REACH 3.0       // cells: edges within it of a point are in the list of its block
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
 // Sweeps of the solve over all manifolds.
@@ -48,6 +50,8 @@
 #define SWEEP_BOUNCE 4u
 #define SPHERE_BOUNCE_SWEEPS 12u
 
+// An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
+// lists of those near a point (EdgeGrid).
 // Normal cone of a node (w, bits) or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are;
 // 0 = all directions, SPHERE_AXIS = one axis with its spread in w.
 #define SPHERE_AXIS 7u
@@ -145,6 +149,8 @@ struct SpherePlane {
 struct SphereSamples {
   uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the vectors of their normal cones
   uvec4 clusters;    // first, count
+  uvec4 blocks;      // of edges, behind them: first of the table and of the lists (four words each), blocks along x, and
+                     // of a layer along x and y
   vec4 size;         // radius of the nodes, longest edge piece, mean way between neighbours on faces, and by how much a
                      // curved face may bulge between its nodes (m)
 };
@@ -202,7 +208,7 @@ GPU_STRUCTS_END
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 144, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
-static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 48 && sizeof(SphereShape) == 240, "std430");
+static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");

@@ -1,18 +1,22 @@
 // Normal cones of nodes and edges. Needs the binding Nodes.
 
-// Turns a unit direction into the cone; false if it lies so far outside that nothing of it is left. `cone` as in
-// SPHERE_AXIS, its vectors counted from `first`. Bounds by cyclic projection.
-bool turn_into_cone(uint cone, uint first, inout vec3 direction) {
-  const float least_left = 0.1;  // of a unit direction: what leans over more than 84 degrees does not press
+const float LEAST_LEFT = 0.1;  // of a unit direction: what leans over more than 84 degrees does not press
+
+// Turns a unit direction into the cone; false if less than `least` of it is left there (cosine of the turn). `cone` as
+// in SPHERE_AXIS, its vectors counted from `first`. Bounds by cyclic projection.
+bool turn_into_cone(uint cone, uint first, inout vec3 direction, float least) {
   uint bounds = cone & 7u, at = first + (cone >> 3);
   if (bounds == 0u) return true;
   if (bounds == SPHERE_AXIS) {
     vec4 axis = nodes[at];
     float along = dot(axis.xyz, direction);
-    if (along < least_left) return false;
+    if (along < LEAST_LEFT) return false;
     vec3 across = direction - along * axis.xyz;
     float side = length(across);
-    if (atan(side, along) > axis.w) direction = cos(axis.w) * axis.xyz + sin(axis.w) / side * across;
+    if (atan(side, along) <= axis.w) return true;
+    vec3 turned = cos(axis.w) * axis.xyz + sin(axis.w) / side * across;
+    if (dot(turned, direction) < least) return false;
+    direction = turned;
     return true;
   }
   vec3 n = direction;
@@ -28,7 +32,7 @@ bool turn_into_cone(uint cone, uint first, inout vec3 direction) {
     if (outside < 1e-5) break;
   }
   float left = length(n);
-  if (left < least_left) return false;
+  if (left < least) return false;  // not the cosine of n / left: far outside, n may lie askew yet, and is short
   direction = n / left;
   return true;
 }

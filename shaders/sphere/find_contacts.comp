@@ -53,6 +53,7 @@ shared uint job;
 shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
 shared uint edge_queue[SPHERE_EDGE_QUEUE], queued;
 
+const float NEARLY_ALL = 0.99;  // of an exact way out a cone must leave: 8 degrees
 const SpherePlane NO_PLANE = SpherePlane(vec4(0.0), uvec4(0u));
 
 // Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
@@ -82,23 +83,41 @@ void emit_from(View view, vec3 point, vec3 gradient, float distance, uint featur
     emit(surface - distance * gradient, gradient, distance, feature | view.side);
 }
 
-// A candidate, if its own surface can be pressed against the way out of the other.
-bool press(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
+// A candidate, if its own surface can be pressed against the way out of the other: `least` of it must be left.
+bool press(View view, vec3 point, vec3 away, float distance, uint cone, uint feature, float least) {
   vec3 pressed = -(away * view.to_field);
-  if (!turn_into_cone(cone, view.samples.nodes.x, pressed)) return false;
+  if (!turn_into_cone(cone, view.samples.nodes.x, pressed, least)) return false;
   emit_from(view, point, -(view.to_field * pressed), distance, feature);
   return true;
 }
 
+// Near a sharp edge ways out are exact: what presses against none of them does not press there.
+bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
+  // Which of two faces it presses against is not known.
+  if (view.samples.size.x > 0.0 || (cone & 7u) == 0u) return false;
+  vec4 ways[SPHERE_MAX_WAYS];
+  uint count = ways_out_at_edge(view.other, view.field, point, ways);
+  bool out_there = false;
+  for (uint i = 0u; i < count; ++i) {
+    vec3 beyond = point + (0.5 * view.field.cell - ways[i].w) * ways[i].xyz;
+    if (sample_field(view.field, beyond) < 0.3 * view.field.cell) continue;  // a seam between shells that touch
+    out_there = true;
+    if (press(view, point, ways[i].xyz, ways[i].w, cone, feature, NEARLY_ALL)) break;
+  }
+  return out_there;
+}
+
 void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
-  if (press(view, point, away, distance, cone, feature)) return;
+  if (offer_at_edge(view, point, cone, feature)) return;
+  if (press(view, point, away, distance, cone, feature, LEAST_LEFT)) return;
   if (distance < -2.0 * view.field.cell) {  // deep inside any way out is better than none
     emit_from(view, point, away, distance, feature);
     return;
   }
   if (distance >= error_of(view.field)) return;
   vec3 back = -(view.to_field * middle_of_cone(cone, view.samples.nodes.x));
-  if (find_way_out(view.field, point, back, away, distance)) press(view, point, away, distance, cone, feature);
+  if (find_way_out(view.field, point, back, away, distance))
+    press(view, point, away, distance, cone, feature, LEAST_LEFT);
 }
 
 void test_node(View view, uint node) {
@@ -117,7 +136,7 @@ bool edge_may_touch(View view, uint edge) {
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), gradient_p, gradient_q;
   float distance_p = sample_field(view.field, p, gradient_p), distance_q = sample_field(view.field, q, gradient_q);
   // A distance falls by no more than the way.
-  if (0.5 * (distance_p + distance_q - 2.0 * view.samples.size.x - uintBitsToFloat(ends.w)) >= view.margin) return false;
+  if (0.5 * (distance_p + distance_q - 2.0 * view.samples.size.x - abs(uintBitsToFloat(ends.w))) >= view.margin) return false;
   return dot(gradient_p, q - p) < 0.0 && dot(gradient_q, q - p) > 0.0;
 }
 
@@ -126,8 +145,10 @@ void test_edge(View view, uint edge) {
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), point, gradient;
   float distance;
   if (!descend(view.field, p, q, view.samples.size.x, point, gradient, distance)) return;
-  cross_edges(view.other, 2.0 * view.field.cell + abs(distance), p, q, point, gradient, distance);
-  if (distance < view.margin) offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
+  bool crossed = cross_edges(view.other, view.field, p, q, point, gradient, distance);
+  if (distance >= view.margin) return;
+  if (!crossed || !press(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE, LEAST_LEFT))
+    offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
 }
 
 // All invocations; the field of the other body is in use.

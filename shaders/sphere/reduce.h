@@ -117,7 +117,7 @@ uint depth_key(float separation) {
 
 // The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
 // preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
-uint reduce(float size, uint most) {
+uint reduce(float size) {
   uint key = 0u, best = 0u;
   for (uint k = 0u; k < mine; ++k) {
     SphereCandidate c = candidates[candidate_place(k)];
@@ -129,7 +129,7 @@ uint reduce(float size, uint most) {
   }
   uint n = 0u;
   while (choose(n, key, best)) {
-    if (++n == most) break;
+    if (++n == SPHERE_MAX_CONTACTS) break;
     key = 0u;
     vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u].xyz;
     for (uint k = 0u; k < mine; ++k) {
@@ -140,7 +140,7 @@ uint reduce(float size, uint most) {
       candidates[candidate_place(k)].normal.w = apart;
       if (apart < 0.0) continue;
       // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
-      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 2.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.y);
+      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.y);
       uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
       if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
         key = value;
@@ -217,8 +217,7 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
   mat3 ra = a.rotation, rb = b.rotation;
   if (lost) any_lost = 1u;
   atomicAdd(found_count, mine);
-  bool fine = progress[world_index].fine != 0u;
-  uint count = reduce(size_of(pair), fine ? SPHERE_MAX_CONTACTS : SPHERE_MAX_COARSE_CONTACTS);
+  uint count = reduce(size_of(pair));
   carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);

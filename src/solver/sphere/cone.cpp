@@ -12,7 +12,7 @@ constexpr float least_left = 0.1f;  ///< of a unit direction: what leans over mo
 
 }  // namespace
 
-bool Cone::restrict(Vec3f& direction) const {
+bool Cone::restrict(Vec3f& direction, float least) const {
   if (bounds > 0) {
     Vec3f n = direction;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -26,7 +26,7 @@ bool Cone::restrict(Vec3f& direction) const {
       if (outside < 1e-5f) break;
     }
     const float left = n.norm();
-    if (left < least_left) return false;
+    if (left < least) return false;  // not the cosine of n / left: far outside, n may lie askew yet, and is short
     direction = n / left;
     return true;
   }
@@ -36,7 +36,9 @@ bool Cone::restrict(Vec3f& direction) const {
   const Vec3f across = direction - along * axis;
   const float side = across.norm();
   if (std::atan2(side, along) <= spread) return true;
-  direction = std::cos(spread) * axis + (std::sin(spread) / side) * across;
+  const Vec3f turned = std::cos(spread) * axis + (std::sin(spread) / side) * across;
+  if (turned.dot(direction) < least) return false;
+  direction = turned;
   return true;
 }
 

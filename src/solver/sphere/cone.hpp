@@ -20,8 +20,12 @@ struct Cone {
   std::array<Vec3f, max_bounds> bound =
       filled();  ///< the cone is { n : n . bound <= 0 for every bound }; unit vectors along the surface
 
-  /// Turns a unit direction into the cone; false if it lies so far outside that nothing of it is left.
-  bool restrict(Vec3f& direction) const;
+  bool all() const { return bounds == 0 && axis.isZero(); }
+  /// What leans over more than 84 degrees does not press.
+  static constexpr float least_left = 0.1f;
+
+  /// Turns a unit direction into the cone; false if less than `least` of it is left there (cosine of the turn).
+  bool restrict(Vec3f& direction, float least = least_left) const;
 
   /// Unit direction in the middle of the cone; 0 of a cone of all directions.
   Vec3f middle() const;

@@ -26,14 +26,14 @@ struct Draft {
     return static_cast<std::uint32_t>(nodes.size() - 1);
   }
   /// Between two vertices that have nodes, in pieces no longer than `spacing`.
-  void add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Cone& cone, double spacing) {
+  void add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Cone& cone, bool sharp, double spacing) {
     const Vec3 a = mesh.vertices[from], b = mesh.vertices[to];
     const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
     std::uint32_t last = at_vertex[from];
     for (int i = 1; i <= pieces; ++i) {
       const std::uint32_t next =
           i == pieces ? at_vertex[to] : add(a + (b - a) * (static_cast<double>(i) / pieces), cone);
-      edges.push_back({last, next, 0, cone});
+      edges.push_back({last, next, 0, sharp, cone});
       last = next;
     }
   }
@@ -57,6 +57,17 @@ Cone corner_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<const
   return cone;
 }
 
+/// Cone of a vertex where a concave edge ends, too: away from all faces of its sharp edges.
+Cone saddle_cone(const std::vector<const SharpEdge*>& edges) {
+  Cone cone;
+  if (2 * edges.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
+  for (const SharpEdge* edge : edges) {
+    if (edge->cone.bounds == 0) return Cone{};
+    for (int i = 0; i < 2; ++i) cone.bound[cone.bounds++] = edge->cone.bound[i];
+  }
+  return cone;
+}
+
 /// Sharp edges cut in pieces no longer than `spacing`; corners appear once.
 Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   Draft draft;
@@ -77,9 +88,11 @@ Draft edge_draft(const Mesh& mesh, const SharpEdges& sharp, double spacing) {
   for (std::uint32_t v = 0; v < mesh.vertices.size(); first = last[v++]) {
     if (first == last[v]) continue;
     edges.assign(around.begin() + first, around.begin() + last[v]);
-    draft.at_vertex[v] = draft.add(mesh.vertices[v], sharp.saddles[v] ? Cone{} : corner_cone(mesh, v, edges));
+    draft.at_vertex[v] =
+        draft.add(mesh.vertices[v], sharp.saddles[v] ? saddle_cone(edges) : corner_cone(mesh, v, edges));
   }
-  for (const SharpEdge& edge : sharp.convex) draft.add_edge(mesh, edge.a, edge.b, edge.cone, spacing);
+  for (const SharpEdge& edge : sharp.convex)
+    draft.add_edge(mesh, edge.a, edge.b, edge.cone, edge.cone.bounds > 0, spacing);
   return draft;
 }
 
@@ -230,7 +243,7 @@ void add_missed_ridges(const Mesh& mesh, double face_spacing, double spacing, do
     const Cone cone = ridge_cone(along, out);
     for (const std::uint32_t v : {one.a, one.b})
       if (draft.at_vertex[v] == Draft::none) draft.at_vertex[v] = draft.add(mesh.vertices[v], cone);
-    draft.add_edge(mesh, one.a, one.b, cone, spacing);
+    draft.add_edge(mesh, one.a, one.b, cone, false, spacing);
   }
 }
 
@@ -301,7 +314,7 @@ Samples clustered(Draft draft, const Vec3& center, double spacing) {
   std::sort(edges.begin(), edges.end(),
             [](const EdgeAt& x, const EdgeAt& y) { return std::tie(x.a, x.b, x.at) < std::tie(y.a, y.b, y.at); });
   samples.edges.reserve(edges.size());
-  for (const auto& [a, b, at] : edges) samples.edges.push_back({a, b, 0, draft.edges[at].cone});
+  for (const auto& [a, b, at] : edges) samples.edges.push_back({a, b, 0, draft.edges[at].sharp, draft.edges[at].cone});
   const std::size_t clusters = (samples.nodes.size() + cluster_size - 1) / cluster_size;
   for (Edge& edge : samples.edges) edge.length = (samples.nodes[edge.a] - samples.nodes[edge.b]).norm();
   std::size_t e = 0;

@@ -13,6 +13,7 @@
 
 #include "bin_scenes/part/part_model.hpp"
 #include "solver/sphere/cone.hpp"
+#include "solver/sphere/edge_grid.hpp"
 #include "solver/sphere/field.hpp"
 #include "solver/sphere/sharp_edges.hpp"
 
@@ -27,8 +28,10 @@ class ByteWriter;
 namespace bin_scenes::sphere {
 
 struct Edge {
-  std::uint32_t a, b;  ///< nodes
-  float length = 0;    ///< m
+  std::uint32_t a, b;       ///< nodes
+  float length = 0;         ///< m
+  std::uint32_t sharp = 0;  ///< 1: two faces meet there, into which the first two bounds of the cone point; 0: a line
+                            ///< of a rounded edge, or unknown
   Cone cone;
 };
 
@@ -49,6 +52,7 @@ struct Samples {
   std::vector<std::uint32_t> first_edge;           ///< clusters + 1
   std::vector<Points<group_size>> cluster_points;  ///< their centres, a group at a time
   std::vector<Ball> groups;                        ///< clusters [8 g, 8 g + 8)
+  EdgeGrid edge_grid;                              ///< make_shape() makes it, with the field
   float spacing = 0;                               ///< longest edge piece (m)
   float face_spacing = 0;                          ///< mean way between neighbours on faces (m)
   float sag = 0;                                   ///< m by which a curved face may bulge between its nodes
@@ -68,7 +72,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
 Samples ball_samples(float radius);
 
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
-constexpr int samples_format = 2;
+constexpr int samples_format = 3;
 
 void put(ByteWriter& out, const Samples& samples);
 void get(ByteReader& in, Samples& samples);

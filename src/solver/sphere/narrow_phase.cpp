@@ -1,3 +1,4 @@
+#include "solver/sphere/edge_contact.hpp"
 #include "solver/sphere/math.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -23,6 +24,7 @@ using Candidates = std::vector<Candidate>;
 
 constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
 constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;
+constexpr float nearly_all = 0.99f;  ///< of an exact way out a cone must leave: 8 degrees
 
 /// A body half way through the step (World::half_way), where its contacts are found.
 struct Placement {
@@ -35,79 +37,6 @@ struct Placement {
     rotation = integrated(body.q, body.w, world.half_way()).toRotationMatrix();
   }
 };
-
-/// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope
-/// along the edge, which is monotonic where the other surface is convex.
-bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gradient_p, const Vec3f& gradient_q,
-             float lowest_end, Vec3f& point, Vec3f& gradient, float& distance) {
-  const Vec3f along = q - p;
-  float s0 = gradient_p.dot(along), s1 = gradient_q.dot(along);
-  if (s0 >= 0 || s1 <= 0) return false;
-  float t0 = 0, t1 = 1;
-  for (int i = 0; i < 6; ++i) {
-    // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
-    const float t = i % 2 ? 0.5f * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
-    point = p + t * along;
-    distance = field.sample(point, gradient);
-    const float slope = gradient.dot(along);
-    if (slope < 0) {
-      t0 = t;
-      s0 = slope;
-    } else {
-      t1 = t;
-      s1 = slope;
-    }
-    if ((t1 - t0) < 0.02f) break;
-  }
-  return distance < lowest_end;
-}
-
-/// Where two sharp edges cross, the grid rounds the edge off and its inner distance is that to a face, not to the edge.
-/// The nearest edge of the field's body, if there is one that crosses, gives depth and direction exactly: along the
-/// common normal of both edges. `point`, `gradient`, `distance` are the field's answer and are replaced.
-bool cross_edges(const Samples& other, float reach, const Vec3f& p, const Vec3f& q, Vec3f& point, Vec3f& gradient,
-                 float& distance) {
-  const Vec3f u = q - p;
-  const float uu = u.squaredNorm();
-  float nearest = reach;
-  bool found = false;
-  Vec3f best_point = point, best_normal = gradient;
-  float best_distance = 0;
-  const auto beyond = [&](const Ball& ball) {
-    const float far = ball.radius + nearest;
-    return (ball.center - point).squaredNorm() > far * far;
-  };
-  for (std::size_t c = 0; c < other.clusters.size(); ++c) {
-    if (c % group_size == 0 && beyond(other.groups[c / group_size])) {
-      c += group_size - 1;
-      continue;
-    }
-    if (beyond(other.clusters[c])) continue;
-    for (std::uint32_t e = other.first_edge[c]; e < other.first_edge[c + 1]; ++e) {
-      const Vec3f r = other.nodes[other.edges[e].a], v = other.nodes[other.edges[e].b] - r, w = p - r;
-      const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
-      if (det < 0.03f * uu * vv) continue;  // within 10 degrees of parallel: nodes stand for these
-      const float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
-      if (s < 0 || s > 1 || t < 0 || t > 1) continue;
-      const Vec3f on_u = p + s * u, between = on_u - (r + t * v);
-      const float way = between.norm();
-      if (way >= nearest) continue;
-      Vec3f normal = u.cross(v).normalized();
-      if (normal.dot(gradient) < 0) normal = -normal;
-      if (normal.dot(gradient) < 0.7f) continue;  // not the way out here
-      nearest = way;
-      best_point = on_u;
-      best_normal = normal;
-      best_distance = between.dot(normal);
-      found = true;
-    }
-  }
-  if (!found) return false;
-  point = best_point;
-  gradient = best_normal;
-  distance = best_distance;
-  return true;
-}
 
 /// A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
 /// way follows from the angle between the node's normal and the gradient of `depth(point, gradient)`, and from how fast
@@ -181,14 +110,30 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
   float cluster_distance[group_size], distance[cluster_size];
   Vec3f gradient[cluster_size];  // few are needed
   std::uint32_t known;           // which of them are there
-  const auto press = [&](const Vec3f& p, const Vec3f& out, float d, const Cone& cone, std::uint32_t feature) {
+  const auto press = [&](const Vec3f& p, const Vec3f& out, float d, const Cone& cone, std::uint32_t feature,
+                         float least = Cone::least_left) {
     Vec3f pressed = -(carry.rotation.transpose() * out);  // how the sample is pressed if `out` is the way out for it
-    if (!cone.restrict(pressed)) return false;
+    if (!cone.restrict(pressed, least)) return false;
     emit(p, Vec3f(-(carry.rotation * pressed)), d, feature);
     return true;
   };
+  // Near a sharp edge ways out are exact: what presses against none of them does not press there. Turned into the cone,
+  // the way out past an edge held up what leant on it from the side.
+  const auto offer_at_edge = [&](const Vec3f& p, const Cone& cone, std::uint32_t feature) {
+    if (samples.radius > 0 || cone.all()) return false;  // which of two faces it presses against is not known
+    const WaysOut ways = ways_out_at_edge(other, field, p);
+    bool out_there = false;
+    for (int i = 0; i < ways.count; ++i) {
+      const auto& [out, d] = ways.way[i];
+      // Half a cell beyond is outside, unless this is a seam between shells that touch.
+      if (field.sample(p + (0.5f * field.cell - d) * out) < 0.3f * field.cell) continue;
+      out_there = true;
+      if (press(p, out, d, cone, feature, nearly_all)) break;
+    }
+    return out_there;
+  };
   const auto offer = [&](const Vec3f& p, Vec3f out, float d, const Cone& cone, std::uint32_t feature) {
-    if (press(p, out, d, cone, feature)) return;
+    if (offer_at_edge(p, cone, feature) || press(p, out, d, cone, feature)) return;
     if (d < -2.0f * field.cell)  // deep inside any way out is better than none
       emit(p, out, d, feature);
     else if (d < error && find_way_out(field, p, -(carry.rotation * cone.middle()), out, d))
@@ -238,8 +183,10 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
         float depth;
         if (!descend(field, p, q, gradient_p, gradient_q, std::min(distance[ia], distance_q), deepest, normal, depth))
           continue;
-        cross_edges(other, 2.0f * field.cell + std::abs(depth), p, q, deepest, normal, depth);
-        if (depth < margin) offer(deepest, normal, depth, edge.cone, e | edge_bit);
+        const bool crossed = cross_edges(other, field, p, q, deepest, normal, depth);
+        if (depth >= margin) continue;
+        if (!crossed || !press(deepest, normal, depth, edge.cone, e | edge_bit))
+          offer(deepest, normal, depth, edge.cone, e | edge_bit);
       }
     }
   }
@@ -322,7 +269,7 @@ void candidates_of_ground(const World& world, const Manifold& m, const Placement
 /// The few contacts that stand for all: the deepest, then again and again the one farthest from those chosen, in
 /// position and normal alike, deep ones preferred; contacts of the last step have a small advantage, so that the
 /// choice does not flicker.
-void reduce(const Candidates& candidates, const Manifold& old, float size, int most, std::vector<int>& chosen) {
+void reduce(const Candidates& candidates, const Manifold& old, float size, std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
   static thread_local std::vector<float> apart, advantage;
@@ -331,7 +278,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, int m
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
     const float separation = candidates[i].separation;
-    advantage[i] = 8.0f * std::max(0.0f, -separation) - 2.0f * std::max(0.0f, separation);
+    advantage[i] = 8.0f * std::max(0.0f, -separation) - 20.0f * std::max(0.0f, separation);
     for (const Contact& c : old.contacts)
       if (c.feature == candidates[i].feature) advantage[i] += 0.05f * size;
   }
@@ -339,7 +286,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, int m
   for (std::size_t i = 1; i < candidates.size(); ++i)
     if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
   const float least = 1e-3f * size;
-  while (static_cast<int>(chosen.size()) < most) {
+  while (static_cast<int>(chosen.size()) < max_contacts) {
     chosen.push_back(next);
     const Candidate& c = candidates[next];
     apart[next] = -1;
@@ -451,7 +398,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     else
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
-    reduce(candidates, m, size, world.fine ? max_contacts : max_coarse_contacts, chosen);
+    reduce(candidates, m, size, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
     for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));

@@ -133,6 +133,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   if (field.coarsened) shape.flags.push_back(coarsened_flag(part, field_cell, field));
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
+  for (Samples* s : {&shape.coarse, &shape.fine}) s->edge_grid = make_edge_grid(*s, shape.field);
   return shape;
 }
 

@@ -66,8 +66,7 @@ struct Body {
   bool moves() const { return present && !asleep && inverse_mass > 0; }
 };
 
-constexpr int max_contacts = 16;               ///< per pair, after reduction
-constexpr int max_coarse_contacts = 8;         ///< the same on coarse samples
+constexpr int max_contacts = 8;                ///< per pair, after reduction; on more, faces on each other sway
 constexpr std::uint32_t ground = 0xffffffffu;  ///< body index of the bin's walls and floor
 
 /// One point of a manifold. Anchors are in body frames, so that a recycled contact follows both bodies.

@@ -1,13 +1,17 @@
 #include "solver/sphere_gl/convert.hpp"
 
+#include "solver/sphere/edge_contact.hpp"
+
 #include <cmath>
 
 namespace bin_scenes::sphere_gl {
 
 using namespace sphere;
 
-static_assert(max_contacts == SPHERE_MAX_CONTACTS && max_coarse_contacts == SPHERE_MAX_COARSE_CONTACTS,
-              "the pass keeps as many as the twin");
+static_assert(max_contacts == SPHERE_MAX_CONTACTS, "the pass keeps as many as the twin");
+static_assert(WaysOut::most == SPHERE_MAX_WAYS && EdgeGrid::block == SPHERE_EDGE_BLOCK &&
+                  EdgeGrid::reach == static_cast<float>(SPHERE_EDGE_REACH),
+              "edges are looked up as in the twin");
 
 namespace {
 

@@ -32,6 +32,13 @@ gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::vec4>& nodes) {
   return at | SPHERE_AXIS;
 }
 
+/// Four words each.
+std::vector<gpu::uvec4> packed(const std::vector<std::uint32_t>& words) {
+  std::vector<gpu::uvec4> out((words.size() + 3) / 4);
+  for (std::size_t i = 0; i < words.size(); ++i) (&out[i / 4].x)[i % 4] = words[i];
+  return out;
+}
+
 gpu::vec4 diagonal(const sphere::Mat3f& m) {
   return {m(0, 0), m(1, 1), m(2, 2), 0};
 }
@@ -52,7 +59,7 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
   for (std::size_t i = 0; i < samples.cones.size(); ++i) nodes[i].w = float_of(add_cone(samples.cones[i], nodes));
   std::vector<gpu::uvec4> edges;
   for (const sphere::Edge& edge : samples.edges)
-    edges.push_back({edge.a, edge.b, add_cone(edge.cone, nodes), word_of(edge.length)});
+    edges.push_back({edge.a, edge.b, add_cone(edge.cone, nodes), word_of(edge.sharp ? edge.length : -edge.length)});
   std::vector<gpu::SphereCluster> clusters;
   for (std::size_t c = 0; c < samples.clusters.size(); ++c)
     clusters.push_back({vec4(samples.clusters[c].center, samples.clusters[c].radius),
@@ -62,6 +69,11 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
                append(edges_, edge_count_, edges.data(), edges.size()), static_cast<gpu::uint>(edges.size())};
   out.clusters = {append(clusters_, cluster_count_, clusters.data(), clusters.size()),
                   static_cast<gpu::uint>(clusters.size()), 0, 0};
+  const sphere::EdgeGrid& grid = samples.edge_grid;
+  const std::vector<gpu::uvec4> table = packed(grid.first), lists = packed(grid.edges);
+  out.blocks = {append(edges_, edge_count_, table.data(), table.size()),
+                append(edges_, edge_count_, lists.data(), lists.size()), static_cast<gpu::uint>(grid.row),
+                static_cast<gpu::uint>(grid.slice)};
   out.size = {samples.radius, samples.spacing, samples.face_spacing, samples.sag};
   return out;
 }
