@@ -1,0 +1,192 @@
+/// Contacts near sharp edges, where the grid of a distance field is rounded.
+#include "bin_scenes/core/random.hpp"
+#include "boxes.hpp"
+#include "solver/sphere/edge_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::sphere {
+namespace {
+
+const Vec3 size(0.06, 0.04, 0.02);
+
+/// Inward from the middle part of the edge x = 0.03, z = 0.01 of a box of that size (m).
+Vec3f at_edge(float below_x, float below_z) {
+  return {0.03f - below_x, 0.0031f, 0.01f - below_z};
+}
+
+float distance_to(const Samples& samples, const Edge& edge, const Vec3f& point) {
+  const Vec3f a = samples.nodes[edge.a], v = samples.nodes[edge.b] - a;
+  const float t = std::clamp((point - a).dot(v) / v.squaredNorm(), 0.0f, 1.0f);
+  return (point - a - t * v).norm();
+}
+
+TEST(EdgeGrid, ListsEveryEdgeWithinReachOfAPoint) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  Random random(3, 0, Stream::probe);
+  std::size_t listed = 0, within = 0;
+  for (int k = 0; k < 2000; ++k) {  // also outside the grid
+    const Vec3f point =
+        Vec3(random.uniform(-0.04, 0.04), random.uniform(-0.03, 0.03), random.uniform(-0.02, 0.02)).cast<float>();
+    const auto [begin, end] = shape.fine.edge_grid.near(shape.field, point);
+    listed += static_cast<std::size_t>(end - begin);
+    EXPECT_TRUE(std::is_sorted(begin, end));
+    for (std::uint32_t e = 0; e < shape.fine.edges.size(); ++e) {
+      if (distance_to(shape.fine, shape.fine.edges[e], point) > EdgeGrid::reach * shape.field.cell) continue;
+      ++within;
+      EXPECT_TRUE(std::binary_search(begin, end, e)) << point.transpose();
+    }
+  }
+  EXPECT_GT(within, 0u);
+  EXPECT_LT(listed, 2000 * shape.fine.edges.size() / 4);  // lists, not the whole part
+}
+
+TEST(WaysOut, BesideAnEdgeAreStraightToItsFaces) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const float cell = shape.field.cell;
+  float lean = 0;
+  for (const float x : {0.1f, 0.3f, 0.5f, 0.6f})
+    for (const float z : {0.12f, 0.31f, 0.45f}) {
+      const Vec3f point = at_edge(x * cell, z * cell);
+      const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, point);
+      ASSERT_EQ(ways.count, 2);
+      const Vec3f near = x < z ? Vec3f::UnitX() : Vec3f::UnitZ(), far = x < z ? Vec3f::UnitZ() : Vec3f::UnitX();
+      EXPECT_LT((ways.way[0].out - near).norm(), 1e-5f);
+      EXPECT_LT((ways.way[1].out - far).norm(), 1e-5f);
+      EXPECT_NEAR(ways.way[0].distance, -std::min(x, z) * cell, 1e-7f);
+      EXPECT_NEAR(ways.way[1].distance, -std::max(x, z) * cell, 1e-7f);
+      Vec3f gradient;
+      shape.field.sample(point, gradient);
+      lean = std::max(lean, (gradient - near).norm());
+    }
+  EXPECT_GT(lean, 0.3f);  // the grid alone is far off: what this is for
+}
+
+TEST(WaysOut, OutsideThereIsOneToTheFaceOrToTheEdge) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const float cell = shape.field.cell;
+  const WaysOut above = ways_out_at_edge(shape.fine, shape.field, at_edge(0.4f * cell, -0.3f * cell));
+  ASSERT_EQ(above.count, 1);
+  EXPECT_LT((above.way[0].out - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_NEAR(above.way[0].distance, 0.3f * cell, 1e-7f);
+  const WaysOut beyond = ways_out_at_edge(shape.fine, shape.field, at_edge(-0.3f * cell, -0.4f * cell));
+  ASSERT_EQ(beyond.count, 1);
+  EXPECT_LT((beyond.way[0].out - Vec3f(0.6f, 0, 0.8f)).norm(), 1e-5f);
+  EXPECT_NEAR(beyond.way[0].distance, 0.5f * cell, 1e-7f);
+  EXPECT_EQ(ways_out_at_edge(shape.fine, shape.field, at_edge(2 * cell, 0.1f * cell)).count, 0);
+}
+
+TEST(WaysOut, InACornerThereAreThree) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const float cell = shape.field.cell;
+  const Vec3f corner = 0.5f * size.cast<float>();
+  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner - cell * Vec3f(0.3f, 0.2f, 0.1f));
+  ASSERT_EQ(ways.count, 3);
+  EXPECT_LT((ways.way[0].out - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_LT((ways.way[1].out - Vec3f::UnitY()).norm(), 1e-5f);
+  EXPECT_LT((ways.way[2].out - Vec3f::UnitX()).norm(), 1e-5f);
+}
+
+// The corner of one box stands on the other's face, less than a cell from its edge: on the face, not on a slope.
+TEST(NarrowPhase, ACornerBesideAnEdgeStandsOnTheFace) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, Vec3::Constant(0.06), 0.005);
+  const float cell = shape.field.cell, depth = 0.05f * cell;
+  for (const float from_edge : {0.15f, 0.35f, 0.6f}) {
+    World world = world_of_boxes(shape, 2);
+    world.fine = true;
+    Body& b = world.bodies[1];
+    b.q = Quatf::FromTwoVectors(Vec3f(1, 1, 1).normalized(), -Vec3f::UnitZ());
+    b.x = Vec3f(0.03f - from_edge * cell, 0.0031f, 0.03f + 0.03f * std::sqrt(3.0f) - depth);
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    ASSERT_GE(world.manifolds[0].contacts.size(), 1u);
+    const Contact& c = world.manifolds[0].contacts[0];
+    EXPECT_LT((c.normal - Vec3f::UnitZ()).norm(), 1e-4f) << from_edge;
+    EXPECT_NEAR((b.x + b.q * c.anchor_b - c.anchor_a).z(), -depth, 1e-6f) << from_edge;
+  }
+}
+
+// Stacks of boxes whose edges lie above each other are pressed along their faces alone, wherever contacts are.
+TEST(NarrowPhase, BoxesFlushOnEachOtherPressUpwardsOnly) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, Vec3::Constant(0.04), 0.004);
+  for (const float shift : {0.0f, 1e-6f, -3e-6f}) {
+    World world = world_of_boxes(shape, 2);
+    world.fine = true;
+    world.bodies[1].x = Vec3f(shift, -shift, 0.04f - 2e-6f);
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    const auto& contacts = world.manifolds[0].contacts;
+    ASSERT_EQ(contacts.size(), static_cast<std::size_t>(max_contacts));
+    int corners = 0;
+    for (const Contact& c : contacts) {
+      EXPECT_LT((c.normal - Vec3f::UnitZ()).norm(), 1e-4f) << shift;
+      corners += c.anchor_a.head<2>().cwiseAbs().minCoeff() > 0.0199f;
+    }
+    EXPECT_EQ(corners, 4) << shift;
+  }
+}
+
+// Bounds 150 degrees apart: projected to and fro, what lies far outside shrinks slowly, and askew.
+TEST(Cone, LeavesNothingOfWhatIsFarOutside) {
+  const float across = std::sin(static_cast<float>(M_PI) / 12), along = std::cos(static_cast<float>(M_PI) / 12);
+  Cone cone;
+  cone.bounds = 3;
+  cone.bound[0] = Vec3f(along, across, 0);
+  cone.bound[1] = Vec3f(-along, across, 0);
+  cone.bound[2] = Vec3f::UnitZ();
+  int kept = 0;
+  for (int k = 0; k < 72; ++k) {
+    const float angle = static_cast<float>(M_PI) * k / 36;
+    const Vec3f asked(std::cos(angle), std::sin(angle), 0);
+    Vec3f direction = asked;
+    if (!cone.restrict(direction, 0.99f)) continue;
+    ++kept;
+    EXPECT_GT(direction.dot(asked), 0.98f);
+    for (int i = 0; i < cone.bounds; ++i) EXPECT_LT(asked.dot(cone.bound[i]), 0.15f) << k;
+  }
+  EXPECT_GE(kept, 5);  // 30 degrees wide, and 8 to each side
+  EXPECT_LE(kept, 11);
+}
+
+TEST(Samples, TheEndOfAConcaveEdgeIsPressedAwayFromItsFaces) {
+  Mesh mesh;  // an L, 20 mm on a leg, 10 mm wide and high
+  const double outline[6][2] = {{0, 0}, {0.02, 0}, {0.02, 0.01}, {0.01, 0.01}, {0.01, 0.02}, {0, 0.02}};
+  for (const double z : {0.0, 0.01})
+    for (const auto& p : outline) mesh.vertices.push_back({p[0], p[1], z});
+  for (std::uint32_t i = 1; i < 5; ++i) {
+    mesh.triangles.push_back({0, i + 1, i});
+    mesh.triangles.push_back({6, 6 + i, 7 + i});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t k = (i + 1) % 6;
+    mesh.triangles.push_back({i, k, 6 + k});
+    mesh.triangles.push_back({i, 6 + k, 6 + i});
+  }
+  const PartModelPtr part = PartModel::from_mesh(mesh, "angle");
+  const Shape shape = make_shape(*part, 64, 400, 0.01);
+  const Vec3f inner = Vec3f(0.01f, 0.01f, 0.01f) - part->mass().center.cast<float>();
+  const Cone* cone = nullptr;
+  for (std::size_t i = 0; i < shape.fine.nodes.size(); ++i)
+    if ((shape.fine.nodes[i] - inner).norm() < 1e-6f) cone = &shape.fine.cones[i];
+  ASSERT_TRUE(cone);
+  EXPECT_FALSE(cone->all());
+  for (const Vec3f& out : {Vec3f(Vec3f::UnitX()), Vec3f(Vec3f::UnitY()), Vec3f(Vec3f::UnitZ())}) {
+    Vec3f direction = out, back = -out;
+    EXPECT_TRUE(cone->restrict(direction, 0.99f));
+    EXPECT_FALSE(cone->restrict(back, 0.99f));
+  }
+}
+
+}  // namespace
+}  // namespace bin_scenes::sphere
