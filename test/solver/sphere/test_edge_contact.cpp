@@ -94,6 +94,34 @@ TEST(WaysOut, InACornerThereAreThree) {
   EXPECT_LT((ways.way[2].out - Vec3f::UnitX()).norm(), 1e-5f);
 }
 
+// Of boxes that stand flush a corner lies beyond the ends of the other's edges by rounding.
+TEST(WaysOut, InACornerThereAreThreeThoughItIsOutByAHair) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const Vec3f corner = 0.5f * size.cast<float>();
+  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner + Vec3f(1e-6f, 1e-6f, -2e-6f));
+  ASSERT_EQ(ways.count, 3);
+  EXPECT_LT((ways.way[2].out - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_NEAR(ways.way[2].distance, -2e-6f, 1e-8f);
+}
+
+// A line that leaves the box through the edge is pressed between its faces, not under its edge.
+TEST(CrossEdges, NormalsLieBetweenTheFacesOfTheOtherEdge) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const auto cross = [&](float rise, Vec3f& normal) {
+    const Vec3f middle = at_edge(0, 0.05f * shape.field.cell), along = 0.002f * Vec3f(1, 0, rise);
+    Vec3f point = middle;
+    float distance = -0.05f * shape.field.cell;
+    normal = Vec3f::UnitZ();
+    return cross_edges(shape.fine, shape.field, middle - along, middle + along, point, normal, distance);
+  };
+  Vec3f normal;
+  EXPECT_TRUE(cross(-0.4f, normal));
+  EXPECT_LT((normal - Vec3f(0.4f, 0, 1).normalized()).norm(), 1e-4f);
+  EXPECT_FALSE(cross(0.4f, normal));
+}
+
 // The corner of one box stands on the other's face, less than a cell from its edge: on the face, not on a slope.
 TEST(NarrowPhase, ACornerBesideAnEdgeStandsOnTheFace) {
   PartModelPtr part;
