@@ -52,11 +52,9 @@ Case flight(double ratio) {
 Known known_at(double ratio) {
   const char* sweeps = "a step's sub-steps and sweeps carry no such ratio: the light part is pressed through";
   Known known;
-  if (ratio <= 10) known["sphere: they meet in free flight"] = blow;
-  if (ratio >= 100) known["sphere: heavy cube on a light one"] = sweeps;
-  // At 1:100 it ends so from some places, 2 mm apart, and not from others.
   if (ratio >= 1000)
-    known["sphere: heavy cube dropped on light angles"] = known["bullet: heavy cube dropped on light angles"] = sweeps;
+    known["sphere: heavy cube on a light one"] = known["bullet: heavy cube dropped on light angles"] = sweeps;
+  if (ratio == 1000) known["sphere: heavy cube dropped on light angles"] = sweeps;
   if (ratio >= 10000) known["bullet: heavy cube on a light one"] = sweeps;
   return known;
 }

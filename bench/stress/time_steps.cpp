@@ -34,7 +34,6 @@ std::vector<Row> time_steps(bool soak) {
       // As high as the others it takes 38 to 40 of them, as they happen to fall.
       row.cases.back().request.bin.inner_size.z() = 0.16;
     }
-    if (soak && hertz <= 30) row.known["sphere: 40 cubes"] = restarted;
     rows.push_back(row);
   }
   return rows;
