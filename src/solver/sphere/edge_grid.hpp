@@ -4,6 +4,7 @@
 #include "solver/sphere/field.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace bin_scenes::sphere {
