@@ -2,6 +2,8 @@
 // what the grid of a field rounds off there. Needs sphere/field.h and the bindings Nodes, Edges. Twin:
 // edge_contact.cpp.
 
+const float AS_PARALLEL = 3e-4;  // sine of an angle between edges, squared: 1 degree; nodes stand for these
+
 uint edge_word(uint first, uint i) {
   return edges[first + i / 4u][i & 3u];
 }
@@ -15,13 +17,16 @@ uvec2 edges_near(SphereSamples other, Field field, vec3 point) {
   return uvec2(edge_word(other.blocks.x, at), edge_word(other.blocks.x, at + 1u));
 }
 
-// Deepest point of the field along an edge whose ends both rise away from its inside. Regula falsi on the slope along
+// Deepest point of the field along an edge; false unless both its ends rise away from the inside. Regula falsi on the slope along
 // the edge, which is monotonic where the other surface is convex.
 bool descend(Field field, vec3 p, vec3 q, float radius, out vec3 point, out vec3 gradient, out float distance) {
   vec3 along = q - p, gradient_q;
   float lowest = sample_field(field, p, gradient);
   lowest = min(lowest, sample_field(field, q, gradient_q));
   float s0 = dot(gradient, along), s1 = dot(gradient_q, along), t0 = 0.0, t1 = 1.0;
+  point = p;
+  distance = lowest;
+  if (s0 >= 0.0 || s1 <= 0.0) return false;
   for (int i = 0; i < 6; ++i) {
     // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
     float t = (i & 1) == 1 ? 0.5 * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
@@ -60,7 +65,7 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
     vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = p - r;
     float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
-    if (det < 0.03 * uu * vv) continue;  // within 10 degrees of parallel: nodes stand for these
+    if (det < AS_PARALLEL * uu * vv) continue;
     float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
     if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
     vec3 on_u = p + s * u, between = on_u - (r + t * v);
@@ -80,13 +85,32 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
   return found;
 }
 
+// Whether a line through a point along a unit direction passes a sharp edge of the other part within a cell of it.
+bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction) {
+  uvec2 list = edges_near(other, field, point);
+  for (uint k = list.x; k < list.y; ++k) {
+    uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
+    if (uintBitsToFloat(edge.w) <= 0.0) continue;  // not sharp
+    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = point - r;
+    float uv = dot(direction, v), vv = dot(v, v), uw = dot(direction, w), vw = dot(v, w), det = vv - uv * uv;
+    if (det < AS_PARALLEL * vv) continue;
+    float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
+    if (abs(s) > field.cell || t < 0.0 || t > 1.0) continue;
+    vec3 between = w + s * direction - t * v;
+    if (dot(between, between) < field.cell * field.cell) return true;
+  }
+  return false;
+}
+
 // The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there, the shortest first:
 // inside all of them each is one, outside there is one, that to the nearest edge or above its face. Returns how many;
 // xyz: unit direction, w: m to the surface (negative inside).
 uint ways_out_at_edge(SphereSamples other, Field field, vec3 point, out vec4 ways[SPHERE_MAX_WAYS]) {
-  const float like = 0.95;          // cosine of normals that count as of one face
-  float flush = 0.05 * field.cell;  // what stands out past a face by less than that is level with it
-  float way_of[SPHERE_MAX_WAYS];    // to the edge that each is of
+  const float like = 0.95;  // cosine of normals that count as of one face
+  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on the
+  // face behind it.
+  float flush = 0.002 * field.cell;
+  float way_of[SPHERE_MAX_WAYS];  // to the edge that each is of
   float nearest = field.cell;
   vec4 outside = vec4(0.0);
   uint count = 0u;

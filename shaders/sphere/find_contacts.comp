@@ -54,6 +54,7 @@ shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
 shared uint edge_queue[SPHERE_EDGE_QUEUE], queued;
 
 const float NEARLY_ALL = 0.99;  // of an exact way out a cone must leave: 8 degrees
+const float LEANS = 0.02;       // sine of the angle by which a face leans against an edge that dips below it
 const SpherePlane NO_PLANE = SpherePlane(vec4(0.0), uvec4(0u));
 
 // Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
@@ -91,6 +92,18 @@ bool press(View view, vec3 point, vec3 away, float distance, uint cone, uint fea
   return true;
 }
 
+// A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
+// presses along the normal of both edges, and two such nodes, one on each, would hold each other like a wedge.
+bool is_crossed(View view, vec3 point, uint cone, vec3 away) {
+  uint bounds = cone & 7u;
+  if (bounds == SPHERE_AXIS) return false;
+  for (uint i = 0u; i < bounds; ++i) {
+    vec3 along = view.to_field * nodes[view.samples.nodes.x + (cone >> 3) + i].xyz;
+    if (dot(along, away) < -LEANS && passes_edge(view.other, view.field, point, along)) return true;
+  }
+  return false;
+}
+
 // Near a sharp edge ways out are exact: what presses against none of them does not press there.
 bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
   // Which of two faces it presses against is not known.
@@ -102,6 +115,7 @@ bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
     vec3 beyond = point + (0.5 * view.field.cell - ways[i].w) * ways[i].xyz;
     if (sample_field(view.field, beyond) < 0.3 * view.field.cell) continue;  // a seam between shells that touch
     out_there = true;
+    if (is_crossed(view, point, cone, ways[i].xyz)) continue;
     if (press(view, point, ways[i].xyz, ways[i].w, cone, feature, NEARLY_ALL)) break;
   }
   return out_there;
@@ -131,24 +145,39 @@ void test_node(View view, uint node) {
     offer(view, point, gradient, distance, floatBitsToUint(nodes[view.samples.nodes.x + node].w), node);
 }
 
+// Where edges are nearly parallel, or end, one dips below the other by less than the grid can tell.
+bool may_cross(View view, uvec4 ends, float distance) {
+  return uintBitsToFloat(ends.w) > 0.0 && view.samples.size.x == 0.0 && abs(distance) <= view.field.cell;
+}
+
 bool edge_may_touch(View view, uint edge) {
   uvec4 ends = edges[view.samples.nodes.z + edge];
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), gradient_p, gradient_q;
   float distance_p = sample_field(view.field, p, gradient_p), distance_q = sample_field(view.field, q, gradient_q);
   // A distance falls by no more than the way.
   if (0.5 * (distance_p + distance_q - 2.0 * view.samples.size.x - abs(uintBitsToFloat(ends.w))) >= view.margin) return false;
-  return dot(gradient_p, q - p) < 0.0 && dot(gradient_q, q - p) > 0.0;
+  return dot(gradient_p, q - p) < 0.0 && dot(gradient_q, q - p) > 0.0 || may_cross(view, ends, distance_p) ||
+         may_cross(view, ends, distance_q);
 }
 
 void test_edge(View view, uint edge) {
   uvec4 ends = edges[view.samples.nodes.z + edge];
   vec3 p = carry(view, ends.x), q = carry(view, ends.y), point, gradient;
   float distance;
-  if (!descend(view.field, p, q, view.samples.size.x, point, gradient, distance)) return;
-  bool crossed = cross_edges(view.other, view.field, p, q, point, gradient, distance);
-  if (distance >= view.margin) return;
-  if (!crossed || !press(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE, LEAST_LEFT))
-    offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
+  if (descend(view.field, p, q, view.samples.size.x, point, gradient, distance)) {
+    bool crossed = cross_edges(view.other, view.field, p, q, point, gradient, distance);
+    if (distance >= view.margin) return;
+    if (!crossed || !press(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE, LEAST_LEFT))
+      offer(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE);
+    return;
+  }
+  for (uint end = 0u; end < 2u; ++end) {
+    point = end == 0u ? p : q;
+    distance = sample_field(view.field, point, gradient);
+    if (!may_cross(view, ends, distance) || !cross_edges(view.other, view.field, p, q, point, gradient, distance)) continue;
+    if (distance < view.margin) press(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE, NEARLY_ALL);
+    return;
+  }
 }
 
 // All invocations; the field of the other body is in use.

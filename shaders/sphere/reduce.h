@@ -139,8 +139,10 @@ uint reduce(float size) {
       if (apart < 1e-3 * size) apart = -1.0;  // a twin of a chosen one
       candidates[candidate_place(k)].normal.w = apart;
       if (apart < 0.0) continue;
-      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold.
-      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * max(0.0, c.on_a.w) + 0.05 * size * float(c.feature.y);
+      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold. A
+      // gap counts by what it is wider than the least: of faces that are about to meet, all is as far away.
+      float gap = max(0.0, c.on_a.w - max(0.0, chosen_on_a[0].w));
+      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * gap + 0.05 * size * float(c.feature.y);
       uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
       if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
         key = value;

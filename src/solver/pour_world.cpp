@@ -12,6 +12,7 @@ namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
 constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed, then probed
+constexpr int most_probes = 2;      ///< what moves in the last one comes to lie in it, before that it is settled again
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 double largest_diagonal(const WorldDef& world) {
@@ -101,7 +102,7 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
   else
     start_rain();
   goes_on_ = !entering && all_slow();
-  probed_ = goes_on_;                 // what was at rest is not put to the test again
+  stood_ = goes_on_;                  // what was at rest is not put to the test again
   if (goes_on_) enter(Phase::press);  // a heap that goes on from rest would sink on softer or coarser contacts
   fresh_ = true;
 }
@@ -295,20 +296,22 @@ void PourWorld::look() {
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
   if (phase_ == Phase::probe) {  // since an earlier look: however short the window, it takes some time
-    if (!all_still(calm))
+    if (!all_slow() || (!all_still(calm) && probes_ < most_probes)) {
       enter(Phase::settle);
-    else if (all_rest())
+    } else if (all_rest()) {
       enter(Phase::press);
-  } else if (phase_ == Phase::press && !probed_ && all_still(calm)) {
+      stood_ = true;
+    }
+  } else if (phase_ == Phase::press && !stood_ && all_still(calm)) {
     enter(Phase::probe);
-    probed_ = true;
+    ++probes_;
   } else if (phase_ == Phase::settle && all_still(calm)) {
     enter(Phase::press);
   }
   // Stiff contacts take little out of rocking: not for what gets under way, nor for a start that was not at rest.
   const bool started_moving = goes_on_ && time_ >= calm && !all_still(0.5 * calm);
   if (phase_ == Phase::press && (!all_slow() || started_moving)) {
-    probed_ = probed_ && !started_moving;
+    stood_ = stood_ && !started_moving;
     enter(Phase::settle);
   }
   if (time_ >= calm) goes_on_ = false;
@@ -322,7 +325,7 @@ void PourWorld::settle() {
 
 bool PourWorld::over() const {
   if (plan_.request.seconds) return false;  // time_left() decides
-  return (waiting_.empty() && phase_ == Phase::press && probed_ && all_rest()) || time_ >= plan_.request.pour.limit;
+  return (waiting_.empty() && phase_ == Phase::press && stood_ && all_rest()) || time_ >= plan_.request.pour.limit;
 }
 
 Progress PourWorld::progress() const {

@@ -72,7 +72,8 @@ class PourWorld {
   std::uint64_t earlier_steps_ = 0;  ///< of a world left behind when the walls were cut
   Phase phase_ = Phase::pour;
   bool fresh_ = false, walls_cut_ = true;
-  bool probed_ = false;   ///< once is enough: a heap near its limit everywhere would never come to rest
+  int probes_ = 0;
+  bool stood_ = false;    ///< the last probe, or need not be probed
   bool goes_on_ = false;  ///< from given poses that may be at rest; not decided yet
   std::vector<BodyState> states_;
   std::vector<Place> place_;

@@ -347,7 +347,7 @@ class HoveringSolver : public Solver {
   Profile profile_;
 };
 
-TEST(Pour, WhatLiesStillIsPressedAndProbedOnce) {
+TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStandsOrTwice) {
   const auto phases_of = [](double jump, double rest_window = 0.25) {
     HoveringSolver solver(jump);
     Request request = request_of(2);
@@ -364,7 +364,8 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedOnce) {
   EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, settle, press, probe, press}));
   EXPECT_EQ(phases_of(0.0, 0.01), (std::vector<Phase>{pour, settle, press, probe, press}))
       << "a window shorter than a look";
-  EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, press, probe, settle, press})) << "it moved when probed";
+  EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}))
+      << "it moves whenever it is probed: the last time it comes to lie there";
 }
 
 TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {

@@ -1,5 +1,6 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -53,6 +54,26 @@ TEST(SphereProbe, WhatHoldsByLessThanATenthSlides) {
   EXPECT_LT(slip(Lab(sphere_default.make()), angle, 0.3, Phase::press), 1e-5);
   const double expected = 0.5 * g * (std::sin(angle) - grip * 0.5 * std::cos(angle));
   EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, Phase::probe) / expected, 1.0, 5e-3);
+}
+
+// What moved when probed settles with the friction that it has to hold with.
+TEST(SphereProbe, LeavesLessFrictionAndCanBeRepeated) {
+  sphere::World world;
+  EXPECT_TRUE(sphere::take_phase(world, Phase::press));
+  EXPECT_EQ(world.grip, 1.0f);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_TRUE(sphere::take_phase(world, Phase::probe));
+    EXPECT_TRUE(world.forgets);
+    EXPECT_EQ(world.cold_steps, world.settings.cold_steps);
+    EXPECT_EQ(world.grip, world.settings.probe_grip);
+    world.cold_steps = 0;
+    for (const Phase phase : {Phase::settle, Phase::press}) {
+      EXPECT_TRUE(sphere::take_phase(world, phase));
+      EXPECT_FALSE(world.forgets);
+      EXPECT_EQ(world.cold_steps, 0);
+      EXPECT_EQ(world.grip, world.settings.probe_grip);
+    }
+  }
 }
 
 // Forces of a stack that begins at rest are not known yet: found in too few sweeps, they lean, and so does the stack.

@@ -45,8 +45,8 @@ using WorldId = std::size_t;
 
 /// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, contacts are pressed out as
 /// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: stiff as before, it
-/// begins without forces, as under the next engine, and friction holds a little less; what is near its limit goes now,
-/// and not there. A solver may ignore the hint.
+/// begins without forces, as under the next engine, and friction holds a little less from now on; what is near its
+/// limit goes now, and not there. A solver may ignore the hint.
 enum class Phase { pour, settle, press, probe };
 
 class Solver {

@@ -376,11 +376,13 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   Draft draft = edge_draft(mesh, sharp, spacing);
   // Some of these fall on edges that have their nodes.
   const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));
-  // Face nodes, but for those that stand on a sharp edge already covered.
-  const PointGrid on_edges(draft.nodes, 0.5 * spacing);
+  // Face nodes, but for those that stand on a sharp edge already covered: half a piece away at most, also where it was
+  // straightened. Their normals are means of two faces.
+  const double half_piece = 0.5 * spacing + most_off * part.diagonal();
+  const PointGrid on_edges(draft.nodes, half_piece);
   std::vector<SurfaceSample> on_faces;
   for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples)
-    if (!on_edges.any_within(sample.point, 0.5 * spacing, [](std::size_t) { return true; })) on_faces.push_back(sample);
+    if (!on_edges.any_within(sample.point, half_piece, [](std::size_t) { return true; })) on_faces.push_back(sample);
   const std::vector<Cone> cones = face_cones(on_faces, sharp_angle);
   for (std::size_t i = 0; i < on_faces.size(); ++i) draft.add(on_faces[i].point, cones[i]);
   double face_spacing = 0;

@@ -5,6 +5,12 @@
 
 namespace bin_scenes::sphere {
 
+namespace {
+
+constexpr float as_parallel = 3e-4f;  ///< sine of an angle between edges, squared: 1 degree; nodes stand for these
+
+}  // namespace
+
 bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gradient_p, const Vec3f& gradient_q,
              float lowest_end, Vec3f& point, Vec3f& gradient, float& distance) {
   // Regula falsi on the slope along the edge, which is monotonic where the other surface is convex.
@@ -43,7 +49,7 @@ bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const
     const Edge& edge = other.edges[*e];
     const Vec3f r = other.nodes[edge.a], v = other.nodes[edge.b] - r, w = p - r;
     const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
-    if (det < 0.03f * uu * vv) continue;  // within 10 degrees of parallel: nodes stand for these
+    if (det < as_parallel * uu * vv) continue;
     const float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
     if (s < 0 || s > 1 || t < 0 || t > 1) continue;
     const Vec3f on_u = p + s * u, between = on_u - (r + t * v);
@@ -63,9 +69,26 @@ bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const
   return found;
 }
 
+bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, const Vec3f& direction) {
+  const auto [begin, end] = other.edge_grid.near(field, point);
+  for (const std::uint32_t* e = begin; e != end; ++e) {
+    const Edge& edge = other.edges[*e];
+    if (!edge.sharp) continue;
+    const Vec3f r = other.nodes[edge.a], v = other.nodes[edge.b] - r, w = point - r;
+    const float uv = direction.dot(v), vv = v.squaredNorm(), uw = direction.dot(w), vw = v.dot(w), det = vv - uv * uv;
+    if (det < as_parallel * vv) continue;
+    const float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
+    if (std::abs(s) > field.cell || t < 0 || t > 1) continue;
+    if ((w + s * direction - t * v).squaredNorm() < field.cell * field.cell) return true;
+  }
+  return false;
+}
+
 WaysOut ways_out_at_edge(const Samples& other, const Field& field, const Vec3f& point) {
-  constexpr float like = 0.95f;            // cosine of normals that count as of one face
-  const float flush = 0.05f * field.cell;  // what stands out past a face by less than that is level with it
+  constexpr float like = 0.95f;  // cosine of normals that count as of one face
+  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
+  // the face behind it.
+  const float flush = 0.002f * field.cell;
   WaysOut ways;
   float way_of[WaysOut::most];  // to the edge that each is of
   float nearest = field.cell;

@@ -94,12 +94,15 @@ void place(World& world, std::size_t body, const BodyState& state) {
 
 bool take_phase(World& world, Phase phase) {
   const bool fine = phase != Phase::pour, pressed = phase >= Phase::press;
-  const float grip = phase == Phase::probe ? world.settings.probe_grip : 1.0f;
-  if (fine == world.fine && pressed == world.pressed && grip == world.grip) return false;
+  const bool probed = phase == Phase::probe;
+  if (fine == world.fine && pressed == world.pressed && !probed) return false;
   world.fine = fine;
   world.pressed = pressed;
-  world.grip = grip;
-  world.forgets = phase == Phase::probe;
+  world.forgets = probed;
+  if (probed) {
+    world.grip = world.settings.probe_grip;
+    world.cold_steps = world.settings.cold_steps;
+  }
   return true;
 }
 

@@ -20,8 +20,9 @@ std::vector<Flag> flags_of(const World& world);
 /// Puts a body where the state says, awake.
 void place(World& world, std::size_t body, const BodyState& state);
 
-/// Exact samples from Phase::settle on, stiff contacts from Phase::press on, less friction and no forces to begin with
-/// in Phase::probe. Says whether that is a change; bodies and contacts are left to the caller.
+/// Exact samples from Phase::settle on, stiff contacts from Phase::press on. Phase::probe begins without forces, finds
+/// them by the sweeps of a new world, and leaves less friction for good. Says whether that is a change; bodies and
+/// contacts are left to the caller.
 bool take_phase(World& world, Phase phase);
 
 /// The same; a change wakes all bodies.

@@ -40,7 +40,7 @@ struct Settings {
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
   float coarse_recycle = 3e-3f;     ///< d: the same on coarse samples, where precision is not wanted yet
-  float probe_grip = 0.9f;          ///< share of friction that holds while a heap is probed; lower = heaps lie flatter
+  float probe_grip = 0.9f;          ///< share of friction that holds once a heap is probed; lower = heaps lie flatter
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;          ///< d within which it must have stayed

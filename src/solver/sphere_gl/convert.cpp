@@ -70,6 +70,7 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.pressed = world.pressed ? 1 : 0;
   progress.grip = world.grip;
   progress.forgets = world.forgets ? 1 : 0;
+  if (world.forgets) progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
 }
 
 gpu::SpherePlane to_gpu(const Plane& plane) {

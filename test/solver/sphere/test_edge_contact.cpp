@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace bin_scenes::sphere {
 namespace {
@@ -82,6 +84,17 @@ TEST(WaysOut, OutsideThereIsOneToTheFaceOrToTheEdge) {
   EXPECT_EQ(ways_out_at_edge(shape.fine, shape.field, at_edge(2 * cell, 0.1f * cell)).count, 0);
 }
 
+// A hundredth of a cell is many times what contacts overlap by at rest: what has passed the edge is off its face.
+TEST(WaysOut, WhatHasPassedAnEdgeByMicrometresIsOffTheFace) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, size);
+  const float cell = shape.field.cell;
+  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, at_edge(-0.01f * cell, 0.02f * cell));
+  ASSERT_EQ(ways.count, 1);
+  EXPECT_LT((ways.way[0].out - Vec3f::UnitX()).norm(), 1e-5f);
+  EXPECT_NEAR(ways.way[0].distance, 0.01f * cell, 1e-7f);
+}
+
 TEST(WaysOut, InACornerThereAreThree) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
@@ -99,7 +112,7 @@ TEST(WaysOut, InACornerThereAreThreeThoughItIsOutByAHair) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const Vec3f corner = 0.5f * size.cast<float>();
-  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner + Vec3f(1e-6f, 1e-6f, -2e-6f));
+  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner + Vec3f(1e-7f, 1e-7f, -2e-6f));
   ASSERT_EQ(ways.count, 3);
   EXPECT_LT((ways.way[2].out - Vec3f::UnitZ()).norm(), 1e-5f);
   EXPECT_NEAR(ways.way[2].distance, -2e-6f, 1e-8f);
@@ -120,6 +133,38 @@ TEST(CrossEdges, NormalsLieBetweenTheFacesOfTheOtherEdge) {
   EXPECT_TRUE(cross(-0.4f, normal));
   EXPECT_LT((normal - Vec3f(0.4f, 0, 1).normalized()).norm(), 1e-4f);
   EXPECT_FALSE(cross(0.4f, normal));
+}
+
+// The long edges of two bars cross at 2.5 degrees, corner on corner: they press along the normal of both. Each bar's
+// nodes near the crossing are inside the other by less than the edges are, and would press against its faces.
+TEST(NarrowPhase, EdgesThatAreNearlyParallelPressAlongTheNormalOfBoth) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, Vec3(0.06, 0.01, 0.01), 0.004);
+  const float half = 0.005f, depth = 4e-6f;
+  const auto quarter = Eigen::AngleAxisf(0.25f * static_cast<float>(M_PI), Vec3f::UnitX());  // an edge up, an edge down
+  int met = 0;
+  for (const float skew : {0.044f, 0.1f, 0.2f})
+    for (const float along : {0.0f, 0.0004f, -0.0007f}) {  // where nodes are should make no difference
+      World world = world_of_boxes(shape, 2);
+      world.fine = true;
+      Body &a = world.bodies[0], &b = world.bodies[1];
+      a.q = Quatf(quarter);
+      a.rotation = a.q.toRotationMatrix();
+      b.q = Quatf(Eigen::AngleAxisf(skew, Vec3f::UnitZ()) * quarter);
+      b.rotation = b.q.toRotationMatrix();
+      b.x = Vec3f(along, 0, 2 * std::sqrt(2.0f) * half - depth);
+      find_pairs(world);
+      find_contacts(world);
+      ASSERT_EQ(world.manifolds.size(), 1u);
+      for (const Contact& c : world.manifolds[0].contacts) {
+        const float separation = (b.x + b.q * c.anchor_b - a.q * c.anchor_a).dot(c.normal);
+        if (separation > 0) continue;
+        ++met;
+        EXPECT_LT((c.normal - Vec3f::UnitZ()).norm(), 1e-3f) << skew << " " << along;
+        EXPECT_NEAR(separation, -depth, 2e-7f) << skew << " " << along;
+      }
+    }
+  EXPECT_GE(met, 9);
 }
 
 // The corner of one box stands on the other's face, less than a cell from its edge: on the face, not on a slope.
@@ -156,12 +201,30 @@ TEST(NarrowPhase, BoxesFlushOnEachOtherPressUpwardsOnly) {
     ASSERT_EQ(world.manifolds.size(), 1u);
     const auto& contacts = world.manifolds[0].contacts;
     ASSERT_EQ(contacts.size(), static_cast<std::size_t>(max_contacts));
-    int corners = 0;
+    std::set<std::pair<bool, bool>> corners;  // that have a contact, within one node
     for (const Contact& c : contacts) {
       EXPECT_LT((c.normal - Vec3f::UnitZ()).norm(), 1e-4f) << shift;
-      corners += c.anchor_a.head<2>().cwiseAbs().minCoeff() > 0.0199f;
+      if (c.anchor_a.head<2>().cwiseAbs().minCoeff() > 0.0179f)
+        corners.insert({c.anchor_a.x() > 0, c.anchor_a.y() > 0});
     }
-    EXPECT_EQ(corners, 4) << shift;
+    EXPECT_EQ(corners.size(), 4u) << shift;
+  }
+}
+
+// What closes by more than that in a step is met before it touches: all of a face is as far away then.
+TEST(NarrowPhase, FacesAboutToMeetHaveAsManyContactsAsThoseThatTouch) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, Vec3(0.06, 0.01, 0.01), 0.004);
+  for (const float gap : {0.0f, 0.0008f, 0.0016f}) {
+    World world = world_of_boxes(shape, 2);
+    world.settings.time_step = 1 / 120.0f;
+    world.bodies[0].v.z() = 0.4f;
+    world.bodies[1].x.z() = 0.01f + gap + world.half_way() * world.bodies[0].v.z();
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    EXPECT_EQ(world.manifolds[0].contacts.size(), static_cast<std::size_t>(max_contacts)) << gap;
+    for (const Contact& c : world.manifolds[0].contacts) EXPECT_GT(c.normal.z(), 0.999f) << gap;
   }
 }
 
@@ -185,6 +248,19 @@ TEST(Cone, LeavesNothingOfWhatIsFarOutside) {
   }
   EXPECT_GE(kept, 5);  // 30 degrees wide, and 8 to each side
   EXPECT_LE(kept, 11);
+}
+
+// Their normals would be means of two faces, and the only way in which they can be pressed.
+TEST(Samples, NodesOfFacesDoNotStandOnSharpEdges) {
+  for (const Vec3& edges : {Vec3(0.06, 0.01, 0.01), Vec3(0.04, 0.04, 0.04), Vec3(0.1, 0.03, 0.002)}) {
+    PartModelPtr part;
+    const Shape shape = box_shape(part, edges, 0.004);
+    for (const Samples* samples : {&shape.coarse, &shape.fine})
+      for (const Cone& cone : samples->cones) {
+        if (cone.axis.isZero()) continue;
+        EXPECT_GT(cone.axis.cwiseAbs().maxCoeff(), 0.999f) << edges.transpose();
+      }
+  }
 }
 
 TEST(Samples, TheEndOfAConcaveEdgeIsPressedAwayFromItsFaces) {

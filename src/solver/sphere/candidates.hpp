@@ -1,0 +1,46 @@
+/// Where the surfaces of two bodies, or of a body and the bin, are close: samples of each against the distance field
+/// of the other, edges by descent (Macklin et al. 2020, "Local optimization for robust signed distance field
+/// collision"). Few of them are chosen in the end (reduce.hpp).
+#pragma once
+
+#include "solver/sphere/math.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;  ///< of Contact::feature
+
+/// A point where two surfaces are close, before reduction. Everything in the frame of `a`.
+struct Candidate {
+  Vec3f on_a, on_b;  ///< nearest points
+  Vec3f normal;      ///< a -> b
+  float separation;
+  std::uint32_t feature;
+};
+using Candidates = std::vector<Candidate>;
+
+/// A body half way through the step (World::half_way), where its contacts are found.
+struct Placement {
+  Vec3f x;
+  Mat3f rotation;
+
+  Placement(const World& world, const Body& body) : x(body.x), rotation(body.rotation) {
+    if (!body.moves()) return;
+    x += world.half_way() * body.v;
+    rotation = integrated(body.q, body.w, world.half_way()).toRotationMatrix();
+  }
+};
+
+/// Samples of both bodies of a pair against the other's field.
+/// @param margin  up to which distance (m)
+/// @param out  is added to
+void candidates_of_pair(const World& world, const Manifold& m, const Placement& a, const Placement& b, float margin,
+                        Counters& counters, Candidates& out);
+
+/// Samples of a body against walls and floor, as `candidates_of_pair`.
+void candidates_of_ground(const World& world, const Manifold& m, const Placement& a, float margin, Counters& counters,
+                          Candidates& out);
+
+}  // namespace bin_scenes::sphere
