@@ -53,8 +53,8 @@ Known known_at(double ratio) {
   const char* sweeps = "a step's sub-steps and sweeps carry no such ratio: the light part is pressed through";
   Known known;
   if (ratio >= 1000)
-    known["sphere: heavy cube on a light one"] = known["bullet: heavy cube dropped on light angles"] = sweeps;
-  if (ratio == 1000) known["sphere: heavy cube dropped on light angles"] = sweeps;
+    known["sphere: heavy cube on a light one"] = known["sphere: heavy cube dropped on light angles"] =
+        known["bullet: heavy cube dropped on light angles"] = sweeps;
   if (ratio >= 10000) known["bullet: heavy cube on a light one"] = sweeps;
   return known;
 }
