@@ -48,6 +48,7 @@ Placement placement_of(uint body) {
 
 #include "sphere/contact_place.h"
 #include "sphere/reduce.h"
+#include "sphere/rim.h"
 
 shared uint job;
 shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
@@ -234,6 +235,7 @@ void test_ground(SpherePair pair, float margin) {
   Field own = field_of(shape);
   for (uint k = 0u; k < world.pairs.w; ++k) {
     SpherePlane plane = planes[world.pairs.z + k];
+    test_rim(world, k, shapes[shape].box_center.w, samples, own, ra, position, margin);
     float far = samples.size.x + samples.size.w + margin;
     if (dot(plane.plane.xyz, position) - plane.plane.w > shapes[shape].box_center.w + far) continue;
     for (uint c = thread / SPHERE_CLUSTER; c < samples.clusters.y; c += SPHERE_GROUP / SPHERE_CLUSTER) {

@@ -3,6 +3,7 @@
 #include "solver/sphere/edge_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bin_scenes::sphere {
 
@@ -209,6 +210,53 @@ float plane_distance(const World& world, const Plane& plane, const Vec3f& p, Vec
   return d;
 }
 
+/// The rim of a wall against the field of a part that lies across it: a line passes between the part's nodes. One
+/// candidate for each place along it where it is nearest, or deepest.
+void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, const Samples& samples,
+                       const Placement& a, float margin, Candidates& out) {
+  constexpr float least_out = -0.1f;  // the way out of the rim is upwards, off the wall, or between the two
+  const Plane& plane = world.planes[k];
+  const float face = plane.normal.dot(a.x) - plane.offset, above = a.x.z() - world.wall_top;
+  const float reach = shape.radius + margin, near = reach * reach - face * face - above * above;
+  if (!plane.wall || near <= 0 || samples.face_spacing <= 0) return;
+  const Vec3f along = plane.normal.cross(Vec3f::UnitZ());
+  const Vec3f start = plane.offset * plane.normal + world.wall_top * Vec3f::UnitZ();
+  const Mat3f back = a.rotation.transpose();
+  const auto on_rim = [&](float t) { return Vec3f(back * (start + t * along - a.x)); };
+  const float step = samples.face_spacing, middle = along.dot(a.x), half = std::sqrt(near);
+  const int first = static_cast<int>(std::floor((middle - half) / step));
+  const int last = static_cast<int>(std::ceil((middle + half) / step));
+  float before = shape.field.sample(on_rim(step * static_cast<float>(first - 1)));
+  float here = shape.field.sample(on_rim(step * static_cast<float>(first)));
+  for (int i = first; i <= last; ++i) {
+    const float after = shape.field.sample(on_rim(step * static_cast<float>(i + 1)));
+    const bool nearest =  // or an end of where it lies along a face
+        here <= before && here <= after && (here < before || here < after) && here - step < margin;
+    before = here;
+    here = after;
+    if (!nearest) continue;
+    float lower = step * static_cast<float>(i - 1), upper = step * static_cast<float>(i + 1);
+    for (int round = 0; round < 8; ++round) {
+      const float t0 = lower + (upper - lower) / 3, t1 = upper - (upper - lower) / 3;
+      if (shape.field.sample(on_rim(t0)) <= shape.field.sample(on_rim(t1)))
+        upper = t1;
+      else
+        lower = t0;
+    }
+    const float t = 0.5f * (lower + upper);
+    const Vec3f x = on_rim(t), p = start + t * along;
+    Vec3f gradient;
+    const float d = shape.field.sample(x, gradient);
+    const Vec3f way_out = -(a.rotation * gradient);
+    const auto within = [&](const Plane& other) { return other.wall && other.normal.dot(p) < other.offset - margin; };
+    if (d >= margin || way_out.z() < least_out || way_out.dot(plane.normal) < least_out ||
+        std::any_of(world.planes.begin(), world.planes.end(), within))
+      continue;
+    const auto place = static_cast<std::uint32_t>(i + 0x400000) & 0x7fffffu;
+    out.push_back({x - d * gradient, x, gradient, d, side_b | static_cast<std::uint32_t>(place + k * 0x1000000u)});
+  }
+}
+
 }  // namespace
 
 void candidates_of_pair(const World& world, const Manifold& m, const Placement& a, const Placement& b, float margin,
@@ -258,6 +306,7 @@ void candidates_of_ground(const World& world, const Manifold& m, const Placement
                        static_cast<std::uint32_t>(i + k * 0x1000000u)});
       }
     }
+    candidates_of_rim(world, k, *world.shapes[body.shape], samples, a, margin, out);
   }
 }
 

@@ -228,6 +228,36 @@ TEST(NarrowPhase, FacesAboutToMeetHaveAsManyContactsAsThoseThatTouch) {
   }
 }
 
+// A plate leans over the rim of a wall, which passes between the nodes of its face.
+TEST(NarrowPhase, TheRimOfAWallIsFeltBetweenNodes) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, Vec3(0.06, 0.05, 0.01), 0.004);
+  const float depth = 3e-5f, tilt = 0.5f;
+  for (const Vec3f& touched : {Vec3f(0.0021f, 0.0013f, -0.005f), Vec3f(-0.0104f, 0.0f, -0.005f)}) {
+    World world = world_of_boxes(shape, 1);
+    world.fine = true;
+    world.planes = {{Vec3f::UnitZ(), 0, false}, {Vec3f::UnitX(), -0.2f, true}};
+    world.wall_top = 0.1f;
+    Body& b = world.bodies[0];
+    b.q = Quatf(Eigen::AngleAxisf(tilt, Vec3f::UnitY()));
+    b.rotation = b.q.toRotationMatrix();
+    const Vec3f up = b.rotation * Vec3f::UnitZ(), on_rim(-0.2f, 0.01f, 0.1f);
+    b.x = on_rim - depth * up - b.rotation * touched;
+    find_pairs(world);
+    find_contacts(world);
+    ASSERT_EQ(world.manifolds.size(), 1u);
+    int on_it = 0;
+    for (const Contact& c : world.manifolds[0].contacts) {
+      const Vec3f on_bin = c.anchor_b;
+      if ((Vec3f(on_bin.x(), on_rim.y(), on_bin.z()) - on_rim).norm() > 1e-5f) continue;
+      ++on_it;
+      EXPECT_LT((c.normal + up).norm(), 1e-3f);
+      EXPECT_NEAR((on_bin - b.x - b.q * c.anchor_a).dot(c.normal), -depth, 1e-6f);
+    }
+    EXPECT_GE(on_it, 1);
+  }
+}
+
 // Bounds 150 degrees apart: projected to and fro, what lies far outside shrinks slowly, and askew.
 TEST(Cone, LeavesNothingOfWhatIsFarOutside) {
   const float across = std::sin(static_cast<float>(M_PI) / 12), along = std::cos(static_cast<float>(M_PI) / 12);
