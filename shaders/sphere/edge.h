@@ -50,13 +50,20 @@ vec3 bound_of(SphereSamples other, uvec4 edge, uint k) {
   return nodes[other.nodes.x + (edge.z >> 3) + k].xyz;
 }
 
+// Whether an edge can be pressed along a normal, where `away` is the way out of its part, roughly.
+bool presses_between(SphereSamples other, uvec4 edge, vec3 normal, vec3 away) {
+  const float least_along = 0.3;  // of the normal along `away`, which may lean, but not to the other side
+  const float most_beyond = 0.1;  // of the normal beyond the faces of the edge: 6 degrees
+  if (dot(normal, away) < least_along) return false;
+  return (edge.z & 7u) == 0u ||
+         max(dot(normal, bound_of(other, edge, 0u)), dot(normal, bound_of(other, edge, 1u))) <= most_beyond;
+}
+
 // Where the edge from p to q crosses one of the other part: depth and direction are those of the nearest such edge,
 // along the common normal of both, if both can be pressed along it. `point`, `gradient`, `distance` are the field's
 // answer, and are replaced.
 bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 point, inout vec3 gradient,
                  inout float distance) {
-  const float least_along = 0.3;  // of the normal along the gradient: which may lean, but not to the other side
-  const float most_beyond = 0.1;  // of the normal beyond the faces of the other edge: 6 degrees
   vec3 u = q - p, from = point, out_of = gradient;
   float uu = dot(u, u), nearest = min(2.0 * field.cell + abs(distance), SPHERE_EDGE_REACH * field.cell);
   bool found = false;
@@ -72,10 +79,7 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
     if (length(between) >= nearest) continue;
     vec3 normal = normalize(cross(u, v));
     if (dot(normal, out_of) < 0.0) normal = -normal;
-    if (dot(normal, out_of) < least_along) continue;  // not the way out here
-    if ((edge.z & 7u) > 0u &&
-        max(dot(normal, bound_of(other, edge, 0u)), dot(normal, bound_of(other, edge, 1u))) > most_beyond)
-      continue;
+    if (!presses_between(other, edge, normal, out_of)) continue;
     nearest = length(between);
     point = on_u;
     gradient = normal;
@@ -85,8 +89,11 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
   return found;
 }
 
-// Whether a line through a point along a unit direction passes a sharp edge of the other part within a cell of it.
-bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction) {
+// Whether a line through a point along a unit direction crosses a sharp edge of the other part within a cell, which can
+// be pressed along the `normal` of both. `away`: the way out of the other part, roughly.
+bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction, vec3 away, out vec3 normal) {
+  float nearest = field.cell;
+  bool found = false;
   uvec2 list = edges_near(other, field, point);
   for (uint k = list.x; k < list.y; ++k) {
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
@@ -96,10 +103,16 @@ bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction) {
     if (det < AS_PARALLEL * vv) continue;
     float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
     if (abs(s) > field.cell || t < 0.0 || t > 1.0) continue;
-    vec3 between = w + s * direction - t * v;
-    if (dot(between, between) < field.cell * field.cell) return true;
+    float way = length(w + s * direction - t * v);
+    if (way >= nearest) continue;
+    vec3 across = normalize(cross(direction, v));
+    if (dot(across, away) < 0.0) across = -across;
+    if (!presses_between(other, edge, across, away)) continue;
+    nearest = way;
+    normal = across;
+    found = true;
   }
-  return false;
+  return found;
 }
 
 // The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there, the shortest first:

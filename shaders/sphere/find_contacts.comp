@@ -99,8 +99,10 @@ bool is_crossed(View view, vec3 point, uint cone, vec3 away) {
   uint bounds = cone & 7u;
   if (bounds == SPHERE_AXIS) return false;
   for (uint i = 0u; i < bounds; ++i) {
-    vec3 along = view.to_field * nodes[view.samples.nodes.x + (cone >> 3) + i].xyz;
-    if (dot(along, away) < -LEANS && passes_edge(view.other, view.field, point, along)) return true;
+    vec3 along = view.to_field * nodes[view.samples.nodes.x + (cone >> 3) + i].xyz, normal;
+    if (dot(along, away) > -LEANS || !passes_edge(view.other, view.field, point, along, away, normal)) continue;
+    vec3 pressed = -(normal * view.to_field);
+    if (turn_into_cone(cone, view.samples.nodes.x, pressed, NEARLY_ALL)) return true;
   }
   return false;
 }

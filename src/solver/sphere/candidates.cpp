@@ -96,7 +96,10 @@ void test_samples(const Samples& samples, const Field& own, const Field& field, 
   const auto is_crossed = [&](const Vec3f& p, const Cone& cone, const Vec3f& out) {
     for (int i = 0; i < cone.bounds; ++i) {
       const Vec3f along = carry.rotation * cone.bound[i];
-      if (along.dot(out) < -leans && passes_edge(other, field, p, along)) return true;
+      Vec3f normal;
+      if (along.dot(out) > -leans || !passes_edge(other, field, p, along, out, normal)) continue;
+      Vec3f pressed = -(carry.rotation.transpose() * normal);
+      if (cone.restrict(pressed, nearly_all)) return true;
     }
     return false;
   };

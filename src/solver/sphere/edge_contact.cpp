@@ -9,6 +9,15 @@ namespace {
 
 constexpr float as_parallel = 3e-4f;  ///< sine of an angle between edges, squared: 1 degree; nodes stand for these
 
+/// Whether an edge can be pressed along a normal, where `out` is the way out of its part, roughly.
+bool presses_between(const Edge& edge, const Vec3f& normal, const Vec3f& out) {
+  constexpr float least_along = 0.3f;  // of the normal along `out`, which may lean, but not to the other side
+  constexpr float most_beyond = 0.1f;  // of the normal beyond the faces of the edge: 6 degrees
+  if (normal.dot(out) < least_along) return false;
+  return edge.cone.bounds == 0 ||
+         std::max(normal.dot(edge.cone.bound[0]), normal.dot(edge.cone.bound[1])) <= most_beyond;
+}
+
 }  // namespace
 
 bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gradient_p, const Vec3f& gradient_q,
@@ -38,8 +47,6 @@ bool descend(const Field& field, const Vec3f& p, const Vec3f& q, const Vec3f& gr
 
 bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const Vec3f& q, Vec3f& point,
                  Vec3f& gradient, float& distance) {
-  constexpr float least_along = 0.3f;  // of the normal along the gradient: which may lean, but not to the other side
-  constexpr float most_beyond = 0.1f;  // of the normal beyond the faces of the other edge: 6 degrees
   const Vec3f u = q - p, from = point, out = gradient;
   const float uu = u.squaredNorm();
   float nearest = std::min(2.0f * field.cell + std::abs(distance), EdgeGrid::reach * field.cell);
@@ -57,9 +64,7 @@ bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const
     if (way >= nearest) continue;
     Vec3f normal = u.cross(v).normalized();
     if (normal.dot(out) < 0) normal = -normal;
-    if (normal.dot(out) < least_along) continue;  // not the way out here
-    if (edge.cone.bounds > 0 && std::max(normal.dot(edge.cone.bound[0]), normal.dot(edge.cone.bound[1])) > most_beyond)
-      continue;
+    if (!presses_between(edge, normal, out)) continue;
     nearest = way;
     point = on_u;
     gradient = normal;
@@ -69,7 +74,10 @@ bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const
   return found;
 }
 
-bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, const Vec3f& direction) {
+bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, const Vec3f& direction, const Vec3f& out,
+                 Vec3f& normal) {
+  float nearest = field.cell;
+  bool found = false;
   const auto [begin, end] = other.edge_grid.near(field, point);
   for (const std::uint32_t* e = begin; e != end; ++e) {
     const Edge& edge = other.edges[*e];
@@ -79,9 +87,16 @@ bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, c
     if (det < as_parallel * vv) continue;
     const float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
     if (std::abs(s) > field.cell || t < 0 || t > 1) continue;
-    if ((w + s * direction - t * v).squaredNorm() < field.cell * field.cell) return true;
+    const float way = (w + s * direction - t * v).norm();
+    if (way >= nearest) continue;
+    Vec3f across = direction.cross(v).normalized();
+    if (across.dot(out) < 0) across = -across;
+    if (!presses_between(edge, across, out)) continue;
+    nearest = way;
+    normal = across;
+    found = true;
   }
-  return false;
+  return found;
 }
 
 WaysOut ways_out_at_edge(const Samples& other, const Field& field, const Vec3f& point) {

@@ -40,7 +40,10 @@ struct WaysOut {
 /// them each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
 WaysOut ways_out_at_edge(const Samples& other, const Field& field, const Vec3f& point);
 
-/// Whether a line through `point` along the unit `direction` passes a sharp edge of the other part within a cell of it.
-bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, const Vec3f& direction);
+/// Whether a line through `point` along the unit `direction` crosses a sharp edge of the other part within a cell,
+/// which can be pressed along the `normal` of both.
+/// @param out  the way out of the other part, roughly
+bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, const Vec3f& direction, const Vec3f& out,
+                 Vec3f& normal);
 
 }  // namespace bin_scenes::sphere
