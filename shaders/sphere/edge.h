@@ -2,8 +2,6 @@
 // what the grid of a field rounds off there. Needs sphere/field.h and the bindings Nodes, Edges. Twin:
 // edge_contact.cpp.
 
-const float AS_PARALLEL = 3e-4;  // sine of an angle between edges, squared: 1 degree; nodes stand for these
-
 uint edge_word(uint first, uint i) {
   return edges[first + i / 4u][i & 3u];
 }
@@ -17,8 +15,8 @@ uvec2 edges_near(SphereSamples other, Field field, vec3 point) {
   return uvec2(edge_word(other.blocks.x, at), edge_word(other.blocks.x, at + 1u));
 }
 
-// Deepest point of the field along an edge; false unless both its ends rise away from the inside. Regula falsi on the slope along
-// the edge, which is monotonic where the other surface is convex.
+// Deepest point of the field along an edge; false unless both its ends rise away from the inside. Regula falsi on the
+// slope along the edge, which is monotonic where the other surface is convex.
 bool descend(Field field, vec3 p, vec3 q, float radius, out vec3 point, out vec3 gradient, out float distance) {
   vec3 along = q - p, gradient_q;
   float lowest = sample_field(field, p, gradient);
@@ -50,6 +48,16 @@ vec3 bound_of(SphereSamples other, uvec4 edge, uint k) {
   return nodes[other.nodes.x + (edge.z >> 3) + k].xyz;
 }
 
+// Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
+// stand for such edges. `uu`: square of u's length.
+bool nearest_points(vec3 u, float uu, vec3 v, vec3 w, out float s, out float t) {
+  const float as_parallel = 3e-4;  // square of the sine
+  float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
+  s = (uv * vw - vv * uw) / det;
+  t = (uu * vw - uv * uw) / det;
+  return det >= as_parallel * uu * vv;
+}
+
 // Whether an edge can be pressed along a normal, where `away` is the way out of its part, roughly.
 bool presses_between(SphereSamples other, uvec4 edge, vec3 normal, vec3 away) {
   const float least_along = 0.3;  // of the normal along `away`, which may lean, but not to the other side
@@ -70,11 +78,9 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
   uvec2 list = edges_near(other, field, from);
   for (uint k = list.x; k < list.y; ++k) {
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
-    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = p - r;
-    float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
-    if (det < AS_PARALLEL * uu * vv) continue;
-    float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
-    if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
+    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r;
+    float s, t;
+    if (!nearest_points(u, uu, v, p - r, s, t) || s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
     vec3 on_u = p + s * u, between = on_u - (r + t * v);
     if (length(between) >= nearest) continue;
     vec3 normal = normalize(cross(u, v));
@@ -99,10 +105,8 @@ bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction, v
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
     if (uintBitsToFloat(edge.w) <= 0.0) continue;  // not sharp
     vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = point - r;
-    float uv = dot(direction, v), vv = dot(v, v), uw = dot(direction, w), vw = dot(v, w), det = vv - uv * uv;
-    if (det < AS_PARALLEL * vv) continue;
-    float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
-    if (abs(s) > field.cell || t < 0.0 || t > 1.0) continue;
+    float s, t;
+    if (!nearest_points(direction, 1.0, v, w, s, t) || abs(s) > field.cell || t < 0.0 || t > 1.0) continue;
     float way = length(w + s * direction - t * v);
     if (way >= nearest) continue;
     vec3 across = normalize(cross(direction, v));
@@ -120,8 +124,8 @@ bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction, v
 // xyz: unit direction, w: m to the surface (negative inside).
 uint ways_out_at_edge(SphereSamples other, Field field, vec3 point, out vec4 ways[SPHERE_MAX_WAYS]) {
   const float like = 0.95;  // cosine of normals that count as of one face
-  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on the
-  // face behind it.
+  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
+  // the face behind it.
   float flush = 0.002 * field.cell;
   float way_of[SPHERE_MAX_WAYS];  // to the edge that each is of
   float nearest = field.cell;

@@ -177,7 +177,8 @@ void test_edge(View view, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
     point = end == 0u ? p : q;
     distance = sample_field(view.field, point, gradient);
-    if (!may_cross(view, ends, distance) || !cross_edges(view.other, view.field, p, q, point, gradient, distance)) continue;
+    if (!may_cross(view, ends, distance)) continue;
+    if (!cross_edges(view.other, view.field, p, q, point, gradient, distance)) continue;
     if (distance < view.margin) press(view, point, gradient, distance, ends.z, edge | SPHERE_EDGE, NEARLY_ALL);
     return;
   }

@@ -7,7 +7,17 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-constexpr float as_parallel = 3e-4f;  ///< sine of an angle between edges, squared: 1 degree; nodes stand for these
+/// Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
+/// stand for such edges.
+/// @param uu  square of u's length
+bool nearest_points(const Vec3f& u, float uu, const Vec3f& v, const Vec3f& w, float& s, float& t) {
+  constexpr float as_parallel = 3e-4f;  // square of the sine
+  const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
+  if (det < as_parallel * uu * vv) return false;
+  s = (uv * vw - vv * uw) / det;
+  t = (uu * vw - uv * uw) / det;
+  return true;
+}
 
 /// Whether an edge can be pressed along a normal, where `out` is the way out of its part, roughly.
 bool presses_between(const Edge& edge, const Vec3f& normal, const Vec3f& out) {
@@ -54,11 +64,9 @@ bool cross_edges(const Samples& other, const Field& field, const Vec3f& p, const
   const auto [begin, end] = other.edge_grid.near(field, from);
   for (const std::uint32_t* e = begin; e != end; ++e) {
     const Edge& edge = other.edges[*e];
-    const Vec3f r = other.nodes[edge.a], v = other.nodes[edge.b] - r, w = p - r;
-    const float uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w), det = uu * vv - uv * uv;
-    if (det < as_parallel * uu * vv) continue;
-    const float s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
-    if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+    const Vec3f r = other.nodes[edge.a], v = other.nodes[edge.b] - r;
+    float s, t;
+    if (!nearest_points(u, uu, v, p - r, s, t) || s < 0 || s > 1 || t < 0 || t > 1) continue;
     const Vec3f on_u = p + s * u, between = on_u - (r + t * v);
     const float way = between.norm();
     if (way >= nearest) continue;
@@ -83,10 +91,8 @@ bool passes_edge(const Samples& other, const Field& field, const Vec3f& point, c
     const Edge& edge = other.edges[*e];
     if (!edge.sharp) continue;
     const Vec3f r = other.nodes[edge.a], v = other.nodes[edge.b] - r, w = point - r;
-    const float uv = direction.dot(v), vv = v.squaredNorm(), uw = direction.dot(w), vw = v.dot(w), det = vv - uv * uv;
-    if (det < as_parallel * vv) continue;
-    const float s = (uv * vw - vv * uw) / det, t = (vw - uv * uw) / det;
-    if (std::abs(s) > field.cell || t < 0 || t > 1) continue;
+    float s, t;
+    if (!nearest_points(direction, 1, v, w, s, t) || std::abs(s) > field.cell || t < 0 || t > 1) continue;
     const float way = (w + s * direction - t * v).norm();
     if (way >= nearest) continue;
     Vec3f across = direction.cross(v).normalized();

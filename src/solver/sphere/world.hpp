@@ -30,7 +30,7 @@ struct Settings {
   bool cut_steps = true;         ///< for small and fast parts
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
   int sweeps = 2;       ///< over all contacts before bodies move, and again after; with 1 a stack of five sways
-  int cold_sweeps = 4;  ///< the same in the first steps of a world, when contacts have no forces to begin with
+  int cold_sweeps = 4;  ///< the same in the first steps of a world, and of a probe, when contacts have no forces
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
