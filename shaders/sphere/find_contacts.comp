@@ -118,8 +118,11 @@ bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
     vec3 beyond = point + (0.5 * view.field.cell - ways[i].w) * ways[i].xyz;
     if (sample_field(view.field, beyond) < 0.3 * view.field.cell) continue;  // a seam between shells that touch
     out_there = true;
+    vec3 pressed = -(ways[i].xyz * view.to_field);
+    if (!turn_into_cone(cone, view.samples.nodes.x, pressed, NEARLY_ALL)) continue;
     if (is_crossed(view, point, cone, ways[i].xyz)) continue;
-    if (press(view, point, ways[i].xyz, ways[i].w, cone, feature, NEARLY_ALL)) break;
+    emit_from(view, point, -(view.to_field * pressed), ways[i].w, feature);
+    break;
   }
   return out_there;
 }

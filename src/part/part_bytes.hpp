@@ -17,7 +17,7 @@
 namespace bin_scenes {
 
 /// Raise it whenever a layout below or the way a proxy is made changes: older cache files are then passed over.
-constexpr int kPartFormat = 4;
+constexpr int kPartFormat = 5;
 
 class ByteWriter {
  public:

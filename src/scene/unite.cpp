@@ -238,19 +238,28 @@ class Union {
   std::vector<std::vector<std::uint32_t>> others_;
 };
 
-}  // namespace
-
-bool unite(Mesh& mesh, double tolerance) {
-  Mesh united = Union(mesh, tolerance).boundary();
-  if (united.empty()) return false;
+/// Makes one closed surface of loose triangles; false if gaps are left.
+bool close(Mesh& united, double tolerance) {
   weld(united, tolerance);
   for (int round = 0; round < 10; ++round) {
     // The corners of pieces lie on each other's edges but for rounding and welding.
     if (remove_slivers(united, tolerance) + split_t_junctions(united, 4 * tolerance) == 0) break;
   }
-  if (united.empty() || open_edges(united) > 0) return false;
-  mesh = std::move(united);
-  return true;
+  return !united.empty() && open_edges(united) == 0;
+}
+
+}  // namespace
+
+bool unite(Mesh& mesh, double tolerance) {
+  // Where planes cross at small angles, rounding and welding may leave gaps at one tolerance that another does not.
+  for (const double share : {1.0, 0.3, 3.0, 0.1}) {
+    Mesh united = Union(mesh, share * tolerance).boundary();
+    if (united.empty()) return false;
+    if (!close(united, share * tolerance)) continue;
+    mesh = std::move(united);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace bin_scenes::repair

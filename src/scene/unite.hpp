@@ -13,7 +13,8 @@ std::size_t overlapping_pairs(const Mesh& mesh);
 
 /// Replaces a closed mesh of overlapping solid shells by the boundary of their union: triangles are cut where those of
 /// other shells cross them, and the pieces inside another solid are left out. What remains is welded at `tolerance` and
-/// closed at its T-junctions. False, and the mesh is as it was, if the pieces do not close, or would take too long.
+/// closed at its T-junctions; where that leaves gaps, it is done again from the start with other tolerances, of a tenth
+/// to three times as much. False, and the mesh is as it was, if no tolerance closes it, or it would take too long.
 bool unite(Mesh& mesh, double tolerance);
 
 }  // namespace bin_scenes::repair

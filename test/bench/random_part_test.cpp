@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 namespace bin_scenes::bench {
 namespace {
@@ -34,8 +35,9 @@ class RandomPart : public ::testing::Test {
 };
 
 TEST_F(RandomPart, IsOneClosedSolid) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    if (seed == 15) continue;  // five prisms that the loader cannot unite, and says so (shells_overlap)
+  std::vector<std::uint64_t> seeds = {15, 177, 297};  // do not close at the first tolerance
+  for (std::uint64_t seed = 1; seed <= 14; ++seed) seeds.push_back(seed);
+  for (const std::uint64_t seed : seeds) {
     const PartModelPtr part = load(seed);
     EXPECT_TRUE(part->load_report().closed) << seed;
     EXPECT_EQ(part->load_report().shells, 1u) << seed;
