@@ -1,9 +1,9 @@
 #include "stress/shapes.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "solver/lab.hpp"
 
 #include <cstdio>
-#include <map>
 #include <utility>
 
 namespace bin_scenes::stress {
@@ -51,30 +51,7 @@ Mesh cube(double edge) {
 }
 
 Mesh ball(double radius, int splits) {
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  Mesh mesh;
-  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  for (int s = 0; s < splits; ++s) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [it, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
-      if (fresh) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-      return it->second;
-    };
-    std::vector<Triangle> finer;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    mesh.triangles = finer;
-    for (Vec3& v : mesh.vertices) v.normalize();
-  }
-  for (Vec3& v : mesh.vertices) v = radius * v.normalized();
-  return mesh;
+  return testing::sphere_mesh(radius, splits);
 }
 
 Mesh ring(double inner, double outer, double height, int segments) {

@@ -1,5 +1,7 @@
 #include "hacd_partition.hpp"
 
+#include "shells.hpp"
+
 #include "bin_scenes/part/hull_geometry.hpp"
 
 #include <HACD/hacdHACD.h>
@@ -24,30 +26,19 @@ struct Thinned {
 };
 
 std::vector<Mesh> shells(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
-  }
-  std::map<std::uint32_t, std::size_t> number;
-  std::vector<Mesh> result;
+  const Shells labels = shells_of(mesh);
+  std::vector<Mesh> result(labels.count);
   std::vector<std::int64_t> renamed(mesh.vertices.size(), -1);
-  for (const Triangle& t : mesh.triangles) {
-    const auto [entry, added] = number.try_emplace(root(t[0]), result.size());
-    if (added) result.emplace_back();
-    Mesh& shell = result[entry->second];
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Mesh& shell = result[labels.of_triangle[t]];
     Triangle local;
     for (int k = 0; k < 3; ++k) {
-      if (renamed[t[k]] < 0) {
-        renamed[t[k]] = static_cast<std::int64_t>(shell.vertices.size());
-        shell.vertices.push_back(mesh.vertices[t[k]]);
+      const std::uint32_t v = mesh.triangles[t][k];
+      if (renamed[v] < 0) {
+        renamed[v] = static_cast<std::int64_t>(shell.vertices.size());
+        shell.vertices.push_back(mesh.vertices[v]);
       }
-      local[k] = static_cast<std::uint32_t>(renamed[t[k]]);
+      local[k] = static_cast<std::uint32_t>(renamed[v]);
     }
     shell.triangles.push_back(local);
   }

@@ -1,5 +1,7 @@
 #include "bin_scenes/part/samples.hpp"
 
+#include "shells.hpp"
+
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/features.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
@@ -84,35 +86,19 @@ class Touchable {
  private:
   void label_shells() {
     const Mesh& mesh = query_.mesh();
-    std::vector<std::uint32_t> parent(mesh.vertices.size());
-    for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
-    const auto root = [&](std::uint32_t v) {
-      while (parent[v] != v) v = parent[v] = parent[parent[v]];
-      return v;
-    };
-    for (const auto& [a, b, c] : mesh.triangles) {
-      parent[root(b)] = root(a);
-      parent[root(c)] = root(a);
-    }
-    std::vector<std::int32_t> label(mesh.vertices.size(), -1);
-    shell_.resize(mesh.triangles.size());
+    const Shells labels = shells_of(mesh);
+    shell_ = labels.of_triangle;
+    shell_volume_.assign(labels.count, 0.0);
     const Vec3 center = mesh.bounds().center();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      std::int32_t& shell = label[root(mesh.triangles[t][0])];
-      if (shell < 0) {
-        shell = static_cast<std::int32_t>(shell_volume_.size());
-        shell_volume_.push_back(0.0);
-      }
-      shell_[t] = shell;
-      shell_volume_[shell] += (mesh.vertices[mesh.triangles[t][0]] - center).dot(mesh.area_vector(t));
-    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      shell_volume_[shell_[t]] += (mesh.vertices[mesh.triangles[t][0]] - center).dot(mesh.area_vector(t));
     // An open mesh has no volume to tell walls of cavities by.
     if (shell_volume_.size() == 1) shell_volume_[0] = 1.0;
   }
 
   const MeshQuery& query_;
   double reach_;
-  std::vector<std::int32_t> shell_;
+  std::vector<std::uint32_t> shell_;
   std::vector<double> shell_volume_;
 };
 

@@ -1,0 +1,18 @@
+/// The connected parts of a mesh.
+#pragma once
+
+#include "bin_scenes/scene/mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Shell of each triangle, numbered by first triangle: connected over vertices that triangles share.
+struct Shells {
+  std::vector<std::uint32_t> of_triangle;
+  std::size_t count = 0;
+};
+Shells shells_of(const Mesh& mesh);
+
+}  // namespace bin_scenes
