@@ -223,7 +223,7 @@ class NodeTest(unittest.TestCase):
         self.assertTrue(all(math.isnan(p.visible_fraction[0]) for p in scene.parts))
         late = Listener({"points": PointCloud2, "scene": Scene})
         try:
-            late.wait(scene.header.stamp, ["points"])
+            late.wait(scene.header.stamp, ["points", "scene"])
             self.wait_until(lambda: counter(late.seen["scene"], "rendered_images") == 1)
             sent_again = late.seen["scene"]
         finally:
