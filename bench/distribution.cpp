@@ -132,7 +132,7 @@ std::vector<double> distances(const std::vector<Looks>& reference, const std::ve
 void run(Run& out) {
   const std::string part = "channel_u";
   const std::size_t count = out.quick() ? 8 : 32;
-  const int seeds = out.quick() ? 2 : 200;  // over 20, chance moves mean heights by 2 to 4 %, over 80 by 2
+  const int seeds = out.quick() ? 2 : 200;  // over 20, chance moves mean heights by 2 to 4 %, over 80 by 2 %
   const double limit_cpu_s = out.quick() ? 30.0 : 120.0;
   const auto request_for = [&](const std::string& name) {
     Request request = bin_of(part, count);

@@ -56,7 +56,7 @@ std::size_t overlapping_pairs(const Mesh& mesh) {
 }
 namespace {
 
-// Solid angles it may cost to tell which pieces are inside another shell: a few seconds.
+// Solid angles it may cost, at each tolerance, to tell which pieces are inside another shell: a few seconds.
 constexpr double kMostWork = 5e7;
 
 using Polygon = std::vector<Vec3>;

@@ -35,8 +35,8 @@ class RandomPart : public ::testing::Test {
 };
 
 TEST_F(RandomPart, IsOneClosedSolid) {
-  std::vector<std::uint64_t> seeds = {15, 177, 297};  // do not close at the first tolerance
-  for (std::uint64_t seed = 1; seed <= 14; ++seed) seeds.push_back(seed);
+  std::vector<std::uint64_t> seeds = {177, 297};  // like 15, they do not close at the first tolerance
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     const PartModelPtr part = load(seed);
     EXPECT_TRUE(part->load_report().closed) << seed;
