@@ -87,8 +87,8 @@ struct SphereSettingsBlock {
   uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts
-  uint unused0;
-  vec4 soft, stiff;        // contacts while bodies move and while they are pressed: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
+  float probe_slip;        // s of a step that begins without forces, without friction
+  vec4 softness[3];        // of contacts by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
 struct SphereWorld {
@@ -103,7 +103,7 @@ struct SphereWorld {
 struct SphereProgress {
   uint steps_left, steps, overflow, need;    // need: pairs of the step that did not fit
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
-  uint fine, pressed, ordered;               // samples in use, stiff contacts, manifolds to solve
+  uint fine, stiffness, ordered;             // samples in use, softness in use, manifolds to solve
   uint missing_contacts;                     // that found no place
   uint free_contact;                         // first of the chain of places that nobody has
   uint released_contact, last_released;      // ends of the chain of places given up since
@@ -206,7 +206,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 96 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 144, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 112 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 144, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

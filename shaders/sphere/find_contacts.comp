@@ -41,7 +41,7 @@ SphereSamples samples_of(uint body) {
 
 // Of a body of this world.
 Placement placement_of(uint body) {
-  float refinement = progress[world_index].pressed != 0u ? settings.stiff.w : settings.soft.w;
+  float refinement = settings.softness[progress[world_index].stiffness].w;
   float time_step = progress[world_index].time_step, sub_step = time_step / (float(settings.sub_steps) * refinement);
   return placement_of(body, half_way(time_step, sub_step));
 }

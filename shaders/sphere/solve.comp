@@ -77,7 +77,7 @@ void main() {
   world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   ordered = progress[w].ordered;
-  take_step_of(w);
+  take_sub_step_of(w, 0u);
   list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
@@ -88,6 +88,7 @@ void main() {
   float h = sub_step();
   uint sweeps = progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps;
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
+    take_sub_step_of(w, k);
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
     barrier();
     sweep(SWEEP_WARM_START, h);

@@ -13,15 +13,17 @@ float grip;       // share of friction that holds
 float kept;       // share of the last step's forces that this one begins with
 float time_step;  // s, of this step
 
-// What holds for the step of world w.
-void take_step_of(uint w) {
-  time_step = progress[w].time_step;
-  softness = progress[w].pressed != 0u ? settings.stiff : settings.soft;
-  grip = progress[w].grip;
-  kept = progress[w].forgets != 0u ? 0.0 : 1.0;
-}
-
 float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); }
+
+// What holds for sub-step k of world w.
+void take_sub_step_of(uint w, uint k) {
+  bool forgets = progress[w].forgets != 0u;
+  time_step = progress[w].time_step;
+  softness = settings.softness[progress[w].stiffness];
+  uint slips = forgets ? max(1u, uint(settings.probe_slip / sub_step() + 0.5)) : 0u;
+  grip = k < slips ? 0.0 : progress[w].grip;
+  kept = forgets ? 0.0 : 1.0;
+}
 
 // A body as one manifold sees it.
 struct Side {

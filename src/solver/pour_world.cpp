@@ -12,67 +12,13 @@ namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
 constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed, then probed
-constexpr int most_probes = 2;      ///< what moves in the last one comes to lie in it, before that it is settled again
+constexpr int most_probes = 8;      ///< a heap that still moves in the last one is left as it came to lie there
+constexpr double may_move = 0.02;   ///< share of the parts that may move in a probe that the heap stands
+constexpr double jolt = 0.02;       ///< s from the start of a probe until its forces are found; parts budge then
+constexpr double creep = 0.5;       ///< s of a probe after which it is not waited any longer that nothing creeps
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
-double largest_diagonal(const WorldDef& world) {
-  double largest = 0.0;
-  for (const PartModelPtr& part : world.parts) largest = std::max(largest, part->diagonal());
-  return largest;
-}
-
-Opening opening_of(const WorldDef& world) {
-  const Vec3 half = 0.5 * world.bin.inner_size;
-  switch (world.bin.kind) {
-    case Bin::Kind::box:
-      return {Vec3(-half.x(), -half.y(), 0.0), Vec3(half.x(), half.y(), 2.0 * half.z())};
-    case Bin::Kind::mesh: {
-      // The walls' thickness is not known: stay clear of them by a tenth of the width on each side.
-      const Aabb box = transformed(world.bin_model->mesh(), world.bin.pose).bounds();
-      const Vec3 rim(0.1 * box.size().x(), 0.1 * box.size().y(), 0.0);
-      return {box.lower + rim, box.upper - rim};
-    }
-    case Bin::Kind::floor:
-    case Bin::Kind::none:
-      break;
-  }
-  // Without walls a heap as wide as two layers of its parts are, and as high as it gets.
-  const double part = largest_diagonal(world), side = part * std::max(2.0, std::sqrt(0.5 * world.bodies.size()));
-  return {Vec3(-0.5 * side, -0.5 * side, 0.0), Vec3(0.5 * side, 0.5 * side, 1e3 * side)};
-}
-
 }  // namespace
-
-PourPlan::PourPlan(const Request& r, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model)
-    : request(r), world(world_of(r, parts, std::move(bin_model))), opening(opening_of(world)) {
-  for (std::size_t l = 0; l < r.parts.size(); ++l) {
-    const PartLine& line = r.parts[l];
-    const std::string where = "parts[" + std::to_string(l) + "] (" + line.model + ")";
-    if (line.count == 0) {  // nobody of this line is left: a scene may go on without
-      covers.push_back(cover(parts[l]->mesh()));
-      continue;
-    }
-    if (line.poses.empty() && line.fixed)
-      throw input_error("a fixed part needs a pose", where + ".poses", "give one pose [x,y,z,qx,qy,qz,qw] per copy");
-    if (line.poses.empty() && r.pour.pattern == Pour::Pattern::given)
-      throw input_error("pour.pattern given needs start poses", where + ".poses",
-                        "give one pose per copy, or pour.scene, or pattern: rain");
-    if (!line.poses.empty() && line.poses.size() != line.count)
-      throw input_error(std::to_string(line.poses.size()) + " poses for " + std::to_string(line.count) + " parts",
-                        where + ".poses", "give as many poses as count");
-    if (!line.velocities.empty() && line.velocities.size() != line.poses.size())
-      throw input_error(
-          std::to_string(line.velocities.size()) + " velocities for " + std::to_string(line.poses.size()) + " poses",
-          where + ".velocities", "give one velocity per pose, or none");
-    covers.push_back(cover(parts[l]->mesh()));
-    for (std::size_t copy = 0; copy < line.count; ++copy) {
-      line_of.push_back(l);
-      copy_of.push_back(copy);
-    }
-  }
-  if (world.bin_model) bin_cover = cover(transformed(world.bin_model->mesh(), world.bin.pose), 40);
-  entry_height = opening.upper.z() + 2.0 * r.pour.drop_height + 2.0 * largest_diagonal(world);
-}
 
 PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
     : plan_(plan),
@@ -92,7 +38,7 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
     walls_cut_ = false;
     def.wall_height = plan.entry_height;
     if (plan.request.pour.pattern == Pour::Pattern::grid)  // one cell of a column each at worst
-      def.wall_height += plan.request.pour.grid_spacing * 2.0 * largest_diagonal(def) * def.bodies.size();
+      def.wall_height += plan.request.pour.grid_spacing * 2.0 * plan.largest_part * def.bodies.size();
   }
   id_ = solver.add_world(def);
   solver_.set_phase(id_, Phase::pour);
@@ -192,7 +138,7 @@ void PourWorld::judge() {
   const Pour& pour = plan_.request.pour;
   const std::vector<BodyState> now = solver_.states(id_);
   for (std::size_t b = 0; b < states_.size(); ++b) {
-    if (place_[b] != Place::in || plan_.world.bodies[b].fixed) continue;
+    if (!moves(b)) continue;
     const PartModel& part = *plan_.world.parts[plan_.line_of[b]];
     const bool finite = now[b].pose.finite();
     if (finite) states_[b] = now[b];
@@ -224,27 +170,38 @@ double PourWorld::top() const {
   return highest;
 }
 
+bool PourWorld::moves(std::size_t body) const {
+  return place_[body] == Place::in && !plan_.world.bodies[body].fixed;
+}
+
 bool PourWorld::all_rest() const {
   for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !rest_.resting(b)) return false;
+    if (moves(b) && !rest_.resting(b)) return false;
   return true;
 }
 
 bool PourWorld::all_slow() const {
   for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && !slow(b)) return false;
+    if (moves(b) && !slow(b)) return false;
   return true;
 }
 
 bool PourWorld::all_still(double seconds) const {
   for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in && !plan_.world.bodies[b].fixed && rest_.still(b, time_) < seconds) return false;
+    if (moves(b) && rest_.still(b, time_) < seconds) return false;
+  return true;
+}
+
+bool PourWorld::all_asleep() const {
+  const std::vector<bool> asleep = solver_.asleep(id_);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (moves(b) && !asleep[b]) return false;
   return true;
 }
 
 void PourWorld::enter(Phase phase) {
   phase_ = phase;
-  solver_.set_phase(id_, phase);
+  heeds_phases_ = solver_.set_phase(id_, phase);
 }
 
 void PourWorld::let_in() {
@@ -295,16 +252,13 @@ void PourWorld::look() {
   let_in();
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
-  if (phase_ == Phase::probe) {  // since an earlier look: however short the window, it takes some time
-    if (!all_slow() || (!all_still(calm) && probes_ < most_probes)) {
+  if (phase_ == Phase::probe) {
+    if (!all_slow())
       enter(Phase::settle);
-    } else if (all_rest()) {
-      enter(Phase::press);
-      stood_ = true;
-    }
+    else if (all_still(calm))  // what moved has come to lie in the probe
+      judge_probe();
   } else if (phase_ == Phase::press && !stood_ && all_still(calm)) {
-    enter(Phase::probe);
-    ++probes_;
+    probe();
   } else if (phase_ == Phase::settle && all_still(calm)) {
     enter(Phase::press);
   }
@@ -315,6 +269,25 @@ void PourWorld::look() {
     enter(Phase::settle);
   }
   if (time_ >= calm) goes_on_ = false;
+}
+
+void PourWorld::probe() {
+  enter(Phase::probe);
+  probed_since_ = time_;
+  ++probes_;
+}
+
+/// What tips begins slowly: a heap has stood only once it sleeps, or did not move for long.
+void PourWorld::judge_probe() {
+  const double probed = time_ - probed_since_;
+  std::size_t moved = 0;
+  for (std::size_t b = 0; b < states_.size(); ++b) moved += moves(b) && rest_.still(b, time_) < probed - jolt;
+  if (moved > may_move * states_.size() && probes_ < most_probes) {
+    probe();
+  } else if (all_rest() && (!heeds_phases_ || probed >= creep || all_asleep())) {
+    enter(Phase::press);
+    stood_ = true;
+  }
 }
 
 void PourWorld::settle() {
@@ -334,8 +307,7 @@ Progress PourWorld::progress() const {
   progress.scene = index_;
   progress.parts = states_.size();
   for (std::size_t b = 0; b < states_.size(); ++b) {
-    const bool moves = place_[b] == Place::in && !plan_.world.bodies[b].fixed;
-    progress.resting += place_[b] == Place::in && (!moves || rest_.resting(b));
+    progress.resting += place_[b] == Place::in && (!moves(b) || rest_.resting(b));
   }
   progress.simulated_s = time_;
   const double parts = std::max<double>(1.0, static_cast<double>(states_.size()));

@@ -1,27 +1,15 @@
 /// One scene while it is poured: which parts are in, which wait, which rest, which escaped.
 #pragma once
 
+#include "pour_plan.hpp"
+
 #include "bin_scenes/solver/pour.hpp"
 #include "bin_scenes/solver/rest_watch.hpp"
-#include "bin_scenes/solver/spawn.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace bin_scenes {
-
-/// What all scenes of a request share.
-struct PourPlan {
-  PourPlan(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model);
-
-  const Request& request;
-  WorldDef world;                             ///< walls up to the rim
-  std::vector<Cover> covers;                  ///< by part line
-  Cover bin_cover;                            ///< mesh bin only
-  Opening opening;                            ///< where parts enter; upper.z is the rim
-  double entry_height = 0.0;                  ///< walls while parts enter (box bin)
-  std::vector<std::size_t> line_of, copy_of;  ///< by body: part line, number within the line
-};
 
 class PourWorld {
  public:
@@ -55,12 +43,16 @@ class PourWorld {
   void let_in();
   void cut_walls();
   void settle();
+  void probe();
+  void judge_probe();
   bool outside(const Vec3& center) const;
   bool slow(std::size_t body) const;
   double top() const;
+  bool moves(std::size_t body) const;  ///< it is in and not fixed
   bool all_rest() const;
   bool all_slow() const;
   bool all_still(double seconds) const;
+  bool all_asleep() const;
   void enter(Phase phase);
 
   const PourPlan& plan_;
@@ -72,7 +64,9 @@ class PourWorld {
   std::uint64_t earlier_steps_ = 0;  ///< of a world left behind when the walls were cut
   Phase phase_ = Phase::pour;
   bool fresh_ = false, walls_cut_ = true;
+  bool heeds_phases_ = true;  ///< the solver
   int probes_ = 0;
+  double probed_since_ = 0.0;
   bool stood_ = false;    ///< the last probe, or need not be probed
   bool goes_on_ = false;  ///< from given poses that may be at rest; not decided yet
   std::vector<BodyState> states_;

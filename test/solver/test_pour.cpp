@@ -307,13 +307,18 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
 }
 
-/// Its bodies hover where they are put, but for a jump of the first one whenever it is probed, and slow creeping of it
-/// to begin with; notes its phases.
+/// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes, and slow
+/// creeping of it to begin with; they fall asleep when they have been probed for so long. Notes its phases.
 class HoveringSolver : public Solver {
  public:
-  explicit HoveringSolver(double jump, double creeps_s = 0.0) : jump_(jump), creeps_s_(creeps_s) {}
+  struct Habits {
+    int jumps = 0;
+    double jumps_at_s = 0.05, creeps_s = 0.0, sleeps_at_s = 0.0;
+    bool heeds_phases = true;
+  };
+  explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
   std::vector<Phase> phases;
-  double probed_s = 0.0;
+  double probed_s = 0.0;  ///< in the last probe
 
   WorldId add_world(const WorldDef& def) override {
     states_.resize(def.bodies.size());
@@ -322,18 +327,26 @@ class HoveringSolver : public Solver {
   void remove_world(WorldId) override {}
   void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
   void remove(WorldId, std::size_t) override {}
-  void set_phase(WorldId, Phase phase) override {
+  bool set_phase(WorldId, Phase phase) override {
     phases.push_back(phase);
-    if (phase == Phase::probe) states_[0].pose.position.x() += jump_;
+    if (phase == Phase::probe) probed_s = 0.0, jumped_ = false;
+    return habits_.heeds_phases;
   }
   double advance(const std::vector<WorldId>&, double seconds) override {
-    if (!phases.empty() && phases.back() == Phase::probe) probed_s += seconds;
-    if (creeps_s_ > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
-    creeps_s_ -= seconds;
+    if (probes()) probed_s += seconds;
+    if (probes() && !jumped_ && habits_.jumps > 0 && probed_s >= habits_.jumps_at_s) {
+      states_[0].pose.position.x() += 1e-3;
+      jumped_ = true;
+      --habits_.jumps;
+    }
+    if (habits_.creeps_s > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
+    habits_.creeps_s -= seconds;
     return seconds;
   }
   std::vector<BodyState> states(WorldId) const override { return states_; }
-  std::vector<bool> asleep(WorldId) const override { return std::vector<bool>(states_.size(), false); }
+  std::vector<bool> asleep(WorldId) const override {
+    return std::vector<bool>(states_.size(), probes() && probed_s >= habits_.sleeps_at_s);
+  }
   double step_size() const override { return 1e-3; }
   std::uint64_t steps(WorldId) const override { return 0; }
   const Profile& profile() const override { return profile_; }
@@ -342,35 +355,63 @@ class HoveringSolver : public Solver {
   std::string device() const override { return "cpu"; }
 
  private:
-  double jump_, creeps_s_;
+  bool probes() const { return !phases.empty() && phases.back() == Phase::probe; }
+
+  Habits habits_;
+  bool jumped_ = false;
   std::vector<BodyState> states_;
   Profile profile_;
 };
 
-TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStandsOrTwice) {
-  const auto phases_of = [](double jump, double rest_window = 0.25) {
-    HoveringSolver solver(jump);
-    Request request = request_of(2);
-    request.pour.rest_window = rest_window;
-    const Scene scene = pour(request, {small_box()}, solver, {0})[0];
-    EXPECT_TRUE(scene.report.at_rest);
-    EXPECT_GT(solver.probed_s, 0.0);
-    if (jump == 0.0) {
-      EXPECT_GE(solver.probed_s, 0.5 * rest_window) << "for the rest of the window";
-    }
-    return solver.phases;
-  };
+struct Probed {
+  std::vector<Phase> phases;
+  double last_s;  ///< length of the last probe
+
+  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
+};
+Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25) {
+  HoveringSolver solver(habits);
+  Request request = request_of(parts);
+  request.pour.rest_window = rest_window;
+  EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+  return {solver.phases, solver.probed_s};
+}
+
+TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
+  HoveringSolver::Habits habits;
   const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
-  EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, settle, press, probe, press}));
-  EXPECT_EQ(phases_of(0.0, 0.01), (std::vector<Phase>{pour, settle, press, probe, press}))
-      << "a window shorter than a look";
-  EXPECT_EQ(phases_of(1e-3), (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}))
-      << "it moves whenever it is probed: the last time it comes to lie there";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}));
+  EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
+  habits.jumps_at_s = 0.015;
+  habits.jumps = 1;
+  EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
+  habits.jumps_at_s = 0.05;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press}))
+      << "it comes to lie in the first, and stands the second";
+  habits.jumps = 100;
+  EXPECT_EQ(probed(habits).times(), 8) << "it moves in all of them";
+  EXPECT_EQ(probed(habits, 49).times(), 8);
+  EXPECT_EQ(probed(habits, 50).times(), 1) << "one in fifty may";
+}
+
+TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
+  HoveringSolver::Habits habits;
+  const double at_once = probed(habits).last_s;
+  EXPECT_GE(at_once, 0.1) << "what has moved since forces were found must show";
+  EXPECT_LE(at_once, 0.25);
+  habits.sleeps_at_s = 0.4;
+  EXPECT_NEAR(probed(habits).last_s, 0.4, 0.03);
+  habits.sleeps_at_s = 100.0;
+  EXPECT_NEAR(probed(habits).last_s, 0.5, 0.03);
+  habits.heeds_phases = false;
+  EXPECT_EQ(probed(habits).last_s, at_once) << "a solver that does not probe";
 }
 
 TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
   const auto phases_of = [](double creeps_s) {
-    HoveringSolver solver(0.0, creeps_s);
+    HoveringSolver::Habits habits;
+    habits.creeps_s = creeps_s;
+    HoveringSolver solver(habits);
     Request request = request_of(2);
     request.pour.pattern = Pour::Pattern::given;
     for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});

@@ -50,9 +50,11 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
 
 // On a slope of 0.475 a box stands with friction 0.5 and slides with nine tenths of it.
 TEST(SphereProbe, WhatHoldsByLessThanATenthSlides) {
-  const double angle = std::atan(0.475), grip = sphere::Settings{}.probe_grip;
+  const sphere::Settings settings;
+  const double angle = std::atan(0.475), slips = settings.probe_slip, braked_s = 1.0 - slips;
   EXPECT_LT(slip(Lab(sphere_default.make()), angle, 0.3, Phase::press), 1e-5);
-  const double expected = 0.5 * g * (std::sin(angle) - grip * 0.5 * std::cos(angle));
+  const double icy = g * std::sin(angle), braked = icy - settings.probe_grip * 0.5 * g * std::cos(angle);
+  const double expected = icy * slips * (0.5 * slips + braked_s) + 0.5 * braked * braked_s * braked_s;
   EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, Phase::probe) / expected, 1.0, 5e-3);
 }
 
@@ -64,6 +66,7 @@ TEST(SphereProbe, LeavesLessFrictionAndCanBeRepeated) {
   for (int k = 0; k < 2; ++k) {
     EXPECT_TRUE(sphere::take_phase(world, Phase::probe));
     EXPECT_TRUE(world.forgets);
+    EXPECT_EQ(world.stiffness, sphere::Stiffness::rigid);
     EXPECT_EQ(world.cold_steps, world.settings.cold_steps);
     EXPECT_EQ(world.grip, world.settings.probe_grip);
     world.cold_steps = 0;

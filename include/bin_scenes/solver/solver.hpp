@@ -44,9 +44,9 @@ struct WorldDef {
 using WorldId = std::size_t;
 
 /// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, contacts are pressed out as
-/// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: stiff as before, it
-/// begins without forces, as under the next engine, and friction holds a little less from now on; what is near its
-/// limit goes now, and not there. A solver may ignore the hint.
+/// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: each time it begins
+/// without forces, as under the next engine, and for a moment without friction; contacts press nothing apart, and
+/// friction holds a little less from now on. What is near its limit goes now, and not there.
 enum class Phase { pour, settle, press, probe };
 
 class Solver {
@@ -61,7 +61,8 @@ class Solver {
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
   /// Takes a body out and wakes what it touched.
   virtual void remove(WorldId world, std::size_t body) = 0;
-  virtual void set_phase(WorldId world, Phase phase) = 0;
+  /// A hint; returns false if the solver ignores it.
+  virtual bool set_phase(WorldId world, Phase phase) = 0;
 
   /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one
   /// that is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.

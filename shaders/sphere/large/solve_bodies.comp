@@ -41,7 +41,7 @@ void main() {
   uint i = thread_index();
   world = worlds[large_world];
   if (idle() || i >= world.bodies.y) return;
-  take_step_of(large_world);
+  take_sub_step_of(large_world, 0u);
   if (stage == BODIES_BEGIN)
     begin_body(i);
   else if (stage == BODIES_VELOCITIES)

@@ -39,7 +39,7 @@ class BulletSolver : public Solver {
 
   void insert(WorldId world, std::size_t body, const BodyState& state) override { at(world).insert(body, state); }
   void remove(WorldId world, std::size_t body) override { at(world).remove(body); }
-  void set_phase(WorldId, Phase) override {}  // the same shapes and steps serve both
+  bool set_phase(WorldId, Phase) override { return false; }  // the same shapes and steps serve both
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "bullet_step");

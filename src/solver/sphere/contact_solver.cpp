@@ -79,6 +79,7 @@ class ContactSolver {
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
   void sweep(bool push, bool first);
+  void hold_by_friction(bool holds) { slips_ = !holds; }
   void move();       ///< positions
   void restitute();  ///< Newton's restitution
   void finish();     ///< back into bodies and contacts
@@ -86,8 +87,8 @@ class ContactSolver {
  private:
   void prepare_motions();
   void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
-  void solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const;
-  void resist_turn(const Bundle& bundle, Velocities& u) const;
+  void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
+  void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
   LaneMask bouncing(const Bundle& bundle) const;
   void bounce(const Bundle& bundle, LaneMask lanes);
@@ -100,6 +101,7 @@ class ContactSolver {
   const float h_;
   const Softness& softness_;
   const Spring spring_;
+  bool slips_ = false;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
@@ -169,7 +171,7 @@ void ContactSolver::warm_start() {
 /// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
 /// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
 /// air.
-void ContactSolver::resist_turn(const Bundle& bundle, Velocities& u) const {
+void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const {
   Lanes impulse{};
   LaneVec center, normal;
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
@@ -201,7 +203,7 @@ void ContactSolver::resist_turn(const Bundle& bundle, Velocities& u) const {
     u.wa = u.wa - moment * turn_a;
     u.wb = u.wb + moment * turn_b;
   };
-  resist(normal, spin, spread <= widest ? 2.0f / 3.0f * radius * bundle.friction * impulse : all_lanes(0));
+  resist(normal, spin, spread <= widest ? 2.0f / 3.0f * radius * friction * impulse : all_lanes(0));
   resist(tip_axis, dot(tip_axis, tipping), spread_across <= widest ? bundle.tipping_arm * impulse : all_lanes(0));
 }
 
@@ -226,11 +228,11 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation
 }
 
 /// Coulomb's cone: both directions at once.
-void ContactSolver::solve_friction(ContactRows& c, const Bundle& bundle, Velocities& u) const {
+void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
   Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
   Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
-  const Lanes most = bundle.friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
+  const Lanes most = friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
   const Lanes scale = size > most ? most / size : all_lanes(1);
   f1 *= scale;
   f2 *= scale;
@@ -244,10 +246,11 @@ void ContactSolver::sweep(bool push, bool first) {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     const Ways ways = ways_of(bundle, motions_);
-    if (push && first) resist_turn(bundle, u);
+    const Lanes friction = slips_ ? Lanes{} : bundle.friction;
+    if (push && first) resist_turn(bundle, friction, u);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
       solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);
-    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) solve_friction(rows_[i], bundle, u);
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) solve_friction(rows_[i], friction, bundle, u);
     store(u, bundle, motions_);
   }
 }
@@ -328,6 +331,7 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   const int sweeps = world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps;
   solver.prepare();
   for (int k = 0; k < world.sub_steps(); ++k) {
+    solver.hold_by_friction(k >= world.slip_sub_steps());
     solver.accelerate();
     solver.warm_start();
     for (int i = 0; i < sweeps; ++i) solver.sweep(true, i == 0);

@@ -93,11 +93,11 @@ void place(World& world, std::size_t body, const BodyState& state) {
 }
 
 bool take_phase(World& world, Phase phase) {
-  const bool fine = phase != Phase::pour, pressed = phase >= Phase::press;
-  const bool probed = phase == Phase::probe;
-  if (fine == world.fine && pressed == world.pressed && !probed) return false;
+  const bool fine = phase != Phase::pour, probed = phase == Phase::probe;
+  const Stiffness stiffness = probed ? Stiffness::rigid : phase == Phase::press ? Stiffness::stiff : Stiffness::soft;
+  if (fine == world.fine && stiffness == world.stiffness && !probed) return false;
   world.fine = fine;
-  world.pressed = pressed;
+  world.stiffness = stiffness;
   world.forgets = probed;
   if (probed) {
     world.grip = world.settings.probe_grip;

@@ -92,7 +92,10 @@ class SphereSolver final : public Solver {
     w.bodies[body].present = false;
   }
 
-  void set_phase(WorldId id, Phase phase) override { sphere::set_phase(slots_[id]->world, phase); }
+  bool set_phase(WorldId id, Phase phase) override {
+    sphere::set_phase(slots_[id]->world, phase);
+    return true;
+  }
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     const Steps steps = steps_in(seconds, settings_.time_step);

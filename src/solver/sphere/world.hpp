@@ -10,6 +10,7 @@
 
 #include "solver/sphere/shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,9 @@ struct Softness {
   int refinement;       ///< sub-steps in place of one; overlap under load falls with its square, cost rises with it
 };
 
+/// How contacts give way, from while bodies fly to while a heap is probed.
+enum class Stiffness : std::uint32_t { soft, stiff, rigid };
+
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
@@ -34,16 +38,25 @@ struct Settings {
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
+  /// Of contacts while a heap is probed: they give way to nothing, and let a 160th of their overlap out in a sub-step.
+  /// What stiff ones press apart is squeezed, and holds by friction where nothing else holds it.
+  Softness rigid{1.0f, 500.0f, 0.0f, 4};
   float patch_radius = 1e-3f;       ///< d: of what presses at a point or along a line; resists spin and rolling there.
                                     ///< 0: what two points hold swings about them without end; larger: wheels stop
   float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
   float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
   float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
   float coarse_recycle = 3e-3f;     ///< d: the same on coarse samples, where precision is not wanted yet
+  float probe_slip = 2.5e-3f;       ///< s of a probe without friction, in its first step: weight finds its way without;
+                                    ///< longer = heaps are shaken, shorter = wedged parts hold that would slip
   float probe_grip = 0.9f;          ///< share of friction that holds once a heap is probed; lower = heaps lie flatter
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;          ///< d within which it must have stayed
+
+  const Softness& softness(Stiffness of) const {
+    return of == Stiffness::soft ? soft : of == Stiffness::stiff ? stiff : rigid;
+  }
 };
 
 struct Body {
@@ -126,7 +139,7 @@ struct World {
   float ground_friction = 0.5f, ground_restitution = 0;
   Vec3f gravity = Vec3f(0, 0, -9.81f);
   bool fine = false;                      ///< exact samples
-  bool pressed = false;                   ///< stiff contacts
+  Stiffness stiffness = Stiffness::soft;  ///< of contacts
   float grip = 1;                         ///< share of friction that holds
   bool forgets = false;                   ///< the next step begins without the forces of the last one
   int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
@@ -139,9 +152,13 @@ struct World {
   Counters counters;
   Spent spent;
 
-  const Softness& softness() const { return pressed ? settings.stiff : settings.soft; }
+  const Softness& softness() const { return settings.softness(stiffness); }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
+  /// Of the next step, in which nothing holds by friction.
+  int slip_sub_steps() const {
+    return forgets ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
+  }
   /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts are found, and have their levers and
   /// normals, where bodies are then, as in the symplectic Euler method over the sub-steps, which keeps energy: with
   /// those of the start what rolls on an edge is pushed on by the point that it has left.

@@ -200,7 +200,7 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
 }
 
 void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
-  regions_[slot].pressed = progress.pressed != 0;
+  regions_[slot].stiffness = progress.stiffness;
   regions_[slot].cold = progress.cold_steps != 0;
   progress_.upload(slot, &progress, 1);
 }

@@ -84,7 +84,8 @@ class Batch {
   struct Region {
     std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_contact = 0,
                 contacts = 0, first_plane = 0, planes = 0;
-    bool pressed = false, cold = false;
+    gpu::uint stiffness = 0;
+    bool cold = false;
     LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();

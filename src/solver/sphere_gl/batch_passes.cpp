@@ -29,8 +29,7 @@ void Batch::run(const std::vector<Slot>& slots, float share) {
 }
 
 unsigned Batch::sub_steps(const Region& r) const {
-  const gpu::vec4& softness = r.pressed ? settings_block_.stiff : settings_block_.soft;
-  return settings_block_.sub_steps * static_cast<unsigned>(softness.w);
+  return settings_block_.sub_steps * static_cast<unsigned>(settings_block_.softness[r.stiffness].w);
 }
 
 void Batch::bind_first() const {

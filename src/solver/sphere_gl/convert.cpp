@@ -52,8 +52,9 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   };
   out.sweeps = static_cast<gpu::uint>(s.sweeps);
   out.cold_sweeps = static_cast<gpu::uint>(s.cold_sweeps);
-  out.soft = softness(s.soft);
-  out.stiff = softness(s.stiff);
+  for (const Stiffness stiffness : {Stiffness::soft, Stiffness::stiff, Stiffness::rigid})
+    out.softness[static_cast<std::size_t>(stiffness)] = softness(s.softness(stiffness));
+  out.probe_slip = s.probe_slip;
   out.patch_radius = s.patch_radius;
   out.push_speed = s.push_speed;
   out.margin = s.margin;
@@ -67,7 +68,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
 
 void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
-  progress.pressed = world.pressed ? 1 : 0;
+  progress.stiffness = static_cast<gpu::uint>(world.stiffness);
   progress.grip = world.grip;
   progress.forgets = world.forgets ? 1 : 0;
   if (world.forgets) progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);

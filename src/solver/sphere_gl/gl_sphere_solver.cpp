@@ -90,13 +90,14 @@ class GlSphereSolver final : public Solver {
     r.changed.insert(body);
   }
 
-  void set_phase(WorldId id, Phase phase) override {
+  bool set_phase(WorldId id, Phase phase) override {
     Resident& r = world(id);
     const bool fine = r.world.fine;
-    if (!sphere::take_phase(r.world, phase)) return;
+    if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
     tell_phase(r.world, r.progress);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
+    return true;
   }
 
   double advance(const std::vector<WorldId>& ids, double seconds) override {

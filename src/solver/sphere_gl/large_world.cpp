@@ -154,6 +154,7 @@ void LargePasses::solve(const LargeWorld& world) {
   bodies(BODIES_BEGIN);
   over_manifolds(MANIFOLDS_PREPARE);
   for (unsigned k = 0; k < world.sub_steps; ++k) {
+    for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("current_sub_step", k);
     bodies(BODIES_VELOCITIES);
     sweep(SWEEP_WARM_START);
     sweeps(SWEEP_PUSH, world);

@@ -102,7 +102,9 @@ void ThesisSolver::remove(WorldId id, std::size_t body) {
   world.present[body] = false;
 }
 
-void ThesisSolver::set_phase(WorldId, Phase) {}
+bool ThesisSolver::set_phase(WorldId, Phase) {
+  return false;
+}
 
 double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
   gl::Device::current().make_current();

@@ -1,6 +1,7 @@
 /// The passes of the sphere solver, each by itself against a closed form or a slow and obvious twin.
 #include "bin_scenes/core/random.hpp"
 #include "boxes.hpp"
+#include "solver/sphere/make_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -487,13 +488,59 @@ TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
   EXPECT_NEAR(held(), 1.0f, 1e-3f);
   EXPECT_GT(settled, soft.slop * shape.size);
   EXPECT_LT(settled, deepest(soft));
-  world.pressed = true;
+  world.stiffness = Stiffness::stiff;
   step(world);  // shorter sub-steps take over the forces: it is neither dropped nor thrown
   EXPECT_NEAR(held(), 1.0f, 0.05f);
   const float pressed = depth_after(0.3f);
   EXPECT_NEAR(held(), 1.0f, 1e-3f);
   EXPECT_GT(pressed, stiff.slop * shape.size);
   EXPECT_LT(pressed, deepest(stiff));
+}
+
+// Of overlap that nothing presses, rigid contacts let out one part in 1 + damping / (pi frequency) a sub-step, and
+// carry the weight meanwhile, no more.
+TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.06});
+  World world = world_of_boxes(shape, 1);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  world.settings.rest_window = 100;
+  const float depth = 1e-5f;
+  world.bodies[0].x = Vec3f(0, 0, 0.03f - depth);
+  take_phase(world, Phase::probe);
+  const Softness& rigid = world.softness();
+  const double share = 1.0 / (1.0 + rigid.damping_ratio / (M_PI * rigid.hertz_share));
+  for (int k = 1; k <= 40; ++k) {
+    step(world);
+    const double left = std::pow(1.0 - share, k * world.sub_steps());
+    EXPECT_NEAR((0.03f - world.bodies[0].x.z()) / depth, left, 0.01) << k;
+    float force = 0;
+    for (const Contact& c : world.manifolds.at(0).contacts) force += c.normal_force;
+    EXPECT_NEAR(force * world.bodies[0].inverse_mass / 9.81f, 1.0f, 2e-3f) << k;
+  }
+}
+
+// On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then braked.
+TEST(Solve, AProbeBeginsWithoutFriction) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.01});
+  const float g = 9.81f, slope = 0.5f, along = std::sqrt(1 - slope * slope), friction = 0.5f;
+  for (const float time_step : {0.001f, 0.0025f, 0.01f}) {
+    SCOPED_TRACE(time_step);
+    World world = world_of_boxes(shape, 1);
+    world.planes = {{Vec3f::UnitZ(), 0, false}};
+    world.gravity = g * Vec3f(slope, 0, -along);
+    world.bodies[0].x = Vec3f(0, 0, 0.005f);
+    world.settings.time_step = time_step;
+    take_phase(world, Phase::probe);
+    const float slips = std::min(world.settings.probe_slip, time_step), grip = world.settings.probe_grip;
+    const float braked = g * (slope - grip * friction * along);
+    for (int k = 1; k <= 3; ++k) {
+      step(world);
+      const float expected = g * slope * slips + braked * (k * time_step - slips);
+      EXPECT_NEAR(world.bodies[0].v.x() / expected, 1.0f, 1e-3f) << k;
+    }
+  }
 }
 
 TEST(Sleep, AnIslandSleepsAsOneAndATouchWakesIt) {
