@@ -1,10 +1,13 @@
 #include "random_part.hpp"
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "referee.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -46,6 +49,27 @@ TEST_F(RandomPart, IsOneClosedSolid) {
     EXPECT_GE(pieces_, 2) << seed;
     EXPECT_LE(pieces_, 6) << seed;
     EXPECT_EQ(read_pieces(folder_.string(), 1e-3).size(), static_cast<std::size_t>(pieces_)) << seed;
+    std::filesystem::remove_all(folder_);
+  }
+}
+
+// Solids that share space count once, at whatever tolerance they were united: by points within any of them.
+TEST_F(RandomPart, HasTheVolumeOfItsUnion) {
+  constexpr int points = 50000;
+  for (const std::uint64_t seed : {1, 2, 15, 177, 297}) {
+    const PartModelPtr part = load(seed);
+    std::vector<HullPlanes> prisms;
+    for (const std::vector<Vec3>& piece : read_pieces(folder_.string(), 1e-3))
+      prisms.emplace_back(convex_hull(piece, 1000));
+    const Aabb box = part->mesh().bounds();
+    Random random(seed, 0, Stream::probe);
+    int inside = 0;
+    for (int i = 0; i < points; ++i) {
+      const Vec3 u(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+      inside += distance_to_union(prisms, box.lower + u.cwiseProduct(box.size())) <= 0.0;
+    }
+    const double share = static_cast<double>(inside) / points, sigma = std::sqrt(share * (1.0 - share) / points);
+    EXPECT_NEAR(part->mass().volume / box.size().prod(), share, 4.0 * sigma) << seed;
     std::filesystem::remove_all(folder_);
   }
 }
