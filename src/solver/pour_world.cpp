@@ -280,9 +280,12 @@ void PourWorld::probe() {
 /// What tips begins slowly: a heap has stood only once it sleeps, or did not move for long.
 void PourWorld::judge_probe() {
   const double probed = time_ - probed_since_;
-  std::size_t moved = 0;
-  for (std::size_t b = 0; b < states_.size(); ++b) moved += moves(b) && rest_.still(b, time_) < probed - jolt;
-  if (moved > may_move * states_.size() && probes_ < most_probes) {
+  std::size_t moved = 0, movable = 0;
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    movable += moves(b);
+    moved += moves(b) && rest_.still(b, time_) < probed - jolt;
+  }
+  if (moved > may_move * movable && probes_ < most_probes) {
     probe();
   } else if (all_rest() && (!heeds_phases_ || probed >= creep || all_asleep())) {
     enter(Phase::press);
