@@ -15,7 +15,7 @@ constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so 
 constexpr int most_probes = 8;      ///< a heap that still moves in the last one is left as it came to lie there
 constexpr double may_move = 0.02;   ///< share of the parts that may move in a probe that the heap stands
 constexpr double jolt = 0.02;       ///< s from the start of a probe until its forces are found; parts budge then
-constexpr double creep = 0.5;       ///< s of a probe after which it is not waited any longer that nothing creeps
+constexpr double creep = 1.0;       ///< s of a probe after which it is not waited any longer that nothing creeps
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 }  // namespace

@@ -402,7 +402,7 @@ TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
   habits.sleeps_at_s = 0.4;
   EXPECT_NEAR(probed(habits).last_s, 0.4, 0.03);
   habits.sleeps_at_s = 100.0;
-  EXPECT_NEAR(probed(habits).last_s, 0.5, 0.03);
+  EXPECT_NEAR(probed(habits).last_s, 1.0, 0.03);
   habits.heeds_phases = false;
   EXPECT_EQ(probed(habits).last_s, at_once) << "a solver that does not probe";
 }
