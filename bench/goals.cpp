@@ -12,18 +12,17 @@ namespace {
 
 struct Pile {
   const char* part;
-  int judged;  ///< seeds that the referee sees: it takes minutes for parts of many pieces; 0: no exact pieces
-  std::size_t count = 150;
-};
-constexpr Pile piles[] = {{"channel_u", 10},  {"ring_24", 10},       {"bolt_hex", 10},      {"bracket_l", 1},
-                          {"clip_spring", 1}, {"conrod", 0},         {"gear_spur", 1},      {"mug", 0},
-                          {"nut_hex", 1},     {"pipe_elbow", 0},     {"pipe_tee", 0},       {"teapot", 0},
-                          {"washer", 1},      {"channel_u", 10, 40}, {"gear_spur", 10, 40}, {"clip_spring", 10, 40}};
+  int judged;          ///< seeds that the referee sees: it takes minutes for parts of many pieces; 0: no exact pieces
+  bool small = false;  ///< 40 parts in a bin of a quarter of the floor
 
-/// 150 parts lie several layers deep in the large one, 40 in the small one.
-Vec3 bin_for(std::size_t count) {
-  return count < 150 ? Vec3(0.20, 0.15, 0.20) : Vec3(0.40, 0.30, 0.20);
-}
+  std::size_t count() const { return small ? 40 : 150; }
+  Vec3 bin() const { return small ? Vec3(0.20, 0.15, 0.20) : Vec3(0.40, 0.30, 0.20); }
+};
+constexpr Pile piles[] = {
+    {"channel_u", 10},  {"ring_24", 10},         {"bolt_hex", 10},        {"bracket_l", 1},
+    {"clip_spring", 1}, {"conrod", 0},           {"gear_spur", 1},        {"mug", 0},
+    {"nut_hex", 1},     {"pipe_elbow", 0},       {"pipe_tee", 0},         {"teapot", 0},
+    {"washer", 1},      {"channel_u", 10, true}, {"gear_spur", 10, true}, {"clip_spring", 10, true}};
 
 /// Whether there is a GPU; asked in a process of its own, which alone makes a GL context.
 bool has_gpu() {
@@ -32,11 +31,11 @@ bool has_gpu() {
 }
 
 void pile_row(Run& out, const Pile& pile, const std::string& solver, int seeds, int judged) {
-  const std::size_t count = out.quick() ? 8 : pile.count;
+  const std::size_t count = out.quick() ? 8 : pile.count();
   const Row key = Row().key("part", pile.part).key("bodies", count).key("solver", solver).key("sleeping", "yes");
   if (!out.wanted(key)) return;
   Request request = bin_of(pile.part, count);
-  request.bin.inner_size = bin_for(pile.count);
+  request.bin.inner_size = pile.bin();
   choose_solver(request, "sphere");
   warm_up(request);
   choose_solver(request, solver);
@@ -53,10 +52,10 @@ void pile_row(Run& out, const Pile& pile, const std::string& solver, int seeds, 
 void run(Run& out) {
   const bool gpu = out.quick() || has_gpu();
   for (const Pile& pile : piles) {
-    if (out.quick() && (pile.judged == 0 || pile.count < 150)) continue;
+    if (out.quick() && (pile.judged == 0 || pile.small)) continue;
     pile_row(out, pile, "sphere", out.quick() ? 1 : 10, pile.judged);
     // By the report's own figures: where a GPU is, the referee need not be. Without one a scene would take minutes.
-    if (gpu && pile.count == 150) pile_row(out, pile, "sphere/gpu", out.quick() ? 1 : 3, 0);
+    if (gpu && !pile.small) pile_row(out, pile, "sphere/gpu", out.quick() ? 1 : 3, 0);
   }
 }
 

@@ -88,7 +88,7 @@ struct SphereSettingsBlock {
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts
   float probe_slip;        // s of a step that begins without forces, without friction
-  vec4 softness[3];        // of contacts by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
+  vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
 struct SphereWorld {
@@ -206,7 +206,8 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 112 && sizeof(SphereWorld) == 80 && sizeof(SphereProgress) == 144, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 112 && sizeof(SphereWorld) == 80, "std430");
+static_assert(sizeof(SphereProgress) == 144, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

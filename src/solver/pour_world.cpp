@@ -309,9 +309,8 @@ Progress PourWorld::progress() const {
   progress.phase = phase_ == Phase::pour ? "pour" : "settle";
   progress.scene = index_;
   progress.parts = states_.size();
-  for (std::size_t b = 0; b < states_.size(); ++b) {
+  for (std::size_t b = 0; b < states_.size(); ++b)
     progress.resting += place_[b] == Place::in && (!moves(b) || rest_.resting(b));
-  }
   progress.simulated_s = time_;
   const double parts = std::max<double>(1.0, static_cast<double>(states_.size()));
   const double entered = 1.0 - waiting_.size() / parts, still = progress.resting / parts;

@@ -66,9 +66,9 @@ class PourWorld {
   bool fresh_ = false, walls_cut_ = true;
   bool heeds_phases_ = true;  ///< the solver
   int probes_ = 0;
-  double probed_since_ = 0.0;
-  bool stood_ = false;    ///< the last probe, or need not be probed
-  bool goes_on_ = false;  ///< from given poses that may be at rest; not decided yet
+  double probed_since_ = 0.0;  ///< start of the last probe
+  bool stood_ = false;         ///< the last probe, or need not be probed
+  bool goes_on_ = false;       ///< from given poses that may be at rest; not decided yet
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first

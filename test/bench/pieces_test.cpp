@@ -22,6 +22,7 @@ struct Sample {
 
   explicit Sample(const std::string& name) {
     const std::string models = std::getenv("BIN_SCENES_MODELS");
+    ::setenv("BIN_SCENES_CACHE", "off", 1);  // what this build makes of the file, not an older one
     LoadOptions options;
     options.unit = Unit::millimetre;
     part = PartModel::load(models + "/" + name + ".stl", options);

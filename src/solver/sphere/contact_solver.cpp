@@ -79,7 +79,7 @@ class ContactSolver {
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
   void sweep(bool push, bool first);
-  void hold_by_friction(bool holds) { slips_ = !holds; }
+  void hold_by_friction(bool holds) { friction_holds_ = holds; }
   void move();       ///< positions
   void restitute();  ///< Newton's restitution
   void finish();     ///< back into bodies and contacts
@@ -101,7 +101,7 @@ class ContactSolver {
   const float h_;
   const Softness& softness_;
   const Spring spring_;
-  bool slips_ = false;
+  bool friction_holds_ = true;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
@@ -246,7 +246,7 @@ void ContactSolver::sweep(bool push, bool first) {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     const Ways ways = ways_of(bundle, motions_);
-    const Lanes friction = slips_ ? Lanes{} : bundle.friction;
+    const Lanes friction = friction_holds_ ? bundle.friction : Lanes{};
     if (push && first) resist_turn(bundle, friction, u);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
       solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);

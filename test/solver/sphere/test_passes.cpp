@@ -520,7 +520,8 @@ TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
   }
 }
 
-// On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then braked.
+// On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then
+// braked.
 TEST(Solve, AProbeBeginsWithoutFriction) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.01});
