@@ -35,6 +35,7 @@
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_MAX_CONTACTS 8       // per pair, after reduction
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
+#define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
 #define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_MAX_WAYS 4           // out of a point near sharp edges
@@ -83,7 +84,7 @@ struct SphereSettingsBlock {
   uint candidates;         // kept per invocation of find_contacts
   uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
-  uint sweeps;             // over all contacts before bodies move, and again after
+  uint sweeps;             // over all contacts before bodies move, and after but for SPHERE_RIGID
   uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts

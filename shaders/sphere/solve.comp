@@ -87,6 +87,7 @@ void main() {
   barrier();
   float h = sub_step();
   uint sweeps = progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps;
+  uint relaxing = progress[w].stiffness != SPHERE_RIGID ? sweeps : 0u;
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
     take_sub_step_of(w, k);
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
@@ -95,7 +96,7 @@ void main() {
     for (uint i = 0u; i < sweeps; ++i) sweep(i == 0u ? SWEEP_FIRST_PUSH : SWEEP_PUSH, h);
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
-    for (uint i = 0u; i < sweeps; ++i) sweep(SWEEP_RELAX, h);
+    for (uint i = 0u; i < relaxing; ++i) sweep(SWEEP_RELAX, h);
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

@@ -68,6 +68,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
 
 void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
+  static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);
   progress.grip = world.grip;
   progress.forgets = world.forgets ? 1 : 0;

@@ -159,7 +159,7 @@ void LargePasses::solve(const LargeWorld& world) {
     sweep(SWEEP_WARM_START);
     sweeps(SWEEP_PUSH, world);
     bodies(BODIES_POSITIONS);
-    sweeps(SWEEP_RELAX, world);
+    if (world.relaxes) sweeps(SWEEP_RELAX, world);
   }
   if (world.restitution) {
     over_manifolds(MANIFOLDS_STRIKE);
