@@ -10,8 +10,8 @@ set xtics ()
 do for [i=1:words(measures)] { set xtics add (word(measures, i) i) }
 set xtics font ',10'
 at(name) = sum [i=1:words(measures)] (word(measures, i) eq name ? i : 0)
-array solvers = ['sphere', 'sphere coarse', 'sphere coarser', 'bullet']
+array solvers = ['sphere', 'sphere coarse', 'sphere coarser', 'sphere/gpu', 'bullet']
 set key outside bottom center horizontal
-plot 1 with lines linecolor rgb '#999999' dashtype 2 notitle, for [s=1:4] table \
-  using (at(strcol('measure')) + 0.12 * (s - 2.5)):(only('solver', solvers[s], 'wasserstein') / column('reference_to_itself_p95')) \
+plot 1 with lines linecolor rgb '#999999' dashtype 2 notitle, for [s=1:|solvers|] table \
+  using (at(strcol('measure')) + 0.12 * (s - 3)):(only('solver', solvers[s], 'wasserstein') / column('reference_to_itself_p95')) \
   with points linetype s pointsize 1.3 title solvers[s]

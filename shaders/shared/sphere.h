@@ -84,7 +84,7 @@ struct SphereSettingsBlock {
   uint candidates;         // kept per invocation of find_contacts
   uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
-  uint sweeps;             // over all contacts before bodies move, and after but for SPHERE_RIGID
+  uint sweeps;             // over all contacts before bodies move, and after; SPHERE_RIGID: 1 after
   uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts

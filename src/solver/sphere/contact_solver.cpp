@@ -328,16 +328,14 @@ void ContactSolver::finish() {
 std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
   static thread_local Scratch scratch;
   ContactSolver solver(world, blocks, block, scratch);
-  const int sweeps = world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps;
-  const int relaxing = world.relaxes() ? sweeps : 0;
   solver.prepare();
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.hold_by_friction(k >= world.slip_sub_steps());
     solver.accelerate();
     solver.warm_start();
-    for (int i = 0; i < sweeps; ++i) solver.sweep(true, i == 0);
+    for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
     solver.move();
-    for (int i = 0; i < relaxing; ++i) solver.sweep(false, i == 0);
+    for (int i = 0; i < world.relaxing_sweeps(); ++i) solver.sweep(false, i == 0);
   }
   solver.restitute();
   solver.finish();

@@ -33,7 +33,7 @@ struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   bool cut_steps = true;         ///< for small and fast parts
   int sub_steps = 4;             ///< contact solves per time step; stiffness of contacts grows with its square
-  int sweeps = 2;       ///< over all contacts before bodies move, and after (World::relaxes); with 1, stacks sway
+  int sweeps = 2;                ///< over all contacts before bodies move, and after if not rigid; with 1 stacks sway
   int cold_sweeps = 4;  ///< the same in the first steps of a world, and of a probe, when contacts have no forces
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
@@ -154,8 +154,10 @@ struct World {
 
   const Softness& softness() const { return settings.softness(stiffness); }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
-  /// Whether the velocity that pushing left is taken back. Rigid contacts push too slowly to leave any that counts.
-  bool relaxes() const { return stiffness != Stiffness::rigid; }
+  /// Of the next step, over all contacts before bodies move, and after.
+  int sweeps() const { return cold_steps > 0 ? settings.cold_sweeps : settings.sweeps; }
+  /// Rigid contacts push slowly: one takes back what that leaves. With none a gear on its teeth rolls for ever.
+  int relaxing_sweeps() const { return stiffness == Stiffness::rigid ? 1 : sweeps(); }
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
   /// Of the next step, in which nothing holds by friction.
   int slip_sub_steps() const {

@@ -159,7 +159,10 @@ void LargePasses::solve(const LargeWorld& world) {
     sweep(SWEEP_WARM_START);
     sweeps(SWEEP_PUSH, world);
     bodies(BODIES_POSITIONS);
-    if (world.relaxes) sweeps(SWEEP_RELAX, world);
+    if (world.rigid)
+      sweep(SWEEP_RELAX);
+    else
+      sweeps(SWEEP_RELAX, world);
   }
   if (world.restitution) {
     over_manifolds(MANIFOLDS_STRIKE);

@@ -30,7 +30,7 @@ struct LargeWorld {
   float smallest_cell = 0;             ///< m: the diagonal of the largest part that moves
   unsigned sub_steps = 1, sweeps = 1;  ///< of this step; over all manifolds, before and after bodies move
   unsigned cold_sweeps = 0;            ///< the same while the world's contacts begin without forces; 0: they do not
-  bool relaxes = true;                 ///< whether it sweeps after bodies move
+  bool rigid = false;                  ///< contacts: one sweep after bodies move
   bool restitution = false;            ///< something in it bounces
 };
 

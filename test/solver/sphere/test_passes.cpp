@@ -498,7 +498,7 @@ TEST(Solve, ABoxSinksByTheSpringOfItsContactsAndIsPressedOut) {
 }
 
 // Of overlap that nothing presses, rigid contacts let out one part in 1 + damping / (pi frequency) a sub-step, and
-// carry the weight meanwhile, no more. So slow is it that its speed is left to the body.
+// carry the weight meanwhile, no more. The speed of it is taken back.
 TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.06});
@@ -518,7 +518,7 @@ TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
     for (const Contact& c : world.manifolds.at(0).contacts) force += c.normal_force;
     EXPECT_NEAR(force * world.bodies[0].inverse_mass / 9.81f, 1.0f, 2e-3f) << k;
     const double speed = share / (1.0 - share) * left * depth / world.sub_step();
-    EXPECT_NEAR(world.bodies[0].v.z() / speed, 1.0, 0.03) << k;
+    EXPECT_NEAR(world.bodies[0].v.z() / speed, 0.0, 0.1) << k;
   }
 }
 
