@@ -16,7 +16,7 @@ namespace {
 constexpr double millimetre = 1e-3;            ///< unit of pieces
 constexpr double referee_limit_cpu_s = 600.0;  ///< 2000 steps of a heap of parts of a hundred pieces
 
-/// The referee's figures of a scene. Its quantile of overlap is the sample that the share falls on, as it prints it.
+/// The referee's figures of a scene. Its quantile is the sample that the share falls on: of 40 parts the second worst.
 Row referee_row(const std::string& path, const Request& request, const std::string& pieces) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   const Scene scene = read_scene_json(path);
@@ -29,10 +29,10 @@ Row referee_row(const std::string& path, const Request& request, const std::stri
     return values.empty() ? 0.0 : values[std::min(values.size() - 1, index)];
   };
   return Row()
-      .measure("drift_median_rel", median(drift.moved))
-      .measure("drift_p95_rel", quantile(drift.moved, 0.95))
-      .measure("drift_max_rel", quantile(drift.moved, 1.0))
-      .measure("turn_p95_deg", quantile(drift.turned, 0.95))
+      .measure("drift_median_rel", of(drift.moved, 0.5))
+      .measure("drift_p95_rel", of(drift.moved, 0.95))
+      .measure("drift_max_rel", of(drift.moved, 1.0))
+      .measure("turn_p95_deg", of(drift.turned, 0.95))
       .measure("referee_penetration_p95_rel", of(overlap.pairs, 0.95))
       .measure("referee_penetration_max_rel", of(overlap.pairs, 1.0))
       .measure("referee_bin_penetration_max_rel", of(overlap.bin, 1.0));
