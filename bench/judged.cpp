@@ -3,7 +3,6 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "framework/statistics.hpp"
 #include "referee.hpp"
 
 #include <algorithm>
