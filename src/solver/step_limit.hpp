@@ -1,6 +1,6 @@
-/// How a stretch of simulated time is cut into steps, and how long a step may be for the parts that are simulated with it: what is a short step for a part of 5 cm lets
-/// one of half a millimetre fall by its own height. Shared by the solvers, which lie below this layer's library:
-/// hence inline.
+/// How a stretch of simulated time is cut into steps, and how long a step may be for the parts that are simulated with
+/// it: what is a short step for a part of 5 cm lets one of half a millimetre fall by its own height. Shared by the
+/// solvers, which lie below this layer's library: hence inline.
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"

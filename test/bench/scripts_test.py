@@ -43,6 +43,7 @@ class Scripts(unittest.TestCase):
         (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
         for name in ("accuracy.md", "performance.md"):
             (self.root / "docs" / name).write_text(DOC % "")
+        (self.root / "bench/results/README.md").write_text("<!-- builds -->\n<!-- /builds -->\n")
 
     def run_script(self, name, *arguments, **environment):
         return subprocess.run([self.root / "bench" / name, *arguments], env={**os.environ, **environment},
@@ -60,6 +61,15 @@ class Scripts(unittest.TestCase):
         self.assertIn("| tee | sphere | 0 | 1234500 % |", text)
         self.assertIn("`bin_scenes_bench --filter scenes` on some CPU, 2 cores", text)
         self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+
+    def test_publish_says_which_build_made_what(self):
+        lines = TABLE.replace("status\n", "status,commit\n").splitlines()
+        lines[-3:] = ["ring,sphere,1,,,,,0123456789", "tee,sphere,1,,,,,9876543210-dirty", "tee,bullet,1,,,,,0123456789"]
+        (self.root / "bench/results/device/older.csv").write_text("\n".join(lines))
+        self.run_script("publish")
+        text = (self.root / "bench/results/README.md").read_text()
+        self.assertIn("| device | scenes | bullet: abc 1; sphere: abc 2 |", text)
+        self.assertIn("| device | older | bullet: 0123456 1; sphere: 0123456 1, 9876543-dirty 1 |", text)
 
     def test_publish_chooses_rows(self):
         (self.root / "docs/accuracy.md").write_text(DOC % "where: solver=sphere part=r*\n")
