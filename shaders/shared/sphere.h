@@ -113,7 +113,8 @@ struct SphereProgress {
   uint cold_steps;                           // yet to come, with more sweeps
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
-  uint unused0, unused1;                     // states, read back behind the progress of worlds, begin on 16 bytes
+  uint effort;                               // times as many sweeps, in a heap of many layers
+  uint unused;                               // states, read back behind the progress of worlds, begin on 16 bytes
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;

@@ -86,7 +86,7 @@ void main() {
   FOR_OWN_MANIFOLDS(o) prepare_manifold(o);
   barrier();
   float h = sub_step();
-  uint sweeps = progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps;
+  uint sweeps = progress[w].effort * (progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps);
   uint relaxing = progress[w].stiffness != SPHERE_RIGID ? sweeps : 1u;
   for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
     take_sub_step_of(w, k);

@@ -3,6 +3,7 @@
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -92,6 +93,26 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still_q = b.q;
 }
 
+namespace {
+
+/// Layers of parts in a heap: its height over the edge of the cube that a part has of its volume.
+float layers_of(const World& world) {
+  Vec3f lower = Vec3f::Constant(std::numeric_limits<float>::max()), upper = -lower;
+  float count = 0, edge = 0;
+  for (const Body& b : world.bodies) {
+    if (!b.present || b.inverse_mass == 0 || !b.x.allFinite()) continue;
+    lower = lower.cwiseMin(b.x);
+    upper = upper.cwiseMax(b.x);
+    edge += world.shapes[b.shape]->size / std::sqrt(3.0f);
+    ++count;
+  }
+  if (count == 0) return 0;
+  const Vec3f size = upper - lower + Vec3f::Constant(edge / count);
+  return size.z() / std::cbrt(size.prod() / count);
+}
+
+}  // namespace
+
 bool take_phase(World& world, Phase phase) {
   const bool fine = phase != Phase::pour, probed = phase == Phase::probe;
   const Stiffness stiffness = probed ? Stiffness::rigid : phase == Phase::press ? Stiffness::stiff : Stiffness::soft;
@@ -99,6 +120,7 @@ bool take_phase(World& world, Phase phase) {
   world.fine = fine;
   world.stiffness = stiffness;
   world.forgets = probed;
+  world.effort = std::max(1, static_cast<int>(std::ceil(layers_of(world) / world.settings.layers)));
   if (probed) {
     world.grip = world.settings.probe_grip;
     world.cold_steps = world.settings.cold_steps;

@@ -36,6 +36,8 @@ struct Settings {
   int sweeps = 2;                ///< over all contacts before bodies move, and after if not rigid; with 1 stacks sway
   int cold_sweeps = 4;  ///< the same in the first steps of a world, and of a probe, when contacts have no forces
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
+  float layers = 5.0f;  ///< of a heap that these sweeps do for, one of twice as many gets twice as many; more = parts
+                        ///< deep in a bin never rest, as loads travel about a layer a sweep
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   /// Of contacts while a heap is probed: they give way to nothing, and let a 160th of their overlap out in a sub-step.
@@ -143,6 +145,7 @@ struct World {
   float grip = 1;                         ///< share of friction that holds
   bool forgets = false;                   ///< the next step begins without the forces of the last one
   int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
+  int effort = 1;                         ///< times as many sweeps, in a heap of many layers
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while nothing is fast
   int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones
@@ -155,7 +158,7 @@ struct World {
   const Softness& softness() const { return settings.softness(stiffness); }
   int sub_steps() const { return settings.sub_steps * softness().refinement; }
   /// Of the next step, over all contacts before bodies move, and after.
-  int sweeps() const { return cold_steps > 0 ? settings.cold_sweeps : settings.sweeps; }
+  int sweeps() const { return effort * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Rigid contacts push slowly: one takes back what that leaves. With none a gear on its teeth rolls for ever.
   int relaxing_sweeps() const { return stiffness == Stiffness::rigid ? 1 : sweeps(); }
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s

@@ -76,6 +76,8 @@ class Batch {
   void solve();
   void update_sleep();
 
+  bool in_one_group(Slot slot) const { return regions_[slot].large.bodies == 0; }
+
   gl::Timer& timer() { return timer_; }
   std::size_t bytes() const;         ///< of all buffers on the device
   std::size_t bytes_shared() const;  ///< of these, what does not grow with bodies: shapes, and what groups work with
@@ -86,6 +88,7 @@ class Batch {
                 contacts = 0, first_plane = 0, planes = 0;
     gpu::uint stiffness = 0;
     bool cold = false;
+    gpu::uint effort = 1;
     LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();

@@ -95,6 +95,7 @@ class GlSphereSolver final : public Solver {
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
+    if (gl::Device::current().software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
     tell_phase(r.world, r.progress);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
     return true;

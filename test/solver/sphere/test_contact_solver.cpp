@@ -73,6 +73,28 @@ TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
   }
 }
 
+// Loads travel about a layer a sweep: of what lies on each other, cubes one by one or eight a layer.
+TEST(Solve, AHeapOfManyLayersGetsMoreSweeps) {
+  PartModelPtr part;
+  const float edge = 0.05f;
+  const Shape shape = box_shape(part, Vec3::Constant(edge));
+  const auto effort = [&](int count, int a_row, int a_layer) {
+    World world = world_of_boxes(shape, static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+      world.bodies[i].x = edge * Vec3f(i % a_row, i % a_layer / a_row, i / a_layer + 0.5f);
+    take_phase(world, Phase::press);
+    EXPECT_EQ(world.sweeps(), world.effort * world.settings.sweeps);
+    return world.effort;
+  };
+  EXPECT_EQ(effort(4, 1, 1), 1);
+  EXPECT_EQ(effort(9, 1, 1), 2);
+  EXPECT_EQ(effort(19, 1, 1), 4);
+  EXPECT_EQ(effort(49, 1, 1), 10);
+  EXPECT_EQ(effort(32, 4, 8), 1);
+  EXPECT_EQ(effort(19 * 8, 4, 8), 4);
+  EXPECT_EQ(effort(64, 8, 64), 1);
+}
+
 // On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then
 // braked.
 TEST(Solve, AProbeBeginsWithoutFriction) {
