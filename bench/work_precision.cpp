@@ -140,7 +140,8 @@ void curves(Run& out, const std::string& part) {
     if (!out.wanted(row)) continue;
     if (setting.apply) warm_up(request);
     std::vector<Row> scenes;
-    for (int seed = 1; seed <= (out.quick() ? 1 : 2); ++seed) {
+    const int seeds = out.quick() ? 1 : setting.solver == "sphere" && setting.varied == "default" ? 10 : 2;
+    for (int seed = 1; seed <= seeds; ++seed) {
       request.seed = static_cast<std::uint64_t>(seed);
       scenes.push_back(
           judged_scene(out.scratch(), request, Run::pieces(part), setting.peer, {out.quick() ? 20.0 : 30.0, exact}));
