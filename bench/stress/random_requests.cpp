@@ -99,7 +99,6 @@ std::vector<Row> random_requests(bool soak) {
     heaps.known[std::string(solver) + ": heap 58"] =
         "a grid is poured under gravity tilted by 25 degrees: two parts leave over the rim";
   if (soak) heaps.known["bullet: heap 27"] = restarted;
-  if (soak) heaps.known["sphere: heap 24"] = "sharp parts in a narrow bin: of 20 seeds of it one ends with two caught";
   return {heaps, flights};
 }
 
