@@ -14,6 +14,13 @@ Case stack(const std::string& name, const std::string& model, const Mesh& mesh, 
   return c;
 }
 
+Case plates(int count) {
+  return stack("plates", "plate", box(Vec3(0.06, 0.04, 0.006)), 0.006, count);
+}
+Case rings(int count) {
+  return stack("rings", "ring", ring(0.018, 0.0275, 0.012), 0.012, count);
+}
+
 }  // namespace
 
 std::vector<Row> stacks(bool soak) {
@@ -21,8 +28,8 @@ std::vector<Row> stacks(bool soak) {
   for (const int count : soak ? std::vector<int>{2, 10, 20, 50} : std::vector<int>{10}) {
     Row row{"stack", "of " + std::to_string(count), count == 2 ? both_forms : both, {}, {}};
     row.cases.push_back(stack("cubes", "cube", cube(0.05), 0.05, count));
-    row.cases.push_back(stack("plates", "plate", box(Vec3(0.06, 0.04, 0.006)), 0.006, count));
-    row.cases.push_back(stack("rings", "ring", ring(0.018, 0.0275, 0.012), 0.012, count));
+    row.cases.push_back(plates(count));
+    row.cases.push_back(rings(count));
     rows.push_back(row);
   }
   const char* high = "a column on soft contacts buckles under its own weight, or sways near it";
@@ -32,7 +39,9 @@ std::vector<Row> stacks(bool soak) {
     row.known["sphere: cubes"] = high;
     if (row.name == "of 50") row.known["sphere: plates"] = row.known["sphere: rings"] = high;
   }
-  if (!soak) {  // rest takes long to say of so many: a quarter of a second must pass without a fall
+  if (!soak) {
+    rows.push_back({"stack", "of 20, flat", {"sphere"}, {plates(20), rings(20)}, {}});
+    // Rest takes long to say of so many: a quarter of a second must pass without a fall.
     rows.push_back({"stack", "of 50", both, {stack("cubes", "cube", cube(0.05), 0.05, 50)}, {}});
     rows.back().cases[0].request.seconds = 0.25;
     rows.back().cases[0].expect.rests = false;
