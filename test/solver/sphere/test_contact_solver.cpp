@@ -87,12 +87,22 @@ TEST(Solve, AHeapOfManyLayersGetsMoreSweeps) {
     return world.effort;
   };
   EXPECT_EQ(effort(4, 1, 1), 1);
-  EXPECT_EQ(effort(9, 1, 1), 2);
-  EXPECT_EQ(effort(19, 1, 1), 4);
-  EXPECT_EQ(effort(49, 1, 1), 10);
+  EXPECT_EQ(effort(8, 1, 1), 2);
+  EXPECT_EQ(effort(19, 1, 1), 5);
+  EXPECT_EQ(effort(49, 1, 1), 11);
   EXPECT_EQ(effort(32, 4, 8), 1);
-  EXPECT_EQ(effort(19 * 8, 4, 8), 4);
+  EXPECT_EQ(effort(19 * 8, 4, 8), 5);
   EXPECT_EQ(effort(64, 8, 64), 1);
+  // One that is dropped from high above is no layer, nor are more layers than parts.
+  World world = world_of_boxes(shape, 32);
+  for (int i = 0; i < 32; ++i) world.bodies[i].x = edge * Vec3f(i % 4, i / 4, 0.5f);
+  world.bodies[7].x.z() = 50;
+  take_phase(world, Phase::press);
+  EXPECT_EQ(world.effort, 1);
+  World two = world_of_boxes(shape, 2);
+  two.bodies[1].x.z() = 50;
+  take_phase(two, Phase::press);
+  EXPECT_EQ(two.effort, 1);
 }
 
 // On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then
