@@ -18,7 +18,7 @@ struct Pile {
 
   bool usual() const { return count == 150; }
 };
-// Where parts lie seven layers deep and more the referee, which begins without forces, lets heaps sag: its word on them
+// Deep bins, six to twelve layers: the referee, which begins without forces, lets such heaps sag, and its word on them
 // depends on its sweeps.
 constexpr Pile piles[] = {{"channel_u", 10},
                           {"ring_24", 10},

@@ -67,8 +67,7 @@ std::vector<Row> materials(bool soak) {
   under("ten times the earth's", Vec3(0, 0, -98.1));
   if (soak)
     gravity.known["sphere: the moon's"] =
-        "held by friction when it ended: of 60 seeds of it two move on by over 1 mm, "
-        "none on earth";
+        "held by friction alone: of 60 seeds of it two move on by over 1 mm, none on earth";
   rows.push_back(gravity);
 
   Row thesis{"material", "thesis preset", {"thesis"}, {}, {}};

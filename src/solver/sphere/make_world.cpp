@@ -106,8 +106,12 @@ float reach(std::vector<float>& values) {
   return within > 0 ? (values[values.size() - 1 - tail] - values[tail]) * last / within : 0;
 }
 
-/// Layers of parts in a heap: its height over the edge of the cube that a part has of its volume.
+/// Layers of parts in a heap: its height, along the axis that gravity is nearest to, over the edge of the cube that a
+/// part has of its volume. Without gravity nothing lies on anything.
 float layers_of(const World& world) {
+  if (world.gravity.isZero()) return 0;
+  int down = 0;
+  world.gravity.cwiseAbs().maxCoeff(&down);
   std::array<std::vector<float>, 3> places;
   float edge = 0;
   for (const Body& b : world.bodies) {
@@ -118,7 +122,7 @@ float layers_of(const World& world) {
   if (places[0].empty()) return 0;
   const auto count = static_cast<float>(places[0].size());
   const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge / count);
-  return std::min(count, size.z() / std::cbrt(size.prod() / count));
+  return std::min(count, size[down] / std::cbrt(size.prod() / count));
 }
 
 }  // namespace

@@ -99,6 +99,18 @@ TEST(Solve, AHeapOfManyLayersGetsMoreSweeps) {
   world.bodies[7].x.z() = 50;
   take_phase(world, Phase::press);
   EXPECT_EQ(world.effort, 1);
+  // Layers lie on each other along gravity, and without it not at all.
+  World row = world_of_boxes(shape, 19);
+  for (int i = 0; i < 19; ++i) row.bodies[i].x = edge * Vec3f(i, 0, 0.5f);
+  const auto effort_under = [&](const Vec3f& gravity) {
+    row.gravity = gravity;
+    row.stiffness = Stiffness::soft;
+    take_phase(row, Phase::press);
+    return row.effort;
+  };
+  EXPECT_EQ(effort_under({0, 0, -9.81f}), 1);
+  EXPECT_EQ(effort_under({-9.81f, 0, -1}), 5);
+  EXPECT_EQ(effort_under({0, 0, 0}), 1);
   World two = world_of_boxes(shape, 2);
   two.bodies[1].x.z() = 50;
   take_phase(two, Phase::press);
