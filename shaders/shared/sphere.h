@@ -113,8 +113,7 @@ struct SphereProgress {
   uint cold_steps;                           // yet to come, with more sweeps
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
-  uint effort;                               // times as many sweeps, in a heap of many layers
-  uint unused;                               // states, read back behind the progress of worlds, begin on 16 bytes
+  uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;

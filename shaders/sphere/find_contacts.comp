@@ -41,9 +41,9 @@ SphereSamples samples_of(uint body) {
 
 // Of a body of this world.
 Placement placement_of(uint body) {
-  float refinement = settings.softness[progress[world_index].stiffness].w;
-  float time_step = progress[world_index].time_step, sub_step = time_step / (float(settings.sub_steps) * refinement);
-  return placement_of(body, half_way(time_step, sub_step));
+  float time_step = progress[world_index].time_step;
+  float sub_steps = float(settings.sub_steps * progress[world_index].refinement);
+  return placement_of(body, half_way(time_step, time_step / sub_steps));
 }
 
 #include "sphere/contact_place.h"

@@ -88,7 +88,7 @@ void main() {
   float h = sub_step();
   uint sweeps = progress[w].effort * (progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps);
   uint relaxing = progress[w].stiffness != SPHERE_RIGID ? sweeps : 1u;
-  for (uint k = 0u; k < settings.sub_steps * uint(softness.w); ++k) {
+  for (uint k = 0u; k < sub_steps; ++k) {
     take_sub_step_of(w, k);
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
     barrier();

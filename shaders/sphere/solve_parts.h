@@ -8,18 +8,20 @@
 
 SphereWorld world;
 uint list;
-vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
+vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one; more in high heaps
+uint sub_steps;   // of this step
 float grip;       // share of friction that holds
 float kept;       // share of the last step's forces that this one begins with
 float time_step;  // s, of this step
 
-float sub_step() { return time_step / (float(settings.sub_steps) * softness.w); }
+float sub_step() { return time_step / float(sub_steps); }
 
 // What holds for sub-step k of world w.
 void take_sub_step_of(uint w, uint k) {
   bool forgets = progress[w].forgets != 0u;
   time_step = progress[w].time_step;
   softness = settings.softness[progress[w].stiffness];
+  sub_steps = settings.sub_steps * progress[w].refinement;
   uint slips = forgets ? max(1u, uint(settings.probe_slip / sub_step() + 0.5)) : 0u;
   grip = k < slips ? 0.0 : progress[w].grip;
   kept = forgets ? 0.0 : 1.0;

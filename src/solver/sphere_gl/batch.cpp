@@ -202,6 +202,7 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
 void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
   regions_[slot].stiffness = progress.stiffness;
   regions_[slot].cold = progress.cold_steps != 0;
+  regions_[slot].refinement = progress.refinement;
   regions_[slot].effort = progress.effort;
   progress_.upload(slot, &progress, 1);
 }

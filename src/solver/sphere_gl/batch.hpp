@@ -88,7 +88,7 @@ class Batch {
                 contacts = 0, first_plane = 0, planes = 0;
     gpu::uint stiffness = 0;
     bool cold = false;
-    gpu::uint effort = 1;
+    gpu::uint refinement = 1, effort = 1;
     LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();

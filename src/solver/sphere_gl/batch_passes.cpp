@@ -30,7 +30,7 @@ void Batch::run(const std::vector<Slot>& slots, float share) {
 }
 
 unsigned Batch::sub_steps(const Region& r) const {
-  return settings_block_.sub_steps * static_cast<unsigned>(settings_block_.softness[r.stiffness].w);
+  return settings_block_.sub_steps * r.refinement;
 }
 
 void Batch::bind_first() const {

@@ -71,7 +71,8 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);
   progress.grip = world.grip;
-  progress.effort = static_cast<gpu::uint>(world.effort);
+  progress.refinement = static_cast<gpu::uint>(world.refinement());
+  progress.effort = static_cast<gpu::uint>(world.sweep_effort());
   progress.forgets = world.forgets ? 1 : 0;
   if (world.forgets) progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
 }

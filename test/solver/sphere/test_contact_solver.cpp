@@ -117,6 +117,29 @@ TEST(Solve, AHeapOfManyLayersGetsMoreSweeps) {
   EXPECT_EQ(two.effort, 1);
 }
 
+// Soft contacts are springs of a stiffness that grows with the square of the sub-steps, which get their effort. Six
+// cubes on each other sag by the weight above each contact over that.
+TEST(Solve, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
+  PartModelPtr part;
+  const float edge = 0.05f;
+  const Shape shape = box_shape(part, Vec3::Constant(edge));
+  constexpr int count = 6;
+  const auto sag = [&](float layers, int effort) {
+    World world = world_of_boxes(shape, count);
+    for (int i = 0; i < count; ++i) world.bodies[i].x = edge * Vec3f(0, 0, i + 0.5f);
+    world.planes = {{Vec3f::UnitZ(), 0, false}};
+    world.settings.layers = layers;
+    world.settings.soft.slop = 0;  // what overlaps by less is held where it is
+    take_phase(world, Phase::settle);
+    EXPECT_EQ(world.effort, effort);
+    EXPECT_EQ(world.sub_steps(), effort * world.settings.sub_steps);
+    EXPECT_EQ(world.sweeps(), world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps);
+    for (int k = 0; k < 400; ++k) step(world);
+    return (count - 0.5f) * edge - world.bodies[count - 1].x.z();
+  };
+  EXPECT_NEAR(sag(100, 1) / sag(1.5f, 4), 16.0f, 1.0f);
+}
+
 // On a slope that friction does not hold: as on ice for as long as a probe slips, in its first step at most, then
 // braked.
 TEST(Solve, AProbeBeginsWithoutFriction) {
