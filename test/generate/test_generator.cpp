@@ -131,6 +131,11 @@ TEST_F(GeneratorTest, TheNextSceneTakesThePlaceOfOneThatRests) {
   const auto fifth = std::find(poured.begin(), poured.end(), 4u);
   EXPECT_TRUE(std::any_of(fifth, poured.end(), [](std::size_t scene) { return scene < 4; }))
       << "it waited until all of the first four were at rest";
+  request.scenes = 1;
+  for (const std::size_t index : {0, 4, 7}) {
+    request.first = index;
+    EXPECT_EQ(run(request).at(0).scene.report.state_hash, results[index].scene.report.state_hash) << index;
+  }
 }
 
 TEST_F(GeneratorTest, KeepsAModelUntilItsFileChanges) {

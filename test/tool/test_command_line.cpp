@@ -263,6 +263,23 @@ TEST_F(CommandLine, MakesScenesQuietlyAndTheSameAgain) {
   EXPECT_NE(json("other/scene_000001/scene.json")["report"]["state_hash"], scene["report"]["state_hash"]);
 }
 
+// Threads of llvmpipe are the one thing that a process says for all of its scenes.
+TEST_F(CommandLine, ProcessesThatShareAJobMakeTheScenesOfOne) {
+  for (const std::string device : {"cpu", "gpu"}) {
+    const std::string request =
+        "generate request.yaml --solver sphere --set solver.sphere.device=" + device + " --out ";
+    EXPECT_EQ(run(request + device + " --scenes 4", "LP_NUM_THREADS=0").code, 0);
+    EXPECT_EQ(run(request + device + "_shared --scenes 2", "LP_NUM_THREADS=2").code, 0);
+    EXPECT_EQ(run(request + device + "_shared --first 2 --scenes 2", "LP_NUM_THREADS=2").code, 0);
+    for (int i = 0; i < 4; ++i) {
+      const std::string scene = "/scene_00000" + std::to_string(i) + "/scene.json";
+      EXPECT_EQ(lasting(device + "_shared" + scene).dump(), lasting(device + scene).dump()) << device << " " << i;
+    }
+  }
+  EXPECT_NE(json("cpu/scene_000000/scene.json")["report"]["device"],
+            json("gpu/scene_000000/scene.json")["report"]["device"]);
+}
+
 TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
   EXPECT_EQ(run("generate request.yaml --out out --first 1").code, 0);
   const auto time = fs::last_write_time(dir / "out/scene_000001/scene.json");
@@ -367,6 +384,44 @@ TEST_F(CommandLine, VerboseTellsStagesAndCounters) {
   EXPECT_EQ(outcome.code, 0);
   EXPECT_NE(outcome.out.find("scene 0: accepted, 3 parts"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("quality"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandLine, VerboseTellsWhatTheDefaultSolverWasSparedAndWhatItDid) {
+  const char* models = std::getenv("BIN_SCENES_MODELS");
+  if (!models) GTEST_SKIP() << "BIN_SCENES_MODELS is not set";
+  put("heap.yaml", "bin: {inner_size: [0.16, 0.14, 0.1]}\nparts:\n  - {model: " + std::string(models) +
+                       "/channel_u.stl, unit: mm, count: 4}\n");
+  put("fall.yaml",
+      "bin: {none: true}\npour: {pattern: given}\nparts:\n  - {model: box.stl, count: 2, poses: [[0, 0, 2], [1, 0, "
+      "2]]}\n");
+  for (const std::string device : {"cpu", "gpu"}) {
+    const std::string options = " --solver sphere --set solver.sphere.device=" + device + " --verbose --out " + device;
+    std::string told;
+    const auto counted = [&](const std::string& name) {
+      std::istringstream lines(told);
+      std::string line, word;
+      while (std::getline(lines, line)) {
+        std::istringstream words(line);
+        long long count = -1;
+        if (words >> word && word == name && words >> count) return count;
+      }
+      ADD_FAILURE() << device << " does not tell " << name << ":\n" << told;
+      return -1LL;
+    };
+    told = run("generate heap.yaml --seed 3" + options).out;
+    for (const char* name : {"body_steps_in_free_fall", "body_steps_asleep", "pairs_culled", "pairs_recycled",
+                             "pairs_asleep", "nodes_tested", "contacts", "contacts_reduced"})
+      EXPECT_GT(counted(name), 0) << device << " " << name;
+    EXPECT_LT(counted("pairs_culled") + counted("pairs_recycled"), counted("pairs"));
+    EXPECT_LT(counted("nodes_tested"), counted("nodes_possible"));
+    EXPECT_LT(counted("body_steps_in_free_fall") + counted("body_steps_asleep"), 4 * counted("steps"));
+
+    told = run("generate fall.yaml --seconds 0.1" + options + "_fall").out;
+    EXPECT_EQ(counted("steps"), 40);
+    EXPECT_EQ(counted("body_steps_in_free_fall"), 2 * 40);
+    for (const char* name : {"pairs", "nodes_tested", "nodes_possible", "contacts"})
+      EXPECT_EQ(counted(name), 0) << name;
+  }
 }
 
 TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {

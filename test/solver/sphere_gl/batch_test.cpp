@@ -1,12 +1,15 @@
 /// What must not matter: the run, the other worlds of a batch, threads of the driver, sizes of buffers. What must: who
 /// touches whom when a part is taken out.
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 #include "bin_scenes/solver/pour.hpp"
 #include "solver/fixture.hpp"
+#include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -159,9 +162,49 @@ TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
   EXPECT_EQ(fallen(2, spread), fallen(2));
 }
 
-TEST(SphereGlBatch, PrintsHash) {  // for the test below, in a process of its own
+/// Four walls of four rows of bricks, each brick on two: 256 bodies, more than a group holds on a software device, in
+/// islands of 64.
+struct Walls {
+  WorldDef def;
+
+  Walls() {
+    def.parts = {PartModel::from_mesh(testing::box_mesh({0.08, 0.04, 0.04}), "brick")};
+    def.bin.kind = Bin::Kind::floor;
+    def.bodies.assign(256, testing::material(0.5));
+  }
+
+  WorldId add(Solver& solver) const {
+    const WorldId id = solver.add_world(def);
+    for (std::size_t i = 0; i < def.bodies.size(); ++i) {
+      const auto wall = static_cast<double>(i / 64), row = static_cast<double>(i / 16 % 4);
+      const double along = static_cast<double>(i % 16) + 0.5 * static_cast<double>(i / 16 % 2);
+      BodyState state;
+      state.pose.position = Vec3(0.085 * along, 0.1 * wall, 0.04 * row + 0.02);
+      solver.insert(id, i, state);
+    }
+    return id;
+  }
+};
+
+// For the test below, in a process of its own: three worlds of a group each, and one that is spread.
+TEST(SphereGlBatch, PrintsHash) {
   if (!std::getenv("BIN_SCENES_TEST_PRINT_HASH")) GTEST_SKIP() << "runs inside another test";
-  std::printf("hash %016llx\n", static_cast<unsigned long long>(fallen(1)));
+  const auto print = [](std::uint64_t hash) { std::printf("hash %016llx\n", static_cast<unsigned long long>(hash)); };
+  const auto solver = make_gl_sphere_solver(coarse());
+  std::vector<WorldId> ids;
+  for (const int variant : {2, 0, 1}) ids.push_back(Handful(variant).add(*solver));
+  for (int k = 0; k < 2; ++k) solver->advance(ids, 0.1);
+  for (const WorldId id : ids) print(hash_of(solver->states(id)));
+  SphereSettings settings = coarse();
+  settings.field_cell = 0.01;
+  const auto spread = make_gl_sphere_solver(settings);
+  const WorldId walls = Walls().add(*spread);
+  spread->set_phase(walls, Phase::press);
+  for (int k = 0; k < 2; ++k) spread->advance({walls}, 0.25);
+  print(hash_of(spread->states(walls)));
+  const std::vector<bool> asleep = spread->asleep(walls);
+  print(std::hash<std::vector<bool>>()(asleep));
+  EXPECT_GT(std::count(asleep.begin(), asleep.end(), true), 64) << "no island was joined";
 }
 
 std::string hash_in_process(const std::string& environment) {
@@ -174,15 +217,73 @@ std::string hash_in_process(const std::string& environment) {
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 256> line{};
   while (pipe && std::fgets(line.data(), line.size(), pipe))
-    if (std::string(line.data()).rfind("hash ", 0) == 0) out = line.data();
+    if (std::string(line.data()).rfind("hash ", 0) == 0) out += line.data();
   if (pipe) pclose(pipe);
   return out;
 }
 
 TEST(SphereGlBatch, ThreadsOfTheDriverDoNotMatter) {
   const std::string without = hash_in_process("LP_NUM_THREADS=0");
-  EXPECT_EQ(without.size(), 22u) << without;
+  EXPECT_EQ(without.size(), 5 * 22u) << without;
   EXPECT_EQ(without, hash_in_process("LP_NUM_THREADS=2"));
+}
+
+/// What is asked of the device while worlds of the solver go on by `seconds`, lists growing no more.
+gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double seconds) {
+  const auto repeated = [&] {
+    const auto& counters = solver.profile().counters;
+    const auto at = counters.find("steps_repeated");
+    return at == counters.end() ? 0 : at->second;
+  };
+  const std::uint64_t repeated_before = repeated();
+  const gl::Traffic before = gl::traffic();
+  solver.advance(ids, seconds);
+  const gl::Traffic after = gl::traffic();
+  EXPECT_EQ(repeated(), repeated_before);
+  return {after.dispatches - before.dispatches, after.barriers - before.barriers,
+          after.bytes_uploaded - before.bytes_uploaded, after.bytes_read_back - before.bytes_read_back};
+}
+
+// What a step costs on a device for which dispatches and barriers are dear (docs/solver.md, "Counted").
+TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
+  const auto solver = make_gl_sphere_solver(coarse());
+  std::vector<WorldId> ids;
+  for (const int variant : {0, 1, 2}) ids.push_back(Handful(variant).add(*solver));
+  solver->advance(ids, 0.2);
+  for (const Phase phase : {Phase::pour, Phase::press, Phase::probe}) {
+    for (const WorldId id : ids) solver->set_phase(id, phase);
+    solver->advance(ids, 0.05);  // bodies that a phase wakes go up, lists grow
+    const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
+    EXPECT_EQ(slice.dispatches, 7u * 5u);
+    // A barrier behind each, and one before each copy: progress of three worlds, who runs, settings; one read back.
+    EXPECT_EQ(slice.barriers, 7u * 5u + 3u + 2u + 2u);
+    EXPECT_EQ(slice.bytes_uploaded,
+              3 * sizeof(gpu::SphereProgress) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));
+    EXPECT_EQ(slice.bytes_read_back, 3 * sizeof(gpu::SphereProgress) + (5 + 8 + 11) * sizeof(gpu::SphereState));
+  }
+}
+
+TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
+  SphereSettings settings = coarse();
+  settings.field_cell = 0.01;
+  const auto solver = make_gl_sphere_solver(settings);
+  const WorldId id = Walls().add(*solver);
+  solver->set_phase(id, Phase::settle);
+  // 71 of a step, and of each sub-step velocities, positions, and 17 a sweep: warm start, and what follows it.
+  const auto expected = [](unsigned sub_steps, unsigned sweeps) {
+    return 71u + sub_steps * (2u + 17u * (1u + sweeps));
+  };
+  const auto step = [&] { return asked_for(*solver, {id}, solver->step_size()).dispatches; };
+  solver->advance({id}, 2 * solver->step_size());  // lists grow
+  EXPECT_EQ(step(), expected(2, 4 + 4)) << "cold";
+  solver->advance({id}, 50 * solver->step_size());
+  EXPECT_EQ(step(), expected(2, 2 + 2));
+  solver->set_phase(id, Phase::press);
+  EXPECT_EQ(step(), expected(8, 2 + 2));
+  solver->set_phase(id, Phase::probe);
+  EXPECT_EQ(step(), expected(8, 4 + 1)) << "cold";
+  solver->advance({id}, 50 * solver->step_size());
+  EXPECT_EQ(step(), expected(8, 2 + 1));
 }
 
 /// Two stacks of two blocks: what is taken out wakes the one above it, not the other stack. Asleep, a world costs no
