@@ -4,6 +4,8 @@
 # than 8 minutes, goes on after a failure and says at the end what failed. Needs nothing but the archive.
 #   bench/gpu.sh [FOLDER]                default: gpu_results; all that was printed or measured lies there afterwards
 #   BIN_SCENES_GL=software bench/gpu.sh  on llvmpipe; QUICK=1 for small forms of all, as there is no GPU to measure
+# To keep the rows: copy FOLDER/results/<device> into bench/results of a checkout, then bench/publish there. Small forms
+# lie in FOLDER/quick/<device>: to look at only.
 set -u
 bundle=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 [[ -x $bundle/run ]] || { echo "gpu.sh: runs from the archive that scripts/bundle makes" >&2; exit 2; }
@@ -57,7 +59,7 @@ tests() {
 
 # Rows of a benchmark, printed one below the other.
 rows() {
-  [[ -f $1 ]] && grep -v '^#' "$1" | sed 's/^/        /' || true
+  cat "$out"/results/*/"$1" "$out"/quick/*/"$1" 2>/dev/null | grep -v '^#' | sed 's/^/        /' || true
 }
 
 {
@@ -76,25 +78,31 @@ tests gl solver sensor generate
 software=$(grep -qiE 'llvmpipe|softpipe|swrast' "$out/doctor.log" && echo 1)
 small=$quick$software
 bench() {  # NAME LIMIT ARGUMENTS...
-  local name=$1 limit=$2
+  local name=$1 limit=$2 results=$out/results
+  [[ $small ]] && results=$out/quick
   shift 2
-  step "bench_$name" "$limit" "$bundle/run" bin_scenes_bench --out "$out/bench" ${small:+--quick} "$@"
+  step "bench_$name" "$limit" "$bundle/run" bin_scenes_bench --results "$results" ${small:+--quick} "$@"
 }
+
+# Small forms of what needs little, before what may use up the time: what is skipped, closed forms, and the least
+# iterations at which the thesis's cubes stand.
+for name in skipping closed_forms; do small=1 bench "$name" 60 --filter "$name"; done
+small=1 bench stability 30 --filter thesis_tables --rows table=stability
 
 # One scene alone, and accepted scenes a second of 512 in one run.
 bench throughput 120 --filter throughput --rows solver=sphere/gpu
-rows "$out/bench/throughput.csv"
+rows throughput.csv
 
 # The thesis's teapots, 256 to 1024, stage by stage, then its other tables.
 bench teapots 90 --filter thesis_tables --rows table=teapots --rows 'setting=*sphere/thesis*'
 for table in spheres_per_body static_spheres bodies grid_size cell_size; do
   bench "$table" 40 --filter thesis_tables --rows "table=$table"
 done
-rows "$out/bench/thesis_tables.csv"
+rows thesis_tables.csv
 
 # The goals of the default solver on the device, by the report's own figures.
 bench goals 120 --filter goals --rows solver=sphere/gpu
-rows "$out/bench/goals.csv"
+rows goals.csv
 
 # One world of up to 65,536 parts, and up to 1024 worlds.
 bench growth 100 --filter growth --rows solver=sphere/gpu
@@ -102,9 +110,6 @@ bench growth 100 --filter growth --rows solver=sphere/gpu
 # The demo's scene with its pictures.
 step conrods 60 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/conrods" --overwrite \
   --formats json,png ${small:+--set "parts[0].count=20"}
-
-small=1
-for name in skipping closed_forms; do bench "$name" 60 --filter "$name"; done
 
 if (( ${#failed[@]} )); then
   echo "failed: ${failed[*]}" | tee "$out/failed.txt"

@@ -1,5 +1,5 @@
-/// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part.
-/// Heaps at rest on an endless floor, every part awake.
+/// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part,
+/// with the parts of one heap. Heaps at rest on an endless floor, or joined in one box, every part awake.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
@@ -20,14 +20,19 @@ double counted(const Heaps& heaps, const std::string& name) {
   return found == counters.end() ? 0.0 : static_cast<double>(found->second);
 }
 
-/// A few steps to build contacts, then the samples; parts do not fall asleep that soon.
-Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
+/// A few steps to build contacts, then the samples; parts do not fall asleep that soon. `before` steps go ahead of
+/// that, for heaps that are not at rest as they are set up.
+Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds, int before = 0) {
   Heaps heaps(heap, settings, per_world, worlds);
   const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
+  if (before > 0) {
+    heaps.steps(before);
+    heaps.wake(1.0);
+  }
   heaps.steps(steps);
   std::vector<double> wall, cpu, part_us;
   double dispatches = 0;
-  const Profile before = heaps.solver().profile();
+  const Profile profile = heaps.solver().profile();
   for (int k = 0; k < 3; ++k) {
     dispatches = counted(heaps, "gl_dispatches");
     const Heaps::Cost cost = heaps.steps(steps);
@@ -40,9 +45,10 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
                 .measure("step_cpu_ms", cpu)
                 .measure("part_cpu_us", part_us)
                 .exact("asleep_share", heaps.asleep())
-                .info("stages_us", stages_of(heaps.solver().profile().since(before),
+                .info("stages_us", stages_of(heaps.solver().profile().since(profile),
                                              1e3 / (3.0 * steps * static_cast<double>(heaps.bodies()))))
                 .info("device", heaps.solver().device());
+  if (heap.request.bin.kind == Bin::Kind::box) row.exact("joined_share", heaps.joined());
   if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
     const double held = counted(heaps, "gl_bytes_held") - counted(heaps, "gl_bytes_shared");
     row.exact("dispatches_a_step", (counted(heaps, "gl_dispatches") - dispatches) / steps)
@@ -51,19 +57,28 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
   return row;
 }
 
-/// Emits the rows of one curve and, at the end, the exponent of its cost over x.
+/// Emits the rows of one curve and, at the end, the exponents of its cost and memory over x: of all rows of the table,
+/// those kept from an earlier run included.
 class Curve {
  public:
   Curve(Run& out, const std::string& solver, const std::string& over) : out_(out), solver_(solver), over_(over) {}
   ~Curve() {
-    if (x_.size() < 2) return;
-    // The largest sizes tell how it scales; small ones are dominated by what every step costs.
-    const std::size_t skip = x_.size() > 4 ? x_.size() - 4 : 0;
+    if (!out_.wanted(key("exponent"))) return;
+    Samples cost, memory;
+    double constant = 0.0;  // MB that the smallest size takes too: parts, fields, what loading took
+    for (std::size_t r = 0; r < out_.table().rows.size(); ++r) {
+      const Row row = out_.table().row(r);
+      const double x = row.number("x"), step_ms = row.number("step_cpu_ms"), added_mb = row.number("added_mb");
+      if (row.at("solver") != solver_ || row.at("over") != over_ || std::isnan(x) || std::isnan(step_ms)) continue;
+      if (cost.x.empty()) constant = added_mb;
+      cost.add(x, step_ms);
+      // Less than that is lost in what loading took for a while.
+      if (added_mb - constant > std::max(1.0, 0.1 * constant)) memory.add(x, added_mb - constant);
+    }
+    if (cost.x.size() < 2) return;
     Row row = key("exponent");
-    row.measure("exponent_of_step", fitted_exponent({x_.begin() + skip, x_.end()}, {y_.begin() + skip, y_.end()}));
-    if (mb_[skip] > 1.0)  // less is lost in what the program has anyway
-      row.measure("exponent_of_memory",
-                  fitted_exponent({x_.begin() + skip, x_.end()}, {mb_.begin() + skip, mb_.end()}));
+    row.measure("exponent_of_step", cost.exponent());
+    if (memory.x.size() > 1) row.measure("exponent_of_memory", memory.exponent());
     out_.row(row);
   }
   /// False where the limit was reached: larger ones would not fit either.
@@ -71,22 +86,28 @@ class Curve {
     if (!out_.wanted(key(Row::text(x)))) return true;
     const Isolated one = isolated(work, limit_cpu_s);
     Row row = key(Row::text(x)).info("bodies", bodies).info("worlds", worlds).append(one.row);
-    if (one.good) {
-      row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
-      x_.push_back(x);
-      y_.push_back(one.row.number("step_cpu_ms"));
-      mb_.push_back(one.added_mb);
-    }
+    if (one.good) row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
     out_.row(row);
     return one.good;
   }
 
  private:
+  struct Samples {
+    std::vector<double> x, y;
+    void add(double at, double value) {
+      x.push_back(at);
+      y.push_back(value);
+    }
+    /// Of the four largest: small ones are dominated by what every step costs.
+    double exponent() const {
+      const std::size_t skip = x.size() > 4 ? x.size() - 4 : 0;
+      return fitted_exponent({x.begin() + skip, x.end()}, {y.begin() + skip, y.end()});
+    }
+  };
   Row key(const std::string& x) const { return Row().key("solver", solver_).key("over", over_).key("x", x); }
 
   Run& out_;
   std::string solver_, over_;
-  std::vector<double> x_, y_, mb_;
 };
 
 void run(Run& out) {
@@ -126,15 +147,33 @@ void run(Run& out) {
       }
     }
   }
-  Curve curve(out, "sphere", "samples of a part");
-  for (const int samples :
-       out.quick() ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
-    Request settings = large.request;
-    settings.solver.sphere.fine_samples = samples;
-    settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
-    if (!curve.point(
-            large.rest.size(), 1, samples, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
-      break;
+  {
+    // Five layers; a second after the walls between them are gone, what they held leans on its neighbours.
+    const std::size_t count = out.quick() ? 16 : 64;
+    const double width = out.quick() ? 0.08 : 0.12;
+    const std::string file = path + "boxed.json";
+    isolated([&] { return boxed_heap(part, count, width, file), Row(); });
+    const Heap boxed = boxed_heap(part, count, width, file);
+    Curve curve(out, "sphere", "one heap");
+    for (std::size_t heaps = 4; heaps <= (out.quick() ? 4u : 64u); heaps *= 4) {
+      const std::size_t bodies = heaps * boxed.rest.size();
+      if (!curve.point(
+              bodies, 1, static_cast<double>(bodies), [&] { return step_row(boxed, boxed.request, heaps, 1, 400); },
+              limit_cpu_s))
+        break;
+    }
+  }
+  {
+    Curve curve(out, "sphere", "samples of a part");
+    for (const int samples :
+         out.quick() ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
+      Request settings = large.request;
+      settings.solver.sphere.fine_samples = samples;
+      settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
+      if (!curve.point(
+              large.rest.size(), 1, samples, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
+        break;
+    }
   }
   if (out.quick()) return;
   Curve voxels(out, "sphere/thesis", "voxels along a part");

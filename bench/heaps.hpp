@@ -10,13 +10,16 @@
 
 namespace bin_scenes::bench {
 
-/// A heap of `count` parts at rest on an endless floor, poured by the solver named; kept in `path`, made if missing.
+/// `count` parts at rest; kept in `path`, made if missing.
 struct Heap {
   Request request;  ///< of one heap
   std::vector<BodyState> rest;
-  double width = 0.0;  ///< edge of a square that holds the heap and some room (m)
+  double width = 0.0;  ///< edge of a square that holds the heap (m)
 };
+/// On an endless floor, with some room around it.
 Heap heap_at_rest(const std::string& part, std::size_t count, const std::string& path);
+/// In a box that wide: set up side by side in one box, without walls between them, they lean on each other.
+Heap boxed_heap(const std::string& part, std::size_t count, double width, const std::string& path);
 
 /// A solver with worlds of heaps in it.
 class Heaps {
@@ -32,6 +35,7 @@ class Heaps {
   void wake(double share);
   std::size_t bodies() const { return bodies_; }
   double asleep() const;  ///< share of all bodies
+  double joined() const;  ///< share of the first world's bodies that are one heap, each touching another of it
   Solver& solver() { return *solver_; }
   const Solver& solver() const { return *solver_; }
 

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -83,14 +84,14 @@ int main_of(int argc, char** argv) {
     std::fputs(to_text(comparison).c_str(), stdout);
     return comparison.moved.empty() ? kDone : kSomethingToSay;
   }
-  const std::vector<Benchmark> chosen = selected(benchmarks(), filter);
-  if (list_only) {
-    list(chosen);
-    return kDone;
-  }
-  check_rows(chosen, options.rows);
+  const Selection chosen = selected(benchmarks(), filter);
+  int code = kDone;
+  for (const Error& unknown : chosen.unknown) code = complain(unknown.what(), unknown.kind());  // the rest is run
+  if (list_only) list(chosen.benchmarks);
+  if (list_only || chosen.benchmarks.empty()) return code;
+  check_rows(chosen.benchmarks, options.rows);
   if (options.out.empty()) options.out = results + "/" + device_slug();
-  return run_all(chosen, options, options.quick ? " --quick" : "");
+  return std::max(code, run_all(chosen.benchmarks, options, options.quick ? " --quick" : ""));
 }
 
 }  // namespace

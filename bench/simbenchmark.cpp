@@ -1,8 +1,10 @@
 /// SimBenchmark's scenes of spheres (Hwangbo, Kang; github.com/leggedrobotics/SimBenchmark) with the published rows of
-/// other engines beside the solvers here. Scenes, metrics and durations are its own; its random numbers are not, so
-/// the first decimals of a pile's figures mean nothing.
+/// other engines beside the solvers here, and Bullet as it comes run here too: balls are spheres, the box is a hull
+/// without a margin, 10 iterations, sleeping with Bullet's own thresholds. Scenes, metrics and durations are its own;
+/// its random numbers are not, so the first decimals of a pile's figures mean nothing.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
+#include "peers/peer.hpp"
 #include "requests.hpp"
 #include "simbenchmark_published.hpp"
 
@@ -50,6 +52,7 @@ double energy(const Lab& lab, const std::vector<BodyState>& states) {
 void place_cube(Lab& lab, double height, double restitution) {
   const PartModelPtr ball = testing::sphere(0.1);
   lab.def().bin.friction = 0.0;
+  lab.def().bin.restitution = restitution;  // both: Bullet as it comes multiplies, solvers here take the larger
   Random random(42, 0, Stream::probe);
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
@@ -106,6 +109,7 @@ Result elastic_cube(Lab lab, double seconds) {
 Result bouncing(Lab lab, double seconds) {
   const PartModelPtr ball = testing::sphere(0.1);
   lab.def().bin.friction = 0.0;
+  lab.def().bin.restitution = 1.0;
   for (int i = 0; i < 49; ++i)
     lab.place(ball, Vec3(i % 7 * 2.0 - 10.0, i / 7 * 2.0 - 10.0, 5.0), Quat::Identity(), material(0.0, 1.0, 10.0));
   return energy_error(lab, 2.0 * seconds);
@@ -117,6 +121,7 @@ Result bouncing(Lab lab, double seconds) {
 Result rolling(Lab lab, double seconds) {
   const double force = 150.0, box_mass = 10.0, mass = 1.0, n = 25.0;
   lab.def().bin.friction = 0.2;
+  lab.def().bin.restitution = 0.0;
   const auto box =
       lab.place(testing::box({20, 20, 1}), Vec3(0, 0, 0.5), Quat::Identity(), material(0.8, 0.0, box_mass));
   const PartModelPtr ball = testing::sphere(0.5);
@@ -148,11 +153,34 @@ struct Scene {
   const char *name, *unit;
   Result (*run)(Lab lab, double seconds);
   std::vector<double> time_steps;
+  /// For Bullet as it comes: parts in the order in which they are placed.
+  std::vector<double> balls;
+  std::vector<Pieces> pieces;
 };
-const Scene scenes[] = {{"666", "m2", cube_of_balls, {0.001, 0.004, 0.01}},
-                        {"elastic_666", "J2", elastic_cube, {0.001, 0.004, 0.01}},
-                        {"rolling", "m2/s2", rolling, {0.001}},
-                        {"bouncing", "J2", bouncing, {0.001, 0.004, 0.01}}};
+const Scene scenes[] = {
+    {"666", "m2", cube_of_balls, {0.001, 0.004, 0.01}, {0.1}, {{}}},
+    {"elastic_666", "J2", elastic_cube, {0.0005, 0.001, 0.004, 0.01}, {0.1}, {{}}},
+    {"rolling", "m2/s2", rolling, {0.001}, {0.0, 0.5}, {{testing::box_mesh({20, 20, 1}).vertices}, {}}},
+    {"bouncing", "J2", bouncing, {0.001, 0.004, 0.01}, {0.1}, {{}}}};
+
+std::unique_ptr<Solver> solver_of(const std::string& name, const Scene& scene, double time_step) {
+  if (name == "bullet_stock") {
+    PeerSettings stock;
+    stock.engine = name;
+    stock.time_step = time_step;
+    stock.iterations = 10;
+    stock.balls = scene.balls;
+    stock.pieces = scene.pieces;
+    stock.margin = 0.0;
+    return make_peer(stock);
+  }
+  Request request;
+  choose_solver(request, name);
+  request.solver.sphere.time_step = request.solver.bullet.time_step = time_step;
+  request.solver.bullet.sleeping = false;
+  std::string reason;
+  return make_solver(request, {}, reason);
+}
 
 void run(Run& out) {
   // Ten seconds is what SimBenchmark simulates: a quick run's errors are means over less time.
@@ -172,19 +200,15 @@ void run(Run& out) {
                     .measure("error", p.error)
                     .measure("cpu_s", p.cpu_s)
                     .info("measured", "published"));
-    for (const std::string solver : {"sphere", "bullet"})
+    for (const std::string solver : {"sphere", "bullet", "bullet_stock"})
       for (const double time_step : scene.time_steps) {
-        if (!out.wanted(row("bin_scenes", solver, time_step))) continue;
+        const Row keys = row(solver == "bullet_stock" ? "Bullet" : "bin_scenes", solver, time_step);
+        if (!out.wanted(keys)) continue;
         const Isolated one = isolated([&] {
-          Request request;
-          choose_solver(request, solver);
-          request.solver.sphere.time_step = request.solver.bullet.time_step = time_step;
-          request.solver.bullet.sleeping = false;
-          std::string reason;
-          const Result result = scene.run(Lab(make_solver(request, {}, reason)), seconds);
+          const Result result = scene.run(Lab(solver_of(solver, scene, time_step)), seconds);
           return Row().measure("error", result.error).measure("cpu_s", result.cpu_s);
         });
-        out.row(row("bin_scenes", solver, time_step).append(one.row).info("measured", "here"));
+        out.row(Row(keys).append(one.row).info("measured", "here"));
       }
   }
 }

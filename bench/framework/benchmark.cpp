@@ -43,8 +43,9 @@ std::vector<Benchmark> benchmarks() {
   return all;
 }
 
-std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns) {
-  if (patterns.empty()) return all;
+Selection selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return {all, {}};
+  Selection chosen;
   std::vector<bool> wanted(all.size(), false);
   std::vector<std::string> names;
   for (const Benchmark& benchmark : all) names.push_back(benchmark.name);
@@ -56,12 +57,12 @@ std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::ve
     }
     if (any) continue;
     const std::string near = config::nearest(pattern, names);
-    throw input_error("no benchmark is called '" + pattern + "'", "--filter",
-                      near.empty() ? "bin_scenes_bench --list shows all" : "did you mean '" + near + "'?");
+    chosen.unknown.push_back(
+        input_error("no benchmark is called '" + pattern + "'", "--filter",
+                    near.empty() ? "bin_scenes_bench --list shows all" : "did you mean '" + near + "'?"));
   }
-  std::vector<Benchmark> chosen;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (wanted[i]) chosen.push_back(all[i]);
+    if (wanted[i]) chosen.benchmarks.push_back(all[i]);
   return chosen;
 }
 

@@ -15,6 +15,7 @@
 /// The file goes into bench/CMakeLists.txt, its plot (if any) into bench/plots/<name>.gp.
 #pragma once
 
+#include "bin_scenes/core/error.hpp"
 #include "framework/table.hpp"
 
 #include <functional>
@@ -74,9 +75,12 @@ struct Registration {
 /// All benchmarks by name.
 std::vector<Benchmark> benchmarks();
 
-/// Those whose name matches one of the glob patterns (all without patterns). Throws an input Error, with the nearest
-/// name, for a pattern that matches none.
-std::vector<Benchmark> selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns);
+struct Selection {
+  std::vector<Benchmark> benchmarks;
+  std::vector<Error> unknown;  ///< patterns that match none, each with the nearest name
+};
+/// Those whose name matches one of the glob patterns; all without patterns.
+Selection selected(const std::vector<Benchmark>& all, const std::vector<std::string>& patterns);
 
 /// Throws an input Error, with the nearest key, for a row filter by a key that one of the benchmarks does not have.
 void check_rows(const std::vector<Benchmark>& chosen, const std::vector<std::string>& rows);

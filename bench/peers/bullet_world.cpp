@@ -27,25 +27,32 @@ btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) 
   return std::sqrt(a->getFriction() * b->getFriction());
 }
 
-/// A part's pieces about its centre of mass, in its principal axes.
+/// A ball, or a part's pieces about its centre of mass, in its principal axes.
 struct PartShape {
   std::vector<std::unique_ptr<btConvexHullShape>> hulls;
+  std::unique_ptr<btSphereShape> ball;
   btCompoundShape compound;
   btTransform principal;  ///< in the part's frame
   btVector3 inertia;      ///< at mass 1
 
-  PartShape(const PartModel& part, const Pieces& pieces) {
+  PartShape(const PartModel& part, const Pieces& pieces, double radius, double margin) {
     const MassProperties& mass = part.mass();
     principal = btTransform(to_bt(mass.principal_axes), to_bt(mass.center));
+    if (radius > 0.0) {
+      ball = std::make_unique<btSphereShape>(radius);
+      ball->calculateLocalInertia(1.0, inertia);
+      return;
+    }
     inertia = to_bt(Vec3(mass.principal / mass.volume));
     for (const std::vector<Vec3>& piece : pieces) {
       hulls.push_back(std::make_unique<btConvexHullShape>());
       for (const Vec3& vertex : piece) hulls.back()->addPoint(to_bt(vertex), false);
-      hulls.back()->setMargin(bullet_stock_margin);
+      hulls.back()->setMargin(margin);
       hulls.back()->recalcLocalAabb();
       compound.addChildShape(principal.inverse(), hulls.back().get());
     }
   }
+  btCollisionShape* shape() { return ball ? static_cast<btCollisionShape*>(ball.get()) : &compound; }
 };
 
 class BulletWorld final : public PeerWorld {
@@ -59,7 +66,8 @@ class BulletWorld final : public PeerWorld {
     world_.setGravity(to_bt(def.gravity));
     world_.getSolverInfo().m_numIterations = settings.iterations;
     for (std::size_t p = 0; p < def.parts.size(); ++p)
-      shapes_.push_back(std::make_unique<PartShape>(*def.parts[p], settings.pieces[p]));
+      shapes_.push_back(std::make_unique<PartShape>(*def.parts[p], settings.pieces[p],
+                                                    settings.balls.empty() ? 0.0 : settings.balls[p], settings.margin));
     add_walls();
   }
   ~BulletWorld() override {
@@ -69,19 +77,25 @@ class BulletWorld final : public PeerWorld {
   }
 
   void insert(std::size_t b, const BodyState& state) override {
-    if (bodies_[b]) remove(b);
     const BodyDef& def = def_.bodies[b];
     PartShape& shape = *shapes_[def.part];
-    const double mass = def.fixed ? 0.0 : def.mass;
-    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &shape.compound, shape.inertia * mass);
-    info.m_startWorldTransform =
-        btTransform(to_bt(state.pose.orientation), to_bt(state.pose.position)) * shape.principal;
-    info.m_friction = def.friction;
-    info.m_restitution = def.restitution;
-    bodies_[b] = std::make_unique<btRigidBody>(info);
+    const btTransform pose = btTransform(to_bt(state.pose.orientation), to_bt(state.pose.position)) * shape.principal;
+    const bool fresh = !bodies_[b];
+    if (fresh) {
+      const double mass = def.fixed ? 0.0 : def.mass;
+      btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.shape(), shape.inertia * mass);
+      info.m_friction = def.friction;
+      info.m_restitution = def.restitution;
+      bodies_[b] = std::make_unique<btRigidBody>(info);
+    }
+    bodies_[b]->setCenterOfMassTransform(pose);
+    bodies_[b]->setInterpolationWorldTransform(pose);
     bodies_[b]->setLinearVelocity(to_bt(state.velocity.linear));
     bodies_[b]->setAngularVelocity(to_bt(state.velocity.angular));
-    world_.addRigidBody(bodies_[b].get());
+    if (fresh)
+      world_.addRigidBody(bodies_[b].get());
+    else
+      bodies_[b]->activate();  // its contacts stay: a push each step is no new start
   }
   void remove(std::size_t b) override {
     world_.removeRigidBody(bodies_[b].get());
@@ -110,8 +124,12 @@ class BulletWorld final : public PeerWorld {
  private:
   void add_box(const Vec3& lower, const Vec3& upper) {
     wall_shapes_.push_back(std::make_unique<btBoxShape>(to_bt(Vec3(0.5 * (upper - lower)))));
+    add_fixed(0.5 * (lower + upper));
+  }
+  /// The last shape of the walls.
+  void add_fixed(const Vec3& center) {
     btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, wall_shapes_.back().get());
-    info.m_startWorldTransform.setOrigin(to_bt(Vec3(0.5 * (lower + upper))));
+    info.m_startWorldTransform.setOrigin(to_bt(center));
     info.m_friction = def_.bin.friction;
     info.m_restitution = def_.bin.restitution;
     walls_.push_back(std::make_unique<btRigidBody>(info));
@@ -120,6 +138,11 @@ class BulletWorld final : public PeerWorld {
 
   void add_walls() {
     if (def_.bin.kind == Bin::Kind::none) return;
+    if (def_.bin.kind == Bin::Kind::floor) {
+      wall_shapes_.push_back(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0.0));
+      add_fixed(Vec3::Zero());
+      return;
+    }
     const Vec3 half = 0.5 * def_.bin.inner_size, out = half + Vec3(wall, wall, 0);
     const double height = def_.wall_height;
     add_box({-out.x(), -out.y(), -wall}, {out.x(), out.y(), 0});

@@ -13,6 +13,8 @@
 
 namespace bin_scenes::bench {
 
+constexpr double bullet_stock_margin = 0.002;  ///< m around each hull: what rests, rests so far above the floor
+
 /// By an engine's own sleeping, if it has one and it is on: slow is below its thresholds, asleep is so for its time.
 enum class PeerRest { moves, slow, asleep };
 
@@ -21,6 +23,8 @@ struct PeerSettings {
   double time_step = 0.01;
   int iterations = 20;         ///< sweeps of the contact solver per step
   std::vector<Pieces> pieces;  ///< by part of the world (m)
+  std::vector<double> balls;   ///< by part: radius of one that is a ball, else 0; if empty, none is. Bullet alone
+  double margin = bullet_stock_margin;
   /// Told after each step: simulated time, and the least rest of all bodies (moves while one is not in yet).
   std::function<void(double simulated_s, PeerRest rest)> watch;
 };
@@ -35,8 +39,6 @@ class PeerWorld {
   virtual BodyState state(std::size_t body) const = 0;  ///< of a body that is in
   virtual PeerRest rest(std::size_t) const { return PeerRest::moves; }
 };
-
-constexpr double bullet_stock_margin = 0.002;  ///< m around each hull: what rests, rests so far above the floor
 
 /// Names of the engines that this build has.
 std::vector<std::string> peers_built();

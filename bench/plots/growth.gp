@@ -1,24 +1,24 @@
 # needs: growth.csv
 set termoption noenhanced
 table = results.'/growth.csv'
-array curves = ['parts of one world', 'worlds of 16 parts', 'samples of a part']
-array solvers = ['sphere', 'bullet', 'sphere/thesis']
-array columns = ['part_cpu_us', 'part_cpu_us', 'step_cpu_ms']
-array labels = ['CPU us a part and step', 'CPU us a part and step', 'CPU ms a step']
+array curves = ['parts of one world', 'worlds of 16 parts', 'one heap', 'samples of a part', 'voxels along a part']
+array solvers = ['sphere', 'bullet', 'sphere/thesis', 'sphere/gpu']
+array columns = ['part_cpu_us', 'part_cpu_us', 'part_cpu_us', 'step_cpu_ms', 'step_cpu_ms']
+array labels = ['CPU us a part and step', 'CPU us a part and step', 'CPU us a part and step', 'CPU ms a step', 'CPU ms a step']
 set logscale xy
 set format '%g'
 set xtics auto rotate by -35
 set rmargin 6
-set multiplot layout 2, 2 title 'How the cost of a step grows (heaps, every part awake)'
+set multiplot layout 2, 3 title 'How the cost of a step grows (heaps, every part awake)'
 at(c, s, y) = strcol('over') eq curves[c] && strcol('solver') eq solvers[s] && strcol('x') ne 'exponent' ? column(y) : NaN
-do for [c=1:3] {
+do for [c=1:5] {
   if (int(system("grep -c '".curves[c]."' '".table."'")) == 0) { set multiplot next; continue }
   set xlabel curves[c]
   set ylabel labels[c]
   set key inside bottom right samplen 1 font ',9'
-  plot for [s=1:3] table using 'x':(at(c, s, columns[c])) with linespoints linetype s title solvers[s]
+  plot for [s=1:4] table using 'x':(at(c, s, columns[c])) with linespoints linetype s title solvers[s]
 }
 set xlabel curves[1]
 set ylabel 'memory added, MB'
-plot for [s=1:3] table using 'x':(at(1, s, 'added_mb')) with linespoints linetype s title solvers[s]
+plot for [s=1:4] table using 'x':(at(1, s, 'added_mb')) with linespoints linetype s title solvers[s]
 unset multiplot

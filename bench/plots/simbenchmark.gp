@@ -1,7 +1,7 @@
 # needs: simbenchmark.csv
 table = results.'/simbenchmark.csv'
 scenes = '666 elastic_666 bouncing rolling'
-engines = 'bin_scenes/sphere bin_scenes/bullet RaiSim/bisection ODE/quick Bullet/multibody MuJoCo/Newton DART/Dantzig'
+engines = 'bin_scenes/sphere bin_scenes/bullet Bullet/bullet_stock RaiSim/bisection ODE/quick Bullet/multibody MuJoCo/Newton DART/Dantzig'
 set multiplot layout 2,3 title 'SimBenchmark: error over CPU time; one point a time step (published times: other machine)'
 set logscale xy
 set format y '10^{%T}'

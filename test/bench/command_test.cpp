@@ -56,6 +56,16 @@ TEST_F(BenchCommand, SuggestsTheNearestName) {
   EXPECT_FALSE(fs::exists(dir_ / "bench_results"));
 }
 
+TEST_F(BenchCommand, ANameThatIsNoneIsToldAndTheRestRuns) {
+  const Outcome outcome = run("--filter preparaton,skipping --quick --rows skip=sleeping --rows solver=sphere");
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("did you mean 'preparation'?"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("skipping:  sleeping  sphere"), std::string::npos) << outcome.out;
+  const Outcome names = run("--list --filter nosuch,skipping");
+  EXPECT_EQ(names.code, 2);
+  EXPECT_EQ(names.out.rfind("skipping ", 0), 0u) << names.out;
+}
+
 TEST_F(BenchCommand, UnwritableFolderIsOneClearMessage) {
   put("file", "");
   const Outcome outcome = run("--filter preparation --quick --out file/results");

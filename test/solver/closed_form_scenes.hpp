@@ -209,8 +209,9 @@ inline Tumble tumble(Lab lab) {
   lab.simulate(lab.solver().step_size());
   const double energy = lab.kinetic_energy(body), spin = lab.spin(body).norm();
   Tumble result{1.0, 1.0, 0.0, 1.0};
+  const double step = lab.solver().step_size(), look = step * std::max(1.0, std::round(0.02 / step));  // nothing cut
   while (lab.time() < 10.0) {
-    lab.simulate(0.02);
+    lab.simulate(look);
     result.lowest = std::min(result.lowest, lab.kinetic_energy(body) / energy);
     result.highest = std::max(result.highest, lab.kinetic_energy(body) / energy);
     result.spin = std::max(result.spin, std::abs(lab.spin(body).norm() / spin - 1.0));
