@@ -15,7 +15,7 @@ do for [c=1:5] {
   if (int(system("grep -c '".curves[c]."' '".table."'")) == 0) { set multiplot next; continue }
   set xlabel curves[c]
   set ylabel labels[c]
-  set key inside bottom right samplen 1 font ',9'
+  if (c == 1) { set key inside top right samplen 1 font ',9'; set yrange [1:1e6] } else { unset key; set yrange [*:*] }
   plot for [s=1:4] table using 'x':(at(c, s, columns[c])) with linespoints linetype s title solvers[s]
 }
 set xlabel curves[1]
