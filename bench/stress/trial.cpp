@@ -69,6 +69,12 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
     if (report.drift.max > stays * largest) fails("called resting, moved on by " + percent(report.drift.max / largest));
   }
   if (!(highest >= expect.height)) fails("fell down");
+  if (expect.side) {
+    const ScenePart &part = scene.parts[0], &other = scene.parts[1];
+    const Vec3 center = part.pose * parts[part.line]->mass().center;
+    if (!(expect.side->dot(other.pose.inverse() * center - parts[other.line]->mass().center) > 0.0))
+      fails("went through");
+  }
   if (request.seconds && std::abs(report.simulated_s - *request.seconds) > 0.1) fails("did not keep the set time");
 }
 
