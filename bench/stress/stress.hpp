@@ -30,8 +30,9 @@ struct Expect {
   double momentum = std::numeric_limits<double>::infinity();  ///< change / sum of |momenta|; same of angular momentum
   double speed = std::numeric_limits<double>::infinity();     ///< m/s that no centre of mass may exceed
   double height = -std::numeric_limits<double>::infinity();   ///< m above which the highest centre must end: it stands
+  double ceiling = std::numeric_limits<double>::infinity();   ///< m below which it must end: all have landed
   std::optional<Vec3> side;  ///< first part's centre must end on this side of the second's, in the second's frame
-  bool flat_memory = false;  ///< over many scenes: bytes in use must not grow
+  bool flat = false;         ///< over many scenes: neither bytes in use nor CPU time a scene may grow
   bool traced = true;        ///< false: energy, momentum and speed are not looked at, scenes may run side by side
 };
 
