@@ -17,6 +17,7 @@ Case at_plate(double speed, double thickness, bool fixed) {
   throw_with(put(c, "cube_30", cube(0.03), {{-0.3, 0.004, 0.002}}), Vec3(speed, 0, 0), Vec3(1, 2, 3));
   PartLine& plate = put(c, with("plate_", thickness), box(Vec3(thickness, 0.4, 0.4)), {{0, 0, 0}});
   plate.fixed = fixed;
+  c.expect.side = Vec3(-1, 0, 0);  // where it came from
   c.request.parts[0].restitution = 0.0;
   c.request.seconds = 1.2 / speed;
   c.expect.rests = false;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +30,10 @@ struct Expect {
   double momentum = std::numeric_limits<double>::infinity();  ///< change / sum of |momenta|; same of angular momentum
   double speed = std::numeric_limits<double>::infinity();     ///< m/s that no centre of mass may exceed
   double height = -std::numeric_limits<double>::infinity();   ///< m above which the highest centre must end: it stands
-  bool flat_memory = false;                                   ///< over many scenes: bytes in use must not grow
-  bool traced = true;  ///< false: energy, momentum and speed are not looked at, scenes may run side by side
+  double ceiling = std::numeric_limits<double>::infinity();   ///< m below which it must end: all have landed
+  std::optional<Vec3> side;  ///< first part's centre must end on this side of the second's, in the second's frame
+  bool flat = false;         ///< over many scenes: neither bytes in use nor CPU time a scene may grow
+  bool traced = true;        ///< false: energy, momentum and speed are not looked at, scenes may run side by side
 };
 
 constexpr double stays = 0.02;  ///< way / diagonal in 0.5 s beyond which a part called resting was not

@@ -91,7 +91,7 @@ void Tally::add(const Case& c, const Outcome& o, const std::string& why_known) {
   penetration_limit.extend(c.expect.penetration);
   energy_limit.extend(c.expect.traced ? c.expect.energy : std::numeric_limits<double>::infinity());
   steps += o.steps;
-  if (c.expect.flat_memory) {
+  if (c.expect.flat) {
     flat = true;
     growth_bytes = o.growth_bytes;
     pace = o.pace;

@@ -23,7 +23,7 @@ struct Tally {
   double penetration = 0.0, drift = 0.0, energy = 0.0, cpu_s = 0.0, simulated_s = 0.0, peak_mb = 0.0;
   LimitRange penetration_limit, energy_limit;  ///< of Expect
   std::uint64_t steps = 0;
-  bool flat = false;                      ///< memory and time were looked at over many scenes (Expect::flat_memory)
+  bool flat = false;                      ///< memory and time were looked at over many scenes (Expect::flat)
   double growth_bytes = 0.0, pace = 1.0;  ///< as in Outcome
   std::vector<std::string> failures;      ///< "case: what; what (known: why)"
 

@@ -46,7 +46,9 @@ std::vector<Row> thin_parts(bool soak) {
     Row row{"thin", "needles 1:" + std::to_string(aspect), both, {}, {}};
     row.cases.push_back(crossed(with("needle_", aspect), needle, thickness, 0.02));
     row.cases.push_back(heap(with("needle_", aspect), needle, thickness, soak ? 20 : 6, Vec3(0.3, 0.25, 0.1)));
-    if (aspect == 200) row.known["bullet: one dropped across another"] = row.known["bullet: 20 poured"] = trembles;
+    if (aspect == 200)
+      row.known["bullet: one dropped across another"] = row.known["bullet: 20 poured"] =
+          "rests sunk in by 0.7 of its thickness; why was not looked at";
     rows.push_back(row);
   }
   for (const double thickness : soak ? std::vector<double>{2e-3, 1e-3, 5e-4, 2e-4} : std::vector<double>{1e-3, 2e-4}) {
@@ -56,9 +58,7 @@ std::vector<Row> thin_parts(bool soak) {
     row.cases.push_back(heap(with("sheet_", 1e3 * thickness), sheet, thickness, soak ? 20 : 6, Vec3(0.12, 0.1, 0.08)));
     if (soak && thickness == 1e-3)
       row.known["sphere: 20 poured"] =
-          "two sweeps do not find the forces of a stack of sheets: with four, ten of ten seeds rest";
-    if (soak && thickness == 2e-4)
-      row.known["sphere: 20 poured"] = "a corner pierced a sheet: of ten seeds of it one ends so";
+          "two sweeps do not find the forces of a stack of sheets: of ten seeds two move on by more than 2 %";
     rows.push_back(row);
   }
   Row slivers{"thin", "slivers", both, {flat_surface({}), flat_surface(1e-3), flat_surface(2e-4)}, {}};

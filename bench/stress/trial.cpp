@@ -18,6 +18,8 @@ namespace {
 
 constexpr double trace_rate = 120.0;     ///< Hz
 constexpr double growth_allowed = 64e3;  ///< bytes: a few log lines, not a scene
+constexpr double pace_allowed = 2.0;     ///< what grows with every scene takes six times as long in the last tenth
+constexpr double pace_slack = 0.05;      ///< s: the clock of CPU time may tick but every 4 ms
 
 std::string percent(double share) {
   char text[32];
@@ -27,6 +29,12 @@ std::string percent(double share) {
 
 double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Bytes that malloc has handed out; large blocks are mapped, and counted by themselves.
+double bytes_in_use() {
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
 /// What the scene's own report says, held against what must be.
@@ -69,6 +77,13 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
     if (report.drift.max > stays * largest) fails("called resting, moved on by " + percent(report.drift.max / largest));
   }
   if (!(highest >= expect.height)) fails("fell down");
+  if (!(highest <= expect.ceiling)) fails("did not land");
+  if (expect.side) {
+    const ScenePart &part = scene.parts[0], &other = scene.parts[1];
+    const Vec3 center = part.pose * parts[part.line]->mass().center;
+    if (!(expect.side->dot(other.pose.inverse() * center - parts[other.line]->mass().center) > 0.0))
+      fails("went through");
+  }
   if (request.seconds && std::abs(report.simulated_s - *request.seconds) > 0.1) fails("did not keep the set time");
 }
 
@@ -86,6 +101,18 @@ std::string request_text(const Case& c, const std::string& solver) {
   return write_request(request);
 }
 
+void judge_growth(const std::vector<double>& cpu, const std::vector<double>& in_use, Outcome& outcome) {
+  const std::size_t n = in_use.size(), tenth = n / 10;
+  if (tenth == 0) return;
+  outcome.growth_bytes = in_use.back() - in_use[tenth - 1];
+  if (outcome.growth_bytes > growth_allowed)
+    outcome.failures.push_back("memory in use grew by " + with("", outcome.growth_bytes) + " bytes");
+  const double second = cpu[2 * tenth] - cpu[tenth], last = cpu[n] - cpu[n - tenth];
+  outcome.pace = last / std::max(1e-9, second);
+  if (last > pace_allowed * second + pace_slack)
+    outcome.failures.push_back("the last tenth took " + with("", outcome.pace) + " times as long as the second");
+}
+
 Outcome run_here(const std::string& yaml, const std::string& directory, const Expect& expect) {
   Outcome outcome;
   try {
@@ -101,9 +128,8 @@ Outcome run_here(const std::string& yaml, const std::string& directory, const Ex
         watch->look(states);
       };
     }
-    const std::size_t warm = std::max<std::size_t>(1, request.scenes / 10);
-    std::vector<double> cpu = {cpu_seconds()};
-    double in_use = 0.0;
+    std::vector<double> cpu = {cpu_seconds()}, in_use;
+    cpu.reserve(request.scenes + 1), in_use.reserve(request.scenes);  // or they grow themselves
     generator.generate(request, options, [&](Generator::Result&& result) {
       judge_scene(result.scene, request, generator.parts(), expect, outcome);
       if (watch) {
@@ -117,16 +143,10 @@ Outcome run_here(const std::string& yaml, const std::string& directory, const Ex
           outcome.failures.push_back("as fast as " + with("", watch->top_speed()) + " m/s");
       }
       cpu.push_back(cpu_seconds());
-      if (cpu.size() - 1 == warm) in_use = static_cast<double>(mallinfo2().uordblks);
+      in_use.push_back(bytes_in_use());
     });
     if (expect.refused) outcome.failures.push_back("was not refused");
-    if (expect.flat_memory) {
-      outcome.growth_bytes = static_cast<double>(mallinfo2().uordblks) - in_use;
-      if (outcome.growth_bytes > growth_allowed)
-        outcome.failures.push_back("memory in use grew by " + with("", outcome.growth_bytes) + " bytes");
-      const std::size_t n = cpu.size() - 1;
-      if (n >= 3 * warm) outcome.pace = (cpu[n] - cpu[n - warm]) / std::max(1e-9, cpu[2 * warm] - cpu[warm]);
-    }
+    if (expect.flat) judge_growth(cpu, in_use, outcome);
   } catch (const Error& error) {
     if (!expect.refused || error.kind() != ErrorKind::input || error.remedy().empty())
       outcome.failures.push_back(std::string("error: ") + error.what());

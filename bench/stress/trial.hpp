@@ -17,8 +17,8 @@ struct Outcome {
   double simulated_s = 0.0;           ///< all scenes
   std::uint64_t steps = 0;            ///< in that time, as they were cut
   double cpu_s = 0.0, peak_mb = 0.0;  ///< of the process
-  double growth_bytes = 0.0;          ///< flat_memory: in use at the end over a tenth of the way
-  double pace = 1.0;                  ///< flat_memory: CPU time of the last tenth of the scenes / of the second tenth
+  double growth_bytes = 0.0;          ///< flat: in use at the last scene over a tenth of the way
+  double pace = 1.0;                  ///< flat: CPU time of the last tenth of the scenes / of the second tenth
   std::size_t parts = 0, resting = 0;
   std::string device;
   bool survived() const { return failures.empty(); }
@@ -29,6 +29,10 @@ std::string request_text(const Case& c, const std::string& solver);
 
 /// Reads the YAML as the command line would (`directory`: where it lies) and runs it in this process.
 Outcome run_here(const std::string& yaml, const std::string& directory, const Expect& expect);
+
+/// Fails what grows over many scenes. CPU time (s) at the start and after each scene, bytes in use after each. Judged
+/// by tenths, for scenes that are poured side by side are handed over in bursts; the first tenth warms up.
+void judge_growth(const std::vector<double>& cpu, const std::vector<double>& in_use, Outcome& outcome);
 
 struct Limits {
   double cpu_s = 300.0;  ///< a case that takes longer hangs; no measure of speed
