@@ -1,9 +1,11 @@
 # needs: work_precision.csv
+# size: 900,1100
 set termoption noenhanced
-# Parts that other engines poured as well: one column each.
+# A panel for each part and error that the table has figures of.
 table = results.'/work_precision.csv'
-parts = system("awk -F, '$3 == \"bullet_stock\" && !seen[$1]++ { printf \"%s \", $1 }' '".table."'")
-set logscale xy
+parts_with(name) = system("awk -F, '/^part,/ { for (i = 1; i <= NF; ++i) if ($i == \"".name."\") c = i; next } \
+  c && $c != \"\" && !seen[$1]++ { printf \"%s \", $1 }' '".table."'")
+set logscale xy  # the same ranges in all panels, so that parts compare
 set format '%g'
 set xlabel 'CPU s a scene'
 array names = ['sphere: default', 'sphere: time step', 'sphere: sub-steps', 'sphere: samples', 'sphere: field cell', \
@@ -20,13 +22,22 @@ array errors = ['penetration_p95_rel', 'drift_p95_rel']
 array fronts = ['front_penetration', 'front_drift']
 array labels = ['penetration p95 / diagonal', 'drift p95 / diagonal']
 array goals = [0.003, 0.01]
+array parts[2]
+parts[1] = parts_with(errors[1])
+parts[2] = parts_with(errors[2])
+columns = 5
+panels = words(parts[1]) + words(parts[2]) + 1
 set key off
-set multiplot layout 2, words(parts) + 1 columnsfirst title 'Error over time; line: Pareto front, grey: goal'
-do for [p=1:words(parts)] {
-  part = word(parts, p)
-  do for [e=1:2] {
+set xrange [0.03:300]
+set yrange [1e-5:1]
+set xtics 100
+set ytics 10
+set multiplot layout (panels + columns - 1) / columns, columns title 'Error over time; line: Pareto front, grey: goal'
+do for [e=1:2] {
+  do for [p=1:words(parts[e])] {
+    part = word(parts[e], p)
     set title part offset 0, -0.6
-    set ylabel labels[e]
+    set ylabel p == 1 || (e == 1 ? p - 1 : words(parts[1]) + p - 1) % columns == 0 ? labels[e] : ''
     plot goals[e] with lines linecolor rgb '#999999' dashtype 2 notitle, \
       table using (strcol('part') eq part && strcol(fronts[e]) eq 'yes' ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
         smooth unique with lines linecolor rgb '#bbbbbb' linewidth 3 notitle, \
@@ -34,7 +45,7 @@ do for [p=1:words(parts)] {
         with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) notitle
   }
 }
-# The key, in a column of its own.
+# The key, in a panel of its own.
 unset logscale
 unset border
 unset tics
