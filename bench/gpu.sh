@@ -37,12 +37,13 @@ step() {
 
 # The tests of the layers named, side by side: what they find does not depend on how long they take.
 tests() {
-  local name start=$SECONDS
+  local name start=$SECONDS limit=150
+  [[ ${BIN_SCENES_GL:-} == software ]] && limit=300  # s, of one
   mkdir -p "$out/tests"
   (cd "$bundle/tests" && find "$@" -type f | sort) |
     xargs -P "$(( $(nproc) < 16 ? $(nproc) : 16 ))" -I{} bash -c '
-      log=$2/$(basename {}).log; timeout 150 "$1/run" tests/{} > "$log" 2>&1 </dev/null; echo $? > "${log%.log}.code"
-    ' - "$bundle" "$out/tests"
+      log=$2/$(basename {}).log; timeout "$3" "$1/run" tests/{} > "$log" 2>&1 </dev/null; echo $? > "${log%.log}.code"
+    ' - "$bundle" "$out/tests" "$limit"
   for code in "$out"/tests/*.code; do
     name=$(basename "$code" .code)
     if [[ $(< "$code") == 0 ]]; then
