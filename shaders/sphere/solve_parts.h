@@ -8,8 +8,8 @@
 
 SphereWorld world;
 uint list;
-vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one; more in high heaps
-uint sub_steps;   // of this step
+vec4 softness;    // of contacts: rate (Hz), damping ratio, slop (d), sub-steps in place of one
+uint sub_steps;   // of this step: more than by the softness in high heaps
 float grip;       // share of friction that holds
 float kept;       // share of the last step's forces that this one begins with
 float time_step;  // s, of this step

@@ -20,7 +20,7 @@ struct Capacity {
 
 /// Capacity::group_bodies on a software device, at most. One group that pressed 358 bodies in a heap of random overlaps
 /// got wrong velocities on llvmpipe, without a word; a limit on turns of loops is taken to be why (docs/solver.md, "Not
-/// there yet"). A group of 160 such bodies is right, and gets no more sweeps for being a heap of many layers.
+/// there yet"). A group of 160 such bodies is right, and gets no more work for being a heap of many layers.
 constexpr std::size_t software_group_bodies = 192;
 }  // namespace sphere_gl
 
