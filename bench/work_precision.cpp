@@ -71,23 +71,29 @@ std::vector<Setting> settings_of_solvers(bool quick) {
 /// They need the exact pieces.
 std::vector<Setting> settings_of_peers(bool quick) {
   std::vector<Setting> all;
+  const auto add = [&](const std::string& engine, const std::string& varied, double rate, int iterations) {
+    const bool stock = engine == "bullet_stock";
+    Setting peer{engine, stock ? "yes" : "no", varied, Row::text(varied == "time_step" ? 1.0 / rate : iterations),
+                 {},     PeerSettings{}};
+    peer.peer->engine = engine;
+    peer.peer->time_step = 1.0 / rate;
+    peer.peer->iterations = iterations;
+    all.push_back(peer);
+  };
   for (const double rate : quick ? std::vector<double>{240} : std::vector<double>{100, 240}) {
-    for (const char* engine : {"bullet_stock", "ode", "dart"}) {
-      if (std::string(engine) == "dart" && rate > 100) continue;  // its dense systems take minutes a scene as it is
-      const bool stock = std::string(engine) == "bullet_stock";
-      Setting peer{engine, stock ? "yes" : "no", "time_step", Row::text(1.0 / rate), {}, PeerSettings{}};
-      peer.peer->engine = engine;
-      peer.peer->time_step = 1.0 / rate;
-      peer.peer->iterations = stock ? 10 : 50;
-      all.push_back(peer);
-    }
+    add("bullet_stock", "time_step", rate, 10);
+    add("ode", "time_step", rate, 50);
+    if (rate <= 100) add("dart", "time_step", rate, 50);  // its dense systems take minutes a scene as it is
   }
+  if (quick) return all;
+  add("bullet_stock", "iterations", 100, 50);
+  for (const int iterations : {20, 200}) add("ode", "iterations", 100, iterations);
   return all;
 }
 
-/// The step (s) that a setting of `sphere` makes of its time_step for parts of this size: long ones are cut.
-double step_of(const Request& request, double diagonal) {
-  const double dt = request.solver.sphere.time_step;
+/// The step (s) that a solver of this project makes of a setting's time_step for parts of this size: long ones are cut.
+double step_of(const Setting& setting, const Request& request, double diagonal) {
+  const double dt = setting.solver == "bullet" ? request.solver.bullet.time_step : request.solver.sphere.time_step;
   return dt / step_cuts(dt, request.gravity.norm(), diagonal);
 }
 
@@ -121,7 +127,7 @@ void curves(Run& out, const std::string& part) {
   if (exact)
     for (const Setting& peer : settings_of_peers(out.quick())) settings.push_back(peer);
   const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
-  std::set<double> steps;  // a time_step that is cut to the step of another setting is the same run
+  std::set<std::pair<std::string, double>> steps;  // a time_step that is cut to that of another setting is the same run
   for (const Setting& setting : settings) {
     Request request = bin_of(part, count);
     Row row;
@@ -132,9 +138,10 @@ void curves(Run& out, const std::string& part) {
         .key("varied", setting.varied)
         .key("value", setting.value);
     if (setting.apply) setting.apply(request);
-    if (setting.solver == "sphere") {
-      const double step = step_of(request, diagonal);
-      if ((setting.varied == "default" || setting.varied == "time_step") && !steps.insert(step).second) continue;
+    if (setting.solver == "sphere" || setting.solver == "bullet") {
+      const double step = step_of(setting, request, diagonal);
+      const bool varies = setting.varied == "default" || setting.varied == "time_step";
+      if (varies && !steps.insert({setting.solver + setting.sleeping, step}).second) continue;
       row.info("step_s", step);
     }
     if (!out.wanted(row)) continue;

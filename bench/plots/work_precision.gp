@@ -9,12 +9,14 @@ set logscale xy  # the same ranges in all panels, so that parts compare
 set format '%g'
 set xlabel 'CPU s a scene'
 array names = ['sphere: default', 'sphere: time step', 'sphere: sub-steps', 'sphere: samples', 'sphere: field cell', \
-  'sphere/thesis', 'bullet, sleeping', 'bullet, no sleeping', 'Bullet as it comes', 'ODE', 'DART']
+  'sphere/thesis', 'bullet, sleeping', 'bullet, no sleeping', 'Bullet as it comes', 'the same: iterations', \
+  'ODE', 'ODE: iterations', 'DART']
 array series = ['sphere|yes|default', 'sphere|yes|time_step', 'sphere|yes|sub_steps', 'sphere|yes|fine_samples', \
   'sphere|yes|field_cell', 'sphere/thesis|no|default', 'bullet|yes|time_step', 'bullet|no|time_step', \
-  'bullet_stock|yes|time_step', 'ode|no|time_step', 'dart|no|time_step']
-array colours = ['#000000', '#0072b2', '#0072b2', '#0072b2', '#0072b2', '#009e73', '#d55e00', '#d55e00', '#d55e00', '#cc79a7', '#e69f00']
-array shapes = [3, 7, 6, 4, 8, 9, 5, 4, 2, 11, 13]
+  'bullet_stock|yes|time_step', 'bullet_stock|yes|iterations', 'ode|no|time_step', 'ode|no|iterations', 'dart|no|time_step']
+array colours = ['#000000', '#0072b2', '#0072b2', '#0072b2', '#0072b2', '#009e73', '#d55e00', '#d55e00', '#d55e00', '#d55e00', \
+  '#cc79a7', '#cc79a7', '#e69f00']
+array shapes = [3, 7, 6, 4, 8, 9, 5, 4, 2, 1, 11, 10, 13]
 name(i) = strcol('solver').'|'.strcol('sleeping').'|'.strcol('varied') eq series[i]
 # Nothing to see below one part in 100,000: rounding.
 shown(y) = y < 1e-5 ? 1e-5 : y
