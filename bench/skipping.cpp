@@ -2,6 +2,7 @@
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "heaps.hpp"
+#include "without_skips.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,15 @@ void run(Run& out) {
     out.row(Row(key).append(one.row));
   }
   counted(out, bin_of(part, out.quick() ? 8 : 48), "sphere");
+  const auto fall = [&](const std::string& skip, const std::string& state, const Skip* without) {
+    const Row key = Row().key("skip", skip).key("solver", "sphere").key("state", state);
+    if (!out.wanted(key)) return;
+    const Isolated one =
+        isolated([&] { return fall_row(part, out.quick() ? 8 : 64, out.quick() ? 0.5 : 2.0, without); }, limit_cpu_s);
+    out.row(Row(key).append(one.row));
+  };
+  fall("none", "parts fall and settle", nullptr);
+  for (const Skip& skip : pass_skips()) fall(skip.name, skip.off, &skip);
   for (const bool render : {true, false}) {
     const Row key = Row()
                         .key("skip", "rendering")
