@@ -114,6 +114,8 @@ struct SphereProgress {
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
+  uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
+  uint unused0, unused1, unused2;            // states, which are of vec4, lie behind it in what is read back
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -208,7 +210,7 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 112 && sizeof(SphereWorld) == 80, "std430");
-static_assert(sizeof(SphereProgress) == 144, "std430");
+static_assert(sizeof(SphereProgress) == 160, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

@@ -36,7 +36,7 @@ GPU_STRUCTS_BEGIN
 // A world that is spread over many groups, in the step under way.
 struct SphereLarge {
   uint awake, extent, big, bounced;  // 0: has nothing to do; largest box (bits of m); bodies too large for the grid
-  uint list, speed, turn, unused0;       // first pair; of the fastest body (bits of m/s, rad/s)
+  uint list, speed, turn, narrow_color;  // first pair; of the fastest body (bits of m/s, rad/s); first of the rest
   uvec4 pair_groups, manifold_groups, rest_groups;  // arguments of dispatches over pairs, manifolds, the last colors
   uvec4 round_groups[SPHERE_MOST_ROUNDS + 1];
   uvec4 color_groups[SPHERE_COLORS];

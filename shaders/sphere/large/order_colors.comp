@@ -16,7 +16,7 @@ layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_WORK) coherent buffer Work { SphereWork work[]; };
 
 uniform uint coloring_round;   // the first that had none
-uniform uint spread_colors;    // with a dispatch of their own
+uniform uint spread_colors;    // that have dispatches of their own, whether or not they are wide
 
 shared uint left;
 
@@ -57,13 +57,12 @@ void main() {
   uint count = progress[large_world].pairs;
   if (large.round_groups[coloring_round].x != 0u) color_what_is_left(world, count);
   if (gl_LocalInvocationIndex != 0u) return;
-  uint sum = 0u, colors = 0u;
+  uint sum = 0u, colors = 0u, wide = 0u;
   for (uint c = 0u; c < SPHERE_COLORS; ++c) {
     uint members = large.members[c];
     color_starts[large_world * (SPHERE_COLORS + 1u) + c] = large.next[c] = sum;
     if (members > 0u) colors = c + 1u;
-    if (c < spread_colors)
-      large.color_groups[c] = uvec4(folded_groups((members + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
+    if (members > SPHERE_GROUP) wide = c + 1u;
     // Manifolds without a color of their own are solved one by one, so their order counts.
     if (c == LAST_COLOR && members > 0u)
       for (uint p = 0u, at = sum; p < count; ++p)
@@ -74,5 +73,11 @@ void main() {
   progress[large_world].ordered = sum;
   progress[large_world].colors += colors;
   large.manifold_groups = uvec4(folded_groups((sum + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
-  large.rest_groups.x = colors > spread_colors ? 1u : 0u;
+  // Behind the last color that is wider than a group one group is as fast as many, and needs no dispatch for each.
+  uint narrow = min(wide, spread_colors);
+  for (uint c = 0u; c < narrow; ++c)
+    large.color_groups[c] = uvec4(folded_groups((large.members[c] + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
+  large.narrow_color = narrow;
+  large.rest_groups.x = colors > narrow ? 1u : 0u;
+  progress[large_world].wide_colors = max(progress[large_world].wide_colors, wide + 1u);
 }

@@ -1,5 +1,5 @@
 // What the solve of a large world does with its manifolds, an invocation each: all of them, or those of one color, which
-// share no moving body. REST: one group does the colors that have no dispatch of their own, one after the other.
+// share no moving body. REST: one group does the colors that are no wider than it, one after the other.
 // Twin: solve().
 #ifdef REST
 #define SHARED coherent
@@ -42,7 +42,8 @@ uint start_of(uint c) { return color_starts[large_world * (SPHERE_COLORS + 1u) +
 #ifdef REST
 // The last color is that of manifolds which share bodies: one invocation takes them in order.
 void sweep_rest() {
-  for (uint c = color; c < SPHERE_COLORS; ++c) {
+  uint all = start_of(SPHERE_COLORS);
+  for (uint c = large.narrow_color; start_of(c) < all; ++c) {
     bool alone = c == SPHERE_COLORS - 1u;
     uint stride = alone ? 1u : SPHERE_GROUP, end = start_of(c + 1u);
     if (!alone || gl_LocalInvocationIndex == 0u)

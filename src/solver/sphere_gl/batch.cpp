@@ -165,6 +165,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
+  progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
   upload_progress(slot, progress);
   return slot;
 }
@@ -199,11 +200,15 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
   states_.upload(regions_[slot].first_body, states.data(), states.size());
 }
 
-void Batch::upload_progress(Slot slot, const gpu::SphereProgress& progress) {
-  regions_[slot].stiffness = progress.stiffness;
-  regions_[slot].cold = progress.cold_steps != 0;
-  regions_[slot].refinement = progress.refinement;
-  regions_[slot].effort = progress.effort;
+void Batch::upload_progress(Slot slot, gpu::SphereProgress progress) {
+  Region& r = regions_[slot];
+  r.stiffness = progress.stiffness;
+  r.cold = progress.cold_steps != 0;
+  r.refinement = progress.refinement;
+  r.effort = progress.effort;
+  const std::size_t wide = std::min<std::size_t>({progress.wide_colors, capacity_.colors, SPHERE_COLORS - 1});
+  if (progress.wide_colors > 0) r.large.colors = static_cast<unsigned>(wide);
+  progress.wide_colors = 0;
   progress_.upload(slot, &progress, 1);
 }
 

@@ -48,7 +48,7 @@ class Batch {
   void upload_state(Slot slot, std::size_t body, const sphere::Body& state);
   void upload_states(Slot slot, const sphere::World& world);
   /// What the steps of a world left behind; upload takes effect at the next pass.
-  void upload_progress(Slot slot, const gpu::SphereProgress& progress);
+  void upload_progress(Slot slot, gpu::SphereProgress progress);
   /// Asks for where these worlds will stand, and the states of their bodies, after the passes issued so far. Wait for
   /// `back` later: it holds the progress of each slot in turn, then the states of each.
   void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;

@@ -15,7 +15,7 @@ struct Capacity {
   std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
   std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
   std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
-  std::size_t colors = 16;  ///< of a large world that have dispatches of their own, a sweep; others share a group
+  std::size_t colors = 32;         ///< of a large world that may have dispatches of their own; others share a group
 };
 
 /// Capacity::group_bodies on a software device, at most. One group that pressed 358 bodies in a heap of random overlaps

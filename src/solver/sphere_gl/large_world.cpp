@@ -22,7 +22,6 @@ std::size_t buckets_for(std::size_t bodies) {
 
 LargePasses::LargePasses(const Capacity& capacity)
     : rounds_(static_cast<unsigned>(std::min<std::size_t>(capacity.rounds, SPHERE_MOST_ROUNDS))),
-      colors_(static_cast<unsigned>(std::min<std::size_t>(capacity.colors, SPHERE_COLORS - 1))),
       cut_step_(pass("cut_step")),
       find_boxes_(pass("find_boxes")),
       sort_bodies_(pass("sort_bodies")),
@@ -69,8 +68,7 @@ void LargePasses::set_world(const LargeWorld& world) const {
     p->set("buckets", static_cast<unsigned>(buckets_for(world.bodies)));
   }
   order_colors_.set("coloring_round", rounds_);
-  order_colors_.set("spread_colors", colors_);
-  solve_rest_.set("color", colors_);
+  order_colors_.set("spread_colors", world.colors);
 }
 
 void LargePasses::over_bodies(const gl::Program& pass, const LargeWorld& world) {
@@ -126,9 +124,9 @@ void LargePasses::over_manifolds(unsigned stage) {
   indirect(solve_manifolds_, offsetof(gpu::SphereLarge, manifold_groups));
 }
 
-void LargePasses::sweep(unsigned kind) {
+void LargePasses::sweep(unsigned kind, const LargeWorld& world) {
   solve_manifolds_.set("stage", kind);
-  for (unsigned color = 0; color < colors_; ++color) {
+  for (unsigned color = 0; color < world.colors; ++color) {
     solve_manifolds_.set("color", color);
     indirect(solve_manifolds_, offsetof(gpu::SphereLarge, color_groups) + color * sizeof(gpu::uvec4));
   }
@@ -140,7 +138,7 @@ void LargePasses::sweep(unsigned kind) {
 void LargePasses::sweeps(unsigned kind, const LargeWorld& world) {
   for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
     for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0 : 1);
-    sweep(i == 0 && kind == SWEEP_PUSH ? SWEEP_FIRST_PUSH : kind);
+    sweep(i == 0 && kind == SWEEP_PUSH ? SWEEP_FIRST_PUSH : kind, world);
   }
   for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0);
 }
@@ -156,17 +154,17 @@ void LargePasses::solve(const LargeWorld& world) {
   for (unsigned k = 0; k < world.sub_steps; ++k) {
     for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("current_sub_step", k);
     bodies(BODIES_VELOCITIES);
-    sweep(SWEEP_WARM_START);
+    sweep(SWEEP_WARM_START, world);
     sweeps(SWEEP_PUSH, world);
     bodies(BODIES_POSITIONS);
     if (world.rigid)
-      sweep(SWEEP_RELAX);
+      sweep(SWEEP_RELAX, world);
     else
       sweeps(SWEEP_RELAX, world);
   }
   if (world.restitution) {
     over_manifolds(MANIFOLDS_STRIKE);
-    for (unsigned k = 0; k < SPHERE_BOUNCE_SWEEPS; ++k) sweep(SWEEP_BOUNCE);
+    for (unsigned k = 0; k < SPHERE_BOUNCE_SWEEPS; ++k) sweep(SWEEP_BOUNCE, world);
   }
   over_manifolds(MANIFOLDS_KEEP);
   bodies(BODIES_KEEP);

@@ -9,8 +9,10 @@
 ///     update_sleep     note ─► join islands ─► mark ─► settle
 // clang-format on
 ///
-/// A sweep is a dispatch a color, and one group for the last few colors together. How many groups a dispatch has is
-/// known on the device alone: the arguments lie in SphereLarge. Buffers here serve one such world after the other.
+/// A sweep is a dispatch a color that is wider than a group, and one group for all others, one after the other. How
+/// many groups a dispatch has is known on the device alone: the arguments lie in SphereLarge. How many colors are wide
+/// the host learns whenever it looks; those it does not know of yet are left to the one group. Buffers here serve one
+/// such world after the other.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -32,6 +34,7 @@ struct LargeWorld {
   unsigned cold_sweeps = 0;            ///< the same while the world's contacts begin without forces; 0: they do not
   bool rigid = false;                  ///< contacts: one sweep after bodies move
   bool restitution = false;            ///< something in it bounces
+  unsigned colors = 0;                 ///< that have dispatches of their own
 };
 
 class LargePasses {
@@ -52,12 +55,12 @@ class LargePasses {
  private:
   void over_bodies(const gl::Program& pass, const LargeWorld& world);
   void indirect(const gl::Program& pass, std::size_t arguments);
-  void sweep(unsigned kind);
+  void sweep(unsigned kind, const LargeWorld& world);
   void sweeps(unsigned kind, const LargeWorld& world);
   void over_manifolds(unsigned stage);
   void set_world(const LargeWorld& world) const;
 
-  unsigned rounds_, colors_;  ///< with dispatches of their own
+  unsigned rounds_;  ///< of coloring, with dispatches of their own
   gl::Program cut_step_, find_boxes_, sort_bodies_, list_pairs_, adopt_pairs_, end_pairs_, color_pairs_, order_colors_,
       solve_bodies_, solve_manifolds_, solve_rest_, join_islands_, sleep_bodies_;
   gl::PrefixSum prefix_sum_;
