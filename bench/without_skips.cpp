@@ -4,6 +4,8 @@
 #include "runs.hpp"
 #include "solver/sphere/make_world.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <cmath>
 #include <cstring>
 
@@ -47,7 +49,8 @@ struct Fall {
   std::vector<Vec3> positions;
 };
 
-/// `fall` seconds on coarse samples, then `settle` on exact ones, as a pour does it; nobody sleeps.
+/// Half of the time on coarse samples, then on exact ones, as a pour does it; nobody sleeps. On one thread: what
+/// threads spend on waiting for each other is not work.
 Fall fall(const std::string& part, std::size_t count, double seconds, const Skip* without) {
   const Request request = bin_of(part, count);
   const std::vector<PartModelPtr> parts = load_parts(request);
@@ -64,10 +67,12 @@ Fall fall(const std::string& part, std::size_t count, double seconds, const Skip
   Fall out;
   const double begin = cpu_seconds();
   const auto steps = static_cast<int>(std::lround(0.5 * seconds / world.settings.time_step));
-  for (int k = 0; k < 2 * steps; ++k) {
-    if (k == steps) sphere::set_phase(world, Phase::settle);
-    sphere::step(world);
-  }
+  tbb::task_arena(1).execute([&] {
+    for (int k = 0; k < 2 * steps; ++k) {
+      if (k == steps) sphere::set_phase(world, Phase::settle);
+      sphere::step(world);
+    }
+  });
   out.cpu_s = cpu_seconds() - begin;
   out.counters = world.counters;
   for (std::size_t b = 0; b < count; ++b) out.positions.push_back(sphere::state_of(world, b).pose.position);

@@ -54,7 +54,7 @@ unset tics
 unset title
 unset xlabel
 unset ylabel
-set key left top Left reverse samplen 0.5 font ',9'
+set key left top Left reverse samplen 0.5 font ',8' spacing 0.9
 plot [0:1] [0:1] NaN notitle, \
   for [i=1:|series|] keyentry with points pointtype shapes[i] linecolor rgb colours[i] title names[i]
 unset multiplot
