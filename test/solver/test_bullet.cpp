@@ -19,6 +19,35 @@ const SolverCase bullet_uncut{"bullet", [] {
 
 const auto name = [](const auto& info) { return info.param.name; };
 
+// A ball rebounds from the floor while it parts from one above it, which it then strikes in the same step.
+TEST(BulletBlows, ThatFollowEachOtherInAStepGainNoEnergy) {
+  BulletSettings settings;
+  settings.time_step = 0.0005;
+  for (double floor_gap = 1e-4; floor_gap < 0.0035; floor_gap += 1.2e-4) {
+    for (const double lean : {0.03, 0.13, 0.43, 0.93}) {
+      SCOPED_TRACE("floor_gap " + std::to_string(floor_gap) + ", lean " + std::to_string(lean));
+      Lab lab(make_bullet_solver(settings));
+      lab.def().bin.friction = 0.0;
+      const PartModelPtr ball = sphere(0.1);
+      const Vec3 axis(std::sin(lean), 0, std::cos(lean)), across(axis.z(), 0, -axis.x());
+      const Vec3 below(0, 0, 0.1 + floor_gap);
+      lab.place(ball, below, Quat::Identity(), material(0.0, 1.0, 10.0));
+      lab.place(ball, below + 0.1999 * axis, Quat::Identity(), material(0.0, 1.0, 10.0));
+      lab.start(0).velocity.linear = Vec3(1, 0, -6.78);
+      lab.start(1).velocity.linear = Vec3(1, 0, -6.78) + 1.8 * axis + 3.0 * across;
+      const auto energy = [&](const std::vector<BodyState>& states) {
+        double sum = 0.0;
+        for (std::size_t b = 0; b < states.size(); ++b)
+          sum += lab.kinetic_energy(b, states[b]) + 98.1 * states[b].pose.position.z();
+        return sum;
+      };
+      const double before = energy({lab.start(0), lab.start(1)});
+      lab.simulate(0.003);
+      EXPECT_LT(energy(lab.states()), 1.005 * before);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Bullet, ClosedForms, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Stacks, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Extremes, ::testing::Values(bullet_default), name);

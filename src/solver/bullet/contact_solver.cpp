@@ -1,5 +1,6 @@
 #include "contact_solver.hpp"
 
+#include "blow_energy.hpp"
 #include "dynamics_world.hpp"
 
 #include <algorithm>
@@ -265,7 +266,13 @@ void ContactSolver::rebound(const btContactSolverInfo& info) {
   if (bouncing.empty()) return;
   constexpr int sweeps = 20;  // several points of one face share the rebound
   std::vector<btScalar> carried;
-  for (const int c : bouncing) carried.push_back(m_tmpSolverContactConstraintPool[c].m_appliedImpulse);
+  std::vector<std::pair<int, int>> pairs;
+  for (const int c : bouncing) {
+    const btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
+    carried.push_back(row.m_appliedImpulse);
+    pairs.emplace_back(row.m_solverBodyIdA, row.m_solverBodyIdB);
+  }
+  BlowEnergy energy(m_tmpSolverBodyPool, pairs);
   for (int s = 0; s < sweeps; ++s)
     for (const int c : bouncing) {
       btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
@@ -275,6 +282,7 @@ void ContactSolver::rebound(const btContactSolverInfo& info) {
       push(a, b, row,
            -row.m_jacDiagABInv * (velocity(a, b, row) + point.m_combinedRestitution * contacts_[c].approach));
     }
+  energy.limit();
   // A rebound happens once: the next step must not start from its impulse.
   for (std::size_t k = 0; k < bouncing.size(); ++k)
     m_tmpSolverContactConstraintPool[bouncing[k]].m_appliedImpulse = carried[k];

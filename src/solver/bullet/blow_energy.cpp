@@ -1,0 +1,96 @@
+#include "blow_energy.hpp"
+
+#include "convert.hpp"
+#include "dynamics_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::bullet {
+
+namespace {
+
+const Motion* motion_of(const btSolverBody& body) {
+  return body.m_originalBody ? static_cast<const Motion*>(body.m_originalBody->getUserPointer()) : nullptr;
+}
+
+/// Twice the kinetic energy that two velocities of a body have in common: the bilinear form of mass and inertia.
+btScalar twice_common(const btSolverBody& body, const btVector3& linear_a, const btVector3& angular_a,
+                      const btVector3& linear_b, const btVector3& angular_b) {
+  const btMatrix3x3& axes = body.getWorldTransform().getBasis();
+  const Vec3& i = motion_of(body)->inertia;
+  const btVector3 inertia(btScalar(i.x()), btScalar(i.y()), btScalar(i.z()));
+  return linear_a.dot(linear_b) / body.internalGetInvMass().x() +
+         (angular_a * axes).dot(inertia * (angular_b * axes));  // v * axes: in the body's frame
+}
+
+btVector3 linear_of(const btSolverBody& body) {
+  return body.m_linearVelocity + body.m_deltaLinearVelocity;
+}
+btVector3 angular_of(const btSolverBody& body) {
+  return body.m_angularVelocity + body.m_deltaAngularVelocity;
+}
+
+/// Twice the energy at the start of the step, or with what the step's forces add: whichever is more, as the blow came
+/// between them.
+btScalar twice_before(const btSolverBody& body) {
+  const btVector3 &v = body.m_linearVelocity, &w = body.m_angularVelocity, later = v + body.m_externalForceImpulse;
+  return std::max(twice_common(body, v, w, v, w), twice_common(body, later, w, later, w));
+}
+
+}  // namespace
+
+BlowEnergy::BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs)
+    : bodies_(bodies) {
+  for (const auto& [a, b] : pairs) {
+    const int at_a = place_of(a), at_b = place_of(b);
+    if (at_a >= 0 && at_b >= 0) blown_[root(at_b)].group = root(at_a);
+  }
+}
+
+int BlowEnergy::place_of(int body) {
+  if (!motion_of(bodies_[body])) return -1;
+  const auto at = std::find_if(blown_.begin(), blown_.end(), [&](const Blown& b) { return b.body == body; });
+  if (at != blown_.end()) return static_cast<int>(at - blown_.begin());
+  const int place = static_cast<int>(blown_.size());
+  blown_.push_back({body, place, linear_of(bodies_[body]), angular_of(bodies_[body])});
+  return place;
+}
+
+int BlowEnergy::root(int place) {
+  while (blown_[place].group != place) place = blown_[place].group;
+  return place;
+}
+
+void BlowEnergy::limit() {
+  // Energy over the share s of the rebound: left + 2 s mixed + s^2 gained.
+  struct Energy {
+    btScalar before = 0, left = 0, mixed = 0, gained = 0;
+    int bodies = 0;
+  };
+  std::vector<Energy> groups(blown_.size());
+  for (std::size_t k = 0; k < blown_.size(); ++k) {
+    const Blown& b = blown_[k];
+    const btSolverBody& body = bodies_[b.body];
+    const btVector3 linear = linear_of(body) - b.linear, angular = angular_of(body) - b.angular;
+    Energy& e = groups[root(static_cast<int>(k))];
+    e.before += twice_before(body);
+    e.left += twice_common(body, b.linear, b.angular, b.linear, b.angular);
+    e.mixed += twice_common(body, b.linear, b.angular, linear, angular);
+    e.gained += twice_common(body, linear, angular, linear, angular);
+    ++e.bodies;
+  }
+  for (std::size_t k = 0; k < blown_.size(); ++k) {
+    const Blown& b = blown_[k];
+    const Energy& e = groups[root(static_cast<int>(k))];
+    if (e.bodies < 2 || e.left + 2 * e.mixed + e.gained <= e.before) continue;
+    const btScalar room = std::max(btScalar(0), e.before - e.left);
+    const btScalar share = (std::sqrt(e.mixed * e.mixed + e.gained * room) - e.mixed) / e.gained;
+    btSolverBody& body = bodies_[b.body];
+    const btScalar back = std::min(std::max(share, btScalar(0)), btScalar(1)) - 1;
+    body.m_deltaLinearVelocity += back * (linear_of(body) - b.linear);
+    body.m_deltaAngularVelocity += back * (angular_of(body) - b.angular);
+  }
+}
+
+}  // namespace bin_scenes::bullet

@@ -1,0 +1,36 @@
+/// Blows that follow each other within one step have no common moment before them: each contact rebounds at a share of
+/// its own speed of approach, and together they may give back more than there was: a ball that rebounds from the floor
+/// under one that it had just parted from doubled the energy of both. Here bodies that rebound together have at most
+/// what they had before.
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
+#include <LinearMath/btAlignedObjectArray.h>
+
+#include <utility>
+#include <vector>
+
+namespace bin_scenes::bullet {
+
+class BlowEnergy {
+ public:
+  /// Before the rebound: bodies of the pool that it joins, pair by pair; those that nothing moves join nothing.
+  BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs);
+
+  /// After it: groups of bodies that gained over the start of the step keep as much of the rebound as energy allows. A
+  /// body alone rebounds as its contacts say.
+  void limit();
+
+ private:
+  struct Blown {
+    int body, group;            ///< in the pool; the first of its group here
+    btVector3 linear, angular;  ///< before the rebound, units/s and rad/s
+  };
+  int place_of(int body);
+  int root(int place);
+
+  btAlignedObjectArray<btSolverBody>& bodies_;
+  std::vector<Blown> blown_;
+};
+
+}  // namespace bin_scenes::bullet
