@@ -83,7 +83,8 @@ void BlowEnergy::limit() {
   for (std::size_t k = 0; k < blown_.size(); ++k) {
     const Blown& b = blown_[k];
     const Energy& e = groups[root(static_cast<int>(k))];
-    if (e.bodies < 2 || e.left + 2 * e.mixed + e.gained <= e.before) continue;
+    const btScalar added = 2 * e.mixed + e.gained;  // what pushing overlap out has added is not the rebound's
+    if (e.bodies < 2 || added <= 0 || e.left + added <= e.before) continue;
     const btScalar room = std::max(btScalar(0), e.before - e.left);
     const btScalar share = (std::sqrt(e.mixed * e.mixed + e.gained * room) - e.mixed) / e.gained;
     btSolverBody& body = bodies_[b.body];
