@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace bin_scenes::bench {
 
@@ -49,7 +50,7 @@ struct Fall {
   std::vector<Vec3> positions;
 };
 
-/// Half of the time on coarse samples, then on exact ones, as a pour does it; nobody sleeps. On one thread: what
+/// Half of the time on coarse samples, then on exact ones, as a pour does it. On one thread: what
 /// threads spend on waiting for each other is not work.
 Fall fall(const std::string& part, std::size_t count, double seconds, const Skip* without) {
   const Request request = bin_of(part, count);
@@ -59,7 +60,7 @@ Fall fall(const std::string& part, std::size_t count, double seconds, const Skip
       sphere::make_shape(*parts.front(), settings.coarse_samples, settings.fine_samples, settings.field_cell);
   sphere::World world = sphere::make_world(world_of(request, parts), settings,
                                            [&](const PartModelPtr&) -> const sphere::Shape& { return shape; });
-  world.settings.rest_move = 0.0f;
+  world.settings.rest_window = std::numeric_limits<float>::infinity();  // nobody sleeps
   SkipTarget target{world, shape};
   if (without) without->take_away(target);
   const std::vector<BodyState> states = above(request, parts.front()->diagonal(), count);

@@ -10,10 +10,6 @@ namespace bin_scenes::bullet {
 
 namespace {
 
-const Motion* motion_of(const btSolverBody& body) {
-  return body.m_originalBody ? static_cast<const Motion*>(body.m_originalBody->getUserPointer()) : nullptr;
-}
-
 /// Twice the kinetic energy that two velocities of a body have in common: the bilinear form of mass and inertia.
 btScalar twice_common(const btSolverBody& body, const btVector3& linear_a, const btVector3& angular_a,
                       const btVector3& linear_b, const btVector3& angular_b) {
@@ -41,7 +37,7 @@ btScalar twice_before(const btSolverBody& body) {
 }  // namespace
 
 BlowEnergy::BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs)
-    : bodies_(bodies) {
+    : bodies_(bodies), places_(static_cast<std::size_t>(bodies.size()), -1) {
   for (const auto& [a, b] : pairs) {
     const int at_a = place_of(a), at_b = place_of(b);
     if (at_a >= 0 && at_b >= 0) blown_[root(at_b)].group = root(at_a);
@@ -49,10 +45,9 @@ BlowEnergy::BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::ve
 }
 
 int BlowEnergy::place_of(int body) {
-  if (!motion_of(bodies_[body])) return -1;
-  const auto at = std::find_if(blown_.begin(), blown_.end(), [&](const Blown& b) { return b.body == body; });
-  if (at != blown_.end()) return static_cast<int>(at - blown_.begin());
-  const int place = static_cast<int>(blown_.size());
+  int& place = places_[body];
+  if (place >= 0 || !motion_of(bodies_[body])) return place;
+  place = static_cast<int>(blown_.size());
   blown_.push_back({body, place, linear_of(bodies_[body]), angular_of(bodies_[body])});
   return place;
 }

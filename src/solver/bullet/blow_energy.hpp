@@ -31,6 +31,7 @@ class BlowEnergy {
 
   btAlignedObjectArray<btSolverBody>& bodies_;
   std::vector<Blown> blown_;
+  std::vector<int> places_;  ///< of the pool's bodies in blown_; -1: not in it
 };
 
 }  // namespace bin_scenes::bullet

@@ -18,11 +18,6 @@ constexpr btScalar stiffness = 0.25, damping_ratio = 2.0;
 constexpr btScalar slop = 1.5e-5;
 constexpr btScalar fastest_push = 3.0;  ///< units/s
 
-/// None of walls.
-Motion* motion_of(const btSolverBody& body) {
-  return body.m_originalBody ? static_cast<Motion*>(body.m_originalBody->getUserPointer()) : nullptr;
-}
-
 /// What a moment about `axis` turns a body by; nothing of what is fixed.
 btVector3 turned_by(const btSolverBody& body, const btVector3& axis) {
   return body.m_originalBody ? body.m_originalBody->getInvInertiaTensorWorld() * axis : btVector3(0, 0, 0);

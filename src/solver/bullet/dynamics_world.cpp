@@ -31,6 +31,10 @@ Mat3 cross_matrix(const Vec3& v) {
 
 }  // namespace
 
+Motion* motion_of(const btSolverBody& body) {
+  return body.m_originalBody ? static_cast<Motion*>(body.m_originalBody->getUserPointer()) : nullptr;
+}
+
 bool is_ball(const btCollisionObject& body) {
   return body.getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
 }

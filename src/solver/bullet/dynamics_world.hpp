@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/types.hpp"
 
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -19,6 +20,9 @@ struct Motion {
   btTransform start = btTransform::getIdentity();  ///< pose at the start of the step
   btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< way and turn to where its contacts are found
 };
+
+/// None of walls and of what is fixed: Bullet has one solver body for all of these.
+Motion* motion_of(const btSolverBody& body);
 
 /// Its levers do not turn with it, and it rolls freely.
 bool is_ball(const btCollisionObject& body);
