@@ -1,14 +1,12 @@
 #include "random_part.hpp"
 
+#include "piece_files.hpp"
+
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/scene/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <sstream>
 #include <vector>
 
 namespace bin_scenes::bench {
@@ -74,31 +72,12 @@ int write_random_part(const std::string& folder, std::uint64_t seed) {
     for (const Vec3& vertex : piece.vertices) box.extend(vertex);
   const double scale = random.uniform(45.0, 65.0) / box.diagonal();
 
-  std::filesystem::create_directories(folder);
-  std::ostringstream part;
-  std::size_t first = 1;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    std::ostringstream vertices;
-    vertices.precision(9);
-    for (const Vec3& vertex : pieces[k].vertices) vertices << "v " << (scale * vertex).transpose() << '\n';
-    char name[32];
-    std::snprintf(name, sizeof name, "/hull_%02d.obj", static_cast<int>(k));
-    write_text(folder + name, vertices.str());
-    part << vertices.str();
-    const std::size_t sides = pieces[k].vertices.size() / 2;
-    for (std::size_t i = 0; i < sides; ++i) {
-      const std::size_t next = (i + 1) % sides;
-      part << "f " << first + i << ' ' << first + next << ' ' << first + sides + next << ' ' << first + sides + i
-           << '\n';
-    }
-    part << 'f';
-    for (std::size_t i = sides; i-- > 0;) part << ' ' << first + i;
-    part << "\nf";
-    for (std::size_t i = 0; i < sides; ++i) part << ' ' << first + sides + i;
-    part << '\n';
-    first += pieces[k].vertices.size();
+  std::vector<Prism> prisms;
+  for (const Piece& piece : pieces) {
+    prisms.push_back(piece.vertices);
+    for (Vec3& vertex : prisms.back()) vertex *= scale;
   }
-  write_text(folder + "/part.obj", part.str());
+  write_pieces(folder, prisms);
   return static_cast<int>(pieces.size());
 }
 

@@ -7,8 +7,7 @@
 
 namespace bin_scenes::bench {
 
-/// Writes the part of a seed in millimetres: FOLDER/part.obj, the pieces as overlapping solids of one file, and
-/// FOLDER/hull_KK.obj, their vertices alone as in models/pieces. Two to six prisms with 4 to 10 sides, some tapered,
+/// Writes the part of a seed and its pieces (write_pieces). Two to six prisms with 4 to 10 sides, some tapered,
 /// turned by right angles or freely, each through some place of an earlier one; 45 to 65 mm from corner to corner of
 /// the bounding box, no piece thinner than a twentieth of that. Returns the number of pieces.
 int write_random_part(const std::string& folder, std::uint64_t seed);
