@@ -6,7 +6,8 @@
 
 namespace bin_scenes::bench {
 
-/// sheet, disc, lattice, comb, frame, tube, wire_ring, spring: 45 to 60 mm, 0.5 to 4 mm thick.
+/// sheet, disc, lattice, comb, frame, tube, wire_ring, spring: 45 to 71 mm from corner to corner of the bounding box, 0.5
+/// to 4 mm thick.
 const std::vector<std::string>& thin_parts();
 
 /// Writes the part of that name and its pieces (write_pieces), and returns their number. Throws Error on other names.
