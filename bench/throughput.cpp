@@ -54,7 +54,8 @@ Row timed(Request request, std::size_t scenes) {
 void run(Run& out) {
   const std::size_t parts = out.quick() ? 12 : 256;
   for (const char* solver : {"sphere/gpu", "sphere"})
-    for (const std::size_t scenes : {std::size_t{1}, std::size_t{out.quick() ? 4u : 512u}}) {
+    for (const std::size_t scenes :
+         out.quick() ? std::vector<std::size_t>{1, 4} : std::vector<std::size_t>{1, 16, 512}) {
       const Row key = Row().key("solver", solver).key("bodies", parts).key("scenes", scenes);
       if (!out.wanted(key)) continue;
       Request request = bin_of("conrod", parts);
@@ -66,7 +67,7 @@ void run(Run& out) {
 }
 
 const Registration registration{"throughput",
-                                "one scene alone, and accepted scenes a second in one run of 512",
+                                "one scene alone, and accepted scenes a second in one run of 16 and of 512",
                                 {"solver", "bodies", "scenes"},
                                 run};
 
