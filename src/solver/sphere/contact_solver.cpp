@@ -227,6 +227,11 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation
   u.push_along_normal(c.normal_impulse - before, c);
 }
 
+/// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
+LaneMask rubs(const ContactRows& c) {
+  return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
+}
+
 /// Coulomb's cone: both directions at once.
 void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
@@ -250,7 +255,8 @@ void ContactSolver::sweep(bool push, bool first) {
     if (push && first) resist_turn(bundle, friction, u);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
       solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);
-    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) solve_friction(rows_[i], friction, bundle, u);
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+      if (any(rubs(rows_[i]))) solve_friction(rows_[i], friction, bundle, u);
     store(u, bundle, motions_);
   }
 }

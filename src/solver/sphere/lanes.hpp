@@ -37,9 +37,9 @@ inline Lanes sqrt(Lanes a) {
   return root;
 }
 inline bool any(LaneMask m) {
-  std::int32_t some = 0;
-  for (int lane = 0; lane < lane_count; ++lane) some |= m[lane];
-  return some != 0;
+  using Pairs = std::int64_t __attribute__((vector_size(32)));
+  const Pairs pairs = reinterpret_cast<Pairs>(m);
+  return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
 }
 
 /// Eight vectors of three.
