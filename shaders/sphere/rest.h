@@ -1,4 +1,8 @@
-// Rest of a body. `time_step` in s. Needs the bindings Settings, Bodies, States, Shapes and sphere/body.h.
+// Rest of a body. `time_step` in s. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
+
+bool sleeps_by_part(uint w) { return progress[w].stiffness == SPHERE_RIGID; }
+
+bool is_restless(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 
 void note_motion(uint body, float time_step) {
   SphereState s = states[body];
@@ -14,8 +18,8 @@ void note_motion(uint body, float time_step) {
   }
 }
 
-// Puts a body to sleep or wakes it, with its island.
-void settle(uint body, uint label, bool restless) {
+// Puts a body to sleep or wakes it, with its island; woken by part it sleeps again if it stays.
+void settle(uint body, uint label, bool restless, bool by_part) {
   uint flags = states[body].flags.x;
   states[body].flags.y = label;
   if ((flags & SPHERE_PRESENT) == 0u || bodies[body].material.x == 0.0) return;
@@ -24,6 +28,6 @@ void settle(uint body, uint label, bool restless) {
     states[body].velocity = vec4(0.0);
     states[body].spin = vec4(0.0);
   }
-  if (restless && asleep) states[body].still_position.w = 0.0;
+  if (restless && asleep && !by_part) states[body].still_position.w = 0.0;
   states[body].flags.x = restless ? flags & ~SPHERE_ASLEEP : flags | SPHERE_ASLEEP;
 }

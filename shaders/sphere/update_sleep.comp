@@ -1,6 +1,7 @@
 // One group a world: an island of bodies joined by pressing contacts sleeps when all of them stayed where they are for
 // the rest window; a moving body that presses on a sleeping one wakes the whole island. Labels spread over manifolds to
-// the lowest body of each island; walls and fixed bodies join nothing. Ends the step. Twin: update_sleep().
+// the lowest body of each island; walls and fixed bodies join nothing. In a probe the restless keep only themselves and
+// whoever presses on them awake. Ends the step. Twin: update_sleep().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_GROUP) in;
@@ -40,6 +41,7 @@ void main() {
   }
   if (thread < 2u) changed[thread] = 0u;
   barrier();
+  bool by_part = sleeps_by_part(w);
   for (uint round = 0u;; ++round) {
     uint turn = round & 1u;
     for (uint p = thread; p < count; p += SPHERE_GROUP) {
@@ -47,6 +49,10 @@ void main() {
       if (pair.b == SPHERE_GROUND || manifolds[world.pairs.x + pair.slot].state.y == 0u) continue;
       if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
       uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x, la = label[a], lb = label[b];
+      if (by_part) {
+        if (is_restless(pair.a) || is_restless(pair.b)) restless[a] = restless[b] = 1u;
+        continue;
+      }
       if (la == lb) continue;
       atomicMin(label[a], lb);
       atomicMin(label[b], la);
@@ -60,11 +66,10 @@ void main() {
     barrier();
   }
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
-    if (moves(world.bodies.x + i) && states[world.bodies.x + i].still_position.w < settings.rest_window)
-      restless[label[i]] = 1u;
+    if (is_restless(world.bodies.x + i)) restless[label[i]] = 1u;
   barrier();
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
-    settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u);
+    settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u, by_part);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     if (progress[w].cold_steps != 0u) --progress[w].cold_steps;

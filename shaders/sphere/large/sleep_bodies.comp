@@ -46,8 +46,8 @@ void main() {
   } else if (stage == SLEEP_MARK) {
     uint root = root_of(i);
     atomicMin(label_of(i), root);
-    if (moves(body) && states[body].still_position.w < settings.rest_window) restless_of(root) = 1u;
+    if (is_restless(body)) restless_of(root) = 1u;
   } else {
-    settle(body, world.bodies.x + label_of(i), restless_of(label_of(i)) == 1u);
+    settle(body, world.bodies.x + label_of(i), restless_of(label_of(i)) == 1u, sleeps_by_part(large_world));
   }
 }

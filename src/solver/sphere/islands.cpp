@@ -8,17 +8,19 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Bodies joined by pressing contacts: union-find over manifolds, walls and fixed bodies left out.
+/// Whether two bodies press on each other; walls and fixed bodies join nothing.
+bool joins(const World& world, const Manifold& m) {
+  if (m.b == ground || world.bodies[m.a].inverse_mass == 0 || world.bodies[m.b].inverse_mass == 0) return false;
+  return std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
+}
+
+/// Bodies joined by pressing contacts: union-find over manifolds.
 class Islands {
  public:
   explicit Islands(const World& world) : parent_(world.bodies.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
-    for (const Manifold& m : world.manifolds) {
-      if (m.b == ground || world.bodies[m.a].inverse_mass == 0 || world.bodies[m.b].inverse_mass == 0) continue;
-      const bool presses =
-          std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
-      if (presses) join(m.a, m.b);
-    }
+    for (const Manifold& m : world.manifolds)
+      if (joins(world, m)) join(m.a, m.b);
   }
   std::uint32_t of(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -47,29 +49,46 @@ void note_motion(const World& world, Body& b) {
   }
 }
 
+bool restless(const World& world, std::uint32_t body) {
+  return world.bodies[body].moves() && world.bodies[body].still < world.settings.rest_window;
+}
+
+/// Whom the restless keep awake: themselves and whoever is joined to them, directly if bodies sleep by part.
+std::vector<char> kept_awake(const World& world) {
+  const auto count = static_cast<std::uint32_t>(world.bodies.size());
+  std::vector<char> awake(count, 0);
+  if (world.sleeps_by_part()) {
+    for (std::uint32_t i = 0; i < count; ++i) awake[i] = restless(world, i);
+    for (const Manifold& m : world.manifolds)
+      if (joins(world, m) && (restless(world, m.a) || restless(world, m.b))) awake[m.a] = awake[m.b] = 1;
+    return awake;
+  }
+  Islands islands(world);
+  std::vector<char> of_island(count, 0);
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (restless(world, i)) of_island[islands.of(i)] = 1;
+  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.of(i)];
+  return awake;
+}
+
 }  // namespace
 
 /// An island sleeps when all its bodies stayed where they are for the rest window; a moving body that presses on a
-/// sleeping one wakes the whole island. Never a body alone: that would freeze unsupported parts.
+/// sleeping one wakes the whole island. Never a body alone: that would freeze unsupported parts. But for a probe, in
+/// which all have been awake, and stayed, before they sleep one by one; who is woken sleeps again if it stays.
 void update_sleep(World& world) {
   for (Body& b : world.bodies)
     if (b.moves()) note_motion(world, b);
-  Islands islands(world);
-  std::vector<char> restless(world.bodies.size(), 0);
-  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
-    const Body& b = world.bodies[i];
-    if (b.moves() && b.still < world.settings.rest_window) restless[islands.of(i)] = 1;
-  }
+  const std::vector<char> awake = kept_awake(world);
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
     Body& b = world.bodies[i];
     if (!b.present || b.inverse_mass == 0) continue;
-    const bool sleep = !restless[islands.of(i)];
-    if (sleep && !b.asleep) {
+    if (!awake[i] && !b.asleep) {
       b.v.setZero();
       b.w.setZero();
     }
-    if (!sleep && b.asleep) b.still = 0;
-    b.asleep = sleep;
+    if (awake[i] && b.asleep && !world.sleeps_by_part()) b.still = 0;
+    b.asleep = !awake[i];
   }
 }
 

@@ -173,6 +173,9 @@ struct World {
   int slip_sub_steps() const {
     return forgets ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
   }
+  /// While a heap is probed, what is still among neighbours that are sleeps, whoever creeps elsewhere: all were awake
+  /// at first. Before that whole islands sleep or none of them, so that what carried a part knows when it goes.
+  bool sleeps_by_part() const { return stiffness == Stiffness::rigid; }
   /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts are found, and have their levers and
   /// normals, where bodies are then, as in the symplectic Euler method over the sub-steps, which keeps energy: with
   /// those of the start what rolls on an edge is pushed on by the point that it has left.

@@ -212,5 +212,30 @@ TEST(Sleep, AnIslandSleepsAsOneAndATouchWakesIt) {
   EXPECT_FALSE(world.bodies[1].asleep);
 }
 
+// A heap that is probed need not wait for one part that creeps: it keeps awake whom it touches, and nobody else.
+TEST(Sleep, InAProbeWhoCreepsKeepsOnlyItsNeighboursAwake) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.05, 0.05, 0.05});
+  for (const Stiffness stiffness : {Stiffness::soft, Stiffness::rigid}) {
+    World world = world_of_boxes(shape, 3);
+    world.stiffness = stiffness;
+    world.planes = {{Vec3f::UnitZ(), 0, false}};
+    for (int i = 0; i < 3; ++i) world.bodies[i].x = Vec3f(0, 0, 0.025f + 0.05f * i);
+    const auto all_sleep = [&] {
+      return std::all_of(world.bodies.begin(), world.bodies.end(), [](const Body& b) { return b.asleep; });
+    };
+    for (int k = 0; k < 400 && !all_sleep(); ++k) step(world);
+    ASSERT_TRUE(all_sleep());
+    world.bodies[2].asleep = false;
+    world.bodies[2].still = 0;
+    update_sleep(world);
+    EXPECT_FALSE(world.bodies[2].asleep);
+    EXPECT_FALSE(world.bodies[1].asleep);
+    EXPECT_EQ(world.bodies[0].asleep, stiffness == Stiffness::rigid);
+    for (int k = 0; k < 400 && !all_sleep(); ++k) step(world);
+    EXPECT_TRUE(all_sleep());
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes::sphere

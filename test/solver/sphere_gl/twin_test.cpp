@@ -19,6 +19,7 @@ using sphere::Contact;
 using sphere::ground;
 using sphere::Manifold;
 using sphere::Quatf;
+using sphere::Stiffness;
 using sphere::Vec3f;
 using sphere::World;
 
@@ -366,31 +367,36 @@ TEST_F(SphereGl, StepsAreTheSameInOneGroupAndInMany) {
 }
 
 TEST_P(TwinTest, UpdateSleepSettlesWhomTheTwinSettles) {
-  Batch batch(GetParam().capacity);
-  World world = heap_of(40, 5, 0.13);
-  const Batch::Slot slot = load(batch, world);
-  find_all(batch, slot);
-  batch.color_manifolds();
-  batch.solve();
-  batch.download(slot, world);
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    Body& b = world.bodies[i];
-    b.still_x = b.x;
-    b.still_q = b.q;
-    b.still = i % 17 == 8 ? 0.0f : 1.0f;
-    b.asleep = i % 13 == 4;
+  for (const Stiffness stiffness : {Stiffness::soft, Stiffness::rigid}) {
+    SCOPED_TRACE(static_cast<int>(stiffness));
+    Batch batch(GetParam().capacity);
+    World world = heap_of(40, 5, 0.13);
+    world.stiffness = stiffness;
+    const Batch::Slot slot = load(batch, world);
+    find_all(batch, slot);
+    batch.color_manifolds();
+    batch.solve();
+    batch.download(slot, world);
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      Body& b = world.bodies[i];
+      b.still_x = b.x;
+      b.still_q = b.q;
+      b.still = i % 17 == 8 ? 0.0f : 1.0f;
+      b.asleep = i % 13 == 4;
+    }
+    batch.upload_states(slot, world);
+    batch.update_sleep();
+    update_sleep(world);
+    const World seen = downloaded(batch, slot, world);
+    std::size_t asleep = 0;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      EXPECT_EQ(seen.bodies[i].asleep, world.bodies[i].asleep) << i;
+      EXPECT_EQ(seen.bodies[i].still, world.bodies[i].still) << i;
+      asleep += world.bodies[i].asleep;
+    }
+    EXPECT_GT(asleep, 0u);
+    EXPECT_LT(asleep, world.bodies.size() - 1);
   }
-  batch.upload_states(slot, world);
-  batch.update_sleep();
-  update_sleep(world);
-  const World seen = downloaded(batch, slot, world);
-  std::size_t asleep = 0;
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    EXPECT_EQ(seen.bodies[i].asleep, world.bodies[i].asleep) << i;
-    asleep += world.bodies[i].asleep;
-  }
-  EXPECT_GT(asleep, 0u);
-  EXPECT_LT(asleep, world.bodies.size() - 1);
 }
 
 }  // namespace
