@@ -13,8 +13,8 @@ namespace {
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
 constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed, then probed
 constexpr int most_probes = 8;      ///< a heap that still moves in the last one is left as it came to lie there
-constexpr double may_move = 0.05;   ///< share of the parts that may move in a probe that the heap stands, less ...
-constexpr double in_hand = 2.0;     ///< ... so many: what a 95th percentile leaves out, but for two of it
+constexpr double may_move = 0.02;   ///< share of the parts that may move in a probe that the heap stands, less ...
+constexpr double in_hand = 2.0;     ///< ... so many: one of 150; what moved may come to lie where it does not stand
 constexpr double jolt = 0.02;       ///< s from the start of a probe until its forces are found; parts budge then
 constexpr double creep = 1.0;       ///< s of a probe after which it is not waited any longer that nothing creeps
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
