@@ -391,8 +391,8 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
       << "it comes to lie in the first, and stands the second";
   habits.jumps = 100;
   EXPECT_EQ(probed(habits).times(), 8) << "it moves in all of them";
-  EXPECT_EQ(probed(habits, 59).times(), 8);
-  EXPECT_EQ(probed(habits, 60).times(), 1) << "one in twenty may, less two";
+  EXPECT_EQ(probed(habits, 149).times(), 8);
+  EXPECT_EQ(probed(habits, 150).times(), 1) << "one in fifty may, less two";
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
