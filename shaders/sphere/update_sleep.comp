@@ -20,7 +20,8 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs
 #include "sphere/body.h"
 #include "sphere/rest.h"
 
-shared uint label[SPHERE_MAX_BODIES], restless[SPHERE_MAX_BODIES];
+shared uint label[SPHERE_MAX_BODIES];
+shared uint awake[SPHERE_MAX_BODIES];  // bit 0: is restless itself; bit 1: somebody keeps it awake
 shared uint changed[2];  // take turns
 
 void main() {
@@ -37,7 +38,7 @@ void main() {
     uint body = world.bodies.x + i;
     if (moves(body)) note_motion(body, progress[w].time_step);
     label[i] = i;
-    restless[i] = 0u;
+    awake[i] = is_restless(body) ? 1u : 0u;
   }
   if (thread < 2u) changed[thread] = 0u;
   barrier();
@@ -50,7 +51,10 @@ void main() {
       if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
       uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x, la = label[a], lb = label[b];
       if (by_part) {
-        if (is_restless(pair.a) || is_restless(pair.b)) restless[a] = restless[b] = 1u;
+        if (((awake[a] | awake[b]) & 1u) != 0u) {
+          atomicOr(awake[a], 2u);
+          atomicOr(awake[b], 2u);
+        }
         continue;
       }
       if (la == lb) continue;
@@ -66,10 +70,10 @@ void main() {
     barrier();
   }
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
-    if (is_restless(world.bodies.x + i)) restless[label[i]] = 1u;
+    if ((awake[i] & 1u) != 0u) atomicOr(awake[label[i]], 2u);
   barrier();
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
-    settle(world.bodies.x + i, world.bodies.x + label[i], restless[label[i]] == 1u, by_part);
+    settle(world.bodies.x + i, world.bodies.x + label[i], awake[label[i]] != 0u, by_part);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     if (progress[w].cold_steps != 0u) --progress[w].cold_steps;
