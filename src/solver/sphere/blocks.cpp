@@ -1,26 +1,11 @@
 #include "solver/sphere/blocks.hpp"
 
+#include "solver/sphere/counting_sort.hpp"
+
 #include <algorithm>
 #include <numeric>
 
 namespace bin_scenes::sphere {
-
-namespace {
-
-/// Stable counting sort of `items` below `count` keys: `start` of each key's run in `sorted`.
-template <class Items, class Key>
-void sort_by(const Items& items, std::size_t count, const Key& key, std::vector<std::uint32_t>& start,
-             std::vector<std::uint32_t>& sorted) {
-  start.assign(count + 1, 0);
-  for (const std::uint32_t item : items) ++start[key(item) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  sorted.resize(start.back());
-  for (const std::uint32_t item : items) sorted[start[key(item)]++] = item;
-  std::copy_backward(start.begin(), start.end() - 1, start.end());  // each start stands where the next one began
-  start.front() = 0;
-}
-
-}  // namespace
 
 std::uint32_t Blocks::root(std::uint32_t body) {
   while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
@@ -69,13 +54,13 @@ void Blocks::make(const World& world, std::size_t bodies_of_block) {
   moving.clear();
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
     if (world.bodies[i].moves()) moving.push_back(i);
-  sort_by(
-      moving, blocks, [&](std::uint32_t body) { return block_[body]; }, body_start_, bodies_);
+  const auto block_of_body = [&](std::uint32_t body) { return block_[body]; };
+  counting_sort(moving, blocks, block_of_body, body_start_, bodies_);
   const auto block_of = [&](std::uint32_t manifold) {
     const Manifold& m = world.manifolds[manifold];
     return block_[world.bodies[m.a].moves() ? m.a : m.b];
   };
-  sort_by(world.order, blocks, block_of, manifold_start_, manifolds_);
+  counting_sort(world.order, blocks, block_of, manifold_start_, manifolds_);
   place_.assign(world.bodies.size(), unmoved);
   for (std::size_t block = 0; block < blocks; ++block) {
     const Slice bodies = this->bodies(block);

@@ -1,3 +1,5 @@
+#include "solver/sphere/counting_sort.hpp"
+#include "solver/sphere/lanes.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -22,6 +24,13 @@ struct Entry {
   float lower_x;
   std::uint32_t box;
 };
+
+/// The upright boxes of eight entries in a row.
+struct EntryLanes {
+  Lanes lower_x{}, lower_y{}, upper_y{}, lower_z{}, upper_z{};
+};
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Way the surface of a body may move in one step, and the distance at which contacts are kept.
 float reach(const World& world, const Body& b) {
@@ -69,6 +78,50 @@ bool boxes_apart(const World& world, const Body& a, const Body& b, float margin)
          ((db - sb.box_half - size.transpose() * sa.box_half).array() > margin).any();
 }
 
+void fill_lanes(const std::vector<Entry>& entries, const std::vector<Bounds>& boxes, std::vector<EntryLanes>& lanes) {
+  lanes.resize((entries.size() + lane_count - 1) / lane_count);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Bounds& box = boxes[entries[i].box];
+    EntryLanes& to = lanes[i / lane_count];
+    const int lane = static_cast<int>(i % lane_count);
+    to.lower_x[lane] = box.lower.x();
+    to.lower_y[lane] = box.lower.y();
+    to.upper_y[lane] = box.upper.y();
+    to.lower_z[lane] = box.lower.z();
+    to.upper_z[lane] = box.upper.z();
+  }
+}
+
+/// Entries behind each one, in its strip, whose upright boxes meet its own: `meeting(i, j)`.
+template <class Meeting>
+BIN_SCENES_WIDE void sweep(const std::vector<Entry>& entries, const std::vector<Bounds>& boxes,
+                           const std::vector<EntryLanes>& lanes, const Meeting& meeting) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Bounds& p = boxes[entries[i].box];
+    for (std::size_t first = (i + 1) / lane_count * lane_count; first < entries.size(); first += lane_count) {
+      if (entries[first].strip != entries[i].strip && first > i) break;
+      if (first > i && entries[first].lower_x > p.upper.x()) break;
+      const EntryLanes& q = lanes[first / lane_count];
+      const LaneMask meets = (q.lower_x <= p.upper.x()) & (q.lower_y <= p.upper.y()) & (q.upper_y >= p.lower.y()) &
+                             (q.lower_z <= p.upper.z()) & (q.upper_z >= p.lower.z());
+      if (!any(meets)) continue;
+      const std::size_t last = std::min(first + lane_count, entries.size());
+      for (std::size_t j = std::max(first, i + 1); j < last && entries[j].strip == entries[i].strip; ++j)
+        if (meets[j - first]) meeting(i, j);
+    }
+  }
+}
+
+/// By a, then b; the ground comes last.
+void sort_pairs(std::vector<Pair>& pairs, std::size_t bodies) {
+  static thread_local std::vector<Pair> by_b;
+  static thread_local std::vector<std::uint32_t> start;
+  counting_sort(
+      pairs, bodies + 1, [&](const Pair& p) { return std::min<std::size_t>(p.second, bodies); }, start, by_b);
+  counting_sort(
+      by_b, bodies, [](const Pair& p) { return p.first; }, start, pairs);
+}
+
 /// Whether the body's upright box comes near any wall or the floor.
 bool near_ground(const World& world, const Bounds& box) {
   for (const Plane& p : world.planes) {
@@ -80,13 +133,14 @@ bool near_ground(const World& world, const Bounds& box) {
 
 }  // namespace
 
-/// Sort and sweep along x over upright boxes, in strips along y, then oriented boxes: on a wide floor a sweep meets
-/// what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left out, unless they
-/// were in contact already (their manifold waits, untouched, until one of them wakes).
+/// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor a
+/// sweep meets what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left out,
+/// unless they were in contact already (their manifold waits, untouched, until one of them wakes).
 void find_pairs(World& world) {
   static thread_local std::vector<Bounds> boxes;
   static thread_local std::vector<Entry> entries;
-  static thread_local std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+  static thread_local std::vector<EntryLanes> lanes;
+  static thread_local std::vector<Pair> found;
   boxes.clear();
   entries.clear();
   found.clear();
@@ -108,22 +162,16 @@ void find_pairs(World& world) {
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.strip, a.lower_x, a.box) < std::tie(b.strip, b.lower_x, b.box);
   });
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Bounds& p = boxes[entries[i].box];
-    const bool p_moves = world.bodies[p.body].moves();
-    for (std::size_t j = i + 1;
-         j < entries.size() && entries[j].strip == entries[i].strip && entries[j].lower_x <= p.upper.x(); ++j) {
-      const Bounds& r = boxes[entries[j].box];
-      if (r.lower.y() > p.upper.y() || p.lower.y() > r.upper.y() || r.lower.z() > p.upper.z() ||
-          p.lower.z() > r.upper.z())
-        continue;
-      if (std::max(p.strip, r.strip) != entries[i].strip) continue;  // met in an earlier strip
-      if (!p_moves && !world.bodies[r.body].moves()) continue;
-      if (boxes_apart(world, world.bodies[p.body], world.bodies[r.body], p.margin + r.margin)) continue;
-      found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
-    }
-  }
-  std::sort(found.begin(), found.end());
+  fill_lanes(entries, boxes, lanes);
+  sweep(entries, boxes, lanes, [&](std::size_t i, std::size_t j) {
+    const Bounds &p = boxes[entries[i].box], &r = boxes[entries[j].box];
+    if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
+    const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
+    if (!a.moves() && !b.moves()) return;
+    if (boxes_apart(world, a, b, p.margin + r.margin)) return;
+    found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
+  });
+  sort_pairs(found, world.bodies.size());
 
   // Merge with the manifolds of the last step: forces and recyclable contacts live on under the same key.
   world.previous.swap(world.manifolds);

@@ -30,10 +30,10 @@ inline Lanes min(Lanes a, Lanes b) {
 inline Lanes max(Lanes a, Lanes b) {
   return a > b ? a : b;
 }
+/// Exact, as of a single float.
 inline Lanes sqrt(Lanes a) {
   Lanes root;
-  Eigen::Map<Eigen::Array<float, lane_count, 1>>(reinterpret_cast<float*>(&root)) =
-      Eigen::Map<const Eigen::Array<float, lane_count, 1>>(reinterpret_cast<const float*>(&a)).sqrt();
+  for (int lane = 0; lane < lane_count; ++lane) root[lane] = __builtin_sqrtf(a[lane]);
   return root;
 }
 inline bool any(LaneMask m) {

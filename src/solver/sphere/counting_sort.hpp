@@ -1,0 +1,25 @@
+/// Sorting by small numbers, in linear time.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// Stable: `items` into `sorted`, by `key(item)` below `count`; `start` of each key's run, and where the last one ends.
+template <class Items, class Item, class Key>
+void counting_sort(const Items& items, std::size_t count, const Key& key, std::vector<std::uint32_t>& start,
+                   std::vector<Item>& sorted) {
+  start.assign(count + 1, 0);
+  for (const Item& item : items) ++start[key(item) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  sorted.resize(start.back());
+  for (const Item& item : items) sorted[start[key(item)]++] = item;
+  std::copy_backward(start.begin(), start.end() - 1, start.end());  // each start stands where the next one began
+  start.front() = 0;
+}
+
+}  // namespace bin_scenes::sphere
