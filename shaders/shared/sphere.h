@@ -78,7 +78,7 @@ struct SphereSettingsBlock {
   float time_step;         // s, before it is cut
   uint sub_steps;
   float push_speed;        // d per second
-  float margin, recycle, rest_move;  // d
+  float margin, press_margin, recycle, rest_move;  // d
   float restitution_speed; // m/s
   float rest_window;       // s
   uint candidates;         // kept per invocation of find_contacts
@@ -115,11 +115,11 @@ struct SphereProgress {
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
-  uint unused0, unused1, unused2;            // states, which are of vec4, lie behind it in what is read back
+  uint unused0, unused1;                     // states, which are of vec4, lie behind it in what is read back
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
-  uint clusters_tested, nodes_tested, contacts, dropped;
+  uint clusters_tested, nodes_tested, contacts, contacts_solved, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
 };
 
@@ -182,7 +182,7 @@ struct SpherePair {
 
 struct SphereManifold {
   uvec4 state;       // contacts, presses (in the solve: bounces), found, place of the first contact
-  vec4 found_position;     // of b in the frame of a when contacts were found
+  vec4 found_position;     // of b in the frame of a when contacts were found; w: contacts solved in this step (bits)
   vec4 found_orientation;
 };
 
@@ -209,7 +209,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereSettingsBlock) == 112 && sizeof(SphereWorld) == 80, "std430");
+static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
 static_assert(sizeof(SphereProgress) == 160, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");

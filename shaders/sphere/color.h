@@ -1,6 +1,6 @@
 // Colors of manifolds: what one invocation does with one of them. Whoever includes this says where lowest_of(i),
 // used_low_of(i) and used_high_of(i) lie, i counted in the world: the lowest key among the uncolored manifolds of a body,
-// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, and sphere/body.h.
+// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, and sphere/body.h.
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = 0xffffffffu;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
 
@@ -20,14 +20,7 @@ uint lowest_free(uvec2 used) {
 
 uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec2(0u, 1u << (color - 32u)); }
 
-bool to_solve(SpherePair pair) { return moves(pair.a) || pair.b != SPHERE_GROUND && moves(pair.b); }
-
-// Returns the contacts to solve.
-uint begin_color(SphereWorld world, uint p) {
-  uint n = to_solve(pairs[p]) ? manifolds[world.pairs.x + pairs[p].slot].state.x : 0u;
-  pairs[p].color = n > 0u ? UNCOLORED : NOT_SOLVED;
-  return n;
-}
+void begin_color(uint p, uint solved_contacts) { pairs[p].color = solved_contacts > 0u ? UNCOLORED : NOT_SOLVED; }
 
 // Makes a manifold's key known to its bodies; false if it has its color.
 bool bid(SphereWorld world, uint p) {

@@ -6,42 +6,54 @@
 
 layout(local_size_x = SPHERE_GROUP) in;
 
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_RANGES) readonly buffer Ranges { uvec4 ranges[]; };
 layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[]; };
-layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
 
 shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
 shared uint members[SPHERE_COLORS], starts[SPHERE_COLORS + 1];
 shared uint left[2];  // uncolored manifolds, take turns
-shared uint contact_count;
+shared uint contact_count, solved_count;
 
 #define lowest_of(i) lowest[i]
 #define used_low_of(i) used_low[i]
 #define used_high_of(i) used_high[i]
 #include "sphere/body.h"
+#include "sphere/pair.h"
+#include "sphere/contact_place.h"
+#include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  time_step = progress[w].time_step;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) used_low[i] = used_high[i] = 0u;
   for (uint c = thread; c < SPHERE_COLORS; c += SPHERE_GROUP) members[c] = 0u;
-  if (thread == 0u) contact_count = 0u;
+  if (thread == 0u) contact_count = solved_count = 0u;
   if (thread < 2u) left[thread] = 0u;
   barrier();
-  uint own_contacts = 0u;
-  for (uint p = thread; p < count; p += SPHERE_GROUP) own_contacts += begin_color(world, list + p);
-  atomicAdd(contact_count, own_contacts);
+  uvec2 own_contacts = uvec2(0u);
+  for (uint p = thread; p < count; p += SPHERE_GROUP) {
+    uvec2 n = contacts_to_solve(world, pairs[list + p]);
+    begin_color(list + p, n.y);
+    own_contacts += n;
+  }
+  atomicAdd(contact_count, own_contacts.x);
+  atomicAdd(solved_count, own_contacts.y);
 
   uint rounds = 0u;
   for (;; ++rounds) {
@@ -76,6 +88,7 @@ void main() {
     progress[w].colors += colors;
     progress[w].coloring_rounds += rounds;
     progress[w].contacts += contact_count;
+    progress[w].contacts_solved += solved_count;
     // Manifolds without a color of their own are solved one by one, so their order counts.
     if (members[LAST_COLOR] > 0u)
       for (uint p = 0u, at = starts[LAST_COLOR]; p < count; ++p)

@@ -6,6 +6,10 @@
 uint first_contact(SphereWorld world, uint slot) {
   return world.contacts.x + manifolds[world.pairs.x + slot].state.w;
 }
+// How many of its contacts are solved in this step: the first ones.
+uint solved_contacts(SphereWorld world, uint slot) {
+  return floatBitsToUint(manifolds[world.pairs.x + slot].found_position.w);
+}
 uint place_after(SphereWorld world, uint place) { return floatBitsToUint(contacts[world.contacts.x + place].anchor_a.w); }
 uint next_contact(SphereWorld world, uint contact) {
   return world.contacts.x + place_after(world, contact - world.contacts.x);

@@ -41,7 +41,6 @@ SphereSamples samples_of(uint body) {
 
 // Of a body of this world.
 Placement placement_of(uint body) {
-  float time_step = progress[world_index].time_step;
   float sub_steps = float(settings.sub_steps * progress[world_index].refinement);
   return placement_of(body, half_way(time_step, time_step / sub_steps));
 }
@@ -264,17 +263,6 @@ void test_ground(SpherePair pair, float margin) {
   if (thread == 0u) count_possible(samples.nodes.y);
 }
 
-// Distance up to which contacts are kept: they may close within the step.
-float margin_of(SpherePair pair) {
-  bool ground = pair.b == SPHERE_GROUND;
-  SphereState a = states[pair.a];
-  vec3 v = ground ? -a.velocity.xyz : states[pair.b].velocity.xyz - a.velocity.xyz;
-  float spin = length(a.spin.xyz) * shapes[bodies[pair.a].ids.x].box_center.w;
-  if (!ground) spin += length(states[pair.b].spin.xyz) * shapes[bodies[pair.b].ids.x].box_center.w;
-  float dt = progress[world_index].time_step;
-  return settings.margin * size_of(pair) + (length(v) + spin + length(worlds[world_index].gravity.xyz) * dt) * dt;
-}
-
 void main() {
   take_room();
   for (uint n = 0u; n < SPHERE_GROUP_JOBS; ++n) {
@@ -286,7 +274,8 @@ void main() {
     SphereWorld world = worlds[world_index];
     clusters_tested = nodes_tested = 0u;
     begin_candidates(world, pair.slot);
-    float margin = margin_of(pair);
+    time_step = progress[world_index].time_step;
+    float margin = settings.margin * size_of(pair) + way_of(world, pair);
     if (pair.b == SPHERE_GROUND)
       test_ground(pair, margin);
     else

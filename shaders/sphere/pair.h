@@ -10,6 +10,16 @@ float reach(SphereWorld world, uint body, float radius, float diagonal) {
                  length(world.gravity.xyz) * time_step) * time_step;
 }
 
+// Way that the bodies of a pair may make towards each other in one step (m).
+float way_of(SphereWorld world, SpherePair pair) {
+  bool ground = pair.b == SPHERE_GROUND;
+  SphereState a = states[pair.a];
+  vec3 v = ground ? -a.velocity.xyz : states[pair.b].velocity.xyz - a.velocity.xyz;
+  float spin = length(a.spin.xyz) * shapes[bodies[pair.a].ids.x].box_center.w;
+  if (!ground) spin += length(states[pair.b].spin.xyz) * shapes[bodies[pair.b].ids.x].box_center.w;
+  return (length(v) + spin + length(world.gravity.xyz) * time_step) * time_step;
+}
+
 // Pose of b in the frame of a; on the ground: of a in the bin's.
 void relative_pose(SpherePair pair, out vec3 position, out vec4 orientation) {
   position = states[pair.a].position.xyz;

@@ -69,8 +69,9 @@ void keep_side(uint body, Side s) {
 
 SpherePair pair_at(uint o) { return pairs[list + order[world.pairs.x + o]]; }
 
+// Of the manifold's contacts those that are solved.
 #define FOR_CONTACTS(at, slot)                                                                           \
-  for (uint i = 0u, n = manifolds[world.pairs.x + slot].state.x, at = first_contact(world, slot); i < n; \
+  for (uint i = 0u, n = solved_contacts(world, slot), at = first_contact(world, slot); i < n; \
        ++i, at = next_contact(world, at))
 
 void prepare_manifold(uint o) {

@@ -5,12 +5,15 @@
 
 layout(local_size_x = SPHERE_GROUP) in;
 
+layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
+layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
-layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_WORK) buffer Work { SphereWork work[]; };
@@ -21,6 +24,9 @@ uniform uint stage, coloring_round;
 #define used_low_of(i) work[i].used_low
 #define used_high_of(i) work[i].used_high
 #include "sphere/body.h"
+#include "sphere/pair.h"
+#include "sphere/contact_place.h"
+#include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 #include "sphere/large/large_world.h"
 
@@ -38,9 +44,12 @@ void main() {
   if (stage == COLOR_BID && thread_index() == 0u) atomicAdd(progress[large_world].coloring_rounds, 1u);
   if (thread_index() >= progress[large_world].pairs) return;
   if (stage == COLOR_BEGIN) {
-    uint n = begin_color(world, p);
-    if (n == 0u) return;
-    atomicAdd(progress[large_world].contacts, n);
+    time_step = progress[large_world].time_step;
+    uvec2 n = contacts_to_solve(world, pairs[p]);
+    begin_color(p, n.y);
+    if (n.x > 0u) atomicAdd(progress[large_world].contacts, n.x);
+    if (n.y == 0u) return;
+    atomicAdd(progress[large_world].contacts_solved, n.y);
     large.round_groups[0] = large.pair_groups;
   } else if (stage == COLOR_BID) {
     bid(world, p);

@@ -1,3 +1,4 @@
+#include "solver/sphere/counting_sort.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -7,11 +8,12 @@ namespace bin_scenes::sphere {
 /// Greedy, in key order: a manifold takes the lowest color that neither of its moving bodies has yet.
 void color_manifolds(World& world) {
   static thread_local std::vector<std::uint64_t> used;
+  static thread_local std::vector<std::uint32_t> solved, start;
   used.assign(world.bodies.size(), 0);
   int colors = 0;
   for (Manifold& m : world.manifolds) {
     m.color = -1;
-    if (m.contacts.empty()) continue;
+    if (m.solved == 0) continue;
     Body& a = world.bodies[m.a];
     Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
     const bool a_moves = a.moves(), b_moves = b && b->moves();
@@ -23,13 +25,13 @@ void color_manifolds(World& world) {
     if (b_moves) used[m.b] |= bit;
     colors = std::max(colors, m.color + 1);
   }
-  std::vector<std::uint32_t> next(colors + 1, 0);  // of each color in the order
-  for (const Manifold& m : world.manifolds)
-    if (m.color >= 0) ++next[m.color + 1];
-  for (int c = 0; c < colors; ++c) next[c + 1] += next[c];
-  world.order.resize(next[colors]);
+  solved.clear();
   for (std::uint32_t i = 0; i < world.manifolds.size(); ++i)
-    if (world.manifolds[i].color >= 0) world.order[next[world.manifolds[i].color]++] = i;
+    if (world.manifolds[i].color >= 0) solved.push_back(i);
+  const auto key = [&](std::uint32_t i) {
+    return world.manifolds[i].color * (max_contacts + 1) + max_contacts - static_cast<int>(world.manifolds[i].solved);
+  };
+  counting_sort(solved, colors * (max_contacts + 1), key, start, world.order);
 }
 
 }  // namespace bin_scenes::sphere

@@ -72,34 +72,31 @@ Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& b
 
 void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
                   std::vector<ContactRows>& rows) {
-  static thread_local std::vector<std::uint32_t> order;
-  const Slice manifolds = blocks.manifolds(block);
-  order.assign(manifolds.begin(), manifolds.end());
+  const Slice order = blocks.manifolds(block);
   const auto color = [&](std::uint32_t manifold) { return world.manifolds[manifold].color; };
-  const auto contacts = [&](std::uint32_t manifold) { return world.manifolds[manifold].contacts.size(); };
-  const auto longer = [&](std::uint32_t i, std::uint32_t k) {
-    return contacts(i) != contacts(k) ? contacts(i) > contacts(k) : i < k;
-  };
   std::uint32_t row = 0;
   bundles.clear();
-  for (auto begin = order.begin(); begin != order.end();) {
-    const int shade = color(*begin);
-    const auto end = std::find_if(begin, order.end(), [&](std::uint32_t i) { return color(i) != shade; });
-    std::sort(begin, end, longer);
-    const std::ptrdiff_t most = shade == shared_color ? 1 : lane_count;
-    while (begin != end) {
-      Bundle& bundle = bundles.emplace_back();
-      bundle.a.fill(blocks.place(block, ground));
-      bundle.b = bundle.a;
-      bundle.lanes = static_cast<int>(std::min(most, end - begin));
-      bundle.first = row;
-      bundle.last = row += static_cast<std::uint32_t>(contacts(*begin));
-      for (int lane = 0; lane < bundle.lanes; ++lane) {
-        const Manifold& m = world.manifolds[bundle.manifold[lane] = *begin++];
-        bundle.a[lane] = blocks.place(block, m.a);
-        bundle.b[lane] = blocks.place(block, m.b);
-      }
+  for (auto next = order.begin(); next != order.end();) {
+    const int shade = color(*next);
+    const int most = shade == shared_color ? 1 : lane_count;
+    Bundle& bundle = bundles.emplace_back();
+    bundle.color = shade;
+    bundle.a.fill(blocks.place(block, ground));
+    bundle.b = bundle.a;
+    bundle.first = bundle.last = row;
+    for (; bundle.lanes < most && next != order.end() && color(*next) == shade; ++next) {
+      const int lane = bundle.lanes++;
+      const Manifold& m = world.manifolds[bundle.manifold[lane] = *next];
+      bundle.last = std::max(bundle.last, bundle.first + m.solved);
+      bundle.a[lane] = blocks.place(block, m.a);
+      bundle.b[lane] = blocks.place(block, m.b);
     }
+    row = bundle.last;
+  }
+  for (std::size_t i = 0; i + 1 < bundles.size(); ++i) {
+    const int shade = bundles[i].color;
+    bundles[i].paired = shade != shared_color && bundles[i + 1].color == shade;
+    i += bundles[i].paired;
   }
   rows.resize(row);
 }
@@ -120,7 +117,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Ahead ahead_a(world, &a), ahead_b(world, b);
-    for (std::size_t k = 0; k < m.contacts.size(); ++k)
+    for (std::uint32_t k = 0; k < m.solved; ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
   }
   const Velocities velocities = velocities_of(bundle, motions);
@@ -131,6 +128,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   const Lanes falls = moves(velocities.inverse_mass_b) - moves(velocities.inverse_mass_a);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
+    c.gap = c.separation;
     c.moment_a = cross(c.ra, c.normal);
     c.moment_b = cross(c.rb, c.normal);
     c.turn_a = bundle.inverse_inertia_a * c.moment_a;
@@ -146,12 +144,12 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
 
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world) {
   for (int lane = 0; lane < bundle.lanes; ++lane) {
-    std::vector<Contact>& contacts = world.manifolds[bundle.manifold[lane]].contacts;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
+    Manifold& m = world.manifolds[bundle.manifold[lane]];
+    for (std::uint32_t k = 0; k < m.solved; ++k) {
       const ContactRows& c = rows[bundle.first + k];
       const Vec3f t1 = c.tangent.at(lane), t2 = c.normal.at(lane).cross(t1);
-      contacts[k].normal_force = c.normal_impulse[lane] / h;
-      contacts[k].friction_force = (c.t1_impulse[lane] * t1 + c.t2_impulse[lane] * t2) / h;
+      m.contacts[k].normal_force = c.normal_impulse[lane] / h;
+      m.contacts[k].friction_force = (c.t1_impulse[lane] * t1 + c.t2_impulse[lane] * t2) / h;
     }
   }
 }

@@ -39,12 +39,16 @@ using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their 
 struct Bundle {
   LaneBodies a{}, b{};
   std::array<std::uint32_t, lane_count> manifold{};
-  int lanes = 0;              ///< in use
+  int lanes = 0;  ///< in use
+  int color = 0;
+  bool paired = false;        ///< solved together with the next one, which is of the same color
   bool striking = false;      ///< some contact closes at Settings::restitution_speed
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
   LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
+
+  std::uint32_t rows() const { return last - first; }
 };
 
 /// The velocities of a bundle's bodies, in registers while its contacts are solved.

@@ -86,7 +86,15 @@ class ContactSolver {
 
  private:
   void prepare_motions();
-  void solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const;
+  /// A bundle in a sweep.
+  struct Swept {
+    const Bundle& bundle;
+    Velocities u;
+    Lanes friction;
+  };
+  Swept begin(const Bundle& bundle, bool push, bool first);
+  void look(const Bundle& bundle);
+  void solve_normal(ContactRows& c, Velocities& u, bool push) const;
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
@@ -208,8 +216,9 @@ void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation, bool push) const {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) const {
   const float d = world_.smallest_size;
+  const Lanes separation = c.gap;
   const LaneMask apart = separation > 0.0f;
   Lanes bias = apart ? separation / h_ : all_lanes(0);  // speculative: may close the distance, no more
   Lanes mass_scale = all_lanes(1), impulse_scale = all_lanes(0);
@@ -223,7 +232,6 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, Lanes separation
   const Lanes change = -c.normal_mass * mass_scale * (speed + bias) - impulse_scale * before;
   c.normal_impulse = max(before + change, all_lanes(0));
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
-  c.gap = separation;
   u.push_along_normal(c.normal_impulse - before, c);
 }
 
@@ -237,8 +245,8 @@ void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle&
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
   Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
   Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
-  const Lanes most = friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
-  const Lanes scale = size > most ? most / size : all_lanes(1);
+  const Lanes most = friction * c.normal_impulse, square = f1 * f1 + f2 * f2;
+  const Lanes size = sqrt(square), scale = size > most ? most / size : all_lanes(1);
   f1 *= scale;
   f2 *= scale;
   u.push((f1 - c.t1_impulse) * c.tangent + (f2 - c.t2_impulse) * second, c, bundle);
@@ -246,18 +254,50 @@ void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle&
   c.t2_impulse = f2;
 }
 
+/// How far apart contacts are, bodies having moved.
+void ContactSolver::look(const Bundle& bundle) {
+  const Ways ways = ways_of(bundle, motions_);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + ways.along(rows_[i]);
+}
+
+/// Velocities of a bundle as a sweep begins with it.
+ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
+  Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
+  if (!push && first) look(bundle);
+  if (push && first) resist_turn(bundle, swept.friction, swept.u);
+  return swept;
+}
+
 BIN_SCENES_WIDE
 void ContactSolver::sweep(bool push, bool first) {
-  for (const Bundle& bundle : bundles_) {
-    Velocities u = velocities_of(bundle, motions_);
-    const Ways ways = ways_of(bundle, motions_);
-    const Lanes friction = friction_holds_ ? bundle.friction : Lanes{};
-    if (push && first) resist_turn(bundle, friction, u);
-    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-      solve_normal(rows_[i], u, rows_[i].separation + ways.along(rows_[i]), push);
-    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-      if (any(rubs(rows_[i]))) solve_friction(rows_[i], friction, bundle, u);
-    store(u, bundle, motions_);
+  const auto normal = [&](Swept& s, std::uint32_t k) {
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, push);
+  };
+  const auto friction = [&](Swept& s, std::uint32_t k) {
+    if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
+      solve_friction(rows_[s.bundle.first + k], s.friction, s.bundle, s.u);
+  };
+  for (std::size_t i = 0; i < bundles_.size(); ++i) {
+    Swept p = begin(bundles_[i], push, first);
+    if (!p.bundle.paired) {
+      for (std::uint32_t k = 0; k < p.bundle.rows(); ++k) normal(p, k);
+      for (std::uint32_t k = 0; k < p.bundle.rows(); ++k) friction(p, k);
+      store(p.u, p.bundle, motions_);
+      continue;
+    }
+    // Contact by contact in turn: while one bundle waits for the result of its last contact, the other is solved.
+    Swept q = begin(bundles_[++i], push, first);
+    const std::uint32_t longest = std::max(p.bundle.rows(), q.bundle.rows());
+    for (std::uint32_t k = 0; k < longest; ++k) {
+      normal(p, k);
+      normal(q, k);
+    }
+    for (std::uint32_t k = 0; k < longest; ++k) {
+      friction(p, k);
+      friction(q, k);
+    }
+    store(p.u, p.bundle, motions_);
+    store(q.u, q.bundle, motions_);
   }
 }
 

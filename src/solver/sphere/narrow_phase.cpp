@@ -7,6 +7,7 @@
 #include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace bin_scenes::sphere {
@@ -49,6 +50,28 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
   return (now.x - m.found_x).squaredNorm() < limit * limit && half_turn * size < limit;
 }
 
+/// How far apart the points of a contact are where the bodies are (m).
+float separation(const Contact& c, const Body& a, const Body* b) {
+  const bool field_of_a = c.feature & side_b;
+  const Vec3f normal = field_of_a ? Vec3f(a.rotation * c.local_normal)
+                       : b        ? Vec3f(b->rotation * c.local_normal)
+                                  : c.local_normal;
+  const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b ? Vec3f(b->x + b->rotation * c.anchor_b) : c.anchor_b;
+  return (on_b - on_a).dot(normal);
+}
+
+/// Contacts that may press in this step come first, else in the order they had: those that do already, and those no
+/// farther apart than `reach` (m).
+void put_solved_first(const Body& a, const Body* b, float reach, Manifold& m) {
+  m.solved = 0;
+  for (std::size_t k = 0; k < m.contacts.size(); ++k) {
+    if (m.contacts[k].normal_force <= 0 && separation(m.contacts[k], a, b) > reach) continue;
+    const auto begin = m.contacts.begin();
+    if (k > m.solved) std::rotate(begin + m.solved, begin + k, begin + k + 1);
+    ++m.solved;
+  }
+}
+
 /// Contacts of one pair, found anew or recycled. Touches nothing but the manifold and the counters.
 void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   static thread_local Candidates candidates;
@@ -61,13 +84,14 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   const Shape& sa = *world.shapes[a.shape];
   const float size = b ? std::min(sa.size, world.shapes[b->shape]->size) : sa.size;
   const RelativePose pose = relative_pose(a, b);
+  const float dt = world.settings.time_step;
+  const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
+  const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
+  const float way = (v.norm() + spin + world.gravity.norm() * dt) * dt;
   if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;
   } else {
-    const float dt = world.settings.time_step;
-    const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
-    const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
-    const float margin = world.settings.margin * size + (v.norm() + spin + world.gravity.norm() * dt) * dt;
+    const float margin = world.settings.margin * size + way;
     const Placement there_a(world, a);
     const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
     candidates.clear();
@@ -86,7 +110,9 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     m.found_x = pose.x;
     m.found_q = pose.q;
   }
+  put_solved_first(a, b, world.settings.press_margin * size + way, m);
   counters.contacts += m.contacts.size();
+  counters.contacts_solved += m.solved;
 }
 
 }  // namespace

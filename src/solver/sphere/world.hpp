@@ -43,15 +43,17 @@ struct Settings {
   /// Of contacts while a heap is probed: they give way to nothing, and let a 160th of their overlap out in a sub-step.
   /// What stiff ones press apart is squeezed, and holds by friction where nothing else holds it.
   Softness rigid{1.0f, 500.0f, 0.0f, 4};
-  float patch_radius = 1e-3f;       ///< d: of what presses at a point or along a line; resists spin and rolling there.
-                                    ///< 0: what two points hold swings about them without end; larger: wheels stop
-  float push_speed = 4.0f;          ///< d per second at which overlap is pushed out, over refinement; higher = popping
-  float margin = 4e-3f;             ///< d: contacts are kept while closer than this, plus the way of one step
-  float recycle = 1e-3f;            ///< d: contacts of a pair are reused until it moved this far
-  float coarse_recycle = 3e-3f;     ///< d: the same on coarse samples, where precision is not wanted yet
-  float probe_slip = 2.5e-3f;       ///< s of a probe without friction, in its first step: weight finds its way without;
-                                    ///< longer = heaps are shaken, shorter = wedged parts hold that would slip
-  float probe_grip = 0.9f;          ///< share of friction that holds once a heap is probed; lower = heaps lie flatter
+  float patch_radius = 1e-3f;    ///< d: of what presses at a point or along a line; resists spin and rolling there.
+                                 ///< 0: what two points hold swings about them without end; larger: wheels stop
+  float push_speed = 4.0f;       ///< d per second at which overlap is pushed out, over refinement; higher = popping
+  float margin = 4e-3f;          ///< d: contacts are kept while closer than this, plus the way of one step
+  float press_margin = 2e-3f;    ///< d: of them, those without force that are farther apart than this, plus that way,
+                                 ///< are left out of the step's solve; smaller = what is pushed there sinks in first
+  float recycle = 1e-3f;         ///< d: contacts of a pair are reused until it moved this far
+  float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where precision is not wanted yet
+  float probe_slip = 2.5e-3f;    ///< s of a probe without friction, in its first step: weight finds its way without;
+                                 ///< longer = heaps are shaken, shorter = wedged parts hold that would slip
+  float probe_grip = 0.9f;       ///< share of friction that holds once a heap is probed; lower = heaps lie flatter
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;          ///< d within which it must have stayed
@@ -103,6 +105,7 @@ struct Manifold {
   Quatf found_q = Quatf::Identity();
   bool found = false;
   std::vector<Contact> contacts;  ///< at most max_contacts; a manifold that is carried over moves only its handle
+  std::uint32_t solved = 0;       ///< of them, the first so many: the others are too far apart to press in this step
 };
 
 /// Half space that solids may not enter, up to `top` along +z of the bin (walls) or unbounded (floor).
@@ -115,14 +118,15 @@ struct Plane {
 struct Counters {
   std::uint64_t steps = 0, free_steps = 0, asleep_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0,
                 pairs_culled = 0, groups_tested = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0,
-                contacts = 0, dropped = 0;
+                contacts = 0, contacts_solved = 0, dropped = 0;
 
   Counters& operator+=(const Counters& c) {
     steps += c.steps, free_steps += c.free_steps, asleep_steps += c.asleep_steps, pairs += c.pairs,
         pairs_recycled += c.pairs_recycled;
     pairs_asleep += c.pairs_asleep, pairs_culled += c.pairs_culled, groups_tested += c.groups_tested,
         clusters_tested += c.clusters_tested;
-    nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts, dropped += c.dropped;
+    nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts;
+    contacts_solved += c.contacts_solved, dropped += c.dropped;
     return *this;
   }
 };
@@ -151,7 +155,7 @@ struct World {
   int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones
 
   std::vector<Manifold> manifolds, previous;  ///< sorted by (a, b)
-  std::vector<std::uint32_t> order;           ///< manifolds with work to do, by color
+  std::vector<std::uint32_t> order;           ///< manifolds with contacts to solve, by color, most contacts first
   Counters counters;
   Spent spent;
 

@@ -58,6 +58,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.patch_radius = s.patch_radius;
   out.push_speed = s.push_speed;
   out.margin = s.margin;
+  out.press_margin = s.press_margin;
   out.recycle = s.recycle;
   out.coarse_recycle = s.coarse_recycle;
   out.rest_move = s.rest_move;
@@ -114,6 +115,7 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     m.color = static_cast<int>(pair.color);
     const gpu::SphereManifold& from = image.manifolds[pair.slot];
     m.contacts.resize(from.state.x);
+    m.solved = word_of(from.found_position.w);
     m.found = from.state.z;
     m.found_x = vec3(from.found_position);
     m.found_q = quat(from.found_orientation);
