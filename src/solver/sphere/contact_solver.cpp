@@ -245,8 +245,8 @@ void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle&
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
   Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
   Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
-  const Lanes most = friction * c.normal_impulse, square = f1 * f1 + f2 * f2;
-  const Lanes size = sqrt(square), scale = size > most ? most / size : all_lanes(1);
+  const Lanes most = friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
+  const Lanes scale = size > most ? most / size : all_lanes(1);
   f1 *= scale;
   f2 *= scale;
   u.push((f1 - c.t1_impulse) * c.tangent + (f2 - c.t2_impulse) * second, c, bundle);
@@ -260,7 +260,7 @@ void ContactSolver::look(const Bundle& bundle) {
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + ways.along(rows_[i]);
 }
 
-/// Velocities of a bundle as a sweep begins with it.
+/// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
   if (!push && first) look(bundle);
