@@ -117,7 +117,7 @@ uint depth_key(float separation) {
 
 // The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
 // preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
-uint reduce(float size) {
+uint reduce(float size, float soon) {
   uint key = 0u, best = 0u;
   for (uint k = 0u; k < mine; ++k) {
     SphereCandidate c = candidates[candidate_place(k)];
@@ -142,7 +142,9 @@ uint reduce(float size) {
       // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold. A
       // gap counts by what it is wider than the least: of faces that are about to meet, all is as far away.
       float gap = max(0.0, c.on_a.w - max(0.0, chosen_on_a[0].w));
-      float score = apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * gap + 0.05 * size * float(c.feature.y);
+      // What is farther off gets the places that are left.
+      float worth = 1.0 / (1.0 + max(0.0, gap - soon) / (1e-4 * size));
+      float score = worth * (apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * gap + 0.05 * size * float(c.feature.y));
       uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
       if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
         key = value;
@@ -219,7 +221,10 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
   mat3 ra = a.rotation, rb = b.rotation;
   if (lost) any_lost = 1u;
   atomicAdd(found_count, mine);
-  uint count = reduce(size_of(pair));
+  float size = size_of(pair);
+  // A gap that may close before contacts are found anew; what is fast may meet all that is within its way.
+  float soon = 1e-3 * size + max(0.0, way_of(world, pair) - settings.margin * size);
+  uint count = reduce(size, soon);
   carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);

@@ -116,7 +116,7 @@ TEST_F(GeneratorTest, TheSameRequestGivesTheSameBitsAndASceneDoesNotDependOnItsN
 }
 
 TEST_F(GeneratorTest, TheNextSceneTakesThePlaceOfOneThatRests) {
-  Request request = boxes(3);
+  Request request = boxes(6);
   request.solver.type = SolverType::sphere;
   request.solver.sphere.device = SphereSettings::Device::gpu;  // llvmpipe: four at once
   request.scenes = 8;

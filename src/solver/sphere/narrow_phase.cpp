@@ -14,6 +14,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
+constexpr float soon_share = 1e-3f;         ///< d: a gap that may close before contacts are found anew; see reduce.hpp
 constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
 
 Contact contact_of(const Candidate& c, const Placement& a, const Placement* b) {
@@ -100,7 +101,9 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     else
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
-    reduce(candidates, m, size, chosen);
+    // What is fast may meet all that is within its way.
+    const float soon = soon_share * size + std::max(0.0f, way - world.settings.margin * size);
+    reduce(candidates, m, size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
     for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));

@@ -6,21 +6,25 @@
 
 namespace bin_scenes::sphere {
 
-void reduce(const Candidates& candidates, const Manifold& old, float size, std::vector<int>& chosen) {
+void reduce(const Candidates& candidates, const Manifold& old, float size, float soon, std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
-  static thread_local std::vector<float> apart, advantage;
+  static thread_local std::vector<float> apart, advantage, worth;
   int next = 0;
   for (std::size_t i = 1; i < candidates.size(); ++i)
     if (candidates[i].separation < candidates[next].separation) next = static_cast<int>(i);
   const float least_gap = std::max(0.0f, candidates[next].separation);
   apart.assign(candidates.size(), std::numeric_limits<float>::max());
   advantage.assign(candidates.size(), 0.0f);
+  worth.assign(candidates.size(), 0.0f);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold. A
     // gap counts by what it is wider than the least: of faces that are about to meet, all is as far away.
-    const float separation = candidates[i].separation;
-    advantage[i] = 8.0f * std::max(0.0f, -separation) - 20.0f * std::max(0.0f, separation - least_gap);
+    const float separation = candidates[i].separation, gap = std::max(0.0f, separation - least_gap);
+    advantage[i] = 8.0f * std::max(0.0f, -separation) - 20.0f * gap;
+    // What is farther off gets the places that are left: for a wall beside it, the edge that a wheel comes down on next
+    // would not be seen before it has sunk in.
+    worth[i] = 1.0f / (1.0f + std::max(0.0f, gap - soon) / (1e-4f * size));
     for (const Contact& c : old.contacts)
       if (c.feature == candidates[i].feature) advantage[i] += 0.05f * size;
   }
@@ -40,7 +44,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, std::
         apart[i] = -1;  // a twin of a chosen one
         continue;
       }
-      const float score = apart[i] + advantage[i];
+      const float score = worth[i] * (apart[i] + advantage[i]);
       if (score > best) {
         best = score;
         best_i = static_cast<int>(i);
