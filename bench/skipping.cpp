@@ -34,7 +34,7 @@ Row sleeping_row(const Heap& heap, const Request& settings, double awake) {
 
 /// A share of work that was skipped while a scene was poured, from the solver's counters.
 void counted(Run& out, const Request& request, const std::string& solver) {
-  const char* const skips[] = {"free fall", "recycling", "culling", "reduction"};
+  const char* const skips[] = {"free fall", "recycling", "culling", "reduction", "far contacts"};
   if (std::none_of(std::begin(skips), std::end(skips),
                    [&](const char* skip) { return out.wanted(Row().key("skip", skip).key("solver", solver)); }))
     return;
@@ -55,7 +55,10 @@ void counted(Run& out, const Request& request, const std::string& solver) {
   share("recycling", "pairs whose contacts are used again", n("pairs_recycled"), n("pairs"));
   share("culling", "samples never looked at in pairs tested", n("nodes_possible") - n("nodes_tested"),
         n("nodes_possible"));
-  share("reduction", "contacts left out of the solve", n("contacts_reduced"), n("contacts") + n("contacts_reduced"));
+  share("reduction", "candidates that are no contact of the pair", n("contacts_reduced"),
+        n("contacts") + n("contacts_reduced"));
+  share("far contacts", "contacts without force that cannot close", n("contacts") - n("contacts_solved"),
+        n("contacts"));
   if (!one.good) out.row(Row().key("skip", "counters").key("solver", solver).key("state", "").append(one.row));
 }
 
@@ -148,7 +151,7 @@ void run(Run& out) {
 }
 
 const Registration registration{"skipping",
-                                "what each skip saves: sleeping, rest, free fall, recycling, culling, rendering",
+                                "what each skip saves: sleeping, rest, free fall, recycling, culling, far contacts, rendering",
                                 {"skip", "solver", "state"},
                                 run};
 
