@@ -54,6 +54,20 @@ class GeneratorTest : public ::testing::Test {
   Generator generator;
 };
 
+// Thirty plates of a millimetre in a narrow bin. Where soft contacts let them sink by a tenth of that they end in each
+// other.
+TEST_F(GeneratorTest, ThinPartsOnEachOtherStayApart) {
+  std::ofstream(dir / "box.stl") << box_stl({0.03, 0.02, 0.001});
+  Request request = boxes(30);
+  request.solver.type = SolverType::sphere;
+  request.bin.inner_size = Vec3(0.05, 0.04, 0.3);
+  for (request.seed = 2; request.seed < 5; ++request.seed) {
+    const Report report = run(request).at(0).scene.report;
+    EXPECT_TRUE(report.at_rest) << request.seed;
+    EXPECT_LT(report.penetration.max_relative, 1e-3) << request.seed;
+  }
+}
+
 TEST_F(GeneratorTest, DriftIsOfThePartsThatAreThere) {
   Request request = boxes(3);
   request.pour.pattern = Pour::Pattern::given;

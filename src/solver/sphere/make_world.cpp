@@ -36,6 +36,30 @@ std::vector<Plane> planes_of(const Bin& bin) {
   return planes;
 }
 
+/// Layers of the heap that a world is made for, once all is in it: a quarter of a heap is parts.
+float layers_to_come(const WorldDef& def) {
+  const bool mesh = def.bin.kind == Bin::Kind::mesh;
+  if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
+  const Vec3 size = mesh ? def.bin_model->mesh().bounds().size() : def.bin.inner_size;
+  double cover = 0;
+  for (const BodyDef& body : def.bodies)
+    if (!body.fixed) cover += std::pow(4.0 * def.parts[body.part]->mass().volume, 2.0 / 3.0);
+  return static_cast<float>(cover / (size.x() * size.y()));
+}
+
+/// Work that so many layers of thin parts ask for. Soft contacts, springs of the sub-step's frequency, give way by the
+/// load over its square: this as a share of the thinnest part, but for a factor. A plate that sank into another by a
+/// tenth of its thickness has ways out sideways that are nearer than the way back.
+float thin_effort(const World& world, float layers) {
+  if (!(world.thinnest > 0)) return 0;
+  const float h = world.whole_step / static_cast<float>(world.settings.sub_steps * world.settings.soft.refinement);
+  return std::sqrt(layers * world.gravity.norm() * h * h / world.thinnest / world.settings.sag);
+}
+
+int whole_effort(float effort) {
+  return std::max(1, static_cast<int>(std::ceil(effort)));
+}
+
 }  // namespace
 
 World make_world(const WorldDef& def, const SphereSettings& settings,
@@ -67,6 +91,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.cold_steps = w.settings.cold_steps;
   w.cuts = settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
+  w.effort = whole_effort(thin_effort(w, layers_to_come(def)));
   return w;
 }
 
@@ -125,6 +150,12 @@ float layers_of(const World& world) {
   return std::min(count, size[down] / std::cbrt(size.prod() / count));
 }
 
+/// Times as much work on contacts as a heap of a few layers of thick parts needs.
+int effort_of(const World& world) {
+  const float layers = layers_of(world);
+  return whole_effort(std::max(layers / world.settings.layers, thin_effort(world, layers)));
+}
+
 }  // namespace
 
 bool take_phase(World& world, Phase phase) {
@@ -134,7 +165,7 @@ bool take_phase(World& world, Phase phase) {
   world.fine = fine;
   world.stiffness = stiffness;
   world.forgets = probed;
-  world.effort = std::max(1, static_cast<int>(std::ceil(layers_of(world) / world.settings.layers)));
+  world.effort = effort_of(world);
   if (probed) {
     world.grip = world.settings.probe_grip;
     world.cold_steps = world.settings.cold_steps;

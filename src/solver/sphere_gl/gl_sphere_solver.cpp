@@ -65,6 +65,7 @@ class GlSphereSolver final : public Solver {
                                  [this](const PartModelPtr& part) -> const sphere::Shape& { return shape_of(part); });
     r.island.assign(r.world.bodies.size(), 0);
     r.slot = batch_.add(r.world, r.progress);
+    tell(r);
     worlds_.emplace(next_, std::move(r));
     return next_++;
   }
@@ -95,8 +96,7 @@ class GlSphereSolver final : public Solver {
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
-    if (gl::Device::current().software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
-    tell_phase(r.world, r.progress);
+    tell(r);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
     return true;
   }
@@ -179,6 +179,12 @@ class GlSphereSolver final : public Solver {
 
  private:
   Resident& world(WorldId id) const { return worlds_.at(id); }
+
+  /// How its world's contacts are to be solved.
+  void tell(Resident& r) const {
+    if (gl::Device::current().software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
+    tell_phase(r.world, r.progress);
+  }
 
   static void wake(Resident& r, std::size_t body) {
     sphere::Body& b = r.world.bodies[body];

@@ -117,6 +117,27 @@ TEST(Solve, AHeapOfManyLayersGetsMoreSweeps) {
   EXPECT_EQ(two.effort, 1);
 }
 
+// Parts sag by the square of a sub-step, which is cut until that is little of their thickness: twice as often under
+// four times the load. 20 plates lie in five stacks.
+TEST(Solve, AHeapOfThinPartsGetsMoreWork) {
+  const auto effort = [](float thickness, float whole_step) {
+    PartModelPtr part;
+    const Vec3f size(0.05f, 0.03f, thickness);
+    const Shape shape = box_shape(part, size.cast<double>(), 0.2 * thickness);
+    World world = world_of_boxes(shape, 20);
+    world.thinnest = shape.thickness;
+    world.whole_step = whole_step;
+    for (int i = 0; i < 20; ++i) world.bodies[i].x = size.cwiseProduct(Vec3f(i % 5, 0, i / 5 + 0.5f));
+    take_phase(world, Phase::press);
+    return world.effort;
+  };
+  EXPECT_EQ(effort(0.005f, 0.0025f), 1);
+  EXPECT_EQ(effort(0.0005f, 0.0025f), 1);
+  EXPECT_EQ(effort(0.0005f, 0.005f), 2);
+  EXPECT_EQ(effort(0.0005f, 0.010f), 3);
+  EXPECT_EQ(effort(0.0005f, 0.020f), 5);
+}
+
 // Soft contacts are springs of a stiffness that grows with the square of the sub-steps, which get their effort. Six
 // cubes on each other sag by the weight above each contact over that.
 TEST(Solve, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
