@@ -150,10 +150,11 @@ void run(Run& out) {
   }
 }
 
-const Registration registration{"skipping",
-                                "what each skip saves: sleeping, rest, free fall, recycling, culling, far contacts, rendering",
-                                {"skip", "solver", "state"},
-                                run};
+const Registration registration{
+    "skipping",
+    "what each skip saves: sleeping, rest, free fall, recycling, culling, far contacts, rendering",
+    {"skip", "solver", "state"},
+    run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -38,8 +38,8 @@ struct Settings {
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
   float layers = 4.5f;  ///< of a heap that this work does for, one of twice as many gets twice as much (World::effort);
                         ///< more = parts deep in a bin never rest, as loads travel about a layer a sweep
-  float sag = 0.024f;   ///< of the thinnest part: layers times gravity times the square of a sub-step that this work does
-                        ///< for, four times as much gets twice as much; more = thin parts sink in for good
+  float sag = 0.024f;  ///< of the thinnest part: layers x gravity x the square of a sub-step, for which this work does;
+                       ///< four times as much gets twice as much; more = thin parts sink in for good
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   /// Of contacts while a heap is probed: they give way to nothing, and let a 160th of their overlap out in a sub-step.
