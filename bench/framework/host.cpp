@@ -6,6 +6,7 @@
 #include <cctype>
 #include <ctime>
 #include <fstream>
+#include <regex>
 #include <thread>
 
 namespace bin_scenes::bench {
@@ -46,6 +47,11 @@ std::string cpu() {
   return "unknown";
 }
 
+/// "Intel(R) Xeon(R) Processor" without its trade marks, as bench/publish has it.
+std::string short_cpu() {
+  return std::regex_replace(cpu(), std::regex(R"(\((R|TM|tm)\)| (Processor|CPU).*)"), "");
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> host() {
@@ -66,8 +72,9 @@ std::string commit() {
 }
 
 std::string device_slug() {
-  const std::string name =
-      gl().software ? cpu() + " " + std::to_string(std::thread::hardware_concurrency()) + " cores" : gl().renderer;
+  const std::string name = gl().software
+                               ? short_cpu() + " " + std::to_string(std::thread::hardware_concurrency()) + " cores"
+                               : gl().renderer;
   std::string slug;
   for (const char c : name) {
     if (c == '/' || c == '(') break;  // "NVIDIA H200/PCIe/SSE2": bus and instruction set are not the device
