@@ -40,7 +40,8 @@ constexpr Pile piles[] = {{"channel_u", 10},
                           {"nut_hex", 0, 200, 0.08, 0.08, 0.60},
                           {"bolt_hex", 0, 300, 0.15, 0.15, 0.60},
                           {"gear_spur", 0, 120, 0.15, 0.15, 0.60},
-                          {"pipe_tee", 0, 120, 0.20, 0.20, 0.60}};
+                          {"pipe_tee", 0, 120, 0.20, 0.20, 0.60},
+                          {"washer", 0, 250, 0.12, 0.12, 0.50}};
 
 /// Whether there is a GPU; asked in a process of its own, which alone makes a GL context.
 bool has_gpu() {
