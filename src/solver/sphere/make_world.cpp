@@ -36,15 +36,20 @@ std::vector<Plane> planes_of(const Bin& bin) {
   return planes;
 }
 
-/// Layers of the heap that a world is made for, once all is in it: a quarter of a heap is parts.
+/// Layers of the heap that a world is made for, once all is in it that finds room: a quarter of a heap is parts.
 float layers_to_come(const WorldDef& def) {
   const bool mesh = def.bin.kind == Bin::Kind::mesh;
   if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
   const Vec3 size = mesh ? def.bin_model->mesh().bounds().size() : def.bin.inner_size;
-  double cover = 0;
-  for (const BodyDef& body : def.bodies)
-    if (!body.fixed) cover += std::pow(4.0 * def.parts[body.part]->mass().volume, 2.0 / 3.0);
-  return static_cast<float>(cover / (size.x() * size.y()));
+  double cover = 0, filled = 0;
+  for (const BodyDef& body : def.bodies) {
+    if (body.fixed) continue;
+    const double taken = 4.0 * def.parts[body.part]->mass().volume;
+    cover += std::pow(taken, 2.0 / 3.0);
+    filled += taken;
+  }
+  if (!(filled > 0) || !(size.minCoeff() > 0)) return 0;
+  return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
 }
 
 /// Work that so many layers of thin parts ask for. Soft contacts, springs of the sub-step's frequency, give way by the

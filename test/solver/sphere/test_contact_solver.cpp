@@ -138,6 +138,27 @@ TEST(Solve, AHeapOfThinPartsGetsMoreWork) {
   EXPECT_EQ(effort(0.0005f, 0.020f), 5);
 }
 
+// While a heap is poured it gets the work of what will lie in the bin, where a quarter is parts: 30 plates 2.7 layers,
+// a bin that is full 12, however many more there are.
+TEST(Solve, AHeapOfThinPartsGetsMoreWorkFromThePourOn) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.03, 0.02, 0.001}, 0.0002);
+  const auto effort = [&](std::size_t count, Bin::Kind kind) {
+    WorldDef def;
+    def.parts = {part};
+    def.bodies.resize(count);
+    def.bin.kind = kind;
+    def.bin.inner_size = Vec3(0.05, 0.04, 0.15);
+    return make_world(def, {}, [&](const PartModelPtr&) -> const Shape& { return shape; }).effort;
+  };
+  EXPECT_EQ(effort(2, Bin::Kind::box), 1);
+  EXPECT_EQ(effort(30, Bin::Kind::box), 2);
+  const int full = effort(125, Bin::Kind::box);
+  EXPECT_GT(full, 2);
+  EXPECT_EQ(effort(5000, Bin::Kind::box), full);
+  EXPECT_EQ(effort(30, Bin::Kind::floor), 1);
+}
+
 // Soft contacts are springs of a stiffness that grows with the square of the sub-steps, which get their effort. Six
 // cubes on each other sag by the weight above each contact over that.
 TEST(Solve, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
