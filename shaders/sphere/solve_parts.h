@@ -22,7 +22,8 @@ void take_sub_step_of(uint w, uint k) {
   time_step = progress[w].time_step;
   softness = settings.softness[progress[w].stiffness];
   sub_steps = settings.sub_steps * progress[w].refinement;
-  uint slips = forgets ? max(1u, uint(settings.probe_slip / sub_step() + 0.5)) : 0u;
+  bool slip = forgets && progress[w].stiffness == SPHERE_RIGID;
+  uint slips = slip ? max(1u, uint(settings.probe_slip / sub_step() + 0.5)) : 0u;
   grip = k < slips ? 0.0 : progress[w].grip;
   kept = forgets ? 0.0 : 1.0;
 }

@@ -12,11 +12,12 @@ namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
 constexpr double calm_share = 0.4;  ///< of the rest window: parts still for so long are pressed, then probed
-constexpr int most_probes = 8;      ///< a heap that still moves in the last one is left as it came to lie there
-constexpr double may_move = 0.02;   ///< share of the parts that may move in a probe that the heap stands, less ...
+constexpr int most_questions = 12;  ///< a heap that still moves in the last one is left as it came to lie there
+constexpr double may_move = 0.02;   ///< share of the parts that may move when asked of a heap that stands, less ...
 constexpr double in_hand = 2.0;     ///< ... so many: one of 150. What moved has not been asked whether it stands now
-constexpr double jolt = 0.02;       ///< s from the start of a probe until its forces are found; parts budge then
+constexpr double jolt = 0.02;       ///< s from the start of a question until its forces are found; parts budge then
 constexpr double creep = 1.0;       ///< s of a probe after which it is not waited any longer that nothing creeps
+constexpr double patience = 2.0;    ///< s of a question after which what still moves is settled: rigid contacts rock on
 constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
 
 }  // namespace
@@ -187,10 +188,16 @@ bool PourWorld::all_slow() const {
   return true;
 }
 
-bool PourWorld::all_still(double seconds) const {
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    if (moves(b) && rest_.still(b, time_) < seconds) return false;
-  return true;
+std::size_t PourWorld::less_still_than(double seconds) const {
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < states_.size(); ++b) count += moves(b) && rest_.still(b, time_) < seconds;
+  return count;
+}
+
+bool PourWorld::many(std::size_t parts) const {
+  std::size_t movable = 0;
+  for (std::size_t b = 0; b < states_.size(); ++b) movable += moves(b);
+  return parts > std::max(0.0, may_move * movable - in_hand);
 }
 
 bool PourWorld::all_asleep() const {
@@ -202,6 +209,7 @@ bool PourWorld::all_asleep() const {
 
 void PourWorld::enter(Phase phase) {
   phase_ = phase;
+  asked_ = false;
   heeds_phases_ = solver_.set_phase(id_, phase);
 }
 
@@ -253,13 +261,13 @@ void PourWorld::look() {
   let_in();
   if (phase_ == Phase::pour && waiting_.empty() && all_slow()) settle();
   const double calm = calm_share * plan_.request.pour.rest_window;
-  if (phase_ == Phase::probe) {
-    if (!all_slow())
+  if (asked_) {
+    if (all_still(calm))  // what moved has come to lie
+      judge_answer();
+    else if (!all_slow() || (time_ - asked_since_ > patience && many(less_still_than(calm))))
       enter(Phase::settle);
-    else if (all_still(calm))  // what moved has come to lie in the probe
-      judge_probe();
   } else if (phase_ == Phase::press && !stood_ && all_still(calm)) {
-    probe();
+    ask(Phase::probe);
   } else if (phase_ == Phase::settle && all_still(calm)) {
     enter(Phase::press);
   }
@@ -272,24 +280,25 @@ void PourWorld::look() {
   if (time_ >= calm) goes_on_ = false;
 }
 
-void PourWorld::probe() {
-  enter(Phase::probe);
-  probed_since_ = time_;
-  ++probes_;
+/// Whether the heap stands: first on rigid contacts and with friction to spare, then pressed as by whoever goes on from
+/// its poses, both without remembered forces.
+void PourWorld::ask(Phase phase) {
+  enter(phase);
+  asked_ = true;
+  asked_since_ = time_;
+  ++questions_;
 }
 
-/// What tips begins slowly: a heap has stood only once it sleeps, or did not move for long.
-void PourWorld::judge_probe() {
-  const double probed = time_ - probed_since_;
-  std::size_t moved = 0, movable = 0;
-  for (std::size_t b = 0; b < states_.size(); ++b) {
-    movable += moves(b);
-    moved += moves(b) && rest_.still(b, time_) < probed - jolt;
-  }
-  if (moved > std::max(0.0, may_move * movable - in_hand) && probes_ < most_probes) {
-    probe();
-  } else if (all_rest() && (!heeds_phases_ || probed >= creep || all_asleep())) {
-    enter(Phase::press);
+/// What tips begins slowly: a heap has stood a probe only once it sleeps, or did not move for long.
+void PourWorld::judge_answer() {
+  const double asked = time_ - asked_since_;
+  if (many(less_still_than(asked - jolt)) && questions_ < most_questions) {
+    ask(phase_);
+  } else if (all_rest() && phase_ == Phase::probe && heeds_phases_) {
+    if (asked >= creep || all_asleep()) ask(Phase::press);
+  } else if (all_rest()) {
+    if (phase_ == Phase::probe) enter(Phase::press);
+    asked_ = false;
     stood_ = true;
   }
 }

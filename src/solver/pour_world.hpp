@@ -43,15 +43,17 @@ class PourWorld {
   void let_in();
   void cut_walls();
   void settle();
-  void probe();
-  void judge_probe();
+  void ask(Phase phase);
+  void judge_answer();
   bool outside(const Vec3& center) const;
   bool slow(std::size_t body) const;
   double top() const;
   bool moves(std::size_t body) const;  ///< it is in and not fixed
   bool all_rest() const;
   bool all_slow() const;
-  bool all_still(double seconds) const;
+  std::size_t less_still_than(double seconds) const;  ///< parts that stayed for less
+  bool all_still(double seconds) const { return less_still_than(seconds) == 0; }
+  bool many(std::size_t parts) const;  ///< more than may move when asked of a heap that stands
   bool all_asleep() const;
   void enter(Phase phase);
 
@@ -65,10 +67,11 @@ class PourWorld {
   Phase phase_ = Phase::pour;
   bool fresh_ = false, walls_cut_ = true;
   bool heeds_phases_ = true;  ///< the solver
-  int probes_ = 0;
-  double probed_since_ = 0.0;  ///< start of the last probe
-  bool stood_ = false;         ///< the last probe, or need not be probed
-  bool goes_on_ = false;       ///< from given poses that may be at rest; not decided yet
+  int questions_ = 0;
+  bool asked_ = false;        ///< whether the heap stands; the answer is awaited
+  double asked_since_ = 0.0;  ///< start of the last question
+  bool stood_ = false;        ///< the last question, or need not be asked
+  bool goes_on_ = false;      ///< from given poses that may be at rest; not decided yet
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first

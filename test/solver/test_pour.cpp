@@ -307,18 +307,22 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
 }
 
-/// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes, and slow
-/// creeping of it to begin with; they fall asleep when they have been probed for so long. Notes its phases.
+/// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes (or
+/// presses after one) with a slide behind it, a swing of the first ones to and fro in the first probe, and slow
+/// creeping of the first one to begin with; they fall asleep when they have been probed for so long. Notes its phases.
 class HoveringSolver : public Solver {
  public:
   struct Habits {
     int jumps = 0;
-    double jumps_at_s = 0.05, creeps_s = 0.0, sleeps_at_s = 0.0;
+    Phase jumps_in = Phase::probe;
+    std::size_t swinging = 0;
+    double jumps_at_s = 0.05, slides_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
     bool heeds_phases = true;
   };
   explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
   std::vector<Phase> phases;
-  double probed_s = 0.0;  ///< in the last probe
+  double probed_s = 0.0;   ///< in the last probe
+  double pressed_s = 0.0;  ///< in the last press, probed before
 
   WorldId add_world(const WorldDef& def) override {
     states_.resize(def.bodies.size());
@@ -329,16 +333,24 @@ class HoveringSolver : public Solver {
   void remove(WorldId, std::size_t) override {}
   bool set_phase(WorldId, Phase phase) override {
     phases.push_back(phase);
-    if (phase == Phase::probe) probed_s = 0.0, jumped_ = false;
+    if (phase == Phase::probe) probed_s = 0.0;
+    pressed_s = 0.0;
+    jumped_ = false;
     return habits_.heeds_phases;
   }
   double advance(const std::vector<WorldId>&, double seconds) override {
     if (probes()) probed_s += seconds;
-    if (probes() && !jumped_ && habits_.jumps > 0 && probed_s >= habits_.jumps_at_s) {
+    if (!probes() && times_probed() > 0) pressed_s += seconds;
+    const double asked_s = habits_.jumps_in == Phase::probe ? (probes() ? probed_s : 0.0) : pressed_s;
+    if (jumped_ && asked_s <= habits_.jumps_at_s + habits_.slides_s) states_[0].pose.position.x() += 0.1 * seconds;
+    if (!jumped_ && habits_.jumps > 0 && asked_s > 0.0 && asked_s >= habits_.jumps_at_s) {
       states_[0].pose.position.x() += 1e-3;
       jumped_ = true;
       --habits_.jumps;
     }
+    if (probes() && times_probed() == 1)
+      for (std::size_t b = 0; b < habits_.swinging; ++b) states_[b].pose.position.x() += swung_ ? -1e-3 : 1e-3;
+    swung_ = !swung_;
     if (habits_.creeps_s > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
     habits_.creeps_s -= seconds;
     return seconds;
@@ -356,9 +368,10 @@ class HoveringSolver : public Solver {
 
  private:
   bool probes() const { return !phases.empty() && phases.back() == Phase::probe; }
+  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
 
   Habits habits_;
-  bool jumped_ = false;
+  bool jumped_ = false, swung_ = false;
   std::vector<BodyState> states_;
   Profile profile_;
 };
@@ -390,9 +403,30 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
   EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press}))
       << "it comes to lie in the first, and stands the second";
   habits.jumps = 100;
-  EXPECT_EQ(probed(habits).times(), 8) << "it moves in all of them";
-  EXPECT_EQ(probed(habits, 149).times(), 8);
+  EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
+  EXPECT_EQ(probed(habits, 149).times(), 12);
   EXPECT_EQ(probed(habits, 150).times(), 1) << "one in fifty may, less two";
+}
+
+TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
+  HoveringSolver::Habits habits;
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  habits.jumps_in = press;
+  habits.jumps_at_s = 1e-3;
+  habits.slides_s = 0.05;
+  habits.jumps = 2;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press, press, press}))
+      << "forces are forgotten anew each time";
+  habits.heeds_phases = false;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
+      << "a solver that does not forget is not asked";
+}
+
+TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
+  HoveringSolver::Habits habits;
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  habits.swinging = 1;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}));
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {

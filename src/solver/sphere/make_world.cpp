@@ -166,14 +166,17 @@ int effort_of(const World& world) {
 bool take_phase(World& world, Phase phase) {
   const bool fine = phase != Phase::pour, probed = phase == Phase::probe;
   const Stiffness stiffness = probed ? Stiffness::rigid : phase == Phase::press ? Stiffness::stiff : Stiffness::soft;
-  if (fine == world.fine && stiffness == world.stiffness && !probed) return false;
+  const bool pressed_again = phase == Phase::press && world.stiffness != Stiffness::soft;
+  if (fine == world.fine && stiffness == world.stiffness && !probed && !pressed_again) return false;
   world.fine = fine;
   world.stiffness = stiffness;
-  world.forgets = probed;
+  world.forgets = probed || pressed_again;
   world.effort = effort_of(world);
   if (probed) {
     world.grip = world.settings.probe_grip;
     world.cold_steps = world.settings.cold_steps;
+  } else if (pressed_again) {
+    world.cold_steps = world.settings.pressed_cold_steps;
   }
   return true;
 }

@@ -21,8 +21,9 @@ std::vector<Flag> flags_of(const World& world);
 void place(World& world, std::size_t body, const BodyState& state);
 
 /// Exact samples from Phase::settle on, stiff contacts in Phase::press. Phase::probe has rigid ones, begins without
-/// forces and friction, finds them by the sweeps of a new world, and leaves less friction for good. Says whether that is
-/// a change; bodies and contacts are left to the caller.
+/// forces and friction, finds them by the sweeps of a new world, and leaves less friction for good; Phase::press after
+/// it, or again, begins without forces as well. Says whether that is a change; bodies and contacts are left to the
+/// caller.
 bool take_phase(World& world, Phase phase);
 
 /// The same; a change wakes all bodies.

@@ -36,6 +36,7 @@ struct Settings {
   int sweeps = 2;                ///< over all contacts before bodies move, and after if not rigid; with 1 stacks sway
   int cold_sweeps = 4;  ///< the same in the first steps of a world, and of a probe, when contacts have no forces
   int cold_steps = 50;  ///< such steps; with none, stacks that begin at rest sway by up to 2 % before forces are known
+  int pressed_cold_steps = 10;  ///< the same of a press after a probe: what stood there finds its forces sooner
   float layers = 4.5f;  ///< of a heap that this work does for, one of twice as many gets twice as much (World::effort);
                         ///< more = parts deep in a bin never rest, as loads travel about a layer a sweep
   float sag = 0.024f;  ///< of the thinnest part: layers x gravity x the square of a sub-step, for which this work does;
@@ -177,7 +178,8 @@ struct World {
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
   /// Of the next step, in which nothing holds by friction.
   int slip_sub_steps() const {
-    return forgets ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
+    const bool slips = forgets && stiffness == Stiffness::rigid;
+    return slips ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
   }
   /// While a heap is probed, what is still among neighbours that are sleeps, whoever creeps elsewhere: all were awake
   /// at first. Before that whole islands sleep or none of them, so that what carried a part knows when it goes.

@@ -206,5 +206,31 @@ TEST(Solve, AProbeBeginsWithoutFriction) {
   }
 }
 
+// A box on a slope that friction holds, with no force remembered: friction is there at once, unlike in a probe.
+TEST(Solve, APressAfterAProbeBeginsWithoutForcesButWithFriction) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.06, 0.01});
+  World world = world_of_boxes(shape, 1);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  world.gravity = 9.81f * Vec3f(0.3f, 0, -std::sqrt(1 - 0.3f * 0.3f));
+  world.bodies[0].x = Vec3f(0, 0, 0.005f);
+  take_phase(world, Phase::press);
+  EXPECT_FALSE(world.forgets) << "what was never at rest has nothing to forget";
+  for (const Phase phase : {Phase::probe, Phase::press, Phase::press}) {
+    EXPECT_TRUE(take_phase(world, phase));
+    EXPECT_TRUE(world.forgets);
+    const float before = world.bodies[0].v.x();
+    step(world);
+    EXPECT_FALSE(world.forgets);
+    if (phase == Phase::probe)
+      EXPECT_GT(world.bodies[0].v.x() - before, 1e-4f);
+    else
+      EXPECT_LT(std::abs(world.bodies[0].v.x()), 1e-4f);
+    for (int k = 0; k < 20; ++k) step(world);
+  }
+  EXPECT_TRUE(take_phase(world, Phase::settle));
+  EXPECT_FALSE(world.forgets);
+}
+
 }  // namespace
 }  // namespace bin_scenes::sphere
