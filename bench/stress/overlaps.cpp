@@ -69,12 +69,6 @@ std::vector<Row> overlaps(bool soak) {
     row.cases.push_back(linked_rings(share));
     // Overlap stands for energy nobody accounts for: lifting a part out of the floor takes some. Speeds are judged.
     for (Case& c : row.cases) c.expect.energy = std::numeric_limits<double>::infinity();
-    const char* nearest =
-        "each contact is pushed out its own nearest way; deep inside, that is not the way that parts "
-        "the two, and opposite ways make energy";
-    if (percent > 10) row.known["sphere: 27 cubes in a lattice"] = nearest;
-    if (percent > 10) row.known["sphere: two cubes side by side"] = nearest;
-    if (percent == 10) row.known["sphere/gpu: two cubes side by side"] = nearest;
     rows.push_back(row);
   }
   return rows;

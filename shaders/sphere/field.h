@@ -50,25 +50,18 @@ float sample_field(Field f, vec3 point) {
   return sample_field(f, point, unused);
 }
 
-// The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
-// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, although it is
-// deeper in behind another. Goes back from `point` through the sample's own body, along the middle of its cone, for at
-// most four cells, until it is outside; `gradient` and `distance` are replaced by those of the face it comes out of.
-bool find_way_out(Field f, vec3 point, vec3 back, inout vec3 gradient, inout float distance) {
-  float reach = 4.0 * f.cell, least = 0.25 * f.cell, t = 0.0, before = distance;
+// How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
+// been inside; negative if it is not, for as long as `reach`.
+float way_out(Field f, vec3 point, vec3 along, float distance, float reach) {
+  float least = 0.25 * f.cell, t = 0.0, before = distance;
   bool inside = distance < 0.0;
   while (t < reach) {
     float way = max(abs(before), least);
     t += way;
-    float now = sample_field(f, point + t * back);
-    if (now >= 0.0 && inside) {
-      t -= way * now / (now - before);
-      sample_field(f, point + t * back, gradient);
-      distance = -t * dot(back, gradient);
-      return distance <= 0.0;
-    }
+    float now = sample_field(f, point + t * along);
+    if (now >= 0.0 && inside) return t - way * now / (now - before);
     inside = inside || now < 0.0;
     before = now;
   }
-  return false;
+  return -1.0;
 }

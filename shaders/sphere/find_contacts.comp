@@ -126,17 +126,30 @@ bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
   return out_there;
 }
 
+// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts that
+// lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
+// another. It goes back through its own body, along the middle of its cone, to the face it comes out of: for at most
+// four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in through that
+// face.
+void offer_back(View view, vec3 point, float distance, uint cone, uint feature) {
+  bool deep = distance < -2.0 * view.field.cell;
+  vec3 back = -(view.to_field * middle_of_cone(cone, view.samples.nodes.x));
+  float way = way_out(view.field, point, back, distance, deep ? 1e30 : 4.0 * view.field.cell);
+  if (way < 0.0) return;
+  if (deep) {
+    float ahead = way_out(view.field, point, -back, distance, way);
+    if (ahead >= 0.0 && ahead < way) return;
+  }
+  vec3 away;
+  sample_field(view.field, point + way * back, away);
+  float behind = -way * dot(back, away);
+  if (behind <= 0.0) press(view, point, away, behind, cone, feature, LEAST_LEFT);
+}
+
 void offer(View view, vec3 point, vec3 away, float distance, uint cone, uint feature) {
   if (offer_at_edge(view, point, cone, feature)) return;
   if (press(view, point, away, distance, cone, feature, LEAST_LEFT)) return;
-  if (distance < -2.0 * view.field.cell) {  // deep inside any way out is better than none
-    emit_from(view, point, away, distance, feature);
-    return;
-  }
-  if (distance >= error_of(view.field)) return;
-  vec3 back = -(view.to_field * middle_of_cone(cone, view.samples.nodes.x));
-  if (find_way_out(view.field, point, back, away, distance))
-    press(view, point, away, distance, cone, feature, LEAST_LEFT);
+  if (distance < error_of(view.field)) offer_back(view, point, distance, cone, feature);
 }
 
 void test_node(View view, uint node) {

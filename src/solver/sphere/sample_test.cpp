@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace bin_scenes::sphere {
 
@@ -14,28 +16,21 @@ namespace {
 constexpr float nearly_all = 0.99f;  ///< of an exact way out a cone must leave: 8 degrees
 constexpr float leans = 0.02f;       ///< sine of the angle by which a face leans against an edge that dips below it
 
-/// The way out of a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way
-/// out: of parts that lie flush (two plates side by side on the floor) that is the face level with it, although it is
-/// deeper in behind another. Goes back from `point` through the sample's own body, along the middle of its cone, for at
-/// most four cells, until it is outside; `gradient` and `distance` are replaced by those of the face it comes out of.
-bool find_way_out(const Field& field, const Vec3f& point, const Vec3f& back, Vec3f& gradient, float& distance) {
-  const float reach = 4.0f * field.cell, least = 0.25f * field.cell;
+/// How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
+/// been inside; nothing if it is not, for as long as `reach`.
+std::optional<float> way_out(const Field& field, const Vec3f& point, const Vec3f& along, float distance, float reach) {
+  const float least = 0.25f * field.cell;
   float t = 0, before = distance;
   bool inside = distance < 0;
   while (t < reach) {
     const float way = std::max(std::abs(before), least);
     t += way;
-    const float now = field.sample(point + t * back);
-    if (now >= 0 && inside) {
-      t -= way * now / (now - before);
-      field.sample(point + t * back, gradient);
-      distance = -t * back.dot(gradient);
-      return distance <= 0;
-    }
+    const float now = field.sample(point + t * along);
+    if (now >= 0 && inside) return t - way * now / (now - before);
     inside = inside || now < 0;
     before = now;
   }
-  return false;
+  return {};
 }
 
 /// The nodes of a cluster in the field's frame, and their neighbours along edges.
@@ -154,11 +149,24 @@ class SampleTest {
 
   void offer(const Vec3f& point, Vec3f out, float distance, const Cone& cone, std::uint32_t feature) {
     if (offer_at_edge(point, cone, feature) || press(point, out, distance, cone, feature)) return;
-    if (distance < -2.0f * field_.cell)  // deep inside any way out is better than none
-      emit(point, out, distance, feature);
-    else if (distance < error_ &&
-             find_way_out(field_, point, -(view_.to_field.rotation * cone.middle()), out, distance))
-      press(point, out, distance, cone, feature);
+    if (distance < error_) offer_back(point, distance, cone, feature);
+  }
+
+  /// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts
+  /// that lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in
+  /// behind another. It goes back through its own body, along the middle of its cone, to the face it comes out of:
+  /// for at most four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in
+  /// through that face.
+  void offer_back(const Vec3f& point, float distance, const Cone& cone, std::uint32_t feature) {
+    constexpr float any = std::numeric_limits<float>::max();
+    const bool deep = distance < -2.0f * field_.cell;
+    const Vec3f back = -(view_.to_field.rotation * cone.middle());
+    const auto way = way_out(field_, point, back, distance, deep ? any : 4.0f * field_.cell);
+    if (!way || (deep && way_out(field_, point, -back, distance, *way).value_or(any) < *way)) return;
+    Vec3f out;
+    field_.sample(point + *way * back, out);
+    const float behind = -*way * back.dot(out);
+    if (behind <= 0) press(point, out, behind, cone, feature);
   }
 
   /// Near a sharp edge ways out are exact: what presses against none of them does not press there. Turned into the

@@ -219,6 +219,31 @@ TEST(NarrowPhase, PlatesThatLieFlushArePushedApartSideways) {
   }
 }
 
+// Deep inside, the nearest face is rarely the one that was passed: of two cubes side by side a point near an edge of
+// the face that went in is nearest to the side of the other, which it would leave along its own surface.
+TEST(NarrowPhase, WhatIsDeepInsideIsPushedOutTheWayItCameIn) {
+  PartModelPtr part;
+  const float edge = 0.05f;
+  const Shape shape = box_shape(part, Vec3::Constant(edge), 0.004);
+  for (const float share : {0.1f, 0.25f, 0.45f}) {
+    for (const Vec3f& aside : {Vec3f(0, 0, 0), Vec3f(0, 1e-6f, 0), Vec3f(0, 0.003f, 0), Vec3f(0, 0.003f, -0.004f)}) {
+      SCOPED_TRACE(::testing::Message() << share << ", aside by " << aside.transpose());
+      World world = world_of_boxes(shape, 2);
+      world.bodies[1].x = Vec3f((1 - share) * edge, 0, 0) + aside;
+      find_pairs(world);
+      find_contacts(world);
+      ASSERT_EQ(world.manifolds.size(), 1u);
+      const Manifold& m = world.manifolds[0];
+      EXPECT_GE(m.contacts.size(), 4u);
+      for (const Contact& c : m.contacts) {
+        EXPECT_GT(c.normal.x(), 0.999f);
+        const Vec3f way = world.bodies[1].x + c.anchor_b - c.anchor_a;
+        EXPECT_NEAR(way.dot(c.normal), -share * edge, 0.5f * shape.field.cell);
+      }
+    }
+  }
+}
+
 TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.02});
