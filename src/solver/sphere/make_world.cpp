@@ -1,11 +1,9 @@
 #include "solver/sphere/make_world.hpp"
 
+#include "solver/sphere/effort.hpp"
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace bin_scenes::sphere {
@@ -34,35 +32,6 @@ std::vector<Plane> planes_of(const Bin& bin) {
   planes.push_back({Vec3f::UnitY(), -y, true});
   planes.push_back({-Vec3f::UnitY(), -y, true});
   return planes;
-}
-
-/// Layers of the heap that a world is made for, once all is in it that finds room: a quarter of a heap is parts.
-float layers_to_come(const WorldDef& def) {
-  const bool mesh = def.bin.kind == Bin::Kind::mesh;
-  if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
-  const Vec3 size = mesh ? def.bin_model->mesh().bounds().size() : def.bin.inner_size;
-  double cover = 0, filled = 0;
-  for (const BodyDef& body : def.bodies) {
-    if (body.fixed) continue;
-    const double taken = 4.0 * def.parts[body.part]->mass().volume;
-    cover += std::pow(taken, 2.0 / 3.0);
-    filled += taken;
-  }
-  if (!(filled > 0) || !(size.minCoeff() > 0)) return 0;
-  return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
-}
-
-/// Work that so many layers of thin parts ask for. Soft contacts, springs of the sub-step's frequency, give way by the
-/// load over its square: this as a share of the thinnest part, but for a factor. A plate that sank into another by a
-/// tenth of its thickness has ways out sideways that are nearer than the way back.
-float thin_effort(const World& world, float layers) {
-  if (!(world.thinnest > 0)) return 0;
-  const float h = world.whole_step / static_cast<float>(world.settings.sub_steps * world.settings.soft.refinement);
-  return std::sqrt(layers * world.gravity.norm() * h * h / world.thinnest / world.settings.sag);
-}
-
-int whole_effort(float effort) {
-  return std::max(1, static_cast<int>(std::ceil(effort)));
 }
 
 }  // namespace
@@ -96,7 +65,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.cold_steps = w.settings.cold_steps;
   w.cuts = settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
-  w.effort = whole_effort(thin_effort(w, layers_to_come(def)));
+  w.effort = effort_to_come(w, def);
   return w;
 }
 
@@ -123,45 +92,6 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still_x = b.x;
   b.still_q = b.q;
 }
-
-namespace {
-
-/// How far values reach: as far as the middle four fifths of them, and on at that rate. One part high above the others
-/// does not make a high heap.
-float reach(std::vector<float>& values) {
-  const auto last = static_cast<float>(values.size() - 1);
-  const auto tail = static_cast<std::size_t>(0.1f * last + 0.5f);
-  std::sort(values.begin(), values.end());
-  const auto within = static_cast<float>(values.size() - 1 - 2 * tail);
-  return within > 0 ? (values[values.size() - 1 - tail] - values[tail]) * last / within : 0;
-}
-
-/// Layers of parts in a heap: its height, along the axis that gravity is nearest to, over the edge of the cube that a
-/// part has of its volume. Without gravity nothing lies on anything.
-float layers_of(const World& world) {
-  if (world.gravity.isZero()) return 0;
-  int down = 0;
-  world.gravity.cwiseAbs().maxCoeff(&down);
-  std::array<std::vector<float>, 3> places;
-  float edge = 0;
-  for (const Body& b : world.bodies) {
-    if (!b.present || b.inverse_mass == 0 || !b.x.allFinite()) continue;
-    for (int axis = 0; axis < 3; ++axis) places[axis].push_back(b.x[axis]);
-    edge += world.shapes[b.shape]->size / std::sqrt(3.0f);
-  }
-  if (places[0].empty()) return 0;
-  const auto count = static_cast<float>(places[0].size());
-  const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge / count);
-  return std::min(count, size[down] / std::cbrt(size.prod() / count));
-}
-
-/// Times as much work on contacts as a heap of a few layers of thick parts needs.
-int effort_of(const World& world) {
-  const float layers = layers_of(world);
-  return whole_effort(std::max(layers / world.settings.layers, thin_effort(world, layers)));
-}
-
-}  // namespace
 
 bool take_phase(World& world, Phase phase) {
   const bool fine = phase != Phase::pour, probed = phase == Phase::probe;

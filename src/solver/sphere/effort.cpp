@@ -1,0 +1,101 @@
+#include "solver/sphere/effort.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// Layers of the heap that a world is made for, once all is in it that finds room: a quarter of a heap is parts.
+float layers_to_come(const WorldDef& def) {
+  const bool mesh = def.bin.kind == Bin::Kind::mesh;
+  if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
+  const Vec3 size = mesh ? def.bin_model->mesh().bounds().size() : def.bin.inner_size;
+  double cover = 0, filled = 0;
+  for (const BodyDef& body : def.bodies) {
+    if (body.fixed) continue;
+    const double taken = 4.0 * def.parts[body.part]->mass().volume;
+    cover += std::pow(taken, 2.0 / 3.0);
+    filled += taken;
+  }
+  if (!(filled > 0) || !(size.minCoeff() > 0)) return 0;
+  return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
+}
+
+/// How far values reach: as far as the middle four fifths of them, and on at that rate. One part high above the others
+/// does not make a high heap.
+float reach(std::vector<float>& values) {
+  const auto last = static_cast<float>(values.size() - 1);
+  const auto tail = static_cast<std::size_t>(0.1f * last + 0.5f);
+  std::sort(values.begin(), values.end());
+  const auto within = static_cast<float>(values.size() - 1 - 2 * tail);
+  return within > 0 ? (values[values.size() - 1 - tail] - values[tail]) * last / within : 0;
+}
+
+/// Layers of parts in a heap: its height, along the axis that gravity is nearest to, over the edge of the cube that a
+/// part has of its volume. Without gravity nothing lies on anything.
+float layers_of(const World& world) {
+  if (world.gravity.isZero()) return 0;
+  int down = 0;
+  world.gravity.cwiseAbs().maxCoeff(&down);
+  std::array<std::vector<float>, 3> places;
+  float edge = 0;
+  for (const Body& b : world.bodies) {
+    if (!b.present || b.inverse_mass == 0 || !b.x.allFinite()) continue;
+    for (int axis = 0; axis < 3; ++axis) places[axis].push_back(b.x[axis]);
+    edge += world.shapes[b.shape]->size / std::sqrt(3.0f);
+  }
+  if (places[0].empty()) return 0;
+  const auto count = static_cast<float>(places[0].size());
+  const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge / count);
+  return std::min(count, size[down] / std::cbrt(size.prod() / count));
+}
+
+/// Work that keeps soft contacts, springs of the sub-step's frequency, from giving way by more than `share` of a part's
+/// thickness (m) under a load of so many of its own weights: they do by the load over the square of that frequency. A
+/// plate that sank into another by a tenth of its thickness has ways out sideways that are nearer than the way back.
+float stiff_enough(const World& world, float weights, float thickness, float share) {
+  if (!(thickness > 0)) return 0;
+  const float h = world.whole_step / static_cast<float>(world.settings.sub_steps * world.settings.soft.refinement);
+  return std::sqrt(weights * world.gravity.norm() * h * h / (share * thickness));
+}
+
+/// Work for what heavier parts lie on: the layers above it weigh as parts do in the mean, and one of them may be the
+/// heaviest.
+float effort_of_weights(const World& world, float layers) {
+  float sum = 0, heaviest = 0, most = 0;
+  int count = 0;
+  for (const Body& b : world.bodies) {
+    if (b.inverse_mass == 0) continue;
+    heaviest = std::max(heaviest, 1 / b.inverse_mass);
+    sum += 1 / b.inverse_mass;
+    ++count;
+  }
+  if (count == 0) return 0;
+  const float load = std::max(layers * sum / static_cast<float>(count), heaviest);
+  for (const Body& b : world.bodies)
+    if (b.inverse_mass > 0)
+      most = std::max(most, stiff_enough(world, load * b.inverse_mass, world.shapes[b.shape]->thickness,
+                                         world.settings.weighed_sag));
+  return std::min(most, world.settings.most_for_weights);
+}
+
+int effort_of_layers(const World& world, float layers) {
+  const float thin = stiff_enough(world, layers, world.thinnest, world.settings.sag);
+  return std::max(1, static_cast<int>(std::ceil(std::max(thin, effort_of_weights(world, layers)))));
+}
+
+}  // namespace
+
+int effort_to_come(const World& world, const WorldDef& def) {
+  return effort_of_layers(world, layers_to_come(def));
+}
+
+int effort_of(const World& world) {
+  const float layers = layers_of(world);
+  return std::max(static_cast<int>(std::ceil(layers / world.settings.layers)), effort_of_layers(world, layers));
+}
+
+}  // namespace bin_scenes::sphere
