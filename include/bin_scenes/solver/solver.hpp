@@ -46,7 +46,8 @@ using WorldId = std::size_t;
 /// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, contacts are pressed out as
 /// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: each time it begins
 /// without forces, as under the next engine, and for a moment without friction; contacts press nothing apart, and
-/// friction holds a little less from now on. What is near its limit goes now, and not there.
+/// friction holds a little less from now on. What is near its limit goes now, and not there. Pressed again, or after a
+/// probe, it begins without forces as well: as when this solver itself goes on from its poses.
 enum class Phase { pour, settle, press, probe };
 
 class Solver {
