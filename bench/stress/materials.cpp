@@ -65,9 +65,6 @@ std::vector<Row> materials(bool soak) {
   under("tilted by 30 degrees", 9.81 * Vec3(std::sin(M_PI / 6), 0, -std::cos(M_PI / 6)));
   under("the moon's", Vec3(0, 0, -1.62));
   under("ten times the earth's", Vec3(0, 0, -98.1));
-  if (soak)
-    gravity.known["sphere: the moon's"] =
-        "held by friction alone: of 60 seeds of it two move on by over 1 mm, none on earth";
   rows.push_back(gravity);
 
   Row thesis{"material", "thesis preset", {"thesis"}, {}, {}};
