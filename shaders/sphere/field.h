@@ -50,6 +50,9 @@ float sample_field(Field f, vec3 point) {
   return sample_field(f, point, unused);
 }
 
+// m: no way within the part is longer.
+float span(Field f) { return f.ball > 0.0 ? 2.0 * f.ball : f.cell * length(f.most + 1.001); }
+
 // How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
 // been inside; negative if it is not, for as long as `reach`.
 float way_out(Field f, vec3 point, vec3 along, float distance, float reach) {

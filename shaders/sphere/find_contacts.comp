@@ -134,7 +134,7 @@ bool offer_at_edge(View view, vec3 point, uint cone, uint feature) {
 void offer_back(View view, vec3 point, float distance, uint cone, uint feature) {
   bool deep = distance < -2.0 * view.field.cell;
   vec3 back = -(view.to_field * middle_of_cone(cone, view.samples.nodes.x));
-  float way = way_out(view.field, point, back, distance, deep ? 1e30 : 4.0 * view.field.cell);
+  float way = way_out(view.field, point, back, distance, deep ? span(view.field) : 4.0 * view.field.cell);
   if (way < 0.0) return;
   if (deep) {
     float ahead = way_out(view.field, point, -back, distance, way);

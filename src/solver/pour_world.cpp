@@ -194,10 +194,10 @@ std::size_t PourWorld::less_still_than(double seconds) const {
   return count;
 }
 
-bool PourWorld::many(std::size_t parts) const {
+bool PourWorld::too_many(std::size_t moved) const {
   std::size_t movable = 0;
   for (std::size_t b = 0; b < states_.size(); ++b) movable += moves(b);
-  return parts > std::max(0.0, may_move * movable - in_hand);
+  return moved > std::max(0.0, may_move * movable - in_hand);
 }
 
 bool PourWorld::all_asleep() const {
@@ -264,7 +264,7 @@ void PourWorld::look() {
   if (asked_) {
     if (all_still(calm))  // what moved has come to lie
       judge_answer();
-    else if (!all_slow() || (time_ - asked_since_ > patience && many(less_still_than(calm))))
+    else if (!all_slow() || (time_ - asked_since_ > patience && too_many(less_still_than(calm))))
       enter(Phase::settle);
   } else if (phase_ == Phase::press && !stood_ && all_still(calm)) {
     ask(Phase::probe);
@@ -292,7 +292,7 @@ void PourWorld::ask(Phase phase) {
 /// What tips begins slowly: a heap has stood a probe only once it sleeps, or did not move for long.
 void PourWorld::judge_answer() {
   const double asked = time_ - asked_since_;
-  if (many(less_still_than(asked - jolt)) && questions_ < most_questions) {
+  if (too_many(less_still_than(asked - jolt)) && questions_ < most_questions) {
     ask(phase_);
   } else if (all_rest() && phase_ == Phase::probe && heeds_phases_) {
     if (asked >= creep || all_asleep()) ask(Phase::press);

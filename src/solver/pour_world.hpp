@@ -53,7 +53,7 @@ class PourWorld {
   bool all_slow() const;
   std::size_t less_still_than(double seconds) const;  ///< parts that stayed for less
   bool all_still(double seconds) const { return less_still_than(seconds) == 0; }
-  bool many(std::size_t parts) const;  ///< more than may move when asked of a heap that stands
+  bool too_many(std::size_t moved) const;  ///< for a heap that stands
   bool all_asleep() const;
   void enter(Phase phase);
 

@@ -308,21 +308,19 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
 }
 
 /// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes (or
-/// presses after one) with a slide behind it, a swing of the first ones to and fro in the first probe, and slow
+/// presses after one) with a slide behind it, a swing of it to and fro in the first probe, and slow
 /// creeping of the first one to begin with; they fall asleep when they have been probed for so long. Notes its phases.
 class HoveringSolver : public Solver {
  public:
   struct Habits {
     int jumps = 0;
     Phase jumps_in = Phase::probe;
-    std::size_t swinging = 0;
-    double jumps_at_s = 0.05, slides_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
+    double jumps_at_s = 0.05, slides_s = 0.0, swings_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
     bool heeds_phases = true;
   };
   explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
   std::vector<Phase> phases;
-  double probed_s = 0.0;   ///< in the last probe
-  double pressed_s = 0.0;  ///< in the last press, probed before
+  double probed_s = 0.0;  ///< in the last probe
 
   WorldId add_world(const WorldDef& def) override {
     states_.resize(def.bodies.size());
@@ -334,23 +332,24 @@ class HoveringSolver : public Solver {
   bool set_phase(WorldId, Phase phase) override {
     phases.push_back(phase);
     if (phase == Phase::probe) probed_s = 0.0;
-    pressed_s = 0.0;
+    pressed_s_ = 0.0;
     jumped_ = false;
     return habits_.heeds_phases;
   }
   double advance(const std::vector<WorldId>&, double seconds) override {
     if (probes()) probed_s += seconds;
-    if (!probes() && times_probed() > 0) pressed_s += seconds;
-    const double asked_s = habits_.jumps_in == Phase::probe ? (probes() ? probed_s : 0.0) : pressed_s;
+    if (!probes() && times_probed() > 0) pressed_s_ += seconds;
+    const double asked_s = habits_.jumps_in == Phase::probe ? (probes() ? probed_s : 0.0) : pressed_s_;
     if (jumped_ && asked_s <= habits_.jumps_at_s + habits_.slides_s) states_[0].pose.position.x() += 0.1 * seconds;
     if (!jumped_ && habits_.jumps > 0 && asked_s > 0.0 && asked_s >= habits_.jumps_at_s) {
       states_[0].pose.position.x() += 1e-3;
       jumped_ = true;
       --habits_.jumps;
     }
-    if (probes() && times_probed() == 1)
-      for (std::size_t b = 0; b < habits_.swinging; ++b) states_[b].pose.position.x() += swung_ ? -1e-3 : 1e-3;
-    swung_ = !swung_;
+    if (probes() && times_probed() == 1 && probed_s < habits_.swings_s) {
+      states_[0].pose.position.x() += swung_ ? -1e-3 : 1e-3;
+      swung_ = !swung_;
+    }
     if (habits_.creeps_s > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
     habits_.creeps_s -= seconds;
     return seconds;
@@ -372,6 +371,7 @@ class HoveringSolver : public Solver {
 
   Habits habits_;
   bool jumped_ = false, swung_ = false;
+  double pressed_s_ = 0.0;  ///< in the last press after a probe
   std::vector<BodyState> states_;
   Profile profile_;
 };
@@ -425,8 +425,12 @@ TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
 TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
   const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
-  habits.swinging = 1;
+  habits.swings_s = 3.0;
   EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}));
+  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
+      << "one of many is waited for";
+  habits.swings_s = 1.5;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press})) << "in time";
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {

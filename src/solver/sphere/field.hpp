@@ -37,6 +37,8 @@ struct Field {
   /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
   float sample(const Vec3f& point, Vec3f& gradient) const;
   float sample(const Vec3f& point) const;
+  /// m: no way within the part is longer.
+  float span() const { return ball > 0 ? 2 * ball : cell * Eigen::Vector3i(nx, ny, nz).cast<float>().norm(); }
 };
 
 /// Carries N points into the field's frame and samples it there: bit for bit what one point after the other gives.

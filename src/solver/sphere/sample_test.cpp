@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace bin_scenes::sphere {
@@ -158,11 +157,10 @@ class SampleTest {
   /// for at most four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in
   /// through that face.
   void offer_back(const Vec3f& point, float distance, const Cone& cone, std::uint32_t feature) {
-    constexpr float any = std::numeric_limits<float>::max();
     const bool deep = distance < -2.0f * field_.cell;
     const Vec3f back = -(view_.to_field.rotation * cone.middle());
-    const auto way = way_out(field_, point, back, distance, deep ? any : 4.0f * field_.cell);
-    if (!way || (deep && way_out(field_, point, -back, distance, *way).value_or(any) < *way)) return;
+    const auto way = way_out(field_, point, back, distance, deep ? field_.span() : 4.0f * field_.cell);
+    if (!way || (deep && way_out(field_, point, -back, distance, *way).value_or(*way) < *way)) return;
     Vec3f out;
     field_.sample(point + *way * back, out);
     const float behind = -*way * back.dot(out);

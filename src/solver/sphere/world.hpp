@@ -154,7 +154,7 @@ struct World {
   float grip = 1;                         ///< share of friction that holds
   bool forgets = false;                   ///< the next step begins without the forces of the last one
   int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
-  int effort = 1;                         ///< times as much work on contacts, in a heap of many layers or thin parts
+  int effort = 1;                         ///< times as much work on contacts: effort.hpp
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while nothing is fast
   int cuts = 1;                           ///< whole steps for one of the request: small parts need short ones

@@ -244,6 +244,26 @@ TEST(NarrowPhase, WhatIsDeepInsideIsPushedOutTheWayItCameIn) {
   }
 }
 
+// Where the bounds of a cone cancel, as of a seam in a flat face, it has no middle to go back along.
+TEST(NarrowPhase, WhatHasNoWayBackIsNoContact) {
+  PartModelPtr part;
+  const float edge = 0.05f;
+  Shape shape = box_shape(part, Vec3::Constant(edge), 0.004);
+  Cone seam;
+  seam.bounds = 2;
+  seam.bound[0] = Vec3f::UnitX();
+  seam.bound[1] = -Vec3f::UnitX();
+  ASSERT_TRUE(seam.middle().isZero());
+  std::fill(shape.coarse.cones.begin(), shape.coarse.cones.end(), seam);
+  for (Edge& each : shape.coarse.edges) each.cone = seam;
+  World world = world_of_boxes(shape, 2);
+  world.bodies[1].x = Vec3f(0.75f * edge, 0, 0);
+  find_pairs(world);
+  find_contacts(world);
+  for (const Manifold& m : world.manifolds)
+    for (const Contact& c : m.contacts) EXPECT_LT(std::abs(c.normal.x()), 0.1f);
+}
+
 TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.06, 0.06, 0.02});
