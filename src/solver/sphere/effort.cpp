@@ -34,24 +34,38 @@ float reach(std::vector<float>& values) {
   return within > 0 ? (values[values.size() - 1 - tail] - values[tail]) * last / within : 0;
 }
 
-/// Layers of parts in a heap: its height, along the axis that gravity is nearest to, over the edge of the cube that a
-/// part has of its volume. Without gravity nothing lies on anything.
-float layers_of(const World& world) {
-  if (world.gravity.isZero()) return 0;
-  int down = 0;
-  world.gravity.cwiseAbs().maxCoeff(&down);
-  std::array<std::vector<float>, 3> places;
-  float edge = 0;
-  for (const Body& b : world.bodies) {
-    if (!b.present || b.inverse_mass == 0 || !b.x.allFinite()) continue;
-    for (int axis = 0; axis < 3; ++axis) places[axis].push_back(b.x[axis]);
-    edge += world.shapes[b.shape]->size / std::sqrt(3.0f);
+/// Where the parts that move are, and how large.
+struct Heap {
+  std::array<std::vector<float>, 3> places;  ///< m; along the axis that gravity is nearest to in the last
+  float edge = 0;                            ///< m, in the mean, of the cube that has a part's diagonal
+
+  explicit Heap(const World& world) {
+    int down = 0;
+    world.gravity.cwiseAbs().maxCoeff(&down);
+    for (const Body& b : world.bodies) {
+      if (!b.present || b.inverse_mass == 0 || !b.x.allFinite()) continue;
+      for (int axis = 0; axis < 3; ++axis) places[axis].push_back(b.x[(down + 1 + axis) % 3]);
+      edge += world.shapes[b.shape]->size / std::sqrt(3.0f);
+    }
+    if (!empty()) edge /= count();
   }
-  if (places[0].empty()) return 0;
-  const auto count = static_cast<float>(places[0].size());
-  const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge / count);
-  return std::min(count, size[down] / std::cbrt(size.prod() / count));
-}
+  bool empty() const { return places[0].empty(); }
+  float count() const { return static_cast<float>(places[0].size()); }
+
+  /// Its height over the edge of the cube that a part has of its volume.
+  float layers() {
+    const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge);
+    return std::min(count(), size[2] / std::cbrt(size.prod() / count()));
+  }
+  /// All above one another, so that each carries all that are above it: nothing finds another way down.
+  bool is_tower() const {
+    const auto within = [&](const std::vector<float>& p) {
+      const auto [least, most] = std::minmax_element(p.begin(), p.end());
+      return *most - *least < 0.5f * edge;
+    };
+    return within(places[0]) && within(places[1]);
+  }
+};
 
 /// Work that keeps soft contacts, springs of the sub-step's frequency, from giving way by more than `share` of a part's
 /// thickness (m) under a load of so many of its own weights: they do by the load over the square of that frequency. A
@@ -82,6 +96,13 @@ float effort_of_weights(const World& world, float layers) {
   return std::min(most, world.settings.most_for_weights);
 }
 
+/// A tower has no width to lean on. What holds it upright falls with the cube of its height (Greenhill 1881), and
+/// stiffness is the square of this work.
+float effort_of_tower(const World& world, const Heap& heap) {
+  const float parts = heap.count();
+  return std::min(world.settings.tower * parts * std::sqrt(parts), world.settings.most_for_towers);
+}
+
 int effort_of_layers(const World& world, float layers) {
   const float thin = stiff_enough(world, layers, world.thinnest, world.settings.sag);
   return std::max(1, static_cast<int>(std::ceil(std::max(thin, effort_of_weights(world, layers)))));
@@ -94,8 +115,11 @@ int effort_to_come(const World& world, const WorldDef& def) {
 }
 
 int effort_of(const World& world) {
-  const float layers = layers_of(world);
-  return std::max(static_cast<int>(std::ceil(layers / world.settings.layers)), effort_of_layers(world, layers));
+  Heap heap(world);
+  if (heap.empty() || world.gravity.isZero()) return effort_of_layers(world, 0);  // nothing lies on anything
+  const float layers = heap.layers();
+  const float work = std::max(layers / world.settings.layers, heap.is_tower() ? effort_of_tower(world, heap) : 0);
+  return std::max(static_cast<int>(std::ceil(work)), effort_of_layers(world, layers));
 }
 
 }  // namespace bin_scenes::sphere

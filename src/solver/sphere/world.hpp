@@ -43,6 +43,9 @@ struct Settings {
                        ///< four times as much gets twice as much; more = thin parts sink in for good
   float weighed_sag = 0.1f;    ///< the same of each part under heavier ones; more = light parts are pressed through
   float most_for_weights = 8;  ///< times as much work at most for it; more = a heavy part among crumbs costs more
+  float tower = 0.16f;         ///< work for parts on each other one by one, over their number to the power of 1.5;
+                               ///< less = twenty cubes sway for ever
+  float most_for_towers = 60;  ///< times as much work at most for it: of some 50; more = sheets in piles cost more
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< of contacts while bodies move: takes the energy out of rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< of contacts while they are pressed: leaves no overlap
   /// Of contacts while a heap is probed: they give way to nothing, and let a 160th of their overlap out in a sub-step.

@@ -7,7 +7,8 @@
 namespace bin_scenes::sphere {
 namespace {
 
-// Loads travel about a layer a sweep: of what lies on each other, cubes one by one or eight a layer.
+// Loads travel about a layer a sweep: of what lies on each other, cubes eight a layer, or one by one in a tower, which
+// must not sway either.
 TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
   PartModelPtr part;
   const float edge = 0.05f;
@@ -20,10 +21,12 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
     EXPECT_EQ(world.sweeps(), world.effort * world.settings.sweeps);
     return world.effort;
   };
-  EXPECT_EQ(effort(4, 1, 1), 1);
-  EXPECT_EQ(effort(8, 1, 1), 2);
-  EXPECT_EQ(effort(19, 1, 1), 5);
-  EXPECT_EQ(effort(49, 1, 1), 11);
+  EXPECT_EQ(effort(3, 1, 1), 1);
+  EXPECT_EQ(effort(9, 1, 1), 5);    // 0.16 x 27
+  EXPECT_EQ(effort(16, 1, 1), 11);  // 0.16 x 64
+  EXPECT_EQ(effort(49, 1, 1), 55);  // 0.16 x 343
+  EXPECT_EQ(effort(200, 1, 1), 60);
+  EXPECT_EQ(effort(38, 2, 2), 5);
   EXPECT_EQ(effort(32, 4, 8), 1);
   EXPECT_EQ(effort(19 * 8, 4, 8), 5);
   EXPECT_EQ(effort(64, 8, 64), 1);
@@ -43,7 +46,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
     return row.effort;
   };
   EXPECT_EQ(effort_under({0, 0, -9.81f}), 1);
-  EXPECT_EQ(effort_under({-9.81f, 0, -1}), 5);
+  EXPECT_EQ(effort_under({-9.81f, 0, -1}), 14);
   EXPECT_EQ(effort_under({0, 0, 0}), 1);
   World two = world_of_boxes(shape, 2);
   two.bodies[1].x.z() = 50;
@@ -105,6 +108,7 @@ TEST(Effort, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
     for (int i = 0; i < count; ++i) world.bodies[i].x = edge * Vec3f(0, 0, i + 0.5f);
     world.planes = {{Vec3f::UnitZ(), 0, false}};
     world.settings.layers = layers;
+    world.settings.tower = 0;
     world.settings.soft.slop = 0;  // what overlaps by less is held where it is
     take_phase(world, Phase::settle);
     EXPECT_EQ(world.effort, effort);
