@@ -72,6 +72,7 @@ Cover cover(const Mesh& mesh, int cells) {
 std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
                                 Random& random, int tries) const {
   std::optional<Pose> best;
+  std::vector<Vec3> own(shape.balls.size());  // where its balls are, this try
   for (int t = 0; t < tries; ++t) {
     Pose pose;
     pose.orientation = random.orientation();
@@ -83,6 +84,7 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, const
 
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
     const Vec3 middle = pose * shape.center;
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] = pose * shape.balls[i].center;
     for (const Obstacle& other : obstacles) {
       const Vec3 center = other.pose * other.cover->center;
       const double highest = lift(center, other.cover->radius, middle, shape.radius);
@@ -90,8 +92,8 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, const
       for (const Cover::Ball& a : other.cover->balls) {
         const Vec3 ball = other.pose * a.center;
         if (lift(ball, a.radius, middle, shape.radius) <= (other.settled ? heap : clear)) continue;
-        for (const Cover::Ball& b : shape.balls) {
-          const double height = lift(ball, a.radius, pose * b.center, b.radius);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+          const double height = lift(ball, a.radius, own[i], shape.balls[i].radius);
           clear = std::max(clear, height);
           if (other.settled) heap = std::max(heap, height);
         }
