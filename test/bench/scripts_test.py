@@ -41,7 +41,7 @@ class Scripts(unittest.TestCase):
         for script in ("publish", "plot"):
             shutil.copy(ROOT / "bench" / script, self.root / "bench")
         (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
-        for name in ("accuracy.md", "performance.md"):
+        for name in ("accuracy.md", "performance.md", "solver.md"):
             (self.root / "docs" / name).write_text(DOC % "")
         (self.root / "bench/results/README.md").write_text("<!-- builds -->\n<!-- /builds -->\n")
 
@@ -77,6 +77,24 @@ class Scripts(unittest.TestCase):
         self.assertIn("| ring | sphere |", self.doc())
         self.assertNotIn("bullet", self.doc())
         self.assertNotIn("tee", self.doc())
+
+    def test_publish_names_the_worst_of_all_rows(self):
+        goals = TABLE.split("part,")[0].replace("scenes", "goals").replace("key key measure spread measure spread info",
+                                                                         "key measure exact exact")
+        (self.root / "bench/results/device/goals.csv").write_text(
+            goals + "part,error_rel,at_rest,scenes\nring,0.002,9,10\ntee,0.004,10,10\nold,,,\n")
+        (self.root / "docs/solver.md").write_text("""<!-- worst
+of: all = goals; rings = goals part=r*
+error, largest: error_rel | % | at most 1 %
+at rest: at_rest of scenes | | all
+-->
+<!-- /worst -->
+""")
+        self.run_script("publish")
+        text = (self.root / "docs/solver.md").read_text()
+        self.assertIn("| goal | limit | all | rings |", text)
+        self.assertIn("| error, largest | at most 1 % | 0.4 % (tee) | 0.2 % (ring) |", text)
+        self.assertIn("| at rest | all | 19 of 20 | 9 of 10 |", text)
 
     def test_check_tells_stale_tables(self):
         stale = self.run_script("publish", "--check")
