@@ -16,7 +16,7 @@ namespace {
 using namespace bin_scenes;
 using namespace bin_scenes::bench;
 
-constexpr int kDone = 0, kSomethingToSay = 1;  // rows moved; a benchmark failed
+constexpr int exit_done = 0, something_to_say = 1;  // rows moved; a benchmark failed
 
 int complain(const std::string& message, ErrorKind kind) {
   std::cerr << "bin_scenes_bench: " << message << std::endl;
@@ -42,7 +42,7 @@ int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const st
   if (!any)
     throw input_error("no row is like this", "--rows", "see the table in " + options.out + ", or leave --rows out");
   std::printf("results: %s\n", options.out.c_str());
-  return good ? kDone : kSomethingToSay;
+  return good ? exit_done : something_to_say;
 }
 
 int main_of(int argc, char** argv) {
@@ -82,10 +82,10 @@ int main_of(int argc, char** argv) {
   if (compare_app->parsed()) {
     const Comparison comparison = compare_paths(before, after, floor);
     std::fputs(to_text(comparison).c_str(), stdout);
-    return comparison.moved.empty() ? kDone : kSomethingToSay;
+    return comparison.moved.empty() ? exit_done : something_to_say;
   }
   const Selection chosen = selected(benchmarks(), filter);
-  int code = kDone;
+  int code = exit_done;
   for (const Error& unknown : chosen.unknown) code = complain(unknown.what(), unknown.kind());  // the rest is run
   if (list_only) list(chosen.benchmarks);
   if (list_only || chosen.benchmarks.empty()) return code;

@@ -2,7 +2,7 @@
 /// and from the disk cache (warm). Each run is a process of its own, as a user's is. Besides the sample parts those of
 /// the folder in BIN_SCENES_REAL_PARTS, whose names end in their unit (nut_mm.stl), unless the file says it (DAE).
 #include "bin_scenes/part/cache.hpp"
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "runs.hpp"

@@ -3,7 +3,7 @@
 #include "piece_files.hpp"
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

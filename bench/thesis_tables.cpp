@@ -6,7 +6,7 @@
 #include "requests.hpp"
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 #include "solver/thesis/scenes.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// A box or cube around the origin, as a mesh and as the text of an STL file.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <sstream>
 #include <string>

@@ -1,7 +1,7 @@
 /// A mesh as the text of a COLLADA file.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <sstream>
 #include <string>

@@ -1,7 +1,7 @@
 /// Meshes of the stress suite: closed, outward-oriented, as bad as the case wants them.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <string>
 

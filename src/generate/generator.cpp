@@ -11,10 +11,10 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double kDriftSeconds = 0.5;  ///< simulated time of the drift check
+constexpr double drift_seconds = 0.5;  ///< simulated time of the drift check
 
 // Shares of a scene in the progress bar: pouring takes nearly all of the time.
-constexpr double kLoadShare = 0.02, kPourShare = 0.90;
+constexpr double load_share = 0.02, pour_share = 0.90;
 
 /// Passes progress on with one fraction for the whole request, which never falls, and asks whether to go on.
 class Reporter {
@@ -40,8 +40,8 @@ class Reporter {
  private:
   void tell(Progress progress) {
     if (poured_ > 0.0) {
-      const double after = (1.0 - kLoadShare - kPourShare) * static_cast<double>(handed_on_) / scenes_;
-      fraction_ = std::max(fraction_, std::min(kLoadShare + kPourShare * poured_ + after, 1.0));
+      const double after = (1.0 - load_share - pour_share) * static_cast<double>(handed_on_) / scenes_;
+      fraction_ = std::max(fraction_, std::min(load_share + pour_share * poured_ + after, 1.0));
     }
     progress.fraction = fraction_;
     if (hooks_.progress) hooks_.progress(progress);
@@ -89,7 +89,7 @@ struct Generator::State {
 
   void measure_drift(Scene& scene, const Request& request, Solver& solver, const RunHooks& hooks) {
     std::vector<std::size_t> kept;
-    const Request next = going_on(request, scene, kDriftSeconds, kept);
+    const Request next = going_on(request, scene, drift_seconds, kept);
     if (kept.empty()) return;
     RunHooks quiet;
     quiet.cancel = hooks.cancel;

@@ -12,17 +12,17 @@ namespace {
 
 // Bytes, set by the peak of whole runs (heaps of 64 to 2000 parts, on llvmpipe): the estimate has to catch requests
 // that cannot fit, not to count to the last byte.
-constexpr double kProgram = 60e6;            // the tool with its libraries and threads
-constexpr double kDevice = 75e6;             // an OpenGL context; of a software device, which lives in this process
-constexpr double kPerTriangle = 400.0;       // mesh, tree over it, copies on the device
-constexpr double kPerBody = 2000.0;          // state, definition, history of rest, report
-constexpr double kPerSample = 64.0;          // contact sample with its normal
-constexpr double kContactsPerBody = 8 * 12;  // touching neighbours times contacts kept with each
-constexpr double kPerContact = 160.0;
-constexpr double kPerHull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
-constexpr double kPerSphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
-constexpr double kPerSphereContact = 24.0;  // of its capacity
-constexpr double kPerPixel = 140.0;         // depth, label, normal, intensity, on the device and here
+constexpr double program_bytes = 60e6;            // the tool with its libraries and threads
+constexpr double device_bytes = 75e6;             // an OpenGL context; of a software device, which lives in this process
+constexpr double per_triangle = 400.0;       // mesh, tree over it, copies on the device
+constexpr double per_body = 2000.0;          // state, definition, history of rest, report
+constexpr double per_sample = 64.0;          // contact sample with its normal
+constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
+constexpr double per_contact = 160.0;
+constexpr double per_hull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double per_sphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
+constexpr double per_sphere_contact = 24.0;  // of its capacity
+constexpr double per_pixel = 140.0;         // depth, label, normal, intensity, on the device and here
 
 double field_bytes(const PartModel& part, double relative_cell) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -32,10 +32,10 @@ double field_bytes(const PartModel& part, double relative_cell) {
 
 double model_bytes(const Request& request, const PartModel& part) {
   const SolverSettings& solver = request.solver;
-  double bytes = kPerTriangle * static_cast<double>(part.mesh().triangles.size());
-  if (solver.type == SolverType::bullet) return bytes + kPerTriangle * 128.0 * solver.bullet.max_hulls;
+  double bytes = per_triangle * static_cast<double>(part.mesh().triangles.size());
+  if (solver.type == SolverType::bullet) return bytes + per_triangle * 128.0 * solver.bullet.max_hulls;
   if (solver.preset == SolverSettings::Preset::thesis) return bytes;
-  return bytes + field_bytes(part, solver.sphere.field_cell) + kPerSample * solver.sphere.fine_samples;
+  return bytes + field_bytes(part, solver.sphere.field_cell) + per_sample * solver.sphere.fine_samples;
 }
 
 /// One body of this part; null: one of a part that is not loaded yet.
@@ -46,13 +46,13 @@ double body_bytes(const Request& request, const PartModel* part) {
     options.max_error = solver.bullet.hull_error;
     options.max_volume_error = solver.bullet.hull_volume_error;
     options.max_hulls = solver.bullet.max_hulls;
-    return kPerBody + kPerHull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
+    return per_body + per_hull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }
-  if (solver.preset == SolverSettings::Preset::standard) return kPerBody + kContactsPerBody * kPerContact;
+  if (solver.preset == SolverSettings::Preset::standard) return per_body + contacts_per_body * per_contact;
   const ThesisSettings& thesis = solver.thesis;
   const double across = thesis.radii.empty() ? thesis.voxels : 0.5 / thesis.radii.back();
   const double spheres = 6.0 * std::pow(across / thesis.tightness, 2);
-  return kPerBody + spheres * (kPerSphere + kPerSphereContact * solver.thesis.contacts_per_sphere);
+  return per_body + spheres * (per_sphere + per_sphere_contact * solver.thesis.contacts_per_sphere);
 }
 
 std::string in_megabytes(double bytes) {
@@ -70,7 +70,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
     bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
   }
   double pixels = 0.0;
-  for (const Sensor& sensor : request.sensors) pixels += kPerPixel * sensor.width * static_cast<double>(sensor.height);
+  for (const Sensor& sensor : request.sensors) pixels += per_pixel * sensor.width * static_cast<double>(sensor.height);
   double models = 0.0;
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) {
     models += model_bytes(request, *part);
@@ -78,7 +78,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   const bool thesis =
       request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
   const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
-  const double program = kProgram + (thesis || !request.sensors.empty() ? kDevice : 0.0);
+  const double program = program_bytes + (thesis || !request.sensors.empty() ? device_bytes : 0.0);
   const double total = program + bodies + pixels + models + grid;
   if (total > request.memory_budget) {
     throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(bodies) +

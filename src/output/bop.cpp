@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMillimetres = 1e3;
+constexpr double millimetres = 1e3;
 
 std::string six_digits(std::size_t number) {
   char text[24];
@@ -30,7 +30,7 @@ Json row_major(const Mat3& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 Json in_mm(const Vec3& v) {
-  return {kMillimetres * v.x(), kMillimetres * v.y(), kMillimetres * v.z()};
+  return {millimetres * v.x(), millimetres * v.y(), millimetres * v.z()};
 }
 
 /// Inclusive pixel bounds; BOP writes them as x, y, width, height and -1 for nothing.
@@ -193,8 +193,8 @@ void write_bop_models(const std::string& directory, const std::vector<PartModelP
     if (info.contains(id)) continue;
     const Mesh& mesh = parts[i]->mesh();
     const Aabb box = mesh.bounds();
-    const Vec3 lower = kMillimetres * box.lower, size = kMillimetres * box.size();
-    write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, kMillimetres);
+    const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
+    write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, millimetres);
     // BOP's diameter is the largest distance of two vertices; the box's diagonal bounds it at no cost.
     info[id] = {{"diameter", size.norm()}, {"min_x", lower.x()}, {"min_y", lower.y()}, {"min_z", lower.z()},
                 {"size_x", size.x()},      {"size_y", size.y()}, {"size_z", size.z()}};

@@ -9,9 +9,9 @@ namespace {
 
 using Colour = Eigen::Array3d;
 
-constexpr double kInk = 0.35;       ///< brightness left on the line between two parts
-constexpr double kHollow = 0.65;    ///< how much of its light a hollow may lose
-constexpr int kNeighbourhood = 10;  ///< pixels around one that tell whether it lies in a hollow
+constexpr double ink = 0.35;       ///< brightness left on the line between two parts
+constexpr double hollow_color = 0.65;    ///< how much of its light a hollow may lose
+constexpr int neighbourhood = 10;  ///< pixels around one that tell whether it lies in a hollow
 
 /// Hues a golden angle apart: neighbours in id are far apart in colour, however many there are. Saturation and value
 /// take turns, so that equal hues still differ.
@@ -42,8 +42,8 @@ std::vector<double> mean_depth(const RangeImage& image) {
   std::vector<double> mean(image.depth.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const int x0 = std::max(0, x - kNeighbourhood), x1 = std::min(width, x + kNeighbourhood + 1);
-      const int y0 = std::max(0, y - kNeighbourhood), y1 = std::min(height, y + kNeighbourhood + 1);
+      const int x0 = std::max(0, x - neighbourhood), x1 = std::min(width, x + neighbourhood + 1);
+      const int y0 = std::max(0, y - neighbourhood), y1 = std::min(height, y + neighbourhood + 1);
       const auto box = [&](const std::vector<double>& t) {
         return t[at(x1, y1)] - t[at(x0, y1)] - t[at(x1, y0)] + t[at(x0, y0)];
       };
@@ -79,11 +79,11 @@ std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
         const double lit = std::max(0.0, Vec3(n[0], n[1], n[2]).dot(light));
         const double below = std::clamp((image.depth[i] - mean[i]) / hollow, 0.0, 1.0);
         colour = image.label[i] ? part_colour(image.label[i] - 1u) : bin;
-        colour *= (0.30 + 0.75 * (std::isfinite(lit) ? lit : 0.0)) * (1.0 - kHollow * below);
+        colour *= (0.30 + 0.75 * (std::isfinite(lit) ? lit : 0.0)) * (1.0 - hollow_color * below);
       }
       const bool right = x + 1 < width && image.label[i + 1] != image.label[i];
       const bool down = y + 1 < height && image.label[i + width] != image.label[i];
-      if (right || down) colour *= kInk;
+      if (right || down) colour *= ink;
       for (int c = 0; c < 3; ++c) {
         rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0))));
       }

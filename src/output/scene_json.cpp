@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "bin_scenes/1";
+constexpr const char* scene_format = "bin_scenes/1";
 
 Json json_of(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
@@ -174,7 +174,7 @@ Report report_of(const Json& json) {
 }  // namespace
 
 std::string scene_json(const Scene& scene, const Request& request) {
-  Json json = {{"format", kFormat}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
+  Json json = {{"format", scene_format}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
   json["gravity"] = json_of(request.gravity);
   json["request_sha256"] = request.text_sha256;
   json["sensors"] = Json::array();
@@ -194,7 +194,7 @@ Scene read_scene_json(const std::string& path) {
   std::string where = "format";
   try {
     const Json json = Json::parse(file);
-    if (json.at("format") != kFormat) throw std::runtime_error("is not " + std::string(kFormat));
+    if (json.at("format") != scene_format) throw std::runtime_error("is not " + std::string(scene_format));
     Scene scene;
     where = "seed and index";
     scene.seed = json.at("seed").get<std::uint64_t>();
@@ -231,10 +231,10 @@ Scene read_scene_json(const std::string& path) {
     return scene;
   } catch (const Json::parse_error& error) {
     throw input_error("is no JSON, or cut off: it cannot be read from byte " + std::to_string(error.byte) + " on", path,
-                      "give a scene.json of format " + std::string(kFormat));
+                      "give a scene.json of format " + std::string(scene_format));
   } catch (const std::exception& error) {
     throw input_error("'" + where + "': " + plain(error.what()), path,
-                      "give a scene.json of format " + std::string(kFormat));
+                      "give a scene.json of format " + std::string(scene_format));
   }
 }
 

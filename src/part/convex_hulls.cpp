@@ -19,16 +19,16 @@ namespace bin_scenes {
 namespace {
 
 // Cell of the field that tells how far a hull sticks out, and distance of the places where it is asked, / diagonal.
-constexpr double kFieldCell = 0.008, kStep = 0.02;
+constexpr double field_cell = 0.008, step = 0.02;
 // Distance of the places where the error is measured, / diagonal.
-constexpr double kMeasureStep = 0.015;
+constexpr double measure_step = 0.015;
 // What a hull may stick out at first / max_error, and how often less of it is tried.
-constexpr double kFirstLimit = 0.75;
-constexpr int kTries = 4;
+constexpr double first_limit = 0.75;
+constexpr int tries = 4;
 // Cuts may make this many times the pieces that are allowed: merging makes fewer of them.
-constexpr int kSpare = 3;
+constexpr int spare = 3;
 // Patches of HACD to merge from.
-constexpr int kPatches = 64;
+constexpr int patches = 64;
 
 /// A piece of the part on its way to a hull.
 struct Piece {
@@ -55,7 +55,7 @@ Piece merged(const Piece& a, const Piece& b) {
 class Protrusion {
  public:
   explicit Protrusion(const MeshQuery& query)
-      : field_(distance_field(query, {kFieldCell})), step_(kStep * query.mesh().bounds().diagonal()) {}
+      : field_(distance_field(query, {field_cell})), step_(step * query.mesh().bounds().diagonal()) {}
 
   /// Largest distance (m) before the surface, and where.
   std::pair<double, Vec3> operator()(const Mesh& hull) const {
@@ -81,14 +81,14 @@ double surface_error(const std::vector<Mesh>& hulls, const MeshQuery& query, con
   double worst = 0;
   for (const Mesh& hull : hulls) {
     planes.emplace_back(hull);
-    for (const SurfacePoint& s : dense_surface_points(hull, kMeasureStep * diagonal)) {
+    for (const SurfacePoint& s : dense_surface_points(hull, measure_step * diagonal)) {
       if (protrusion && protrusion->inside(s.point)) continue;
       // Only points further off than the worst so far matter: a point has to be looked up only if none is that near.
       if (query.nearest(s.point, worst).distance > worst) worst = query.nearest(s.point).distance;
     }
   }
   std::size_t last = 0;  // the hull that held a point mostly holds the next one
-  for (const SurfacePoint& s : dense_surface_points(query.mesh(), kMeasureStep * diagonal)) {
+  for (const SurfacePoint& s : dense_surface_points(query.mesh(), measure_step * diagonal)) {
     const auto holds = [&](const HullPlanes& hull) {
       return hull.to_box(s.point) <= worst && !hull.outside_by_more(s.point, worst);
     };
@@ -109,7 +109,7 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
                          double touch, int max_pieces) {
   std::vector<Piece> pieces;
   for (const std::vector<Vec3>& points : parts) pieces.push_back(piece_of(points));
-  constexpr std::size_t kAllPairs = 16;  // so few that pieces which do not touch are tried, too
+  constexpr std::size_t all_pairs = 16;  // so few that pieces which do not touch are tried, too
   const double never = std::numeric_limits<double>::infinity();
   // cost[a][b], a < b; NaN = not asked yet
   const std::size_t n = pieces.size();
@@ -121,7 +121,7 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = a + 1; b < n; ++b) {
         if (!alive[a] || !alive[b]) continue;
-        if (count > kAllPairs && !pieces[a].bounds.overlaps(pieces[b].bounds, touch)) continue;
+        if (count > all_pairs && !pieces[a].bounds.overlaps(pieces[b].bounds, touch)) continue;
         pairs.emplace_back(a, b);
         if (std::isnan(cost[a * n + b])) unknown.emplace_back(a, b);
       }
@@ -200,16 +200,16 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
       if (count > 0) judge(std::move(hulls), &protrusion);
       return count;
     };
-    double limit = kFirstLimit * options.max_error * diagonal;
-    for (int i = 0; i < kTries; ++i) {
-      const int count = try_pieces(plane_cut_pieces(mesh, measure, limit, kSpare * options.max_hulls), limit);
+    double limit = first_limit * options.max_error * diagonal;
+    for (int i = 0; i < tries; ++i) {
+      const int count = try_pieces(plane_cut_pieces(mesh, measure, limit, spare * options.max_hulls), limit);
       // More pieces than may be kept do not help.
       if (best.met || count >= options.max_hulls) break;
       // What sticks out adds to the volume in proportion.
       limit *= std::clamp(0.9 / excess, 0.3, 2.0 / 3.0);
     }
     if (best.surface_error > options.max_error)
-      try_pieces(hacd_patches(mesh, kPatches), kFirstLimit * options.max_error * diagonal);
+      try_pieces(hacd_patches(mesh, patches), first_limit * options.max_error * diagonal);
   }
   return best;
 }

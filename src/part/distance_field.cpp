@@ -16,18 +16,18 @@ namespace {
 
 // Nodes closer to the surface than this (in cells) get the exact nearest triangle by rasterisation. The eight nodes
 // around a point half a cell off the surface are less than sqrt(3) + 1/2 cells away: what a contact reads is exact.
-constexpr double kBand = 3.0;
+constexpr double band = 3.0;
 
 // What rounding does to a distance in grid units, seen generously: a triangle is passed over only if it is farther.
-constexpr double kRounding = 1e-6;
+constexpr double rounding = 1e-6;
 
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t none = -1;
 
 /// The nearest surface point known to a node, in grid units.
 struct Nearest {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();
   float distance = std::numeric_limits<float>::infinity();
-  std::int32_t triangle = kNone;
+  std::int32_t triangle = none;
 };
 
 /// The smallest box around a triangle along its longest edge and its normal: tells at little cost that a node is far.
@@ -95,8 +95,8 @@ class FieldBuilder {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const PreparedTriangle& triangle = triangles_[t];
       const Vec3 b = triangle.a + triangle.ab, c = triangle.a + triangle.ac;
-      const Vec3 lower = triangle.a.cwiseMin(b).cwiseMin(c).array() - kBand;
-      const Vec3 upper = triangle.a.cwiseMax(b).cwiseMax(c).array() + kBand;
+      const Vec3 lower = triangle.a.cwiseMin(b).cwiseMin(c).array() - band;
+      const Vec3 upper = triangle.a.cwiseMax(b).cwiseMax(c).array() + band;
       const int lowest_z = std::max(first_z, static_cast<int>(std::ceil(lower[2])));
       const int highest_z = std::min(end_z - 1, static_cast<int>(std::floor(upper[2])));
       if (lowest_z > highest_z) continue;
@@ -112,10 +112,10 @@ class FieldBuilder {
           double row_lower = lower[0], row_upper = upper[0];
           const double offset = triangle.normal.dot(Vec3(0, y, z) - triangle.a), slope = triangle.normal[0];
           if (std::abs(slope) > 1e-9) {
-            const double x1 = (-kBand - offset) / slope, x2 = (kBand - offset) / slope;
+            const double x1 = (-band - offset) / slope, x2 = (band - offset) / slope;
             row_lower = std::max(row_lower, std::min(x1, x2));
             row_upper = std::min(row_upper, std::max(x1, x2));
-          } else if (std::abs(offset) > kBand) {
+          } else if (std::abs(offset) > band) {
             continue;
           }
           const int x_last = std::min(field_.nodes[0] - 1, static_cast<int>(std::floor(row_upper)));
@@ -123,7 +123,7 @@ class FieldBuilder {
           for (int x = std::max(0, static_cast<int>(std::ceil(row_lower))); x <= x_last; ++x) {
             Nearest& best = nodes_[index(x, y, z)];
             // Most triangles are farther away than one seen before.
-            const double beaten = best.distance * (1 + kRounding) + kRounding;
+            const double beaten = best.distance * (1 + rounding) + rounding;
             if (box.squared_distance(row + x * box.axes.col(0)) > beaten * beaten) continue;
             const Vec3 node(x, y, z);
             const Vec3 nearest = triangle.nearest(node);
@@ -135,7 +135,7 @@ class FieldBuilder {
     }
     // What lies outside the band has not seen every triangle: it starts over from its neighbours, but may keep the
     // candidate it has.
-    for (std::size_t i = index(0, 0, first_z); i < index(0, 0, end_z); ++i) exact_[i] = nodes_[i].distance <= kBand;
+    for (std::size_t i = index(0, 0, first_z); i < index(0, 0, end_z); ++i) exact_[i] = nodes_[i].distance <= band;
   }
 
   /// Hands nearest points from node to node away from the band (vector distance transform, Danielsson 1980,
@@ -145,7 +145,7 @@ class FieldBuilder {
     const auto [nx, ny, nz] = field_.nodes;
     const auto offer = [&](std::size_t to, std::ptrdiff_t step, int x, int y, int z) {
       const Nearest& from = nodes_[to + step];
-      if (exact_[to] || from.triangle == kNone) return;
+      if (exact_[to] || from.triangle == none) return;
       const float distance = (Eigen::Vector3f(x, y, z) - from.point).norm();
       if (distance < nodes_[to].distance) nodes_[to] = {from.point, distance, from.triangle};
     };

@@ -8,7 +8,7 @@ namespace bin_scenes {
 namespace {
 
 // A triangle lower than this / diagonal over its longest edge is a sliver.
-constexpr double kSliver = 1e-5;
+constexpr double sliver_limit = 1e-5;
 
 /// Half of an edge as one triangle sees it; `low` < `high` are its vertices.
 struct HalfEdge {
@@ -38,7 +38,7 @@ std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
 std::vector<Vec3> face_normals(const Mesh& mesh, const std::vector<HalfEdge>& edges) {
   std::vector<Vec3> normals(mesh.triangles.size(), Vec3::Zero());
   std::vector<std::uint8_t> sliver(mesh.triangles.size(), 0);
-  const double lowest = kSliver * mesh.bounds().diagonal();
+  const double lowest = sliver_limit * mesh.bounds().diagonal();
   const auto edge_length = [&](const HalfEdge& e) { return (mesh.vertices[e.high] - mesh.vertices[e.low]).norm(); };
   std::vector<double> longest(mesh.triangles.size(), 0.0);
   for (const HalfEdge& e : edges) longest[e.triangle] = std::max(longest[e.triangle], edge_length(e));
@@ -49,8 +49,8 @@ std::vector<Vec3> face_normals(const Mesh& mesh, const std::vector<HalfEdge>& ed
     if (!sliver[t]) normals[t] = area / twice_area;
   }
   // Slivers lie beside slivers where a fan was cut fine; a few rounds reach through them.
-  constexpr int kRounds = 4;
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
     std::vector<Vec3> borrowed = normals;
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
       if (!edges[i].same_edge(edges[i + 1])) continue;

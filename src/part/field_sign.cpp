@@ -152,7 +152,7 @@ class RegionSigns {
  private:
   void collect_region(const std::array<int, 3>& start, std::vector<std::uint8_t>& seen,
                       std::vector<std::array<int, 3>>& region) const {
-    static const float kLength[4] = {0.0f, 1.0001f, 1.4144f, 1.7323f};  // a little more than sqrt(1, 2, 3): rounding
+    static const float length[4] = {0.0f, 1.0001f, 1.4144f, 1.7323f};  // a little more than sqrt(1, 2, 3): rounding
     region.assign(1, start);
     seen[node_index(field_, start[0], start[1], start[2])] = 1;
     for (std::size_t next = 0; next < region.size(); ++next) {
@@ -168,7 +168,7 @@ class RegionSigns {
             if (seen[there]) continue;
             const int axes = std::abs(dx) + std::abs(dy) + std::abs(dz);
             // Signs of settled regions do not matter here: seen nodes are skipped above.
-            if (here + field_.values[there] <= kLength[axes]) continue;
+            if (here + field_.values[there] <= length[axes]) continue;
             seen[there] = 1;
             region.push_back({x + dx, y + dy, z + dz});
           }
@@ -187,8 +187,8 @@ class RegionSigns {
     };
     // Through a hole wider than a cell a region leaks to the other side: its probes then disagree, and each node
     // is settled by itself.
-    constexpr std::size_t kProbes = 8;
-    const std::size_t step = std::max<std::size_t>(1, region.size() / kProbes);
+    constexpr std::size_t probes = 8;
+    const std::size_t step = std::max<std::size_t>(1, region.size() / probes);
     const bool first = inside(region.front());
     bool agree = true;
     for (std::size_t i = step; agree && i < region.size(); i += step) agree = inside(region[i]) == first;

@@ -15,9 +15,9 @@ namespace bin_scenes {
 namespace {
 
 // Work of HACD is bounded by the triangles it gets (0.5 to 1 s for a run of 700).
-constexpr std::size_t kMaxTriangles = 700;
+constexpr std::size_t max_triangles = 700;
 // Triangles longer than this / diagonal are cut, because a patch can only end at a triangle's edge.
-constexpr double kLongestEdge = 0.12;
+constexpr double longest_edge = 0.12;
 
 /// One shell, cut and thinned. `source` tells for every vertex of the fine mesh the vertex of the thinned one.
 struct Thinned {
@@ -47,7 +47,7 @@ std::vector<Mesh> shells(const Mesh& mesh) {
 
 /// Halves every edge longer than `longest`, in all triangles at once so that no gap opens.
 Mesh cut(Mesh mesh, double longest) {
-  for (int round = 0; round < 6 && mesh.triangles.size() < 4 * kMaxTriangles; ++round) {
+  for (int round = 0; round < 6 && mesh.triangles.size() < 4 * max_triangles; ++round) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) -> std::int64_t {
       if ((mesh.vertices[a] - mesh.vertices[b]).norm() <= longest) return -1;
@@ -113,7 +113,7 @@ Thinned thin(const Mesh& mesh) {
       if (kept.emplace(sorted, 0).second) result.mesh.triangles.push_back(moved);
     }
     result.source = chosen;
-    if (result.mesh.triangles.size() <= kMaxTriangles) break;
+    if (result.mesh.triangles.size() <= max_triangles) break;
     if (cell < 1e-3 * box.diagonal()) cell = std::max(cell, box.diagonal() / 60);
   }
   // Number the vertices that are still used.
@@ -173,7 +173,7 @@ void add_patches(const Mesh& shell, int count, std::vector<std::vector<Vec3>>& p
     patches.push_back(shell.vertices);
     return;
   }
-  const Mesh fine = cut(shell, kLongestEdge * shell.bounds().diagonal());
+  const Mesh fine = cut(shell, longest_edge * shell.bounds().diagonal());
   const Thinned thinned = thin(fine);
   std::vector<long> cluster;
   const int wanted = std::min(count, static_cast<int>(thinned.mesh.triangles.size() / 4));

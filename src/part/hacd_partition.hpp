@@ -1,7 +1,7 @@
 /// Surface patches of a mesh by HACD, fine enough to be merged into convex pieces.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <vector>
 

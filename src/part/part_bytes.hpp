@@ -7,7 +7,7 @@
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/samples.hpp"
 #include "bin_scenes/part/spheres.hpp"
-#include "bin_scenes/scene/mesh_loader.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
 
 #include <cstring>
 #include <string>
@@ -17,7 +17,7 @@
 namespace bin_scenes {
 
 /// Raise it whenever a layout below or the way a proxy is made changes: older cache files are then passed over.
-constexpr int kPartFormat = 5;
+constexpr int part_format = 5;
 
 class ByteWriter {
  public:

@@ -23,7 +23,7 @@ inline std::string key_text(double value) {
 
 template <class T, class Make>
 T cached(const std::string& kind, const std::string& key, Make&& make) {
-  const std::string full_key = "format " + std::to_string(kPartFormat) + " " + key;
+  const std::string full_key = "format " + std::to_string(part_format) + " " + key;
   if (const auto bytes = Cache::global().read(kind, full_key)) {
     ByteReader in(*bytes);
     T value;

@@ -31,7 +31,7 @@ std::string extension_of(const std::string& path) {
 std::optional<std::string> digest_of(const std::string& path) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return std::nullopt;
-  if (std::filesystem::file_size(path, failed) > kMaxModelFileSize || failed) return std::nullopt;
+  if (std::filesystem::file_size(path, failed) > max_model_file_size || failed) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   std::vector<char> piece(std::size_t{1} << 18);
   Sha256 digest;

@@ -15,18 +15,18 @@ namespace bin_scenes {
 namespace {
 
 // An edge counts as concave if its faces turn inwards by more than this (rad).
-constexpr double kConcave = 0.05;
+constexpr double concave = 0.05;
 // Concave edges whose planes are tried a piece: those nearest to where its hull sticks out most, and the strongest.
-constexpr std::size_t kNearestEdges = 4, kStrongestEdges = 4;
+constexpr std::size_t nearest_edges = 4, strongest_edges = 4;
 // Planes are judged on a sketch of the piece of about this many triangles.
-constexpr std::size_t kSketch = 700;
+constexpr std::size_t sketch_voxels = 700;
 // A cut is worth it if it saves this share of what the hull encloses too much. Where none is, as on a ring or a plate
 // with a hole, which take two, the piece is cut where its hull sticks out most.
-constexpr double kLeastGain = 0.03;
+constexpr double least_gain = 0.03;
 // What an uneven cut costs against one that saves as much, / hull volume.
-constexpr double kUneven = 0.02;
+constexpr double uneven = 0.02;
 // What a cut across all concave edges costs, / what the hull encloses too much.
-constexpr double kAcross = 0.3;
+constexpr double voxels_across = 0.3;
 
 /// An edge where cutting may help, with the planes of its faces and the one halfway between them.
 struct ConcaveEdge {
@@ -64,7 +64,7 @@ std::vector<ConcaveEdge> concave_edges(const Mesh& mesh) {
     for (const std::uint32_t v : mesh.triangles[halves[i + 1].triangle]) far += mesh.vertices[v];
     far -= a + b;
     const double angle = std::acos(std::clamp(m.dot(n), -1.0, 1.0));
-    if (angle < kConcave || m.dot(far - a) <= 0) continue;
+    if (angle < concave || m.dot(far - a) <= 0) continue;
     const Vec3 along = (b - a).normalized(), middle = 0.5 * (a + b);
     Vec3 across = along.cross(m + n);
     if (across.norm() < 1e-6) across = m;
@@ -102,10 +102,10 @@ double hull_volume(const Mesh& hull) {
 
 /// A surface with few triangles: vertices clustered (Rossignac & Borrel 1993), the first of a cell standing for it.
 Mesh sketch(const Mesh& mesh) {
-  if (mesh.triangles.size() <= kSketch) return mesh;
+  if (mesh.triangles.size() <= sketch_voxels) return mesh;
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += 0.5 * mesh.area_vector(t).norm();
-  const double cell = std::sqrt(2 * area / static_cast<double>(kSketch));
+  const double cell = std::sqrt(2 * area / static_cast<double>(sketch_voxels));
   const Aabb box = mesh.bounds();
   Mesh rough;
   std::unordered_map<std::uint64_t, std::uint32_t> cells;  // looked up by key only
@@ -126,7 +126,7 @@ Mesh sketch(const Mesh& mesh) {
   return rough;
 }
 
-constexpr int kAllVertices = std::numeric_limits<int>::max();
+constexpr int all_vertices = std::numeric_limits<int>::max();
 
 class Cutter {
  public:
@@ -139,7 +139,7 @@ class Cutter {
       whole.cell.vertices.push_back({(i & 1 ? box.upper : box.lower).x(), (i & 2 ? box.upper : box.lower).y(),
                                      (i & 4 ? box.upper : box.lower).z()});
     }
-    whole.cell = convex_hull(whole.cell.vertices, kAllVertices);
+    whole.cell = convex_hull(whole.cell.vertices, all_vertices);
     for (std::uint32_t e = 0; e < edges_.size(); ++e) whole.edges.push_back(e);
     add(std::move(whole));
   }
@@ -167,7 +167,7 @@ class Cutter {
     for (const Vec3& corner : cell.vertices) {
       if (measure_.inside(corner)) points.push_back(corner);
     }
-    return convex_hull(points, kAllVertices);
+    return convex_hull(points, all_vertices);
   }
 
   void add(Piece piece) {
@@ -180,12 +180,12 @@ class Cutter {
 
   /// By the points of a quasi-random sequence (R3, Roberts 2018).
   double surplus(const Mesh& hull) const {
-    constexpr int kPoints = 2000;
+    constexpr int most_points = 2000;
     const HullPlanes planes(hull);
     const Vec3 lower = planes.bounds().lower, size = planes.bounds().size();
     const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
     int inside = 0, outside = 0;
-    for (int i = 0; i < kPoints; ++i) {
+    for (int i = 0; i < most_points; ++i) {
       Vec3 place = Vec3::Constant(0.5) + i * step;
       place -= place.array().floor().matrix();
       const Vec3 p = lower + place.cwiseProduct(size);
@@ -216,7 +216,7 @@ class Cutter {
       const double low = hull_volume(hull_of(surfaces.first, cells.first)) / whole;
       const double high = hull_volume(hull_of(surfaces.second, cells.second)) / whole;
       if (!(std::min(low, high) > 0)) return;
-      costs[i] = low + high + kUneven * (low * low + high * high) + kAcross * piece.surplus * crossed(piece, planes[i]);
+      costs[i] = low + high + uneven * (low * low + high * high) + voxels_across * piece.surplus * crossed(piece, planes[i]);
     });
     std::pair<double, CutPlane> best{never, {}};
     for (std::size_t i = 0; i < planes.size(); ++i)
@@ -227,7 +227,7 @@ class Cutter {
   bool split(Piece& piece) {
     const Mesh rough = sketch(piece.surface);
     const double whole = hull_volume(hull_of(rough, piece.cell));
-    const double enough = 1 + kUneven - kLeastGain * piece.surplus;
+    const double enough = 1 + uneven - least_gain * piece.surplus;
     auto [cost, best] = cheapest(piece, rough, whole, planes_of_edges(piece));
     auto across = cheapest(piece, rough, whole, planes_across(piece, piece.hull.bounds().center()));
     if (across.first < cost) std::tie(cost, best) = across;
@@ -238,8 +238,8 @@ class Cutter {
     Piece below, above;
     below.surface = std::move(surfaces.first);
     above.surface = std::move(surfaces.second);
-    below.cell = convex_hull(cells.first.vertices, kAllVertices);
-    above.cell = convex_hull(cells.second.vertices, kAllVertices);
+    below.cell = convex_hull(cells.first.vertices, all_vertices);
+    above.cell = convex_hull(cells.second.vertices, all_vertices);
     for (const std::uint32_t e : piece.edges) {
       const double start = best.height(edges_[e].start), end = best.height(edges_[e].end);
       if (std::min(start, end) < -tolerance_) below.edges.push_back(e);
@@ -267,10 +267,10 @@ class Cutter {
         planes.insert(planes.end(), edges_[chosen[i]].planes.begin(), edges_[chosen[i]].planes.end());
       }
     };
-    take(kNearestEdges, [&](std::uint32_t a, std::uint32_t b) {
+    take(nearest_edges, [&](std::uint32_t a, std::uint32_t b) {
       return std::make_pair(distance(edges_[a], piece.worst), a) < std::make_pair(distance(edges_[b], piece.worst), b);
     });
-    take(kStrongestEdges, [&](std::uint32_t a, std::uint32_t b) {
+    take(strongest_edges, [&](std::uint32_t a, std::uint32_t b) {
       return std::make_pair(-edges_[a].strength, a) < std::make_pair(-edges_[b].strength, b);
     });
     return planes;
@@ -301,7 +301,7 @@ class Cutter {
 }  // namespace
 
 std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double tolerance) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
+  constexpr std::uint32_t none = 0xffffffffu;
   std::pair<Mesh, Mesh> sides;
   std::vector<double> height(surface.vertices.size());
   std::vector<int> side(surface.vertices.size());
@@ -309,11 +309,11 @@ std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double to
     height[v] = plane.height(surface.vertices[v]);
     side[v] = height[v] < -tolerance ? -1 : height[v] > tolerance ? 1 : 0;
   }
-  std::array<std::vector<std::uint32_t>, 2> renamed{std::vector<std::uint32_t>(height.size(), kNone),
-                                                    std::vector<std::uint32_t>(height.size(), kNone)};
+  std::array<std::vector<std::uint32_t>, 2> renamed{std::vector<std::uint32_t>(height.size(), none),
+                                                    std::vector<std::uint32_t>(height.size(), none)};
   const auto old_vertex = [&](int which, std::uint32_t v) {
     Mesh& mesh = which ? sides.second : sides.first;
-    if (renamed[which][v] == kNone) {
+    if (renamed[which][v] == none) {
       renamed[which][v] = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(surface.vertices[v]);
     }

@@ -1,7 +1,7 @@
 /// A solid cut by planes into pieces that are nearly convex.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <functional>
 #include <utility>

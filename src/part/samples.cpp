@@ -15,13 +15,13 @@ namespace bin_scenes {
 namespace {
 
 // Samples along sharp edges lie this much closer than those on faces: edge-edge contacts fall between samples.
-constexpr double kEdgeSpacing = 0.5;
+constexpr double edge_spacing_share = 0.5;
 // Of two edge or corner samples that look the same way, one goes if they are closer than this / edge spacing.
-constexpr double kCrowded = 0.7;
+constexpr double crowded_share = 0.7;
 // Sharp features may use this share of the aim; the spacing grows until they do.
-constexpr double kFeatureShare = 0.7;
+constexpr double feature_share = 0.7;
 // Candidates a face sample: the even cover is as good as the choice it has.
-constexpr int kCandidates = 16;
+constexpr int candidates_per_sample = 16;
 
 /// Points in a hash-free uniform grid, for "all points near here".
 class PointGrid {
@@ -127,7 +127,7 @@ std::vector<SurfaceSample> along_curve(const FeatureCurve& curve, double step) {
 std::vector<SurfaceSample> feature_samples(const Features& features, double edge_spacing, const Aabb& box,
                                            const Touchable& touchable) {
   std::vector<SurfaceSample> samples;
-  const double crowded = kCrowded * edge_spacing;
+  const double crowded = crowded_share * edge_spacing;
   PointGrid grid(box, crowded);
   const auto add = [&](const SurfaceSample& sample) {
     bool free = true;
@@ -276,15 +276,15 @@ SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options) 
   // Spacing h from count = corners + edges / (h / 2) + (area - strips) / (0.87 h^2): the samples of an edge cover a
   // strip of 0.7 h on both of its faces, so the terms in the edges nearly cancel until the strips cover the whole part.
   const double left = std::max(0.5 * options.count, options.count - static_cast<double>(features.corners.size()));
-  double spacing = std::max(std::sqrt(area / (0.87 * left)), edges / (kEdgeSpacing * left));
+  double spacing = std::max(std::sqrt(area / (0.87 * left)), edges / (edge_spacing_share * left));
   SampleSet set;
   for (;; spacing *= 1.2) {
-    set.samples = feature_samples(features, kEdgeSpacing * spacing, box, touchable);
-    if (set.samples.size() <= kFeatureShare * options.count || spacing > box.diagonal()) break;
+    set.samples = feature_samples(features, edge_spacing_share * spacing, box, touchable);
+    if (set.samples.size() <= feature_share * options.count || spacing > box.diagonal()) break;
   }
   const auto wanted = static_cast<std::size_t>(options.count);
   if (set.samples.size() < wanted) {
-    const int count = kCandidates * static_cast<int>(wanted - set.samples.size());
+    const int count = candidates_per_sample * static_cast<int>(wanted - set.samples.size());
     add_farthest(set.samples, face_candidates(mesh, touchable, area, count), wanted, spacing, box);
   }
   set.samples = clustered(set.samples, static_cast<std::size_t>(set.cluster));

@@ -8,7 +8,7 @@
 namespace bin_scenes {
 namespace {
 
-constexpr double kStep = 0.005;  // / diagonal
+constexpr double step_share = 0.005;  // / diagonal
 
 /// Mean and maximum of distances, weighted.
 struct Distances {
@@ -40,7 +40,7 @@ template <class ProxyDistance>
 ShapeError errors(const MeshQuery& query, const Distances& to_mesh, double proxy_volume, ProxyDistance&& distance) {
   const double diagonal = query.mesh().bounds().diagonal();
   Distances from_mesh;
-  for (const SurfacePoint& s : dense_surface_points(query.mesh(), kStep * diagonal)) {
+  for (const SurfacePoint& s : dense_surface_points(query.mesh(), step_share * diagonal)) {
     from_mesh.add(std::abs(distance(s.point)), s.weight);
   }
   const double volume = mass_properties(query.mesh()).volume;
@@ -249,7 +249,7 @@ ShapeError shape_error(const ConvexHulls& set, const MeshQuery& query) {
   DistanceWalk walk(query);
   for (const Mesh& hull : set.hulls) {
     planes.emplace_back(hull);
-    for (const SurfacePoint& s : dense_surface_points(hull, kStep * diagonal)) {
+    for (const SurfacePoint& s : dense_surface_points(hull, step_share * diagonal)) {
       // Faces inside the solid are where two hulls meet: nothing touches them. Outside they may be covered by another
       // hull, which then sticks out further.
       const double distance = walk.go_to(s.point);

@@ -1,7 +1,7 @@
 /// The connected parts of a mesh.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -13,11 +13,11 @@ namespace bin_scenes {
 namespace {
 
 // A sphere lies on a face if the surface near it turns by less than this (cosine of 37 degrees).
-constexpr double kFlat = 0.8;
+constexpr double flat_limit = 0.8;
 // How far "near it" is, in radii: reaches the second face at an edge, not the next sphere's.
-constexpr double kNear = 1.5;
+constexpr double near_limit = 1.5;
 
-constexpr std::size_t kMaxVoxels = 256u << 20;
+constexpr std::size_t max_voxels = 256u << 20;
 
 /// Spheres of one radius on a regular lattice whose outermost spheres touch the bounding box from inside.
 struct Lattice {
@@ -31,7 +31,7 @@ struct Lattice {
       const double cells = (box.size()[axis] - 2 * radius) / pitch;
       total *= std::max(1.0, std::ceil(cells) + 1);
     }
-    if (!(total <= static_cast<double>(kMaxVoxels))) {
+    if (!(total <= static_cast<double>(max_voxels))) {
       throw input_error("a voxel grid of " + std::to_string(total) + " cells", "VoxelOptions",
                         "use fewer voxels or larger radii");
     }
@@ -69,7 +69,7 @@ Vec3 face_normal(const MeshQuery& query, const std::vector<PreparedTriangle>& tr
   bool flat = !normal.isZero();
   query.overlapping({center - Vec3::Constant(reach), center + Vec3::Constant(reach)}, [&](std::size_t t) {
     const PreparedTriangle& triangle = triangles[t];
-    flat = flat && (triangle.normal.isZero() || triangle.normal.dot(normal) > kFlat ||
+    flat = flat && (triangle.normal.isZero() || triangle.normal.dot(normal) > flat_limit ||
                     (triangle.nearest(center) - center).norm() > reach);
   });
   return flat ? normal : Vec3::Zero();
@@ -187,7 +187,7 @@ SphereSet voxel_spheres(const MeshQuery& query, const VoxelOptions& options) {
     triangles.emplace_back(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
   for (Sphere& sphere : set.spheres) {
-    sphere.normal = face_normal(query, triangles, sphere.center, kNear * sphere.radius);
+    sphere.normal = face_normal(query, triangles, sphere.center, near_limit * sphere.radius);
   }
   return set;
 }

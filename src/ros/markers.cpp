@@ -11,7 +11,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kEndlessFloor = 4.0;  // m: edge of what is shown of it
+constexpr double endless_floor = 4.0;  // m: edge of what is shown of it
 
 /// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
 std_msgs::ColorRGBA part_color(int id) {
@@ -109,7 +109,7 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
       for (const Box& box : walls(bin)) add_box(box);
       break;
     case Bin::Kind::floor:
-      add_box({{0, 0, -0.5e-3}, {kEndlessFloor, kEndlessFloor, 1e-3}});
+      add_box({{0, 0, -0.5e-3}, {endless_floor, endless_floor, 1e-3}});
       break;
     case Bin::Kind::mesh:
       if (bin_model) {

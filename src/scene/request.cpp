@@ -59,9 +59,9 @@ std::size_t Request::part_count() const {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMaxParts = 1000000;
-constexpr std::size_t kMaxLabels = 65534;  // labels are 16 bit, 0 is the background and 65535 is kept free
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t max_parts = 1000000;
+constexpr std::size_t max_labels = 65534;  // labels are 16 bit, 0 is the background and 65535 is kept free
 
 std::string text(double value) {
   std::ostringstream out;
@@ -115,7 +115,7 @@ void check_bin(const Bin& bin) {
 void check_part(const std::string& key, const PartLine& line, Pour::Pattern pattern) {
   if (line.model.empty()) refuse(key + ".model", "is missing", "name a mesh file");
   above(key + ".scale", line.scale, 0.0, 1e6, "1 leaves the model as it is");
-  at_least(key + ".count", static_cast<double>(line.count), 1, kMaxParts, "number of copies");
+  at_least(key + ".count", static_cast<double>(line.count), 1, max_parts, "number of copies");
   if (line.density && line.mass) refuse(key + ".mass", "is given beside density", "keep one of them");
   if (line.density) above(key + ".density", *line.density, 0.0, 1e5, "kg/m3: water 1000, steel 7850");
   if (line.mass) above(key + ".mass", *line.mass, 0.0, 1e6, "kg, of one part");
@@ -214,7 +214,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
     if (k[1] != 0) refuse(key + ".k", "has a skew, which no image is made with", "set its second number to 0");
   }
   if (sensor.pose) check_pose(key + ".pose", *sensor.pose);
-  above(key + ".near", sensor.near, 0.0, kInfinity, "m");
+  above(key + ".near", sensor.near, 0.0, infinity, "m");
   above(key + ".far", sensor.far, sensor.near, 1e4, "m, beyond near");
 }
 
@@ -230,16 +230,16 @@ void check(const Request& request) {
   for (std::size_t i = 0; i < request.parts.size(); ++i) {
     check_part("parts[" + std::to_string(i) + "]", request.parts[i], request.pour.pattern);
   }
-  if (request.part_count() > kMaxParts) {
+  if (request.part_count() > max_parts) {
     refuse("parts",
-           "asks for " + std::to_string(request.part_count()) + " parts a scene, at most " + std::to_string(kMaxParts) +
+           "asks for " + std::to_string(request.part_count()) + " parts a scene, at most " + std::to_string(max_parts) +
                " are possible",
            "lower the counts");
   }
-  if (!request.sensors.empty() && request.part_count() > kMaxLabels) {
+  if (!request.sensors.empty() && request.part_count() > max_labels) {
     refuse("parts",
            "asks for " + std::to_string(request.part_count()) + " parts, but the 16-bit labels of a sensor tell " +
-               std::to_string(kMaxLabels) + " apart",
+               std::to_string(max_labels) + " apart",
            "lower the counts, or remove the sensors");
   }
   check_pour(request.pour);

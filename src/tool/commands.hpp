@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 /// Beside these, an Error's kind is the exit code: 2 input, 3 environment; 130 after Ctrl-C.
-enum ExitCode { kDone = 0, kSetApart = 1 };
+enum ExitCode { exit_done = 0, exit_set_apart = 1 };
 
 struct GenerateOptions {
   std::string request, out;

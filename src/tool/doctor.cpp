@@ -2,7 +2,7 @@
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/cache.hpp"
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 #include "tool/commands.hpp"
 
 #include <unistd.h>
@@ -60,7 +60,7 @@ PartModelPtr box(double edge) {
 
 /// A box of 5 cm let go a little above an endless floor has to lie on it: its centre at half an edge.
 void test_solver(const char* name, SolverType type, SolverSettings::Preset preset) {
-  constexpr double kEdge = 0.05;
+  constexpr double cube_edge = 0.05;
   // The thesis's floor is a lattice of spheres, here of 2.5 mm, in whose hollows a face rests: r (2 - sqrt 2) lower.
   const double tolerance = preset == SolverSettings::Preset::thesis ? 1.6e-3 : 1e-3;
   try {
@@ -73,13 +73,13 @@ void test_solver(const char* name, SolverType type, SolverSettings::Preset prese
     request.parts.emplace_back();
     request.parts[0].model = "box";
     Pose start;
-    start.position.z() = 0.5 * kEdge + 0.01;
+    start.position.z() = 0.5 * cube_edge + 0.01;
     request.parts[0].poses = {start};
-    const std::vector<PartModelPtr> parts = {box(kEdge)};
+    const std::vector<PartModelPtr> parts = {box(cube_edge)};
     std::string reason;
     const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
     const Scene scene = pour(request, parts, *solver, {0}).at(0);
-    const double error = std::abs(scene.parts.at(0).pose.position.z() - 0.5 * kEdge);
+    const double error = std::abs(scene.parts.at(0).pose.position.z() - 0.5 * cube_edge);
     std::ostringstream found;
     found << name << ": box " << (scene.report.at_rest ? "at rest" : "still moving") << " after "
           << scene.report.simulated_s << " s, height off by " << 1e3 * error << " mm, on " << solver->device();
@@ -123,7 +123,7 @@ int doctor() {
   test_solver("sphere/thesis", SolverType::sphere, SolverSettings::Preset::thesis);
   report_ros();
   report_cache();
-  return gl ? kDone : static_cast<int>(ErrorKind::environment);
+  return gl ? exit_done : static_cast<int>(ErrorKind::environment);
 }
 
 }  // namespace bin_scenes

@@ -138,11 +138,11 @@ int generate(const GenerateOptions& options) {
   if (trace) trace->finish();
   bar.clear();
 
-  if (apart.empty()) return kDone;
+  if (apart.empty()) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), scenes,
                options.out.c_str());
   for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
-  return kSetApart;
+  return exit_set_apart;
 }
 
 }  // namespace bin_scenes

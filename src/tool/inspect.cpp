@@ -205,7 +205,7 @@ int inspect(const InspectOptions& options) {
   } else {
     print_text(json);
   }
-  return kDone;
+  return exit_done;
 }
 
 }  // namespace bin_scenes

@@ -13,7 +13,7 @@ namespace {
 
 using namespace bin_scenes;
 
-constexpr int kInterrupted = 130;  // what a shell says of a command ended by Ctrl-C
+constexpr int interrupted = 130;  // what a shell says of a command ended by Ctrl-C
 
 int complain(const std::string& message, int code) {
   std::cerr << "bin_scenes: " << message << std::endl;
@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
   if (inspect_app->parsed()) return inspect(inspect_options);
   if (doctor_app->parsed()) return doctor();
   if (reference_app->parsed()) std::cout << request_reference();
-  return kDone;
+  return exit_done;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", kInterrupted);
+    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", interrupted);
     return complain(error.what(), static_cast<int>(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain("out of memory (ask for less, or lower memory_budget to be told before)",

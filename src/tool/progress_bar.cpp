@@ -8,8 +8,8 @@
 namespace bin_scenes {
 
 namespace {
-constexpr int kWidth = 20;                        ///< characters; leaves room for the text in 80 columns
-constexpr std::chrono::milliseconds kPause(100);  ///< between two updates: a terminal is slow
+constexpr int width = 20;                        ///< characters; leaves room for the text in 80 columns
+constexpr std::chrono::milliseconds pause(100);  ///< between two updates: a terminal is slow
 }  // namespace
 
 ProgressBar::ProgressBar() : terminal_(::isatty(STDERR_FILENO) == 1) {}
@@ -19,11 +19,11 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(const Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || (shown_ && now - last_ < kPause)) return;
+  if (!terminal_ || (shown_ && now - last_ < pause)) return;
   last_ = now;
   shown_ = true;
-  const int full = static_cast<int>(progress.fraction * kWidth);
-  const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
+  const int full = static_cast<int>(progress.fraction * width);
+  const std::string bar = std::string(full, '#') + std::string(width - full, '.');
   // Without wrapping (?7l), so that a narrow terminal cuts the line and has but one to clear.
   std::fprintf(stderr, "\r\033[K\033[?7l[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
   if (progress.simulated_s > 0) {  // other phases know nothing of rest

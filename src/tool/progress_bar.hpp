@@ -1,7 +1,7 @@
 /// One line on a terminal that says how far a job is; nothing anywhere else.
 #pragma once
 
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 
 #include <chrono>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <array>
 #include <cmath>

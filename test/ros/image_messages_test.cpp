@@ -11,8 +11,8 @@
 namespace bin_scenes {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-const ros::Time kStamp(12, 34);
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+const ros::Time stamp(12, 34);
 
 /// 4 x 3 pixels, every value its own; pixel (2, 1) saw nothing, pixel (0, 0) saw the bin.
 RangeImage some_image() {
@@ -24,9 +24,9 @@ RangeImage some_image() {
     image.normal.push_back({0.01f * i, 0.02f * i, -1.0f});
     image.intensity.push_back(0.05f * i);
   }
-  image.depth[6] = kNan;
+  image.depth[6] = nan;
   image.label[6] = 0;
-  image.normal[6] = {kNan, kNan, kNan};
+  image.normal[6] = {nan, nan, nan};
   image.intensity[6] = 0.0f;
   return image;
 }
@@ -53,7 +53,7 @@ std::uint32_t label_at(const sensor_msgs::PointCloud2& cloud, int column, int ro
 }
 
 TEST(ImageMessages, CloudIsOrganised) {
-  const auto cloud = image_messages(some_image(), kStamp).points;
+  const auto cloud = image_messages(some_image(), stamp).points;
   EXPECT_EQ(cloud.width, 4u);
   EXPECT_EQ(cloud.height, 3u);
   EXPECT_EQ(cloud.row_step, cloud.width * cloud.point_step);
@@ -67,7 +67,7 @@ TEST(ImageMessages, CloudIsOrganised) {
 
 TEST(ImageMessages, CloudPointsLieOnTheRaysOfTheirPixels) {
   const RangeImage image = some_image();
-  const auto cloud = image_messages(image, kStamp).points;
+  const auto cloud = image_messages(image, stamp).points;
   const auto& k = image.sensor.k;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
@@ -88,7 +88,7 @@ TEST(ImageMessages, CloudPointsLieOnTheRaysOfTheirPixels) {
 }
 
 TEST(ImageMessages, WhatSawNothingIsNanEverywhere) {
-  const auto messages = image_messages(some_image(), kStamp);
+  const auto messages = image_messages(some_image(), stamp);
   for (const char* field : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {
     EXPECT_TRUE(std::isnan(float_at(messages.points, 2, 1, field))) << field;
   }
@@ -100,7 +100,7 @@ TEST(ImageMessages, WhatSawNothingIsNanEverywhere) {
 
 TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
   const RangeImage image = some_image();
-  const auto messages = image_messages(image, kStamp);
+  const auto messages = image_messages(image, stamp);
   EXPECT_EQ(messages.depth.encoding, "32FC1");
   EXPECT_EQ(messages.depth.step, 16u);
   EXPECT_EQ(messages.labels.encoding, "16UC1");
@@ -112,15 +112,15 @@ TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
 }
 
 TEST(ImageMessages, OneStampOneFrame) {
-  const auto m = image_messages(some_image(), kStamp);
+  const auto m = image_messages(some_image(), stamp);
   for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header}) {
-    EXPECT_EQ(header->stamp, kStamp);
+    EXPECT_EQ(header->stamp, stamp);
     EXPECT_EQ(header->frame_id, "camera_optical_frame");
   }
 }
 
 TEST(ImageMessages, CameraInfoIsAnIdealPinhole) {
-  const auto info = image_messages(some_image(), kStamp).camera_info;
+  const auto info = image_messages(some_image(), stamp).camera_info;
   EXPECT_EQ(info.width, 4u);
   EXPECT_EQ(info.height, 3u);
   EXPECT_EQ(info.distortion_model, "plumb_bob");
@@ -135,7 +135,7 @@ TEST(ImageMessages, CameraInfoIsAnIdealPinhole) {
 TEST(ImageMessages, AnIncompleteMatrixIsRefused) {
   RangeImage image = some_image();
   image.sensor.k.pop_back();
-  EXPECT_THROW(image_messages(image, kStamp), Error);
+  EXPECT_THROW(image_messages(image, stamp), Error);
 }
 
 }  // namespace

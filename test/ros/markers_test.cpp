@@ -13,7 +13,7 @@ namespace bin_scenes {
 namespace {
 
 namespace fs = std::filesystem;
-const ros::Time kStamp(12, 34);
+const ros::Time stamp(12, 34);
 
 /// A box of 20 units in a file of each kind, and how large RViz draws its unit: metres, or what COLLADA states.
 class Markers : public ::testing::Test {
@@ -60,7 +60,7 @@ TEST_F(Markers, PartsAreDrawnAsLargeAsTheyAre) {
     Scene scene;
     scene.parts.emplace_back();
     scene.parts[0].model = path(c);
-    const auto markers = scene_markers(scene, request, {model}, nullptr, Frames(), kStamp).markers;
+    const auto markers = scene_markers(scene, request, {model}, nullptr, Frames(), stamp).markers;
     const auto& part = markers.back();
     ASSERT_EQ(part.ns, "parts");
     EXPECT_EQ(part.mesh_resource, "file://" + path(c));
@@ -79,7 +79,7 @@ TEST_F(Markers, ABinOfAMeshIsDrawnWhereAndAsLargeAsItIs) {
     request.bin.mesh = path(c);
     request.bin.pose.position = Vec3(0.1, 0.2, 0.3);
     const PartModelPtr model = load(c, 1.0);
-    const auto markers = scene_markers(Scene(), request, {}, model, Frames(), kStamp).markers;
+    const auto markers = scene_markers(Scene(), request, {}, model, Frames(), stamp).markers;
     ASSERT_EQ(markers.size(), 2u);
     EXPECT_EQ(markers[1].ns, "bin");
     EXPECT_EQ(markers[1].pose.position.z, 0.3);

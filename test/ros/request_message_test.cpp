@@ -13,8 +13,8 @@ namespace {
 
 namespace msgs = bin_scenes_msgs;
 
-const std::string kModels = std::getenv("BIN_SCENES_MODELS");
-const PathRules kRules = {{kModels}, {}};
+const std::string models = std::getenv("BIN_SCENES_MODELS");
+const PathRules all_rules = {{models}, {}};
 
 msgs::SceneRequest one_bolt() {
   msgs::SceneRequest message;
@@ -24,7 +24,7 @@ msgs::SceneRequest one_bolt() {
   return message;
 }
 
-std::string error_of(const msgs::SceneRequest& message, const PathRules& rules = kRules) {
+std::string error_of(const msgs::SceneRequest& message, const PathRules& rules = all_rules) {
   try {
     request_from(message, rules);
   } catch (const Error& error) {
@@ -39,8 +39,8 @@ TEST(RequestMessage, AnEmptyOneOverridesNothing) {
 }
 
 TEST(RequestMessage, LeftOutFieldsHaveTheDefaultsOfAFile) {
-  const Request typed = request_from(one_bolt(), kRules);
-  const Request file = read_request_text("parts: [{model: bolt_hex.stl, unit: mm}]", kModels, {}, kRules);
+  const Request typed = request_from(one_bolt(), all_rules);
+  const Request file = read_request_text("parts: [{model: bolt_hex.stl, unit: mm}]", models, {}, all_rules);
   EXPECT_EQ(write_request(typed), write_request(file));
   EXPECT_EQ(typed.text_sha256, file.text_sha256);
 }
@@ -93,18 +93,18 @@ sensors: [{name: top, width: 320, height: 200, fov: 0.5, pose: [0, 0, 1, 1, 0, 0
 seconds: 1.5
 accept: {escaped: true}
 )",
-                                         kModels, {}, kRules);
-  EXPECT_EQ(write_request(request_from(m, kRules)), write_request(file));
+                                         models, {}, all_rules);
+  EXPECT_EQ(write_request(request_from(m, all_rules)), write_request(file));
 }
 
 TEST(RequestMessage, BinsOfEveryKind) {
   msgs::SceneRequest m = one_bolt();
   m.bin.kind = "floor";
-  EXPECT_EQ(request_from(m, kRules).bin.kind, Bin::Kind::floor);
+  EXPECT_EQ(request_from(m, all_rules).bin.kind, Bin::Kind::floor);
   m.bin.kind = "none";
-  EXPECT_EQ(request_from(m, kRules).bin.kind, Bin::Kind::none);
+  EXPECT_EQ(request_from(m, all_rules).bin.kind, Bin::Kind::none);
   m.bin.kind = "box";
-  EXPECT_EQ(request_from(m, kRules).bin.kind, Bin::Kind::box);
+  EXPECT_EQ(request_from(m, all_rules).bin.kind, Bin::Kind::box);
   m.bin.kind = "mesh";
   EXPECT_NE(error_of(m).find("bin.mesh"), std::string::npos);
   m.bin.kind = "bucket";
@@ -117,7 +117,7 @@ TEST(RequestMessage, FieldsComeOnTopOfTextAndSetOnTopOfFields) {
   m.seed = {2};
   m.index = {2};
   m.set = {"first=3", "parts[0].count=5"};
-  const Request request = request_from(m, kRules);
+  const Request request = request_from(m, all_rules);
   EXPECT_EQ(request.seed, 2u);
   EXPECT_EQ(request.first, 3u);
   EXPECT_EQ(request.parts.at(0).count, 5u);
@@ -128,7 +128,7 @@ TEST(RequestMessage, SeedZeroIsASeed) {
   msgs::SceneRequest m;
   m.yaml = "{seed: 1, parts: [{model: bolt_hex.stl, unit: mm}]}";
   m.seed = {0};
-  EXPECT_EQ(request_from(m, kRules).seed, 0u);
+  EXPECT_EQ(request_from(m, all_rules).seed, 0u);
 }
 
 TEST(RequestMessage, ALongListStaysOneValue) {
@@ -137,7 +137,7 @@ TEST(RequestMessage, ALongListStaysOneValue) {
   for (int i = 0; i < 200; ++i) m.parts[0].poses[i].position.x = 1.0 / (i + 3);
   m.pour_pattern = "given";
   m.bin.kind = "floor";
-  const Request request = request_from(m, kRules);
+  const Request request = request_from(m, all_rules);
   ASSERT_EQ(request.parts.at(0).poses.size(), 200u);
   for (int i = 0; i < 200; ++i) EXPECT_EQ(request.parts[0].poses[i].position.x(), 1.0 / (i + 3));
 }
@@ -171,10 +171,10 @@ TEST(RequestMessage, OutsideOfTheRootsNothingIsRead) {
   msgs::SceneRequest m;
   m.file = file;
   EXPECT_NE(error_of(m).find("roots"), std::string::npos);
-  m.file = kModels + "/../" + fs::relative(file, fs::path(kModels).parent_path()).string();  // by the back door
+  m.file = models + "/../" + fs::relative(file, fs::path(models).parent_path()).string();  // by the back door
   EXPECT_NE(error_of(m).find("roots"), std::string::npos);
   m = one_bolt();
-  fs::copy_file(fs::path(kModels) / "bolt_hex.stl", outside / "bolt.stl");
+  fs::copy_file(fs::path(models) / "bolt_hex.stl", outside / "bolt.stl");
   m.parts[0].model = (outside / "bolt.stl").string();
   EXPECT_NE(error_of(m), "");
   fs::remove_all(outside);

@@ -10,7 +10,7 @@ namespace {
 using testing::full_scene;
 using testing::request_of;
 
-const ros::Time kStamp(12, 34);
+const ros::Time stamp(12, 34);
 
 /// Sends a message through ROS's serialisation, as a topic would.
 template <class Message>
@@ -36,7 +36,7 @@ TEST(SceneMessage, KeepsTheNamesOtherPackagesSee) {
 
 TEST(SceneMessage, PartsAndSensorsComeBackBitForBit) {
   const Scene scene = full_scene();
-  const Scene back = scene_from(wire(scene_message(scene, request_of(scene), Frames(), kStamp)));
+  const Scene back = scene_from(wire(scene_message(scene, request_of(scene), Frames(), stamp)));
   EXPECT_EQ(back.seed, scene.seed);
   EXPECT_EQ(back.index, scene.index);
   ASSERT_EQ(back.parts.size(), scene.parts.size());
@@ -103,8 +103,8 @@ TEST(SceneMessage, ReportComesBackWhole) {
 
 TEST(SceneMessage, SaysWhatItWasMadeFrom) {
   const Scene scene = full_scene();
-  const auto message = scene_message(scene, request_of(scene), Frames(), kStamp);
-  EXPECT_EQ(message.header.stamp, kStamp);
+  const auto message = scene_message(scene, request_of(scene), Frames(), stamp);
+  EXPECT_EQ(message.header.stamp, stamp);
   EXPECT_EQ(message.header.frame_id, "bin");
   EXPECT_EQ(message.request_sha256, "c0ffee");
   EXPECT_EQ(message.bin.kind, "box");
@@ -115,7 +115,7 @@ TEST(SceneMessage, SaysWhatItWasMadeFrom) {
 
 TEST(SceneMessage, AnImageThatWasNotMadeHasNoVisibleFraction) {
   const Scene scene = full_scene();
-  const auto message = scene_message(scene, request_of(scene), Frames(), kStamp);
+  const auto message = scene_message(scene, request_of(scene), Frames(), stamp);
   ASSERT_EQ(message.parts[2].visible_fraction.size(), 2u);
   EXPECT_TRUE(std::isnan(message.parts[2].visible_fraction[0]));
 }
@@ -128,11 +128,11 @@ TEST(Frames, NamesAreStable) {
 
 TEST(Frames, EveryPartWithAPoseHasATransform) {
   const Scene scene = full_scene();
-  const auto tf = part_transforms(scene, Frames(), kStamp);
+  const auto tf = part_transforms(scene, Frames(), stamp);
   ASSERT_EQ(tf.transforms.size(), 3u);  // the fourth was never poured: NaN would poison every listener
   EXPECT_EQ(tf.transforms[1].child_frame_id, "part_0001");
   EXPECT_EQ(tf.transforms[1].header.frame_id, "bin");
-  EXPECT_EQ(tf.transforms[1].header.stamp, kStamp);
+  EXPECT_EQ(tf.transforms[1].header.stamp, stamp);
   EXPECT_EQ(tf.transforms[1].transform.translation.x, scene.parts[1].pose.position.x());
   EXPECT_EQ(tf.transforms[1].transform.rotation.w, scene.parts[1].pose.orientation.w());
 }
@@ -140,7 +140,7 @@ TEST(Frames, EveryPartWithAPoseHasATransform) {
 TEST(Frames, BinAndSensorsAreStatic) {
   Frames frames;
   frames.bin_pose.position.x() = 2.0;
-  const auto tf = static_transforms(full_scene(), frames, kStamp);
+  const auto tf = static_transforms(full_scene(), frames, stamp);
   ASSERT_EQ(tf.transforms.size(), 3u);
   EXPECT_EQ(tf.transforms[0].header.frame_id, "world");
   EXPECT_EQ(tf.transforms[0].child_frame_id, "bin");
@@ -148,7 +148,7 @@ TEST(Frames, BinAndSensorsAreStatic) {
   EXPECT_EQ(tf.transforms[2].child_frame_id, "side_optical_frame");
   EXPECT_EQ(tf.transforms[2].transform.translation.z, 0.7);
   frames.parent.clear();
-  EXPECT_EQ(static_transforms(full_scene(), frames, kStamp).transforms.size(), 2u);
+  EXPECT_EQ(static_transforms(full_scene(), frames, stamp).transforms.size(), 2u);
 }
 
 TEST(Frames, ZeroQuaternionOfAMessageIsTheIdentity) {

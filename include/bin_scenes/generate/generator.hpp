@@ -3,7 +3,7 @@
 
 #include "bin_scenes/quality/quality.hpp"
 #include "bin_scenes/sensor/range_camera.hpp"
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,7 @@
 /// A part as a few convex hulls: cut by planes, or by HACD (Mamou & Ghorbel 2009) where that is better.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 /// Signed distance to a mesh on a regular grid: negative inside, right for concave, hollow and overlapping shells.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <array>
 #include <vector>

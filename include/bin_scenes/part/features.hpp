@@ -1,7 +1,7 @@
 /// Sharp features of a mesh: the convex edges and corners with which a part touches others first.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 /// One convex hull: from points to a mesh, and questions to it.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <vector>
 

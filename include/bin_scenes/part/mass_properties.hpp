@@ -1,7 +1,7 @@
 /// Volume, centre of mass and inertia of a closed mesh by exact integrals over its surface.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 namespace bin_scenes {
 

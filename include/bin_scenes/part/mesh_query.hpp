@@ -1,7 +1,7 @@
 /// Exact questions to a triangle mesh: nearest point, inside or outside. The yardstick of quality and of shape errors.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <memory>
 

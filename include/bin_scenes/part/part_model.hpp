@@ -9,7 +9,7 @@
 #include "bin_scenes/part/samples.hpp"
 #include "bin_scenes/part/shape_error.hpp"
 #include "bin_scenes/part/spheres.hpp"
-#include "bin_scenes/scene/mesh_loader.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 /// Contact samples of the default sphere solver: points on the surface, denser along sharp edges and at corners.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <vector>
 

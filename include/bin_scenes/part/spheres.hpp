@@ -1,7 +1,7 @@
 /// A part as spheres (the thesis's shape): one per surface voxel, interior ones left out because they cannot touch.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <vector>
 

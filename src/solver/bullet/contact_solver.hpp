@@ -11,7 +11,7 @@
 /// fall.
 ///
 /// Contacts that press within a small patch of each other resist turns as a patch does, as in the sphere solver
-/// (src/solver/sphere/contact_solver.cpp, resist_turn).
+/// (src/solver/sphere/passes/solve.cpp, resist_turn).
 ///
 /// Friction is a cone: both tangential impulses of a contact are limited together. A rebound starts at e times the
 /// speed of approach just before the contact first pushed.

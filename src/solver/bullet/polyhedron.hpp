@@ -1,7 +1,7 @@
 /// Faces of a convex hull as Bullet clips them against each other.
 #pragma once
 
-#include "bin_scenes/scene/mesh.hpp"
+#include "bin_scenes/mesh/mesh.hpp"
 
 #include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
 

@@ -148,11 +148,11 @@ class SphereSolver final : public Solver {
   /// Stages are of all worlds: on several threads they add up to more than the time that passed.
   static void add(Profile& p, const World& world) {
     const Spent& s = world.spent;
-    p.add("broad_phase", s.broad_phase);
-    p.add("narrow_phase", s.narrow_phase);
-    p.add("coloring", s.coloring);
-    p.add("contact_solver", s.contact_solver);
-    p.add("islands", s.islands);
+    p.add("find_pairs", s.find_pairs);
+    p.add("find_contacts", s.find_contacts);
+    p.add("color_manifolds", s.color_manifolds);
+    p.add("solve", s.solve);
+    p.add("update_sleep", s.update_sleep);
     const Counters& c = world.counters;
     p.count("steps", c.steps);
     p.count("body_steps_in_free_fall", c.free_steps);

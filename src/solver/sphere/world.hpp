@@ -8,7 +8,7 @@
 /// Poses are of the centre of mass, in single precision, relative to the world's origin.
 #pragma once
 
-#include "solver/sphere/shape.hpp"
+#include "solver/sphere/shapes/shape.hpp"
 
 #include <algorithm>
 #include <array>
@@ -141,7 +141,7 @@ struct Counters {
 
 /// Wall time of the passes so far (ms), by file; the profile shows it, nothing else looks at it.
 struct Spent {
-  double broad_phase = 0, narrow_phase = 0, coloring = 0, contact_solver = 0, islands = 0;
+  double find_pairs = 0, find_contacts = 0, color_manifolds = 0, solve = 0, update_sleep = 0;
 };
 
 struct World {
@@ -197,12 +197,12 @@ struct World {
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };
 
-// The passes, in order of a step.
-void find_pairs(World& world);                ///< broad_phase.cpp: candidates, manifolds carried over by key
-void find_contacts(World& world);             ///< narrow_phase.cpp: samples against fields, reduced, forces matched
-void color_manifolds(World& world);           ///< coloring.cpp: no two manifolds of a color share a moving body
-void solve(World& world);                     ///< contact_solver.cpp: sub-steps, moves the bodies
-void update_sleep(World& world);              ///< islands.cpp
+// The passes, in order of a step, one file of passes/ each.
+void find_pairs(World& world);                ///< candidates, manifolds carried over by key
+void find_contacts(World& world);             ///< samples against fields, reduced, forces matched
+void color_manifolds(World& world);           ///< no two manifolds of a color share a moving body
+void solve(World& world);                     ///< sub-steps, moves the bodies
+void update_sleep(World& world);              ///< what rests sleeps
 void wake(World& world, std::uint32_t body);  ///< and the bodies it rests with
 
 /// One time step.

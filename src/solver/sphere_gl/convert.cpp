@@ -1,6 +1,6 @@
 #include "solver/sphere_gl/convert.hpp"
 
-#include "solver/sphere/edge_contact.hpp"
+#include "solver/sphere/passes/edge_contact.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include "bin_scenes/gl/buffer.hpp"
 #include "shared/sphere.h"
-#include "solver/sphere/shape.hpp"
+#include "solver/sphere/shapes/shape.hpp"
 
 #include <map>
 

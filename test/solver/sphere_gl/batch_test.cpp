@@ -2,7 +2,7 @@
 /// touches whom when a part is taken out.
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/gl/traffic.hpp"
-#include "bin_scenes/solver/pour.hpp"
+#include "bin_scenes/pour/pour.hpp"
 #include "solver/fixture.hpp"
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"

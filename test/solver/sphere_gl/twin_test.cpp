@@ -3,7 +3,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "solver/fixture.hpp"
-#include "solver/sphere/candidates.hpp"
+#include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere_gl/batch.hpp"
 

@@ -1,0 +1,74 @@
+/// From a model file (STL, OBJ, PLY, DAE, OFF) to one closed, outward-oriented mesh in metres.
+/// Coordinates stay in the file's own axes, whatever axis a DAE calls up (RViz, MoveIt and Gazebo do the same), so
+/// that a pose of the part fits a marker of its file; a flag says so. A DAE's own unit is honoured unless one is given.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/scene/report.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Bytes of a model file; larger ones are refused.
+constexpr std::uintmax_t max_model_file_size = std::uintmax_t{1} << 30;
+
+struct LoadOptions {
+  std::optional<Unit> unit;          ///< none: metres (or the file's own unit where the format states one, as DAE does)
+  double scale = 1.0;                ///< multiplies after the unit
+  double weld = 1e-6;                ///< vertices closer than this / diagonal are one
+  double max_hole = 0.02;            ///< holes with a perimeter below this / diagonal are closed (1 = every hole)
+  std::optional<double> thickness;   ///< m: an open surface becomes a shell of this thickness
+  bool require_closed = true;        ///< false: report openness instead of throwing (inspect, bins)
+};
+
+/// What was found in the file and what was done about it.
+struct LoadReport {
+  std::string format;
+  std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;
+  std::size_t welded_vertices = 0, degenerate_removed = 0, duplicate_removed = 0, holes_closed = 0;
+  std::size_t t_junctions_split = 0;  ///< vertices put into long edges that met several short ones
+  std::size_t turned = 0;            ///< triangles whose winding disagreed with their neighbours'
+  std::size_t open_edges = 0;        ///< left after repair
+  std::size_t shells = 0;            ///< connected components
+  bool inverted = false;             ///< winding was inside out and has been turned
+  bool closed = false;               ///< after repair
+  Unit unit = Unit::metre;           ///< the one used, where it has a name
+  double metres_per_unit = 1.0;      ///< the one used, scale not included
+  double file_metres_per_unit = 1.0;  ///< the one that the file states (DAE); 1 where its format states none
+  std::vector<Flag> flags;           ///< one per repair; plain welding of equal vertices is none
+  std::string content_sha256;        ///< of the file's bytes
+};
+
+struct LoadedMesh {
+  Mesh mesh;
+  LoadReport report;
+};
+
+/// Reads all meshes of a file with their node transforms applied, welds, checks and repairs.
+/// Throws an input Error (missing, unreadable, empty, NaN, zero volume, still open) with path, cause and remedy.
+/// Where assimp refuses a DAE, it is read once more without images, materials and animations: flag "file_mended".
+/// Closed shells that overlap are united: flag "shells_united". Where that fails ("shells_overlap"), what they share counts
+/// twice in volume and mass, and only their union is inside (winding number, part/mesh_query.hpp).
+LoadedMesh load_mesh(const std::string& path, const LoadOptions& options = {});
+
+/// The same checks and repairs on a mesh that is in memory already (metres).
+LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string& where);
+
+/// Throws an input Error when a part does not fit the bin (diagonal above the bin's), or when no unit was given and it
+/// is below 1/2000 of the bin's longest side; without a unit the error names the likely one. An endless floor or free
+/// flight stands for a bin of 10 m.
+/// @param bin_mesh  of a bin that is one; its bounds are the bin's size.
+void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given,
+                          const Mesh* bin_mesh = nullptr);
+
+/// Throws an input Error when the mesh of a bin was read without a unit and is more than 10 m across, or its longest
+/// side more than 2000 times as long as the largest part; the error names the likely unit.
+/// @param largest_part  m: diagonal of the largest part whose unit was given; 0: none was.
+void check_plausible_bin(const Mesh& mesh, const Bin& bin, double largest_part);
+
+}  // namespace bin_scenes

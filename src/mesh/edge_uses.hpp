@@ -1,0 +1,43 @@
+/// Edges of a mesh with the triangles that pass along them.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace bin_scenes::repair {
+
+/// One triangle's passage along an edge; sorted, all passages of an edge lie side by side.
+struct EdgeUse {
+  std::uint32_t low, high;  // vertices, ascending
+  std::uint32_t triangle;
+  std::uint8_t corner;  // the edge runs from this corner to the next
+  bool forward;         // from low to high
+  bool operator<(const EdgeUse& o) const {
+    return std::tie(low, high, triangle, corner) < std::tie(o.low, o.high, o.triangle, o.corner);
+  }
+  bool same_edge(const EdgeUse& o) const { return low == o.low && high == o.high; }
+};
+
+std::vector<EdgeUse> edge_uses(const Mesh& mesh);
+
+/// Calls visit(first, last) for the passages of each edge.
+template <class Visit>
+void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t j = i + 1;
+    while (j < uses.size() && uses[j].same_edge(uses[i])) ++j;
+    visit(uses.data() + i, uses.data() + j);
+    i = j;
+  }
+}
+
+/// Passages from the lower vertex to the higher one less those back. 0 = closed there.
+int surplus(const EdgeUse* first, const EdgeUse* last);
+
+/// Edges that more triangles pass in one direction than in the other, counted with that surplus. 0 = closed.
+std::size_t open_edges(const Mesh& mesh);
+
+}  // namespace bin_scenes::repair

@@ -1,0 +1,24 @@
+/// Openings of a surface.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes::repair {
+
+/// Boundary loops, in the direction in which a triangle that closes them passes them.
+std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh);
+double perimeter(const Mesh& mesh, const std::vector<std::uint32_t>& loop);
+
+/// Closes boundary loops shorter than `max_perimeter`, and longer ones where the cover lies inside the other shells of
+/// the mesh, so that the outside is unchanged. By the triangulation of least area (Barequet & Sharir 1995, "Filling
+/// gaps in the boundary of a polyhedron"); very long loops by a fan from their centroid.
+struct Closed {
+  std::size_t small = 0, hidden = 0;
+};
+Closed close_holes(Mesh& mesh, double max_perimeter);
+
+}  // namespace bin_scenes::repair

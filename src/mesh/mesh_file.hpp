@@ -1,0 +1,27 @@
+/// A model file as it is: all triangles of all its meshes with node transforms applied, in the file's own unit and
+/// axes, nothing welded or repaired. The only place that sees assimp.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/scene/report.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct MeshFile {
+  Mesh mesh;
+  std::string format;  ///< "STL", "OBJ", "PLY", "DAE", "OFF"
+  std::size_t meshes = 0;
+  std::optional<double> metres_per_unit;  ///< where the file states it
+  std::vector<Flag> flags;                ///< what had to be mended in memory, what was left out
+  std::string content_sha256;
+};
+
+/// Throws an input Error with path, cause and remedy: missing, a folder, unreadable, empty, too large, unknown format,
+/// refused by assimp (with what is wrong in it where that can be told), nothing but points or lines.
+MeshFile read_mesh_file(const std::string& path);
+
+}  // namespace bin_scenes

@@ -1,0 +1,28 @@
+/// Vertices made one, and triangles that then mean nothing taken out.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <cstddef>
+
+namespace bin_scenes::repair {
+
+/// Makes vertices closer than `tolerance` one (the one that comes first), drops unused vertices and the triangles
+/// that collapse to an edge. Such a triangle's neighbours meet each other afterwards: no hole opens.
+struct Welded {
+  std::size_t vertices = 0, triangles = 0;
+};
+Welded weld(Mesh& mesh, double tolerance);
+
+/// Removes triangles lower than `tolerance` over their longest side. Their neighbours then meet at T-junctions,
+/// which split_t_junctions() resolves.
+std::size_t remove_slivers(Mesh& mesh, double tolerance);
+
+/// Keeps one of several equal triangles. A triangle and its mirror image bound nothing: both are removed, or one of
+/// them is kept if `keep_one_side`.
+struct Duplicates {
+  std::size_t same = 0, opposite_pairs = 0;
+};
+Duplicates remove_duplicates(Mesh& mesh, bool keep_one_side);
+
+}  // namespace bin_scenes::repair

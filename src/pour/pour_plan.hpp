@@ -1,0 +1,26 @@
+/// What a request asks to be poured, checked and measured once for all its scenes.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/solver/solver.hpp"
+#include "bin_scenes/pour/spawn.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// What all scenes of a request share.
+struct PourPlan {
+  PourPlan(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model);
+
+  const Request& request;
+  WorldDef world;                             ///< walls up to the rim
+  std::vector<Cover> covers;                  ///< by part line
+  Cover bin_cover;                            ///< mesh bin only
+  double largest_part;                        ///< m: diagonal
+  Opening opening;                            ///< where parts enter; upper.z is the rim
+  double entry_height = 0.0;                  ///< walls while parts enter (box bin)
+  std::vector<std::size_t> line_of, copy_of;  ///< by body: part line, number within the line
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,157 @@
+#include "solver/sphere/passes/contact_rows.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
+
+/// What a body does from the start of a step to the middle of its sub-steps (World::half_way). With levers of the
+/// step's start what hangs gains energy (a yoke on a ridge 8 % a second), with those of the middle of the whole step it
+/// loses as much.
+struct Ahead {
+  Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
+
+  Ahead(const World& world, const Body* body) {
+    if (!body || !body->moves()) return;
+    way = world.half_way() * body->v;
+    turn = world.half_way() * body->w;
+  }
+  bool turns() const { return turn.squaredNorm() > least_turn * least_turn; }
+
+  static constexpr float least_turn = 1e-5f;  ///< rad; below, a lever moves by less than contacts overlap
+};
+
+void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, const Ahead& ahead_a,
+              const Ahead& ahead_b, float warm) {
+  const bool field_of_a = c.feature >> 31;
+  c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
+  Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
+  rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
+  if (ahead_a.turns() || ahead_b.turns()) {  // the point goes with the sample, the normal with the field
+    const Vec3f way =
+        field_of_a ? Vec3f(ahead_b.way + ahead_b.turn.cross(rb)) : Vec3f(ahead_a.way + ahead_a.turn.cross(ra));
+    ra += way - ahead_a.way;
+    rb += way - ahead_b.way;
+    c.normal = (c.normal + (field_of_a ? ahead_a : ahead_b).turn.cross(c.normal)).normalized();
+  }
+  const Vec3f t1 = c.normal.unitOrthogonal();
+  rows.normal.set(lane, c.normal);
+  rows.tangent.set(lane, t1);
+  rows.ra.set(lane, ra);
+  rows.rb.set(lane, rb);
+  rows.normal_impulse[lane] = warm * c.normal_force;
+  rows.t1_impulse[lane] = warm * c.friction_force.dot(t1);
+  rows.t2_impulse[lane] = warm * c.friction_force.dot(c.normal.cross(t1));
+}
+
+/// Mass that an impulse along `direction` meets; 0 in empty lanes.
+Lanes effective_mass(const LaneVec& direction, Lanes inverse_masses, const LaneVec& moment_a, const LaneVec& turn_a,
+                     const LaneVec& moment_b, const LaneVec& turn_b) {
+  const Lanes k = inverse_masses + dot(moment_a, turn_a) + dot(moment_b, turn_b);
+  const LaneMask used = dot(direction, direction) > 0.5f;
+  return used & (k > 0.0f) ? 1.0f / k : all_lanes(0);
+}
+
+/// Speed along the normal when the gap of a contact has closed, of what closes at `speed` (below 0) when the step
+/// begins: gravity works on what moves, and a blow returns neither more nor less than what has come down.
+Lanes speed_at_blow(Lanes speed, Lanes gap, Lanes acceleration) {
+  const Lanes square = speed * speed - 2.0f * acceleration * max(gap, all_lanes(0));
+  return speed < 0.0f ? -sqrt(max(square, all_lanes(0))) : speed;
+}
+
+Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
+  const LaneVec moment_a = cross(c.ra, tangent), moment_b = cross(c.rb, tangent);
+  return effective_mass(tangent, inverse_masses, moment_a, bundle.inverse_inertia_a * moment_a, moment_b,
+                        bundle.inverse_inertia_b * moment_b);
+}
+
+}  // namespace
+
+void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                  std::vector<ContactRows>& rows) {
+  const Slice order = blocks.manifolds(block);
+  const auto color = [&](std::uint32_t manifold) { return world.manifolds[manifold].color; };
+  std::uint32_t row = 0;
+  bundles.clear();
+  for (auto next = order.begin(); next != order.end();) {
+    const int shade = color(*next);
+    const int most = shade == shared_color ? 1 : lane_count;
+    Bundle& bundle = bundles.emplace_back();
+    bundle.color = shade;
+    bundle.a.fill(blocks.place(block, ground));
+    bundle.b = bundle.a;
+    bundle.first = bundle.last = row;
+    for (; bundle.lanes < most && next != order.end() && color(*next) == shade; ++next) {
+      const int lane = bundle.lanes++;
+      const Manifold& m = world.manifolds[bundle.manifold[lane] = *next];
+      bundle.last = std::max(bundle.last, bundle.first + m.solved);
+      bundle.a[lane] = blocks.place(block, m.a);
+      bundle.b[lane] = blocks.place(block, m.b);
+    }
+    row = bundle.last;
+  }
+  for (std::size_t i = 0; i + 1 < bundles.size(); ++i) {
+    const int shade = bundles[i].color;
+    bundles[i].paired = shade != shared_color && bundles[i + 1].color == shade;
+    i += bundles[i].paired;
+  }
+  rows.resize(row);
+}
+
+BIN_SCENES_WIDE
+void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
+             std::vector<ContactRows>& rows) {
+  std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});
+  const float warm = world.forgets ? 0.0f : h;  // s for which the last forces have acted when the sweeps begin
+  for (int lane = 0; lane < bundle.lanes; ++lane) {
+    Manifold& m = world.manifolds[bundle.manifold[lane]];
+    const Body& a = world.bodies[m.a];
+    const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
+    bundle.friction[lane] = world.grip * m.friction;
+    bundle.restitution[lane] = m.restitution;
+    const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
+    bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
+    if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
+    if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
+    const Ahead ahead_a(world, &a), ahead_b(world, b);
+    for (std::uint32_t k = 0; k < m.solved; ++k)
+      set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
+  }
+  const Velocities velocities = velocities_of(bundle, motions);
+  const Vec3f& g = world.gravity;
+  const LaneVec gravity{all_lanes(g.x()), all_lanes(g.y()), all_lanes(g.z())};
+  const Lanes inverse_masses = velocities.inverse_mass_a + velocities.inverse_mass_b;
+  const auto moves = [](Lanes inverse_mass) { return inverse_mass > 0.0f ? all_lanes(1) : all_lanes(0); };
+  const Lanes falls = moves(velocities.inverse_mass_b) - moves(velocities.inverse_mass_a);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    ContactRows& c = rows[i];
+    c.gap = c.separation;
+    c.moment_a = cross(c.ra, c.normal);
+    c.moment_b = cross(c.rb, c.normal);
+    c.turn_a = bundle.inverse_inertia_a * c.moment_a;
+    c.turn_b = bundle.inverse_inertia_b * c.moment_b;
+    c.normal_mass = effective_mass(c.normal, inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
+    // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
+    c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
+                         tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
+    c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
+    bundle.striking |= any(c.approach <= -world.settings.restitution_speed);
+  }
+}
+
+void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world) {
+  for (int lane = 0; lane < bundle.lanes; ++lane) {
+    Manifold& m = world.manifolds[bundle.manifold[lane]];
+    for (std::uint32_t k = 0; k < m.solved; ++k) {
+      const ContactRows& c = rows[bundle.first + k];
+      const Vec3f t1 = c.tangent.at(lane), t2 = c.normal.at(lane).cross(t1);
+      m.contacts[k].normal_force = c.normal_impulse[lane] / h;
+      m.contacts[k].friction_force = (c.t1_impulse[lane] * t1 + c.t2_impulse[lane] * t2) / h;
+    }
+  }
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,147 @@
+/// Contacts as the solver works on them: eight at a time, one of each of eight manifolds that share no moving body.
+#pragma once
+
+#include "solver/sphere/passes/blocks.hpp"
+#include "solver/sphere/passes/lanes.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <array>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// How a body moves while contacts are solved (world frame): x, y, z and a fourth value.
+struct alignas(64) Motion {
+  Quad v{};       ///< m/s; fourth: inverse mass (1/kg), 0 = nothing moves it in this step
+  Quad w{};       ///< rad/s
+  Quad moved{};   ///< m since contacts were found
+  Quad turned{};  ///< rotation vector since contacts were found
+
+  float inverse_mass() const { return v[3]; }
+};
+
+/// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
+/// nothing.
+struct ContactRows {
+  LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
+  LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
+  LaneVec ra, rb;                       ///< from the centres of mass, world frame; hold for a whole time step (m)
+  Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
+  Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
+  Lanes separation{};                                  ///< when contacts were found (m)
+  Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
+  Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
+};
+
+using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
+
+/// Eight manifolds of one color. Empty lanes name the ground for both bodies.
+struct Bundle {
+  LaneBodies a{}, b{};
+  std::array<std::uint32_t, lane_count> manifold{};
+  int lanes = 0;  ///< in use
+  int color = 0;
+  bool paired = false;        ///< solved together with the next one, which is of the same color
+  bool striking = false;      ///< some contact closes at Settings::restitution_speed
+  std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
+  Lanes friction{}, restitution{};
+  Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
+  LaneSymmetric inverse_inertia_a, inverse_inertia_b;  ///< world frame, 0 for what cannot move
+
+  std::uint32_t rows() const { return last - first; }
+};
+
+/// The velocities of a bundle's bodies, in registers while its contacts are solved.
+struct Velocities {
+  LaneVec va, wa, vb, wb;
+  Lanes inverse_mass_a{}, inverse_mass_b{};
+
+  /// Of b's point away from a's (m/s).
+  LaneVec at(const ContactRows& c) const { return vb + cross(wb, c.rb) - va - cross(wa, c.ra); }
+
+  /// The same along the normal.
+  Lanes along_normal(const ContactRows& c) const {
+    return dot(c.normal, vb - va) + dot(c.moment_b, wb) - dot(c.moment_a, wa);
+  }
+
+  /// `impulse` on b (N s), its opposite on a.
+  void push(const LaneVec& impulse, const ContactRows& c, const Bundle& bundle) {
+    va = va - inverse_mass_a * impulse;
+    wa = wa - bundle.inverse_inertia_a * cross(c.ra, impulse);
+    vb = vb + inverse_mass_b * impulse;
+    wb = wb + bundle.inverse_inertia_b * cross(c.rb, impulse);
+  }
+  /// The same along the normal.
+  void push_along_normal(Lanes impulse, const ContactRows& c) {
+    va = va - (inverse_mass_a * impulse) * c.normal;
+    wa = wa - impulse * c.turn_a;
+    vb = vb + (inverse_mass_b * impulse) * c.normal;
+    wb = wb + impulse * c.turn_b;
+  }
+};
+
+/// Ways of a bundle's bodies since contacts were found.
+struct Ways {
+  LaneVec moved_a, turned_a, moved_b, turned_b;
+
+  /// That b's point went away from a's along the normal (m), to first order in the turn.
+  Lanes along(const ContactRows& c) const {
+    return dot(c.normal, moved_b - moved_a) + dot(c.moment_b, turned_b) - dot(c.moment_a, turned_a);
+  }
+};
+
+/// A vector of each of the bodies of eight lanes; the fourth values into `fourth`.
+inline LaneVec gather(const LaneBodies& bodies, const std::vector<Motion>& motions, Quad Motion::*vector,
+                      Lanes& fourth) {
+  Quad q[lane_count];
+  for (int lane = 0; lane < lane_count; ++lane) q[lane] = motions[bodies[lane]].*vector;
+  transpose(q[0], q[1], q[2], q[3]);
+  transpose(q[4], q[5], q[6], q[7]);
+  fourth = join(q[3], q[7]);
+  return {join(q[0], q[4]), join(q[1], q[5]), join(q[2], q[6])};
+}
+inline LaneVec gather(const LaneBodies& bodies, const std::vector<Motion>& motions, Quad Motion::*vector) {
+  Lanes fourth;
+  return gather(bodies, motions, vector, fourth);
+}
+inline void scatter(const LaneVec& v, Lanes fourth, const LaneBodies& bodies, Quad Motion::*vector,
+                    std::vector<Motion>& motions) {
+  Quad q[lane_count] = {low_half(v.x),  low_half(v.y),  low_half(v.z),  low_half(fourth),
+                        high_half(v.x), high_half(v.y), high_half(v.z), high_half(fourth)};
+  transpose(q[0], q[1], q[2], q[3]);
+  transpose(q[4], q[5], q[6], q[7]);
+  for (int lane = 0; lane < lane_count; ++lane) motions[bodies[lane]].*vector = q[lane];
+}
+
+inline Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  Velocities out;
+  out.va = gather(bundle.a, motions, &Motion::v, out.inverse_mass_a);
+  out.wa = gather(bundle.a, motions, &Motion::w);
+  out.vb = gather(bundle.b, motions, &Motion::v, out.inverse_mass_b);
+  out.wb = gather(bundle.b, motions, &Motion::w);
+  return out;
+}
+
+inline Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+  return {gather(bundle.a, motions, &Motion::moved), gather(bundle.a, motions, &Motion::turned),
+          gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
+}
+
+/// Puts velocities back. The ground and what cannot move get what they had.
+inline void store(const Velocities& velocities, const Bundle& bundle, std::vector<Motion>& motions) {
+  scatter(velocities.va, velocities.inverse_mass_a, bundle.a, &Motion::v, motions);
+  scatter(velocities.wa, Lanes{}, bundle.a, &Motion::w, motions);
+  scatter(velocities.vb, velocities.inverse_mass_b, bundle.b, &Motion::v, motions);
+  scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
+}
+
+/// The manifolds of a block in bundles, in order of color; the longest of a color first, so that lanes are filled.
+void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                  std::vector<ContactRows>& rows);
+/// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
+/// seconds. Also notes the contacts' normals in world axes.
+void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
+/// Back into the contacts, as forces.
+void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
+
+}  // namespace bin_scenes::sphere

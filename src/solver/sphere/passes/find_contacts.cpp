@@ -1,0 +1,138 @@
+#include "solver/sphere/passes/candidates.hpp"
+#include "solver/sphere/math.hpp"
+#include "solver/sphere/passes/reduce.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+constexpr float soon_share = 1e-3f;         ///< d: a gap that may close before contacts are found anew; see reduce.hpp
+constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
+
+Contact contact_of(const Candidate& c, const Placement& a, const Placement* b) {
+  Contact contact;
+  contact.anchor_a = c.on_a;
+  contact.feature = c.feature;
+  contact.normal = a.rotation * c.normal;
+  const Vec3f on_b = a.x + a.rotation * c.on_b;
+  contact.anchor_b = b ? Vec3f(b->rotation.transpose() * (on_b - b->x)) : on_b;
+  // The normal turns with the body whose field it comes from.
+  const bool field_of_a = c.feature & side_b;
+  contact.local_normal = field_of_a ? c.normal : b ? Vec3f(b->rotation.transpose() * contact.normal) : contact.normal;
+  return contact;
+}
+
+/// Pose of one body of a pair as the other sees it; of a lone body, as the bin sees it.
+struct RelativePose {
+  Vec3f x;
+  Quatf q;
+};
+
+RelativePose relative_pose(const Body& a, const Body* b) {
+  if (!b) return {a.x, a.q};
+  return {a.rotation.transpose() * (b->x - a.x), a.q.conjugate() * b->q};
+}
+
+/// Whether the pair has hardly moved since its contacts were found. The point where a ball touches stays below it,
+/// while one that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
+bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
+  if (!m.found) return false;
+  if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
+  const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
+  const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
+  return (now.x - m.found_x).squaredNorm() < limit * limit && half_turn * size < limit;
+}
+
+/// How far apart the points of a contact are where the bodies are (m).
+float separation(const Contact& c, const Body& a, const Body* b) {
+  const bool field_of_a = c.feature & side_b;
+  const Vec3f normal = field_of_a ? Vec3f(a.rotation * c.local_normal)
+                       : b        ? Vec3f(b->rotation * c.local_normal)
+                                  : c.local_normal;
+  const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b ? Vec3f(b->x + b->rotation * c.anchor_b) : c.anchor_b;
+  return (on_b - on_a).dot(normal);
+}
+
+/// Contacts that may press in this step come first, else in the order they had: those that do already, and those no
+/// farther apart than `reach` (m).
+void put_solved_first(const Body& a, const Body* b, float reach, Manifold& m) {
+  m.solved = 0;
+  for (std::size_t k = 0; k < m.contacts.size(); ++k) {
+    if (m.contacts[k].normal_force <= 0 && separation(m.contacts[k], a, b) > reach) continue;
+    const auto begin = m.contacts.begin();
+    if (k > m.solved) std::rotate(begin + m.solved, begin + k, begin + k + 1);
+    ++m.solved;
+  }
+}
+
+/// Contacts of one pair, found anew or recycled. Touches nothing but the manifold and the counters.
+void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
+  static thread_local Candidates candidates;
+  static thread_local std::vector<int> chosen;
+  static thread_local std::vector<Contact> fresh;
+  const Body& a = world.bodies[m.a];
+  const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
+  if (!a.moves() && !(b && b->moves())) return;
+  ++counters.pairs;
+  const Shape& sa = *world.shapes[a.shape];
+  const float size = b ? std::min(sa.size, world.shapes[b->shape]->size) : sa.size;
+  const RelativePose pose = relative_pose(a, b);
+  const float dt = world.settings.time_step;
+  const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
+  const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
+  const float way = (v.norm() + spin + world.gravity.norm() * dt) * dt;
+  if (recyclable(world, m, pose, size)) {
+    ++counters.pairs_recycled;
+  } else {
+    const float margin = world.settings.margin * size + way;
+    const Placement there_a(world, a);
+    const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
+    candidates.clear();
+    if (b)
+      candidates_of_pair(world, m, there_a, *there_b, margin, counters, candidates);
+    else
+      candidates_of_ground(world, m, there_a, margin, counters, candidates);
+    if (candidates.empty()) ++counters.pairs_culled;
+    // What is fast may meet all that is within its way.
+    const float soon = soon_share * size + std::max(0.0f, way - world.settings.margin * size);
+    reduce(candidates, m, size, soon, chosen);
+    counters.dropped += candidates.size() - chosen.size();
+    fresh.clear();
+    for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));
+    carry_forces(m.contacts, fresh, world.samples(a).spacing);
+    m.contacts.assign(fresh.begin(), fresh.end());
+    m.found = true;
+    m.found_x = pose.x;
+    m.found_q = pose.q;
+  }
+  put_solved_first(a, b, world.settings.press_margin * size + way, m);
+  counters.contacts += m.contacts.size();
+  counters.contacts_solved += m.solved;
+}
+
+}  // namespace
+
+/// Pairs share nothing but what they read, so that threads cannot change a result.
+void find_contacts(World& world) {
+  world.counters +=
+      tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
+        return tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, world.manifolds.size(), pairs_per_task), Counters{},
+            [&](const tbb::blocked_range<std::size_t>& range, Counters counters) {
+              for (std::size_t i = range.begin(); i < range.end(); ++i)
+                find_contacts_of(world, world.manifolds[i], counters);
+              return counters;
+            },
+            [](Counters a, const Counters& b) { return a += b; });
+      });
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,402 @@
+#include "solver/sphere/passes/blocks.hpp"
+#include "solver/sphere/passes/contact_rows.hpp"
+#include "solver/sphere/world.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// Soft contact (Catto, "Solver2D", 2024): implicit spring over a sub-step h.
+struct Spring {
+  float bias_rate, mass_scale, impulse_scale;
+};
+
+Spring spring(const Softness& s, float h) {
+  const float omega = 2.0f * static_cast<float>(M_PI) * s.hertz_share / h;
+  const float a1 = 2.0f * s.damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1.0f / (1.0f + a2);
+  return {omega / a1, a2 * a3, a3};
+}
+
+constexpr std::size_t bundles_per_task = 8;  ///< fewer = more handing over; more = threads wait for the last one
+constexpr int bounce_sweeps = 12;            ///< a face that strikes flat shares its blow among many contacts
+
+/// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
+/// step, whose solve would take the same scratch memory.
+template <class Work>
+void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+    });
+  });
+}
+
+Quad padded(const Vec3f& v, float fourth = 0) {
+  return Quad{v.x(), v.y(), v.z(), fourth};
+}
+
+Vec3f vector_of(Quad q) {
+  return {q[0], q[1], q[2]};
+}
+
+/// What the solve of a block works on. Kept for its memory alone.
+struct Scratch {
+  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of all that does not move
+  std::vector<char> free;       ///< bodies that nothing is near
+  std::vector<Bundle> bundles;  ///< in order of color
+  std::vector<ContactRows> rows;
+};
+
+/// The solve of one step of a block. Bodies that sleep or are fixed take part as if nothing could move them.
+class ContactSolver {
+ public:
+  ContactSolver(World& world, const Blocks& blocks, std::size_t block, Scratch& scratch)
+      : world_(world),
+        blocks_(blocks),
+        block_(block),
+        bodies_(blocks.bodies(block)),
+        settings_(world.settings),
+        h_(world.sub_step()),
+        softness_(world.softness()),
+        spring_(spring(softness_, h_)),
+        push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
+        motions_(scratch.motions),
+        free_(scratch.free),
+        bundles_(scratch.bundles),
+        rows_(scratch.rows) {}
+
+  void prepare();  ///< rows from contacts, with the forces of the last step
+  std::uint64_t falling() const { return static_cast<std::uint64_t>(std::count(free_.begin(), free_.end(), 1)); }
+  void accelerate();  ///< gravity, gyroscopic term
+  void warm_start();  ///< impulses of the last sub-step again
+  /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
+  /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
+  void sweep(bool push, bool first);
+  void hold_by_friction(bool holds) { friction_holds_ = holds; }
+  void move();       ///< positions
+  void restitute();  ///< Newton's restitution
+  void finish();     ///< back into bodies and contacts
+
+ private:
+  void prepare_motions();
+  /// A bundle in a sweep.
+  struct Swept {
+    const Bundle& bundle;
+    Velocities u;
+    Lanes friction;
+  };
+  Swept begin(const Bundle& bundle, bool push, bool first);
+  void look(const Bundle& bundle);
+  void solve_normal(ContactRows& c, Velocities& u, bool push) const;
+  void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
+  void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
+  LaneMask struck(const ContactRows& c) const;
+  LaneMask bouncing(const Bundle& bundle) const;
+  void bounce(const Bundle& bundle, LaneMask lanes);
+
+  World& world_;
+  const Blocks& blocks_;
+  const std::size_t block_;
+  const Slice bodies_;
+  const Settings& settings_;
+  const float h_;
+  const Softness& softness_;
+  const Spring spring_;
+  bool friction_holds_ = true;
+  const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
+  std::vector<Motion>& motions_;
+  std::vector<char>& free_;
+  std::vector<Bundle>& bundles_;
+  std::vector<ContactRows>& rows_;
+};
+
+void ContactSolver::prepare_motions() {
+  motions_.assign(bodies_.size() + 1, Motion{});
+  free_.assign(bodies_.size(), 1);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& b = world_.bodies[bodies_[i]];
+    motions_[i].v = padded(b.v, b.inverse_mass);
+    motions_[i].w = padded(b.w);
+  }
+}
+
+void ContactSolver::prepare() {
+  prepare_motions();
+  make_bundles(world_, blocks_, block_, bundles_, rows_);
+  for_each_in_parallel(bundles_.size(), bundles_per_task,
+                       [&](std::size_t i) { sphere::prepare(world_, motions_, h_, bundles_[i], rows_); });
+  for (const Bundle& bundle : bundles_)
+    for (int lane = 0; lane < bundle.lanes; ++lane)
+      for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
+        if (i < free_.size()) free_[i] = 0;
+}
+
+/// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
+/// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
+void ContactSolver::accelerate() {
+  const Quad gain = padded(h_ * world_.gravity);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Motion& motion = motions_[i];
+    motion.v += gain;
+    if (vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f) continue;  // 1e-4 rad a sub-step: the term is rounding
+    // Double precision: single would let |L| creep by a thousandth in ten thousand sub-steps.
+    const Body& b = world_.bodies[bodies_[i]];
+    const Mat3 r = b.q.cast<double>().normalized().toRotationMatrix();
+    const Mat3 inertia = b.inertia.cast<double>(), inverse = b.inverse_inertia.cast<double>();
+    const Vec3 w0 = r.transpose() * vector_of(motion.w).cast<double>();
+    Vec3 w = w0;
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 mid = 0.5 * (w0 + w);
+      w = w0 - h_ * (inverse * mid.cross(inertia * mid));
+    }
+    motion.w = padded((r * w).cast<float>());
+  }
+}
+
+BIN_SCENES_WIDE
+void ContactSolver::warm_start() {
+  for (const Bundle& bundle : bundles_) {
+    Velocities u = velocities_of(bundle, motions_);
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+      const ContactRows& c = rows_[i];
+      u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
+             bundle);
+    }
+    store(u, bundle, motions_);
+  }
+}
+
+/// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
+/// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
+/// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
+/// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
+/// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
+/// air.
+void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const {
+  Lanes impulse{};
+  LaneVec center, normal;
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    const ContactRows& c = rows_[i];
+    impulse += c.normal_impulse;
+    center = center + c.normal_impulse * c.ra;
+    normal = normal + c.normal_impulse * c.normal;
+  }
+  center = (impulse > 0.0f ? all_lanes(1) / impulse : all_lanes(0)) * center;
+  normal = unit(normal);
+  const LaneVec turn = u.wa - u.wb;
+  const Lanes spin = dot(normal, turn);
+  const LaneVec tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
+
+  Lanes spread{}, spread_across{};  // squares of lengths, times impulse
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    const ContactRows& c = rows_[i];
+    const LaneVec off = c.ra - center;
+    const Lanes side = dot(across, off);
+    spread += c.normal_impulse * dot(off, off);
+    spread_across += c.normal_impulse * side * side;
+  }
+  const float radius = settings_.patch_radius * world_.smallest_size;
+  const Lanes widest = 4.0f * radius * radius * impulse;
+  const auto resist = [&](const LaneVec& axis, Lanes speed, Lanes most) {
+    const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;
+    const Lanes k = dot(axis, turn_a) + dot(axis, turn_b);
+    const Lanes moment = min(max(k > 0.0f ? speed / k : all_lanes(0), -most), most);
+    u.wa = u.wa - moment * turn_a;
+    u.wb = u.wb + moment * turn_b;
+  };
+  resist(normal, spin, spread <= widest ? 2.0f / 3.0f * radius * friction * impulse : all_lanes(0));
+  resist(tip_axis, dot(tip_axis, tipping), spread_across <= widest ? bundle.tipping_arm * impulse : all_lanes(0));
+}
+
+/// Sequential impulse, accumulated and clamped.
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) const {
+  const float d = world_.smallest_size;
+  const Lanes separation = c.gap;
+  const LaneMask apart = separation > 0.0f;
+  Lanes bias = apart ? separation / h_ : all_lanes(0);  // speculative: may close the distance, no more
+  Lanes mass_scale = all_lanes(1), impulse_scale = all_lanes(0);
+  if (push) {
+    const Lanes overlap = min(separation + softness_.slop * d, all_lanes(0));
+    bias = apart ? bias : max(spring_.bias_rate * overlap, all_lanes(-push_speed_ * d));
+    mass_scale = apart ? mass_scale : all_lanes(spring_.mass_scale);
+    impulse_scale = apart ? impulse_scale : all_lanes(spring_.impulse_scale);
+  }
+  const Lanes before = c.normal_impulse, speed = u.along_normal(c);
+  const Lanes change = -c.normal_mass * mass_scale * (speed + bias) - impulse_scale * before;
+  c.normal_impulse = max(before + change, all_lanes(0));
+  c.max_impulse = max(c.max_impulse, c.normal_impulse);
+  u.push_along_normal(c.normal_impulse - before, c);
+}
+
+/// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
+LaneMask rubs(const ContactRows& c) {
+  return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
+}
+
+/// Coulomb's cone: both directions at once.
+void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
+  const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
+  Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
+  Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
+  const Lanes most = friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
+  const Lanes scale = size > most ? most / size : all_lanes(1);
+  f1 *= scale;
+  f2 *= scale;
+  u.push((f1 - c.t1_impulse) * c.tangent + (f2 - c.t2_impulse) * second, c, bundle);
+  c.t1_impulse = f1;
+  c.t2_impulse = f2;
+}
+
+/// How far apart contacts are, bodies having moved.
+void ContactSolver::look(const Bundle& bundle) {
+  const Ways ways = ways_of(bundle, motions_);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + ways.along(rows_[i]);
+}
+
+/// What a sweep begins a bundle with.
+ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
+  Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
+  if (!push && first) look(bundle);
+  if (push && first) resist_turn(bundle, swept.friction, swept.u);
+  return swept;
+}
+
+BIN_SCENES_WIDE
+void ContactSolver::sweep(bool push, bool first) {
+  const auto normal = [&](Swept& s, std::uint32_t k) {
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, push);
+  };
+  const auto friction = [&](Swept& s, std::uint32_t k) {
+    if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
+      solve_friction(rows_[s.bundle.first + k], s.friction, s.bundle, s.u);
+  };
+  for (std::size_t i = 0; i < bundles_.size(); ++i) {
+    Swept p = begin(bundles_[i], push, first);
+    if (!p.bundle.paired) {
+      for (std::uint32_t k = 0; k < p.bundle.rows(); ++k) normal(p, k);
+      for (std::uint32_t k = 0; k < p.bundle.rows(); ++k) friction(p, k);
+      store(p.u, p.bundle, motions_);
+      continue;
+    }
+    // Contact by contact in turn: while one bundle waits for the result of its last contact, the other is solved.
+    Swept q = begin(bundles_[++i], push, first);
+    const std::uint32_t longest = std::max(p.bundle.rows(), q.bundle.rows());
+    for (std::uint32_t k = 0; k < longest; ++k) {
+      normal(p, k);
+      normal(q, k);
+    }
+    for (std::uint32_t k = 0; k < longest; ++k) {
+      friction(p, k);
+      friction(q, k);
+    }
+    store(p.u, p.bundle, motions_);
+    store(q.u, q.bundle, motions_);
+  }
+}
+
+void ContactSolver::move() {
+  const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Motion& motion = motions_[i];
+    motion.moved += h_ * motion.v;
+    if (free_[i]) motion.moved -= parabola;  // nothing touches it: exactly the parabola
+    motion.turned += h_ * motion.w;
+    Quatf& q = world_.bodies[bodies_[i]].q;
+    q = integrated(q, vector_of(motion.w), h_);
+  }
+}
+
+/// Which contacts were struck fast enough to bounce: pressed, or closed by a blow that their neighbours took.
+LaneMask ContactSolver::struck(const ContactRows& c) const {
+  return (c.approach <= -settings_.restitution_speed) & ((c.max_impulse > 0.0f) | (c.gap < -c.approach * h_));
+}
+
+/// Which manifolds of a bundle have a contact that was struck and took part of the blow.
+LaneMask ContactSolver::bouncing(const Bundle& bundle) const {
+  LaneMask out{};
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= struck(rows_[i]) & (rows_[i].max_impulse > 0.0f);
+  return out & (bundle.restitution > 0.0f);
+}
+
+/// One sweep towards a separating speed of e times that of the approach.
+void ContactSolver::bounce(const Bundle& bundle, LaneMask lanes) {
+  Velocities u = velocities_of(bundle, motions_);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    ContactRows& c = rows_[i];
+    const LaneMask bounces = lanes & struck(c);
+    if (!any(bounces)) continue;
+    const Lanes before = c.normal_impulse, wanted = u.along_normal(c) + bundle.restitution * c.approach;
+    c.normal_impulse = bounces ? max(before - c.normal_mass * wanted, all_lanes(0)) : before;
+    u.push_along_normal(c.normal_impulse - before, c);
+  }
+  store(u, bundle, motions_);
+}
+
+void ContactSolver::restitute() {
+  struct Bounce {
+    const Bundle* bundle;
+    LaneMask lanes;
+  };
+  static thread_local std::vector<Bounce> blows;
+  blows.clear();
+  for (const Bundle& bundle : bundles_)
+    if (bundle.striking)
+      if (const LaneMask lanes = bouncing(bundle); any(lanes)) blows.push_back({&bundle, lanes});
+  for (int k = 0; k < bounce_sweeps; ++k)
+    for (const Bounce& b : blows) bounce(*b.bundle, b.lanes);
+  for (const Bounce& b : blows)  // a blow is over: it must not warm-start the next step
+    for (std::uint32_t i = b.bundle->first; i < b.bundle->last; ++i) {
+      ContactRows& c = rows_[i];
+      const LaneMask over = b.lanes & struck(c);
+      for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse})
+        *impulse = over ? all_lanes(0) : *impulse;
+    }
+}
+
+void ContactSolver::finish() {
+  for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& b = world_.bodies[bodies_[i]];
+    b.v = vector_of(motions_[i].v);
+    b.w = vector_of(motions_[i].w);
+    b.x += vector_of(motions_[i].moved);
+  }
+}
+
+/// Returns how many bodies nothing was near.
+std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
+  static thread_local Scratch scratch;
+  ContactSolver solver(world, blocks, block, scratch);
+  solver.prepare();
+  for (int k = 0; k < world.sub_steps(); ++k) {
+    solver.hold_by_friction(k >= world.slip_sub_steps());
+    solver.accelerate();
+    solver.warm_start();
+    for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
+    solver.move();
+    for (int i = 0; i < world.relaxing_sweeps(); ++i) solver.sweep(false, i == 0);
+  }
+  solver.restitute();
+  solver.finish();
+  return solver.falling();
+}
+
+}  // namespace
+
+void solve(World& world) {
+  static thread_local Blocks kept;  // for its memory alone
+  Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
+  blocks.make(world);
+  std::atomic<std::uint64_t> falling{0};
+  for_each_in_parallel(blocks.count(), 1, [&](std::size_t block) { falling += solve_block(world, blocks, block); });
+  world.counters.free_steps += falling;
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,104 @@
+#include "solver/sphere/world.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// Whether two bodies press on each other; walls and fixed bodies join nothing.
+bool joins(const World& world, const Manifold& m) {
+  if (m.b == ground || world.bodies[m.a].inverse_mass == 0 || world.bodies[m.b].inverse_mass == 0) return false;
+  return std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
+}
+
+/// Bodies joined by pressing contacts: union-find over manifolds.
+class Islands {
+ public:
+  explicit Islands(const World& world) : parent_(world.bodies.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    for (const Manifold& m : world.manifolds)
+      if (joins(world, m)) join(m.a, m.b);
+  }
+  std::uint32_t of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a);
+    b = of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<std::uint32_t> parent_;
+};
+
+void note_motion(const World& world, Body& b) {
+  const Shape& s = *world.shapes[b.shape];
+  const float limit = world.settings.rest_move * s.size;
+  const float turned = 2.0f * (b.still_q.conjugate() * b.q).vec().norm() * s.radius;
+  if ((b.x - b.still_x).norm() > limit || turned > limit) {
+    b.still = 0;
+    b.still_x = b.x;
+    b.still_q = b.q;
+  } else {
+    b.still += world.settings.time_step;
+  }
+}
+
+bool restless(const World& world, std::uint32_t body) {
+  return world.bodies[body].moves() && world.bodies[body].still < world.settings.rest_window;
+}
+
+/// Whom the restless keep awake: themselves and whoever is joined to them, directly if bodies sleep by part.
+std::vector<char> kept_awake(const World& world) {
+  const auto count = static_cast<std::uint32_t>(world.bodies.size());
+  std::vector<char> awake(count, 0);
+  if (world.sleeps_by_part()) {
+    for (std::uint32_t i = 0; i < count; ++i) awake[i] = restless(world, i);
+    for (const Manifold& m : world.manifolds)
+      if (joins(world, m) && (restless(world, m.a) || restless(world, m.b))) awake[m.a] = awake[m.b] = 1;
+    return awake;
+  }
+  Islands islands(world);
+  std::vector<char> of_island(count, 0);
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (restless(world, i)) of_island[islands.of(i)] = 1;
+  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.of(i)];
+  return awake;
+}
+
+}  // namespace
+
+/// An island sleeps when all its bodies stayed where they are for the rest window; a moving body that presses on a
+/// sleeping one wakes the whole island. Never a body alone: that would freeze unsupported parts. But for a probe, in
+/// which all have been awake, and stayed, before they sleep one by one; who is woken sleeps again if it stays.
+void update_sleep(World& world) {
+  for (Body& b : world.bodies)
+    if (b.moves()) note_motion(world, b);
+  const std::vector<char> awake = kept_awake(world);
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    Body& b = world.bodies[i];
+    if (!b.present || b.inverse_mass == 0) continue;
+    if (!awake[i] && !b.asleep) {
+      b.v.setZero();
+      b.w.setZero();
+    }
+    if (awake[i] && b.asleep && !world.sleeps_by_part()) b.still = 0;
+    b.asleep = !awake[i];
+  }
+}
+
+void wake(World& world, std::uint32_t body) {
+  Islands islands(world);
+  const std::uint32_t island = islands.of(body);
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+    if (islands.of(i) == island) {
+      world.bodies[i].asleep = false;
+      world.bodies[i].still = 0;
+    }
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,133 @@
+#include "solver/sphere/shapes/contact_samples.hpp"
+
+#include "part/part_bytes.hpp"
+#include "solver/sphere/shapes/missed_features.hpp"
+#include "solver/sphere/shapes/point_grid.hpp"
+#include "solver/sphere/shapes/sample_clusters.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// Cones of points on faces: as far around the normal as the normals of neighbours on the same face lean.
+std::vector<Cone> face_cones(const std::vector<SurfaceSample>& samples, double sharp_angle) {
+  std::vector<Vec3> points;
+  double spacing = 0;
+  for (const SurfaceSample& sample : samples) {
+    points.push_back(sample.point);
+    spacing += sample.spacing / static_cast<double>(samples.size());
+  }
+  const PointGrid grid(points, 2.0 * spacing);
+  const double least = std::cos(sharp_angle);
+  std::vector<Cone> cones;
+  for (const SurfaceSample& sample : samples) {
+    double most = 1;
+    grid.any_within(sample.point, 2.0 * sample.spacing, [&](std::size_t i) {
+      const double lean = samples[i].normal.dot(sample.normal);
+      if (lean > least) most = std::min(most, lean);
+      return false;
+    });
+    Cone cone;
+    cone.axis = sample.normal.cast<float>();
+    cone.spread = static_cast<float>(std::acos(std::min(1.0, most)));
+    cones.push_back(cone);
+  }
+  return cones;
+}
+
+}  // namespace
+
+Samples ball_samples(float radius) {
+  Samples samples;
+  samples.nodes = {Vec3f::Zero()};
+  samples.cones = {Cone{}};
+  samples.clusters = samples.groups = {{Vec3f::Zero(), 0}};
+  samples.first_edge = {0, 0};
+  samples.radius = samples.spacing = radius;
+  lay_out(samples);
+  return samples;
+}
+
+Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int count, double sharp_angle,
+                     double ridge) {
+  const Mesh& mesh = part.mesh();
+  // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
+  constexpr double most_missed = 5e-4, most_off = 2e-4;  // of d
+  constexpr double sharpest = 0.75;                      // rad: a chamfer of 45 degrees has edges in any case
+  const double most_length = edge_share * count * longest_edge_piece * part.diagonal();
+  SharpEdges sharp;
+  for (;; sharp_angle = std::min(1.3 * sharp_angle, sharpest)) {
+    const bool last = sharp_angle >= sharpest;
+    if (!last && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
+    sharp = straightened(mesh, sharp_edges(mesh, folds, sharp_angle), most_off * part.diagonal());
+    if (last || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
+  }
+  const double edge_length = sharp_length(mesh, folds, sharp_angle);
+  const double spacing = std::max(edge_length / (edge_share * count), 0.004 * part.diagonal());
+  Draft draft = edge_draft(mesh, sharp, spacing);
+  // Some of these fall on edges that have their nodes.
+  const int faces = 2 * std::max(count / 2, count - static_cast<int>(draft.nodes.size()));
+  // Face nodes, but for those that stand on a sharp edge already covered: half a piece away at most, also where it was
+  // straightened. Their normals are means of two faces.
+  const double half_piece = 0.5 * spacing + most_off * part.diagonal();
+  const PointGrid on_edges(draft.nodes, half_piece);
+  std::vector<SurfaceSample> on_faces;
+  for (const SurfaceSample& sample : part.samples({faces, sharp_angle}).samples)
+    if (!on_edges.any_within(sample.point, half_piece, [](std::size_t) { return true; })) on_faces.push_back(sample);
+  const std::vector<Cone> cones = face_cones(on_faces, sharp_angle);
+  for (std::size_t i = 0; i < on_faces.size(); ++i) draft.add(on_faces[i].point, cones[i]);
+  double face_spacing = 0;
+  for (const SurfaceSample& sample : on_faces) face_spacing += sample.spacing / static_cast<double>(on_faces.size());
+  const double reach = face_spacing > 0 ? face_spacing : spacing;
+  add_missed_vertices(mesh, reach, most_missed * part.diagonal(), draft);
+  add_missed_ridges(mesh, reach, spacing, ridge * part.diagonal(), draft);
+  Samples made = clustered(std::move(draft), part.mass().center, spacing);
+  made.face_spacing = static_cast<float>(face_spacing);
+  for (const Cone& cone : made.cones)
+    if (!cone.axis.isZero()) made.sag = std::max(made.sag, static_cast<float>(bulge(cone, face_spacing)));
+  return made;
+}
+
+namespace {
+
+/// Each list that clustered() makes but those of lay_out(), in one order for both directions.
+template <class AnySamples, class Each>
+void for_each_list(AnySamples& samples, Each&& each) {
+  each(samples.nodes);
+  each(samples.cones);
+  each(samples.edges);
+  each(samples.clusters);
+  each(samples.first_edge);
+  each(samples.groups);
+}
+
+template <class AnySamples, class Each>
+void for_each_number(AnySamples& samples, Each&& each) {
+  each(samples.spacing);
+  each(samples.face_spacing);
+  each(samples.sag);
+  each(samples.radius);
+}
+
+}  // namespace
+
+void put(ByteWriter& out, const Samples& samples) {
+  for_each_list(samples, [&](const auto& list) {
+    out.put(static_cast<std::uint64_t>(list.size()));
+    out.put_raw(list.data(), list.size() * sizeof list[0]);
+  });
+  for_each_number(samples, [&](float number) { out.put(number); });
+}
+
+void get(ByteReader& in, Samples& samples) {
+  for_each_list(samples, [&](auto& list) {
+    list.resize(in.count(sizeof list[0]));
+    in.get_raw(list.data(), list.size() * sizeof list[0]);
+  });
+  for_each_number(samples, [&](float& number) { in.get(number); });
+  if (in.ok()) lay_out(samples);
+}
+
+}  // namespace bin_scenes::sphere

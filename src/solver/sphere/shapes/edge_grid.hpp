@@ -1,0 +1,29 @@
+/// Which edges of a part lie near a point: lists by blocks of its distance field's cells.
+#pragma once
+
+#include "solver/sphere/shapes/field.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+struct Samples;
+
+struct EdgeGrid {
+  static constexpr int block = 4;       ///< cells of the field on a side
+  static constexpr float reach = 3.0f;  ///< cells: edges within it of a point are in the list of its block
+
+  int row = 0, slice = 0;            ///< blocks along x, and of a layer along x and y
+  std::vector<std::uint32_t> first;  ///< by block, x fastest: where its list begins; one more at the end
+  std::vector<std::uint32_t> edges;  ///< the lists, each in ascending order
+
+  /// The list at `point` (of the field's frame, anywhere), as two pointers. Empty without a grid.
+  std::pair<const std::uint32_t*, const std::uint32_t*> near(const Field& field, const Vec3f& point) const;
+};
+
+/// Empty for a ball.
+EdgeGrid make_edge_grid(const Samples& samples, const Field& field);
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,136 @@
+#include "solver/sphere/shapes/missed_features.hpp"
+
+#include "solver/sphere/shapes/point_grid.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace bin_scenes::sphere {
+
+double bulge(const Cone& cone, double face_spacing) {
+  return 0.25 * std::min(cone.spread, 0.6f) * face_spacing;
+}
+
+namespace {
+
+/// Normal cone of a vertex from all its neighbours; all directions if they are too many.
+Cone vertex_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& neighbours) {
+  Cone cone;
+  if (neighbours.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
+  for (const std::uint32_t other : neighbours)
+    cone.bound[cone.bounds++] = (mesh.vertices[other] - mesh.vertices[vertex]).normalized().cast<float>();
+  return cone;
+}
+
+/// Whether the nodes of a draft feel what touches the surface at a point between them: whether one near it is no lower
+/// than `most` (m), or slides there along its face.
+class Feeling {
+ public:
+  Feeling(const Draft& draft, double face_spacing, double most)
+      : draft_(draft), face_spacing_(face_spacing), most_(most), grid_(draft.nodes, face_spacing) {}
+
+  /// `out`: normal of the surface at the point.
+  bool feels(const Vec3& x, const Vec3& out) {
+    if (draft_.nodes.size() > in_grid_ + most_beside_) {
+      grid_ = PointGrid(draft_.nodes, face_spacing_);
+      in_grid_ = draft_.nodes.size();
+    }
+    const auto felt_by = [&](std::size_t i) {
+      constexpr double slid = 0.7;  // of the longest way of a node along its face: it may end early
+      const Vec3 way = x - draft_.nodes[i];
+      const Vec3f& axis = draft_.cones[i].axis;
+      const double height = way.dot(out);
+      return height <= most_ || (height <= bulge(draft_.cones[i], face_spacing_) && way.norm() < slid * face_spacing_ &&
+                                 axis.cast<double>().dot(out) > 0.5);
+    };
+    if (grid_.any_within(x, face_spacing_, felt_by)) return true;
+    for (std::size_t i = in_grid_; i < draft_.nodes.size(); ++i)
+      if ((x - draft_.nodes[i]).norm() < face_spacing_ && felt_by(i)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t most_beside_ =
+      256;  ///< nodes that are looked at one by one until the grid takes them in
+
+  const Draft& draft_;
+  double face_spacing_, most_;
+  PointGrid grid_;
+  std::size_t in_grid_ = draft_.nodes.size();
+};
+
+}  // namespace
+
+void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Draft& draft) {
+  std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertices.size());
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i];
+      if (draft.at_vertex[v] != Draft::none) continue;
+      neighbours[v].push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
+      normals[v] += mesh.area_vector(t).normalized();
+    }
+  Feeling nodes(draft, face_spacing, most);
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (draft.at_vertex[v] != Draft::none) continue;
+    const Vec3 &x = mesh.vertices[v], out = normals[v].normalized();
+    const auto below = [&](std::uint32_t other) { return out.dot(mesh.vertices[other] - x) <= 0; };
+    if (!std::all_of(neighbours[v].begin(), neighbours[v].end(), below)) continue;  // it cannot touch first
+    if (!nodes.feels(x, out)) draft.at_vertex[v] = draft.add(x, vertex_cone(mesh, v, neighbours[v]));
+  }
+}
+
+namespace {
+
+/// Directions across a line of a rounded edge, as far as the line stands for its neighbours; none along it.
+Cone ridge_cone(const Vec3& along, const Vec3& out) {
+  constexpr double to_each_side = 0.6;  // rad
+  const Vec3 across = along.cross(out);
+  const Vec3 left = std::cos(to_each_side) * across - std::sin(to_each_side) * out;
+  const Vec3 right = -std::cos(to_each_side) * across - std::sin(to_each_side) * out;
+  Cone cone;
+  for (const Vec3& bound : {left, right, along, Vec3(-along)}) cone.bound[cone.bounds++] = bound.cast<float>();
+  return cone;
+}
+
+}  // namespace
+
+void add_missed_ridges(const Mesh& mesh, double face_spacing, double spacing, double most, Draft& draft) {
+  struct Side {
+    std::uint32_t a, b, beyond;  ///< a < b; third corner of its triangle
+    std::size_t triangle;
+  };
+  std::vector<Side> sides;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
+      if ((mesh.vertices[b] - mesh.vertices[a]).norm() > 0.5 * face_spacing)
+        sides.push_back({a, b, mesh.triangles[t][(i + 2) % 3], t});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.a, s.b, s.triangle) < std::tie(t.a, t.b, t.triangle);
+  });
+  Feeling nodes(draft, face_spacing, most);
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side &one = sides[i], &other = sides[i + 1];
+    if (one.a != other.a || one.b != other.b) continue;
+    const Vec3 a = mesh.vertices[one.a], b = mesh.vertices[one.b], along = (b - a).normalized();
+    const Vec3 normal = mesh.area_vector(one.triangle).normalized();
+    const Vec3 beyond = mesh.vertices[other.beyond] - a;
+    constexpr double least_bend = 0.02;                                                            // rad
+    if (-normal.dot(beyond) < least_bend * (beyond - beyond.dot(along) * along).norm()) continue;  // flat, or concave
+    const Vec3 out = (normal + mesh.area_vector(other.triangle).normalized()).normalized();
+    const int pieces = static_cast<int>(std::ceil((b - a).norm() / (0.5 * face_spacing)));
+    bool missed = false;
+    for (int k = 1; k < pieces && !missed; ++k)
+      missed = !nodes.feels(a + (b - a) * (static_cast<double>(k) / pieces), out);
+    if (!missed) continue;
+    const Cone cone = ridge_cone(along, out);
+    for (const std::uint32_t v : {one.a, one.b})
+      if (draft.at_vertex[v] == Draft::none) draft.at_vertex[v] = draft.add(mesh.vertices[v], cone);
+    draft.add_edge(mesh, one.a, one.b, cone, false, spacing);
+  }
+}
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,140 @@
+#include "solver/sphere/shapes/shape.hpp"
+
+#include "part/part_cache.hpp"
+#include "solver/sphere/shapes/sharp_edges.hpp"
+
+#include <algorithm>
+#include <future>
+#include <iomanip>
+#include <sstream>
+
+namespace bin_scenes::sphere {
+
+namespace {
+
+/// Radius of the ball a tessellated ball stands for: all its vertices lie on it and no face cuts deep below; else 0.
+float ball_radius(const PartModel& part) {
+  const Mesh& mesh = part.mesh();
+  const Vec3& center = part.mass().center;
+  const double radius = part.radius();
+  for (const Vec3& v : mesh.vertices)
+    if ((v - center).norm() < 0.999 * radius) return 0;
+  for (const Triangle& t : mesh.triangles)
+    if (((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3 - center).norm() < 0.97 * radius)
+      return 0;
+  return static_cast<float>(radius);
+}
+
+constexpr double coarse_per_patch = 0.35;  ///< samples per square as wide as the part is thick, while pouring
+constexpr int most_samples = 6000;         ///< of a sheet as thin as paper: more would cost more than they find
+
+int at_least(int count, double wanted) {
+  return std::max(count, static_cast<int>(std::min<double>(wanted, most_samples)));
+}
+
+struct BothSamples {
+  Samples coarse, fine;
+};
+
+void put(ByteWriter& out, const BothSamples& both) {
+  put(out, both.coarse);
+  put(out, both.fine);
+}
+
+void get(ByteReader& in, BothSamples& both) {
+  get(in, both.coarse);
+  get(in, both.fine);
+}
+
+BothSamples make_both(const PartModel& part, int coarse, int fine) {
+  // Between samples farther apart than a thin part is thick, a part slips in unseen and is then caught inside.
+  const MassProperties& mass = part.mass();
+  const double thickness = 2.0 * mass.volume / mass.area;
+  const double patches = mass.area / (thickness * thickness);
+  constexpr double coarse_angle = 0.5, fine_angle = 0.15;
+  constexpr double coarse_ridge = 4e-3, fine_ridge = 1.5e-3;  // of d; less = a cylinder's facets are all ridges
+  const std::vector<Fold> folds = folds_of(part.mesh(), fine_angle);
+  // Edges as sharp as this are no curved face, however many there are: those of a thread, of teeth.
+  const double edge_nodes =
+      sharp_length(part.mesh(), folds, coarse_angle) / (longest_edge_piece * part.diagonal()) / edge_share;
+  const int coarse_count = at_least(coarse, coarse_per_patch * patches);
+  const int fine_count = at_least(fine, std::max(patches, edge_nodes));
+  BothSamples both;
+  std::future<Samples> fine_samples =
+      std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle, fine_ridge); });
+  both.coarse = make_samples(part, folds, coarse_count, coarse_angle, coarse_ridge);
+  both.fine = fine_samples.get();
+  return both;
+}
+
+constexpr double cells_through = 1.5;  ///< of the field, through the thinnest part: two nodes see its inside
+
+constexpr double thin = 50.0;  ///< thicknesses; a part longer than that meets others as one of that size would
+
+/// m. The margin of contacts of a needle 1:200, as a share of its diagonal, is nearly its thickness: contacts kept,
+/// pushed apart and reused over such lengths make it tremble. An open bin has no thickness.
+double size_at_contacts(const PartModel& part) {
+  const MassProperties& mass = part.mass();
+  const double thickness = 2.0 * mass.volume / mass.area;
+  return part.load_report().closed ? std::min(part.diagonal(), thin * thickness) : part.diagonal();
+}
+
+Flag coarsened_flag(const PartModel& part, double asked, const DistanceField& field) {
+  const auto text = [](double value) {
+    std::ostringstream out;
+    out << std::setprecision(3) << value;
+    return out.str();
+  };
+  const double got = field.cell / part.diagonal();
+  return {"field_coarsened",
+          "the distance field of " + part.path() + " has cells of " + text(got) + " of its diagonal instead of " +
+              text(asked) + ", which would take more than " + std::to_string(FieldOptions().max_nodes) + " nodes",
+          "set solver.sphere.field_cell to " + text(1.005 * got) + " or more, or live with the coarser field"};
+}
+
+}  // namespace
+
+Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell) {
+  Shape shape;
+  const MassProperties& mass = part.mass();
+  shape.center = mass.center.cast<float>();
+  shape.radius = static_cast<float>(part.radius());
+  shape.thickness = static_cast<float>(2.0 * mass.volume / mass.area);
+  shape.size = static_cast<float>(size_at_contacts(part));
+  shape.volume = static_cast<float>(mass.volume);
+  shape.unit_inertia = (mass.inertia / mass.volume).cast<float>();
+  const Aabb box = part.mesh().bounds();
+  shape.box_center = (box.center() - mass.center).cast<float>();
+  shape.box_half = (0.5 * box.size()).cast<float>();
+
+  shape.field.ball = ball_radius(part);
+  if (shape.field.ball > 0) {
+    shape.coarse = shape.fine = ball_samples(shape.field.ball);
+    return shape;
+  }
+  // A sheet thinner than a cell has no inside: others would pass through it.
+  if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
+  std::future<const DistanceField&> made_field =
+      std::async(std::launch::async, [&]() -> const DistanceField& { return part.field({field_cell}); });
+  const std::string key = part.mesh_key() + " " + std::to_string(samples_format) + " " + std::to_string(coarse) + " " +
+                          std::to_string(fine);
+  BothSamples samples = cached<BothSamples>("nodes", key, [&] { return make_both(part, coarse, fine); });
+  shape.coarse = std::move(samples.coarse);
+  shape.fine = std::move(samples.fine);
+
+  const DistanceField& field = made_field.get();
+  shape.field.origin = (field.origin - mass.center).cast<float>();
+  shape.field.cell = static_cast<float>(field.cell);
+  shape.field.inverse_cell = 1.0f / shape.field.cell;
+  shape.field.nx = field.nodes[0];
+  shape.field.ny = field.nodes[1];
+  shape.field.nz = field.nodes[2];
+  shape.field.values = field.values.data();
+  if (field.coarsened) shape.flags.push_back(coarsened_flag(part, field_cell, field));
+  const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
+  shape.field.padding = static_cast<float>(pad.minCoeff());
+  for (Samples* s : {&shape.coarse, &shape.fine}) s->edge_grid = make_edge_grid(*s, shape.field);
+  return shape;
+}
+
+}  // namespace bin_scenes::sphere

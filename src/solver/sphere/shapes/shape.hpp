@@ -1,0 +1,27 @@
+/// The collision shape of a part for the default sphere solver: contact samples to be tested against other parts'
+/// distance fields, and its own distance field. All in the body frame: origin at the centre of mass, model axes.
+#pragma once
+
+#include "solver/sphere/shapes/contact_samples.hpp"
+#include "solver/sphere/shapes/field.hpp"
+
+namespace bin_scenes::sphere {
+
+struct Shape {
+  Samples coarse, fine;
+  Field field;
+  Vec3f center = Vec3f::Zero();      ///< centre of mass in the model frame
+  Vec3f box_center = Vec3f::Zero();  ///< of the bounding box, body frame
+  Vec3f box_half = Vec3f::Zero();
+  float radius = 0;     ///< largest node distance from the centre of mass
+  float size = 0;       ///< m that lengths at contacts follow from: the diagonal, at most 50 thicknesses
+  float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
+  float volume = 0;
+  Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
+  std::vector<Flag> flags;                 ///< what the user should know of it
+};
+
+/// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at.
+Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell);
+
+}  // namespace bin_scenes::sphere

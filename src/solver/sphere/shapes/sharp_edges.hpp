@@ -1,0 +1,46 @@
+/// The sharp convex edges of a mesh, with the directions in which they can be pressed.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "solver/sphere/passes/cone.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes::sphere {
+
+/// An edge of the mesh and how its faces meet there.
+struct Fold {
+  std::uint32_t a, b;                ///< a < b
+  std::array<std::size_t, 2> faces;  ///< where there are two of them, as in a closed mesh
+  bool closed;
+  double cosine;  ///< of the angle between the normals; -1 where there are not two
+  bool convex;
+};
+
+/// All edges over which the surface bends by more than `angle` (rad), in order of (a, b).
+std::vector<Fold> folds_of(const Mesh& mesh, double angle);
+
+/// A sharp convex edge between two vertices of the mesh.
+struct SharpEdge {
+  std::uint32_t a, b;  ///< a < b
+  Cone cone;
+};
+
+struct SharpEdges {
+  std::vector<SharpEdge> convex;  ///< in order of (a, b)
+  std::vector<bool> saddles;      ///< by vertex: whether a concave edge ends there, too
+};
+
+/// The folds by more than `angle` (rad). Concave edges cannot touch first.
+SharpEdges sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle);
+
+/// Length of all that are convex, m.
+double sharp_length(const Mesh& mesh, const std::vector<Fold>& folds, double angle);
+
+/// One edge in place of each run of them that it leaves by at most `most_off` (m): a smooth outline is often cut into
+/// thousands of edges, of which each would get nodes of its own.
+SharpEdges straightened(const Mesh& mesh, SharpEdges sharp, double most_off);
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,418 @@
+#include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
+#include "config/config_fixture.hpp"
+#include "config/reference.hpp"
+#include "config/suggest.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+
+namespace bin_scenes {
+namespace {
+
+/// Every key of the table with a value that is not its default, except those that exclude each other.
+const char* const everything = R"(
+seed: 18446744073709551615
+scenes: 3
+first: 12
+bin:
+  inner_size: [0.6, 0.5, 0.25]
+  wall_thickness: 0.004
+  friction: 0.4
+  restitution: 0.2
+gravity: [0.1, 0, -9.80665]
+parts:
+  - model: bolt.stl
+    unit: mm
+    scale: 1.5
+    count: 2
+    density: 7850
+    friction: 0.3
+    restitution: 0.05
+    thickness: 0.001
+    poses:
+      - [0.1, 0.2, 0.3, 0, 0, 0, 1]
+      - {position: [0, 0, 0.1], orientation_xyzw: [0.6, 0, 0, 0.8]}
+    velocities: [[1, 2, 3, 4, 5, 6], [0.1, 0, 0, 0, 0, 0]]
+  - model: nut.stl
+    count: 1
+    mass: 0.02
+    poses: [[0, 0, 0.5]]
+    fixed: true
+pour:
+  pattern: given
+  drop_height: 0.03
+  grid_spacing: 1.25
+  limit: 12
+  rest_window: 0.5
+  rest_move: 0.002
+  rest_turn: 0.02
+solver:
+  type: bullet
+  preset: thesis
+  bullet: {time_step: 0.005, iterations: 30, margin: 0.01, sleeping: false, hull_error: 0.02, max_hulls: 16,
+           hull_volume_error: 0.2}
+  thesis: {time_step: 0.02, sub_steps: 2, iterations: 5, bias: 0.3, slop: 0.02, rest_velocity: 0.1, voxels: 12,
+           tightness: 0.75, radii: [0.1, 0.04], modified_normals: false, grid_size: 64, cell_size: 2, contacts_per_sphere: 8}
+  sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
+sensors:
+  - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
+  - {name: right, k: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
+accept: {penetration: 0.03, gap: 0.04, escaped: true}
+seconds: 1.5
+drift_check: true
+memory_budget: 1e9
+)";
+
+TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
+  const Request r = read(everything);
+  EXPECT_EQ(r.seed, 18446744073709551615u);
+  EXPECT_EQ(r.scenes, 3u);
+  EXPECT_EQ(r.first, 12u);
+  EXPECT_EQ(r.bin.kind, Bin::Kind::box);
+  EXPECT_EQ(r.bin.inner_size, Vec3(0.6, 0.5, 0.25));
+  EXPECT_EQ(r.bin.wall_thickness, 0.004);
+  EXPECT_EQ(r.bin.friction, 0.4);
+  EXPECT_EQ(r.bin.restitution, 0.2);
+  EXPECT_EQ(r.gravity, Vec3(0.1, 0, -9.80665));
+  ASSERT_EQ(r.parts.size(), 2u);
+  const PartLine& p = r.parts[0];
+  EXPECT_EQ(p.model, "bolt.stl");
+  EXPECT_EQ(p.path, (dir / "bolt.stl").string());
+  EXPECT_EQ(p.unit, Unit::millimetre);
+  EXPECT_EQ(p.scale, 1.5);
+  EXPECT_EQ(p.count, 2u);
+  EXPECT_EQ(p.density, 7850.0);
+  EXPECT_FALSE(p.mass);
+  EXPECT_EQ(p.friction, 0.3);
+  EXPECT_EQ(p.restitution, 0.05);
+  EXPECT_EQ(p.thickness, 0.001);
+  ASSERT_EQ(p.poses.size(), 2u);
+  EXPECT_EQ(p.poses[0].position, Vec3(0.1, 0.2, 0.3));
+  EXPECT_NEAR(p.poses[1].orientation.x(), 0.6, 1e-15);
+  EXPECT_EQ(p.velocities[0].angular, Vec3(4, 5, 6));
+  EXPECT_FALSE(p.fixed);
+  EXPECT_FALSE(r.parts[1].unit);
+  EXPECT_EQ(r.parts[1].mass, 0.02);
+  EXPECT_TRUE(r.parts[1].fixed);
+  EXPECT_EQ(r.pour.pattern, Pour::Pattern::given);
+  EXPECT_EQ(r.pour.drop_height, 0.03);
+  EXPECT_EQ(r.pour.grid_spacing, 1.25);
+  EXPECT_EQ(r.pour.limit, 12.0);
+  EXPECT_EQ(r.pour.rest_window, 0.5);
+  EXPECT_EQ(r.pour.rest_move, 0.002);
+  EXPECT_EQ(r.pour.rest_turn, 0.02);
+  EXPECT_EQ(r.solver.type, SolverType::bullet);
+  EXPECT_EQ(r.solver.preset, SolverSettings::Preset::thesis);
+  EXPECT_EQ(r.solver.bullet.time_step, 0.005);
+  EXPECT_EQ(r.solver.bullet.iterations, 30);
+  EXPECT_EQ(r.solver.bullet.margin, 0.01);
+  EXPECT_FALSE(r.solver.bullet.sleeping);
+  EXPECT_EQ(r.solver.bullet.hull_error, 0.02);
+  EXPECT_EQ(r.solver.bullet.hull_volume_error, 0.2);
+  EXPECT_EQ(r.solver.bullet.max_hulls, 16);
+  EXPECT_EQ(r.solver.sphere.device, SphereSettings::Device::cpu);
+  EXPECT_EQ(r.solver.thesis.time_step, 0.02);
+  EXPECT_EQ(r.solver.thesis.sub_steps, 2);
+  EXPECT_EQ(r.solver.thesis.iterations, 5);
+  EXPECT_EQ(r.solver.thesis.bias, 0.3);
+  EXPECT_EQ(r.solver.thesis.slop, 0.02);
+  EXPECT_EQ(r.solver.thesis.rest_velocity, 0.1);
+  EXPECT_EQ(r.solver.thesis.voxels, 12);
+  EXPECT_EQ(r.solver.thesis.tightness, 0.75);
+  EXPECT_FALSE(r.solver.thesis.modified_normals);
+  EXPECT_EQ(r.solver.thesis.grid_size, 64);
+  EXPECT_EQ(r.solver.thesis.cell_size, 2.0);
+  EXPECT_EQ(r.solver.thesis.contacts_per_sphere, 8);
+  EXPECT_EQ(r.solver.sphere.time_step, 0.002);
+  EXPECT_EQ(r.solver.sphere.sub_steps, 8);
+  EXPECT_EQ(r.solver.sphere.coarse_samples, 64);
+  EXPECT_EQ(r.solver.sphere.fine_samples, 500);
+  EXPECT_EQ(r.solver.sphere.field_cell, 0.02);
+  ASSERT_EQ(r.sensors.size(), 2u);
+  EXPECT_EQ(r.sensors[0].name, "left");
+  EXPECT_EQ(r.sensors[0].width, 320);
+  EXPECT_EQ(r.sensors[0].height, 240);
+  EXPECT_EQ(r.sensors[0].fov, 0.9);
+  EXPECT_EQ(r.sensors[0].pose->orientation.x(), 1.0);
+  EXPECT_EQ(r.sensors[0].near, 0.1);
+  EXPECT_EQ(r.sensors[0].far, 5.0);
+  EXPECT_FALSE(r.sensors[1].pose);
+  EXPECT_EQ(r.sensors[1].k[4], 500.0);
+  EXPECT_EQ(r.accept.penetration, 0.03);
+  EXPECT_EQ(r.accept.gap, 0.04);
+  EXPECT_TRUE(r.accept.escaped);
+  EXPECT_EQ(r.seconds, 1.5);
+  EXPECT_TRUE(r.drift_check);
+  EXPECT_EQ(r.memory_budget, 1e9);
+}
+
+TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
+  const Request all = read(everything);
+  const std::string written = write_request(all);
+  for (const config::Entry& entry : config::reference()) {
+    const std::string name = entry.path.substr(entry.path.find_last_of('.') + 1);
+    const bool excluded = entry.path == "bin.mesh" || entry.path == "bin.unit" || entry.path == "bin.pose" ||
+                          entry.path == "bin.floor" || entry.path == "bin.none" || entry.path == "pour.scene";
+    EXPECT_TRUE(excluded || written.find(name + ":") != std::string::npos) << entry.path;
+  }
+}
+
+TEST_F(ConfigTest, WhatIsWrittenReadsBackTheSame) {
+  const Request once = read(everything);
+  const std::string written = write_request(once);
+  const Request twice = read(written);
+  EXPECT_EQ(write_request(twice), written);
+  EXPECT_EQ(twice.text_sha256, once.text_sha256);
+  EXPECT_EQ(twice.parts[0].poses[1].orientation.coeffs(), once.parts[0].poses[1].orientation.coeffs());
+}
+
+TEST_F(ConfigTest, BinsOfEveryKindReadBackTheSame) {
+  put("crate.stl", "solid crate");
+  const struct {
+    const char* yaml;
+    Bin::Kind kind;
+  } bins[] = {{"bin: {mesh: crate.stl, unit: mm, pose: [0, 0, 0.1, 0, 0, 1, 0]}\n", Bin::Kind::mesh},
+              {"bin: {floor: true, friction: 0.9}\n", Bin::Kind::floor},
+              {"bin: {none: true}\n", Bin::Kind::none},
+              {"bin: {friction: 0.2}\n", Bin::Kind::box}};
+  for (const auto& [yaml, kind] : bins) {
+    const Request once = read(yaml + bolts);
+    EXPECT_EQ(once.bin.kind, kind) << yaml;
+    const Request twice = read(write_request(once));
+    EXPECT_EQ(twice.bin.kind, kind) << yaml;
+    EXPECT_EQ(twice.text_sha256, once.text_sha256) << yaml;
+  }
+}
+
+TEST_F(ConfigTest, DefaultsAreThoseOfTheStructs) {
+  const Request r = read(bolts);
+  Request defaults;
+  defaults.parts.emplace_back();
+  defaults.parts[0].model = "bolt.stl";
+  EXPECT_EQ(write_request(r), write_request(defaults));
+}
+
+TEST_F(ConfigTest, SetOverridesAnyKeyByItsPath) {
+  const Request r = read(bolts, {"solver.type=bullet", "parts[0].count=7", "parts.0.friction=0.25", "seed=0",
+                                 "bin.inner_size=[1, 2, 3]", "solver.bullet.iterations=99", "sensors=[{name: top}]"});
+  EXPECT_EQ(r.solver.type, SolverType::bullet);
+  EXPECT_EQ(r.parts[0].count, 7u);
+  EXPECT_EQ(r.parts[0].friction, 0.25);
+  EXPECT_EQ(r.bin.inner_size, Vec3(1, 2, 3));
+  EXPECT_EQ(r.solver.bullet.iterations, 99);
+  EXPECT_EQ(r.sensors.at(0).name, "top");
+  EXPECT_EQ(read_request_text("{}", dir.string(), {"parts=[{model: nut.stl}]"}).parts[0].model, "nut.stl");
+}
+
+TEST_F(ConfigTest, UnknownKeysSuggestTheNearestKnownOne) {
+  expect_refused("sede: 1\n" + bolts, {"request.yaml:1", "'sede'", "did you mean 'seed'"});
+  expect_refused(bolts + "    cuont: 5\n", {"request.yaml:3", "'parts[0].cuont'", "did you mean 'count'"});
+  expect_refused(bolts + "solver: {iterations: 5}\n", {"'solver.iterations'", "'solver.bullet.iterations'"});
+  expect_refused(bolts + "time_step: 0.1\n", {"'solver.bullet.time_step'"});
+  expect_refused(bolts + "zzzzzzzzzz: 1\n", {"unknown key 'zzzzzzzzzz'", "known here: seed"});
+  expect_refused(bolts, {"--set solver.typ", "did you mean 'type'"}, {"solver.typ=bullet"});
+  expect_refused(bolts, {"--set parts[0].cuont", "'count'"}, {"parts.0.cuont=5"});
+}
+
+TEST_F(ConfigTest, WrongTypesSayWhatWasExpectedAndWhatWasFound) {
+  expect_refused(bolts + "    count: many\n", {"request.yaml:3", "'parts[0].count'", "whole number", "'many'"});
+  expect_refused(bolts + "    count: -5\n", {"whole number, 0 or more", "'-5'"});
+  expect_refused(bolts + "    count: 2.5\n", {"whole number", "'2.5'"});
+  expect_refused(bolts + "    count: 99999999999999999999999\n", {"whole number"});
+  expect_refused(bolts + "    friction: .nan\n", {"number", "'.nan'"});
+  expect_refused(bolts + "    friction: [1]\n", {"expected number", "found [1]"});
+  expect_refused(bolts + "    fixed: yes\n", {"true or false", "'yes'"});
+  expect_refused(bolts + "    unit: meter\n", {"m | cm | mm | inch", "'meter'"});
+  expect_refused(bolts + "gravity: [0, 0]\n", {"request.yaml:3", "[x, y, z]", "found [0, 0]"});
+  expect_refused(bolts + "gravity: -9.81\n", {"[x, y, z]", "'-9.81'"});
+  expect_refused(bolts + "solver: bullet\n", {"'solver'", "a map of keys", "'bullet'"});
+  expect_refused(bolts + "sensors: {name: a}\n", {"'sensors'", "a list"});
+  expect_refused("parts: bolt.stl\n", {"'parts'", "a list"});
+  expect_refused(bolts + "sensors:\n  - pose: [0, 0, 1, 0, 0, 0, 0.1]\n", {"quaternion", "length 1"});
+  expect_refused(bolts + "sensors:\n  - pose: {position: [0, 0, 1], rotation: [0, 0, 0, 1]}\n", {"orientation_xyzw"});
+  expect_refused(bolts + "seed:\n", {"'seed'", "found nothing"});
+  expect_refused(bolts, {"--set seed", "'x'"}, {"seed=x"});
+}
+
+TEST_F(ConfigTest, WhatIsNoRequestIsSaidSo) {
+  expect_refused("", {"empty"});
+  expect_refused("- 1\n- 2\n", {"no map"});
+  expect_refused("just words\n", {"no map"});
+  expect_refused("a: [1, 2\nb: 3\n", {"request.yaml:", "not YAML"});
+  expect_refused(bolts + "---\n" + bolts, {"2 requests"});
+  expect_refused("seed: 1\nseed: 2\n" + bolts, {"request.yaml:2", "'seed' is given twice"});
+  expect_refused("seed: 1\n", {"'parts'", "missing or empty"});
+  expect_refused("parts:\n  - count: 3\n", {"request.yaml:2", "'parts[0].model' is missing"});
+  EXPECT_THROW(read_request((dir / "nowhere.yaml").string()), Error);
+  EXPECT_THROW(read_request(dir.string()), Error);
+}
+
+TEST_F(ConfigTest, MalformedSetsAreRefused) {
+  expect_refused(bolts, {"key=value"}, {"seed"});
+  expect_refused(bolts, {"key=value"}, {"=5"});
+  expect_refused(bolts, {"no item of a list of 1"}, {"parts[3].count=5"});
+  expect_refused("seed: 1\n" + bolts, {"'seed' is a value"}, {"seed.deep=5"});
+  expect_refused(bolts, {"not YAML"}, {"bin.inner_size=[1, 2"});
+}
+
+TEST_F(ConfigTest, KindsOfBinExcludeEachOther) {
+  expect_refused("bin: {inner_size: [1, 1, 1], floor: true}\n" + bolts, {"'bin.inner_size' and 'bin.floor'"});
+  expect_refused("bin: {floor: true, wall_thickness: 0.1}\n" + bolts, {"'bin.wall_thickness'", "no meaning"});
+  expect_refused("bin: {unit: mm}\n" + bolts, {"'bin.unit'", "bin.mesh"});
+}
+
+TEST_F(ConfigTest, ModelsAreFoundByRelativeAbsoluteAndPackagePaths) {
+  put("space/deep/my_parts/package.xml", "<package><name>my_parts</name></package>");
+  put("space/deep/my_parts/meshes/ring.stl", "solid ring");
+  ::setenv("ROS_PACKAGE_PATH", ("/nonexistent:" + (dir / "space").string()).c_str(), 1);
+  EXPECT_EQ(read("parts: [{model: package://my_parts/meshes/ring.stl}]").parts[0].path,
+            (dir / "space/deep/my_parts/meshes/ring.stl").string());
+  EXPECT_EQ(read("parts: [{model: " + (dir / "nut.stl").string() + "}]").parts[0].path, (dir / "nut.stl").string());
+  PathRules rules;
+  rules.packages = {{"mine", dir.string()}};
+  EXPECT_EQ(read("parts: [{model: package://mine/nut.stl}]", {}, rules).parts[0].path, (dir / "nut.stl").string());
+  expect_refused("parts: [{model: package://absent/ring.stl}]", {"no package 'absent'", "ROS_PACKAGE_PATH"});
+  expect_refused("parts: [{model: package://my_parts}]", {"names no file"});
+  ::unsetenv("ROS_PACKAGE_PATH");
+}
+
+TEST_F(ConfigTest, MissingModelsAreNamedWithALikelyFile) {
+  expect_refused("parts:\n  - model: blot.stl\n", {"request.yaml:2", "blot.stl", "did you mean 'bolt.stl'"});
+  expect_refused("parts: [{model: .}]", {"not a file"});
+  expect_refused("bin: {mesh: crate.stl}\n" + bolts, {"request.yaml:1", "crate.stl"});
+}
+
+TEST_F(ConfigTest, ModelsOutsideTheRootsAreRefusedThroughLinksToo) {
+  put("inside/part.stl", "solid");
+  put("inside-not/part.stl", "solid");
+  std::filesystem::create_symlink(dir / "nut.stl", dir / "inside/link.stl");
+  PathRules rules;
+  rules.roots = {(dir / "inside").string() + "/"};
+  EXPECT_NO_THROW(read("parts: [{model: inside/part.stl}]", {}, rules));
+  for (const char* model : {"nut.stl", "inside/../nut.stl", "inside/link.stl", "inside-not/part.stl", "absent.stl"}) {
+    const std::string message = refusal("parts: [{model: " + std::string(model) + "}]", {}, rules);
+    EXPECT_NE(message.find("outside the allowed"), std::string::npos) << message;
+  }
+}
+
+TEST_F(ConfigTest, GoesOnFromAnEarlierScene) {
+  const auto part = [](int id, const char* model, int line, const char* state, double z) {
+    return std::string(R"({"id": )") + std::to_string(id) + R"(, "line": )" + std::to_string(line) + R"(, "model": ")" +
+           model + R"(", "pose": {"position": [0, 0, )" + std::to_string(z) +
+           R"(], "orientation_xyzw": [0, 0, 0, 1]}, "state": ")" + state + R"("})";
+  };
+  put("scene.json", R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [)" +
+                        part(0, "bolt.stl", 0, "resting", 0.01) + "," + part(1, "bolt.stl", 0, "escaped", -1) + "," +
+                        part(2, "nut.stl", 1, "moving", 0.03) + "]}");
+  const std::string given = "pour: {pattern: given, scene: scene.json}\n";
+  const Request r = read(given + "parts: [{model: bolt.stl}, {model: nut.stl}]");
+  ASSERT_EQ(r.parts[0].poses.size(), 1u);
+  EXPECT_EQ(r.parts[0].count, 1u);
+  EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.01);
+  EXPECT_EQ(r.parts[1].poses[0].position.z(), 0.03);
+  EXPECT_EQ(read(write_request(r)).text_sha256, r.text_sha256) << "written back, it stands on its own";
+  expect_refused(given + "parts: [{model: bolt.stl, count: 2}, {model: nut.stl}]", {"is 2", "has 1"});
+  expect_refused(given + "parts: [{model: nut.stl}, {model: bolt.stl}]", {"'bolt.stl' of part line 0"});
+  expect_refused("pour: {scene: scene.json}\n" + bolts, {"pattern: given"});
+  put("scene.json", "{}");
+  expect_refused(given + bolts, {"scene.json", "format"});
+}
+
+TEST_F(ConfigTest, APartOfAnEarlierSceneIsKnownByItsBytesWhereverItLies) {
+  Scene scene;
+  scene.model_sha256 = {sha256_hex("solid bolt")};
+  scene.parts.emplace_back();
+  scene.parts[0].model = "bolt.stl";
+  scene.parts[0].state = PartState::resting;
+  Request made;
+  made.parts.emplace_back();
+  made.parts[0].model = "bolt.stl";
+  put("scene.json", scene_json(scene, made));
+  const std::string given = "pour: {pattern: given, scene: " + (dir / "scene.json").string() + "}\n";
+  put("deeper/twin.stl", "solid bolt");
+  EXPECT_EQ(read(given + "parts: [{model: deeper/twin.stl}]").parts[0].poses.size(), 1u);
+  std::ofstream(dir / "deeper/request.yaml") << given << "parts: [{model: ../bolt.stl}]";
+  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
+  put("bolt.stl", "solid other");
+  expect_refused(given + "parts: [{model: bolt.stl}]", {"'bolt.stl' of part line 0"});
+
+  // A scene of somebody else tells no bytes: its names have to do.
+  scene.model_sha256.clear();
+  put("scene.json", scene_json(scene, made));
+  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
+}
+
+TEST_F(ConfigTest, PartsThatWereNeverPouredHaveNothingToGoOnFrom) {
+  Scene scene;
+  for (int id = 0; id < 2; ++id) {
+    scene.parts.emplace_back();
+    scene.parts[id].id = id;
+    scene.parts[id].model = "bolt.stl";
+    scene.parts[id].state = id == 0 ? PartState::not_poured : PartState::resting;
+  }
+  scene.parts[0].pose = Pose::none();
+  scene.parts[1].pose.position.z() = 0.5;
+  put("scene.json", scene_json(scene, {}));
+  const Request r = read("pour: {pattern: given, scene: scene.json}\nparts: [{model: bolt.stl}]");
+  ASSERT_EQ(r.parts[0].poses.size(), 1u);
+  EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.5);
+}
+
+TEST_F(ConfigTest, MessagesNameWhatTheUserWrote) {
+  expect_refused(bolts, {"--seconds", "above 0", "-1"}, {{"seconds=-1", "--seconds"}});
+  expect_refused(bolts, {"--seed", "whole number", "1.5"}, {{"seed=1.5", "--seed"}});
+  expect_refused(bolts, {"--scenes", "at least 1"}, {{"scenes=0", "--scenes"}});
+  expect_refused(bolts, {"--set seconds"}, {"seconds=-1"});
+  for (const Override& item : {Override("seconds=-1", "--seconds"), Override("parts=[{model: 5}]", "the message")})
+    EXPECT_EQ(refusal(bolts, {item}).find("--set"), std::string::npos);
+}
+
+TEST_F(ConfigTest, ABadItemOfAListIsNamed) {
+  expect_refused("parts: [{model: bolt.stl, count: 2, poses: [[0, 0, 1], [0, 0, 2, 0, 0, 0, 0]]}]\n",
+                 {"'parts[0].poses[1]'", "length 1", "[0, 0, 2, 0, 0, 0, 0]"});
+  expect_refused("parts: [{model: bolt.stl, poses: [[0, 0, 1]], velocities: [[1, 2]]}]\n",
+                 {"'parts[0].velocities[0]'", "[1, 2]"});
+}
+
+TEST_F(ConfigTest, ModelsAreNotTakenForDirectories) {
+  std::filesystem::create_directories(dir / "out");
+  std::filesystem::create_directories(dir / "bolt.st");
+  const std::string number = refusal("parts: [{model: 5}]\n");
+  EXPECT_EQ(number.find("did you mean"), std::string::npos) << number;
+  expect_refused("parts: [{model: bolt.sl}]\n", {"did you mean 'bolt.stl'"});
+}
+
+TEST_F(ConfigTest, RadiiOfSpheresFall) {
+  const auto radii = [](const std::string& list) { return Override("solver.thesis.radii=" + list); };
+  EXPECT_EQ(read(bolts, {radii("[0.1, 0.04]")}).solver.thesis.radii, (std::vector<double>{0.1, 0.04}));
+  expect_refused(bolts, {"radii[1]", "largest first"}, {radii("[0.04, 0.1]")});
+  expect_refused(bolts, {"radii[0]", "at most 0.5"}, {radii("[0.6]")});
+  expect_refused(bolts, {"radii[0]", "at least"}, {radii("[0]")});
+}
+
+TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
+  const std::string hash = read(bolts).text_sha256;
+  EXPECT_EQ(hash.size(), 64u);
+  EXPECT_EQ(read("scenes: 100\nfirst: 5\n" + bolts).text_sha256, hash);
+  EXPECT_EQ(read("# a remark\n" + bolts + "pour: {pattern: rain}\n").text_sha256, hash);
+  EXPECT_NE(read("seed: 1\n" + bolts).text_sha256, hash);
+  EXPECT_NE(read(bolts, {"solver.type=bullet"}).text_sha256, hash);
+  EXPECT_NE(read(bolts, {"solver.thesis.radii=[0.1]"}).text_sha256, hash);
+  put("bolt.stl", "solid other");
+  EXPECT_NE(read(bolts).text_sha256, hash) << "the model itself has changed";
+}
+
+TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/request.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  char holes[64];
+  std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
+  EXPECT_NE(text.find(holes), std::string::npos);
+  EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/request.md";
+}
+
+}  // namespace
+}  // namespace bin_scenes

@@ -1,0 +1,524 @@
+#include "bin_scenes/pour/pour.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/solver/bullet_solver.hpp"
+#include "bin_scenes/pour/rest_watch.hpp"
+#include "bin_scenes/pour/spawn.hpp"
+#include "solver/fixture.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+namespace bin_scenes::testing {
+
+namespace {
+
+PartModelPtr small_box() {
+  static const PartModelPtr part = PartModel::from_mesh(box_mesh({0.05, 0.03, 0.02}), "box");
+  return part;
+}
+
+Request request_of(std::size_t count) {
+  Request request;
+  request.seed = 0;
+  request.bin.inner_size = Vec3(0.2, 0.15, 0.12);
+  PartLine line;
+  line.model = "box";
+  line.count = count;
+  request.parts.push_back(line);
+  return request;
+}
+
+std::vector<Scene> poured(const Request& request, const std::vector<std::size_t>& indices, const RunHooks& hooks = {}) {
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const std::vector<PartModelPtr> parts(request.parts.size(), small_box());
+  return pour(request, parts, *solver, indices, hooks);
+}
+
+}  // namespace
+
+TEST(Pour, PartsComeToRestInsideTheBin) {
+  const Scene scene = poured(request_of(12), {0})[0];
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+  EXPECT_TRUE(scene.report.not_poured.empty());
+  for (const ScenePart& part : scene.parts) {
+    EXPECT_EQ(part.state, PartState::resting);
+    for (const Vec3& v : small_box()->mesh().vertices) {
+      const Vec3 x = part.pose * v;
+      EXPECT_GT(x.z(), -2e-4);
+      EXPECT_LT(std::abs(x.x()), 0.1 + 2e-4);
+      EXPECT_LT(std::abs(x.y()), 0.075 + 2e-4);
+    }
+  }
+}
+
+TEST(Pour, RestMeansRest) {
+  Request request = request_of(10);
+  const Scene scene = poured(request, {3})[0];
+  ASSERT_TRUE(scene.report.at_rest);
+  Request again = request;
+  again.pour.pattern = Pour::Pattern::given;
+  again.seconds = 0.5;
+  again.parts[0].poses.clear();
+  for (const ScenePart& part : scene.parts) again.parts[0].poses.push_back(part.pose);
+  const Scene later = poured(again, {3})[0];
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const Vec3 center = small_box()->mass().center;
+    const double way = (later.parts[i].pose * center - scene.parts[i].pose * center).norm();
+    EXPECT_LT(way, 0.01 * small_box()->diagonal()) << i;
+  }
+}
+
+TEST(Pour, SceneDependsOnSeedAndIndexAlone) {
+  const Request request = request_of(8);
+  const std::vector<Scene> batch = poured(request, {0, 1, 2});
+  const Scene alone = poured(request, {1})[0];
+  EXPECT_EQ(batch[1].report.state_hash, alone.report.state_hash);
+  EXPECT_EQ(batch[1].report.steps, alone.report.steps);
+  EXPECT_NE(batch[0].report.state_hash, batch[1].report.state_hash);
+  Request other = request;
+  other.seed = 1;
+  EXPECT_NE(poured(other, {1})[0].report.state_hash, alone.report.state_hash);
+}
+
+TEST(Pour, ThreadsChangeNothing) {
+  const Request request = request_of(60);
+  const auto hash_with = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return tbb::task_arena(threads).execute([&] { return poured(request, {0})[0].report.state_hash; });
+  };
+  EXPECT_EQ(hash_with(1), hash_with(4));
+}
+
+TEST(Pour, TracingChangesNothingButTells) {
+  Request request = request_of(3);
+  request.seconds = 0.2;
+  std::vector<BodyState> last;
+  RunHooks hooks;
+  hooks.trace_rate = 100.0;
+  hooks.trace = [&](std::size_t, double, const std::vector<BodyState>& states) {
+    EXPECT_EQ(states.size(), 3u);
+    last = states;
+  };
+  const Scene traced = poured(request, {0}, hooks)[0];
+  EXPECT_EQ(traced.report.state_hash, poured(request, {0})[0].report.state_hash);
+  for (std::size_t id = 0; id < 3; ++id)
+    EXPECT_EQ(last[id].pose.position, traced.parts[id].pose.position) << "the last sample is the scene";
+}
+
+TEST(Pour, TracesAreSampledBySimulatedTime) {
+  const double step = BulletSettings().time_step;
+  Request request = request_of(1);
+  request.seconds = 1.001;  // no whole number of steps
+  for (const double rate : {20.0, 50.0, 100.0, 1000.0}) {
+    std::vector<double> times;
+    RunHooks hooks;
+    hooks.trace_rate = rate;
+    hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { times.push_back(time); };
+    poured(request, {0}, hooks);
+    EXPECT_EQ(times.front(), 0.0);
+    EXPECT_NEAR(times.back(), 1.001, 1e-12) << "the last sample is the end";
+    if (rate > 1.0 / step) {
+      EXPECT_EQ(times.size(), 242u) << "a sample a step";
+      continue;
+    }
+    ASSERT_EQ(times.size(), static_cast<std::size_t>(rate) + 2);
+    for (std::size_t k = 0; k + 1 < times.size(); ++k)
+      EXPECT_NEAR(times[k], static_cast<double>(k) / rate, 0.5 * step + 1e-9) << rate;
+  }
+  request.seconds.reset();
+  std::vector<double> times;
+  RunHooks hooks;
+  hooks.trace_rate = 7.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { times.push_back(time); };
+  const Scene scene = poured(request, {0}, hooks)[0];
+  EXPECT_EQ(times.back(), scene.report.simulated_s);
+}
+
+TEST(Pour, SetTimeIsKeptExactly) {
+  Request request = request_of(2);
+  request.bin.kind = Bin::Kind::none;
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].poses = {Pose{Vec3(0, 0, 2), Quat::Identity()}, Pose{Vec3(1, 0, 2), Quat::Identity()}};
+  request.parts[0].velocities = {Twist{Vec3(1, 0, 0), Vec3::Zero()}, Twist{}};
+  for (const double seconds : {0.0011, 0.25, 0.333}) {
+    request.seconds = seconds;
+    for (const SolverType type : {SolverType::bullet, SolverType::sphere}) {
+      request.solver.type = type;
+      request.solver.sphere.device = SphereSettings::Device::cpu;
+      std::string reason;
+      const auto solver = make_solver(request, {small_box()}, reason);
+      const Scene scene = pour(request, {small_box()}, *solver, {0})[0];
+      EXPECT_NEAR(scene.report.simulated_s, seconds, 1e-12) << name_of(type);
+      EXPECT_NEAR(scene.parts[0].pose.position.x(), seconds, 1e-6) << "at 1 m/s";
+      EXPECT_NEAR(scene.parts[0].velocity.linear.z(), -9.81 * seconds, 1e-5);
+    }
+  }
+}
+
+TEST(Pour, WhatFindsNoRoomIsReported) {
+  Request request = request_of(60);
+  request.bin.inner_size = Vec3(0.07, 0.06, 0.05);
+  const Scene scene = poured(request, {0})[0];
+  EXPECT_FALSE(scene.report.not_poured.empty());
+  EXPECT_LT(scene.report.not_poured.size(), 60u);
+  for (const int id : scene.report.not_poured)
+    EXPECT_EQ(scene.parts[static_cast<std::size_t>(id)].state, PartState::not_poured);
+  for (std::size_t id = 0; id < scene.parts.size(); ++id) {
+    const ScenePart& part = scene.parts[id];
+    EXPECT_EQ(part.id, static_cast<int>(id));
+    EXPECT_EQ(part.pose.finite(), part.state != PartState::not_poured) << "what never lay anywhere has no pose";
+  }
+  ASSERT_FALSE(scene.report.flags.empty());
+  EXPECT_EQ(scene.report.flags.back().code, "not_poured");
+}
+
+TEST(Pour, FixedPartsNeverMoveAndStrangersAreFound) {
+  Request request = request_of(1);
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts.push_back(request.parts[0]);
+  request.parts[0].fixed = true;
+  request.parts[0].poses = {Pose{Vec3(0.0, 0.0, 0.06), Quat::Identity()}};
+  request.parts[1].poses = {Pose{Vec3(0.3, 0.0, 0.05), Quat::Identity()}};  // beside the bin
+  const Scene scene = poured(request, {0})[0];
+  EXPECT_EQ(scene.parts[0].state, PartState::fixed);
+  EXPECT_EQ(scene.parts[0].pose.position, Vec3(0.0, 0.0, 0.06));
+  EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
+}
+
+TEST(Pour, FixedPartWithoutPoseIsRefused) {
+  Request request = request_of(1);
+  request.parts[0].fixed = true;
+  EXPECT_THROW(poured(request, {0}), Error);
+}
+
+TEST(Pour, CancelsAndReportsProgressThatNeverFalls) {
+  const std::atomic<bool> cancel{true};
+  RunHooks hooks;
+  hooks.cancel = &cancel;
+  try {
+    poured(request_of(2), {0}, hooks);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+  double last = 0.0;
+  hooks.cancel = nullptr;
+  hooks.progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, last);
+    last = progress.fraction;
+  };
+  poured(request_of(3), {0}, hooks);
+  EXPECT_GT(last, 0.9);
+}
+
+/// An open box as a mesh: five plates, inner 0.2 x 0.15 x 0.12 like the bin of request_of().
+PartModelPtr tray() {
+  static const PartModelPtr model = [] {
+    Mesh mesh = box_mesh({0.22, 0.17, 0.01}, {0, 0, -0.005});
+    for (const double side : {-1.0, 1.0}) {
+      mesh = merged(mesh, box_mesh({0.01, 0.17, 0.12}, {side * 0.105, 0, 0.06}));
+      mesh = merged(mesh, box_mesh({0.22, 0.01, 0.12}, {0, side * 0.08, 0.06}));
+    }
+    return PartModel::from_mesh(mesh, "tray");
+  }();
+  return model;
+}
+
+TEST(Pour, MeshBinHoldsItsPartsWhereItsPosePutsIt) {
+  Request request = request_of(6);
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.mesh = "tray";
+  request.bin.pose = {Vec3(0.5, -0.3, 0.1), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))};
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+  EXPECT_TRUE(scene.report.not_poured.empty());
+  const Pose into_bin = request.bin.pose.inverse();
+  for (const ScenePart& part : scene.parts)
+    for (const Vec3& v : small_box()->mesh().vertices) {
+      const Vec3 x = into_bin * (part.pose * v);
+      EXPECT_GT(x.z(), -2e-4);
+      EXPECT_LT(std::abs(x.x()), 0.1 + 2e-4);
+      EXPECT_LT(std::abs(x.y()), 0.075 + 2e-4);
+    }
+}
+
+TEST(Pour, WhatLeavesAMeshBinHasEscaped) {
+  Request request = request_of(1);
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.mesh = "tray";
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].count = 2;
+  request.parts[0].poses = {Pose{Vec3(0, 0, 0.03), Quat::Identity()}, Pose{Vec3(0.3, 0, 0.03), Quat::Identity()}};
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
+  EXPECT_EQ(scene.parts[0].state, PartState::resting);
+}
+
+TEST(Pour, GridStartsAllAtOnceAboveTheRimAndComesToRestInside) {
+  Request request = request_of(9);
+  request.pour.pattern = Pour::Pattern::grid;
+  std::vector<BodyState> first;
+  RunHooks hooks;
+  hooks.trace_rate = 1.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+    if (time == 0.0) first = states;
+  };
+  const Scene scene = poured(request, {0}, hooks)[0];
+  ASSERT_EQ(first.size(), 9u);
+  const double radius = small_box()->radius();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Vec3 center = first[i].pose * small_box()->mass().center;
+    EXPECT_GT(center.z(), request.bin.inner_size.z()) << i;
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GE((first[k].pose * small_box()->mass().center - center).norm(), 2.0 * radius) << i << " and " << k;
+  }
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+}
+
+/// A shaft fuller than it is high: what leans on the walls above the rim must lean on nothing when the scene ends.
+TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
+  Request request = request_of(16);
+  request.bin.inner_size = Vec3(0.07, 0.06, 0.05);
+  const Scene scene = poured(request, {0})[0];
+  ASSERT_TRUE(scene.report.at_rest);
+  Request again = request;
+  again.pour.pattern = Pour::Pattern::given;  // given scenes have no raised walls
+  again.seconds = 0.5;
+  again.parts[0].poses.clear();
+  std::vector<Vec3> before;
+  for (const ScenePart& part : scene.parts) {
+    if (part.state != PartState::resting) continue;
+    again.parts[0].poses.push_back(part.pose);
+    before.push_back(part.pose * small_box()->mass().center);
+  }
+  again.parts[0].count = again.parts[0].poses.size();
+  ASSERT_GE(before.size(), 3u);
+  double top = 0.0;
+  for (const Vec3& center : before) top = std::max(top, center.z());
+  EXPECT_GT(top, 0.04) << "the heap never came near the rim";
+  const Scene later = poured(again, {0})[0];
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
+}
+
+/// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes (or
+/// presses after one) with a slide behind it, a swing of it to and fro in the first probe, and slow
+/// creeping of the first one to begin with; they fall asleep when they have been probed for so long. Notes its phases.
+class HoveringSolver : public Solver {
+ public:
+  struct Habits {
+    int jumps = 0;
+    Phase jumps_in = Phase::probe;
+    double jumps_at_s = 0.05, slides_s = 0.0, swings_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
+    bool heeds_phases = true;
+  };
+  explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
+  std::vector<Phase> phases;
+  double probed_s = 0.0;  ///< in the last probe
+
+  WorldId add_world(const WorldDef& def) override {
+    states_.resize(def.bodies.size());
+    return 0;
+  }
+  void remove_world(WorldId) override {}
+  void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
+  void remove(WorldId, std::size_t) override {}
+  bool set_phase(WorldId, Phase phase) override {
+    phases.push_back(phase);
+    if (phase == Phase::probe) probed_s = 0.0;
+    pressed_s_ = 0.0;
+    jumped_ = false;
+    return habits_.heeds_phases;
+  }
+  double advance(const std::vector<WorldId>&, double seconds) override {
+    if (probes()) probed_s += seconds;
+    if (!probes() && times_probed() > 0) pressed_s_ += seconds;
+    const double asked_s = habits_.jumps_in == Phase::probe ? (probes() ? probed_s : 0.0) : pressed_s_;
+    if (jumped_ && asked_s <= habits_.jumps_at_s + habits_.slides_s) states_[0].pose.position.x() += 0.1 * seconds;
+    if (!jumped_ && habits_.jumps > 0 && asked_s > 0.0 && asked_s >= habits_.jumps_at_s) {
+      states_[0].pose.position.x() += 1e-3;
+      jumped_ = true;
+      --habits_.jumps;
+    }
+    if (probes() && times_probed() == 1 && probed_s < habits_.swings_s) {
+      states_[0].pose.position.x() += swung_ ? -1e-3 : 1e-3;
+      swung_ = !swung_;
+    }
+    if (habits_.creeps_s > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
+    habits_.creeps_s -= seconds;
+    return seconds;
+  }
+  std::vector<BodyState> states(WorldId) const override { return states_; }
+  std::vector<bool> asleep(WorldId) const override {
+    return std::vector<bool>(states_.size(), probes() && probed_s >= habits_.sleeps_at_s);
+  }
+  double step_size() const override { return 1e-3; }
+  std::uint64_t steps(WorldId) const override { return 0; }
+  const Profile& profile() const override { return profile_; }
+  std::vector<Flag> flags(WorldId) const override { return {}; }
+  std::string name() const override { return "hovering"; }
+  std::string device() const override { return "cpu"; }
+
+ private:
+  bool probes() const { return !phases.empty() && phases.back() == Phase::probe; }
+  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
+
+  Habits habits_;
+  bool jumped_ = false, swung_ = false;
+  double pressed_s_ = 0.0;  ///< in the last press after a probe
+  std::vector<BodyState> states_;
+  Profile profile_;
+};
+
+struct Probed {
+  std::vector<Phase> phases;
+  double last_s;  ///< length of the last probe
+
+  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
+};
+Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25) {
+  HoveringSolver solver(habits);
+  Request request = request_of(parts);
+  request.pour.rest_window = rest_window;
+  request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
+  EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+  return {solver.phases, solver.probed_s};
+}
+
+TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
+  HoveringSolver::Habits habits;
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}));
+  EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
+  habits.jumps_at_s = 0.015;
+  habits.jumps = 1;
+  EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
+  habits.jumps_at_s = 0.05;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press}))
+      << "it comes to lie in the first, and stands the second";
+  habits.jumps = 100;
+  EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
+  EXPECT_EQ(probed(habits, 149).times(), 12);
+  EXPECT_EQ(probed(habits, 150).times(), 1) << "one in fifty may, less two";
+}
+
+TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
+  HoveringSolver::Habits habits;
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  habits.jumps_in = press;
+  habits.jumps_at_s = 1e-3;
+  habits.slides_s = 0.05;
+  habits.jumps = 2;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press, press, press}))
+      << "forces are forgotten anew each time";
+  habits.heeds_phases = false;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
+      << "a solver that does not forget is not asked";
+}
+
+TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
+  HoveringSolver::Habits habits;
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  habits.swings_s = 3.0;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}));
+  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
+      << "one of many is waited for";
+  habits.swings_s = 1.5;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press})) << "in time";
+}
+
+TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
+  HoveringSolver::Habits habits;
+  const double at_once = probed(habits).last_s;
+  EXPECT_GE(at_once, 0.1) << "what has moved since forces were found must show";
+  EXPECT_LE(at_once, 0.25);
+  habits.sleeps_at_s = 0.4;
+  EXPECT_NEAR(probed(habits).last_s, 0.4, 0.03);
+  habits.sleeps_at_s = 100.0;
+  EXPECT_NEAR(probed(habits).last_s, 1.0, 0.03);
+  habits.heeds_phases = false;
+  EXPECT_EQ(probed(habits).last_s, at_once) << "a solver that does not probe";
+}
+
+TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
+  const auto phases_of = [](double creeps_s) {
+    HoveringSolver::Habits habits;
+    habits.creeps_s = creeps_s;
+    HoveringSolver solver(habits);
+    Request request = request_of(2);
+    request.pour.pattern = Pour::Pattern::given;
+    for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
+    EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+    return solver.phases;
+  };
+  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, press}));
+  EXPECT_EQ(phases_of(0.5), (std::vector<Phase>{pour, press, settle, press, probe, press}));
+}
+
+TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {
+  Lab lab(make_bullet_solver({}));
+  const auto below = lab.place(small_box(), Vec3(0, 0, 0.01)), above = lab.place(small_box(), Vec3(0, 0, 0.03));
+  lab.simulate(2.0);
+  ASSERT_TRUE(lab.solver().asleep(lab.world())[above]) << "it never fell asleep, so that nothing has to be woken";
+  lab.solver().remove(lab.world(), below);
+  lab.simulate(0.5);
+  EXPECT_NEAR(lab.center(above).z(), 0.01, 2e-4);
+}
+
+TEST(Rain, StartsClearOfEverything) {
+  const Cover shape = cover(small_box()->mesh());
+  const Rain rain({Vec3(-0.1, -0.075, 0), Vec3(0.1, 0.075, 0.12)}, 0.02);
+  Random random(5, 0, Stream::pour);
+  std::vector<Rain::Obstacle> present;
+  std::vector<Pose> poses;
+  for (int i = 0; i < 12; ++i)
+    if (const auto pose = rain.place(*small_box(), shape, present, random, 20)) {
+      poses.push_back(*pose);
+      present.push_back({&shape, *pose, true});
+    }
+  ASSERT_GE(poses.size(), 6u);
+  for (std::size_t a = 0; a < poses.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (const Cover::Ball& p : shape.balls)
+        for (const Cover::Ball& q : shape.balls)
+          EXPECT_GE((poses[a] * p.center - poses[b] * q.center).norm(), p.radius + q.radius - 1e-12);
+}
+
+TEST(Cover, EnclosesEveryTriangle) {
+  const Mesh mesh = ring_mesh(24, 0.018, 0.0275, 0.012);
+  const Cover shape = cover(mesh);
+  Random random(1, 0, Stream::probe);
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (int k = 0; k < 20; ++k) {
+      double u = random.uniform(), v = random.uniform();
+      if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+      const Vec3 x =
+          mesh.vertices[a] + u * (mesh.vertices[b] - mesh.vertices[a]) + v * (mesh.vertices[c] - mesh.vertices[a]);
+      bool inside = false;
+      for (const Cover::Ball& ball : shape.balls) inside = inside || (x - ball.center).norm() <= ball.radius + 1e-12;
+      EXPECT_TRUE(inside);
+    }
+}
+
+TEST(RestWatch, CountsCreepAndSwingAsMoving) {
+  const RestWatch::Limits limits{0.25, 1e-3, 1e-2};
+  RestWatch watch(3);
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0;
+    watch.look(0, t, Vec3(0, 0, -0.01 * t), Quat::Identity(), limits);                   // creeps down
+    watch.look(1, t, Vec3(0.002 * std::sin(40.0 * t), 0, 0), Quat::Identity(), limits);  // swings
+    watch.look(2, t, Vec3(0, 1e-4 * std::sin(40.0 * t), 0), Quat::Identity(), limits);   // still
+  }
+  EXPECT_FALSE(watch.resting(0));
+  EXPECT_FALSE(watch.resting(1));
+  EXPECT_TRUE(watch.resting(2));
+}
+
+}  // namespace bin_scenes::testing

@@ -1,0 +1,57 @@
+#include "bin_scenes/part/part_model.hpp"
+#include "part/shapes.hpp"
+#include "solver/sphere/shapes/shape.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace bin_scenes::test {
+namespace {
+
+template <class T>
+void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
+}
+
+void expect_same(const sphere::Samples& a, const sphere::Samples& b) {
+  expect_same_bytes(a.nodes, b.nodes);
+  expect_same_bytes(a.cones, b.cones);
+  expect_same_bytes(a.node_points, b.node_points);
+  expect_same_bytes(a.edges, b.edges);
+  expect_same_bytes(a.clusters, b.clusters);
+  expect_same_bytes(a.first_edge, b.first_edge);
+  expect_same_bytes(a.cluster_points, b.cluster_points);
+  expect_same_bytes(a.groups, b.groups);
+  EXPECT_EQ(a.spacing, b.spacing);
+  EXPECT_EQ(a.face_spacing, b.face_spacing);
+  EXPECT_EQ(a.sag, b.sag);
+  EXPECT_EQ(a.radius, b.radius);
+}
+
+TEST(ShapeFromTheCache, IsTheOneThatWasMade) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("bin_scenes_shape_" + std::to_string(getpid()));
+  setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+  const Mesh mesh = l_mesh(1.0);
+  const auto one = PartModel::from_mesh(mesh, "one"), other = PartModel::from_mesh(mesh, "other");
+  const std::size_t built_before = PartModel::work().built;
+  const sphere::Shape made = sphere::make_shape(*one, 50, 200, 0.02);
+  const std::size_t built = PartModel::work().built;
+  EXPECT_GT(built, built_before);
+  const sphere::Shape read = sphere::make_shape(*other, 50, 200, 0.02);
+  EXPECT_EQ(PartModel::work().built, built) << "something was made twice";
+  EXPECT_GT(made.fine.nodes.size(), made.coarse.nodes.size());
+  expect_same(made.coarse, read.coarse);
+  expect_same(made.fine, read.fine);
+  // Other numbers of nodes are another shape.
+  EXPECT_GT(sphere::make_shape(*other, 50, 4000, 0.02).fine.nodes.size(), made.fine.nodes.size());
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace bin_scenes::test
