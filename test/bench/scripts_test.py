@@ -126,9 +126,9 @@ at rest: at_rest of scenes | | all
 
     def test_all_makes_everything_and_names_what_failed(self):
         shutil.copy(ROOT / "bench/all", self.root / "bench")
-        (self.root / "bench/stress").mkdir()
+        (self.root / "test/stress").mkdir(parents=True)
         (self.root / "build/bench").mkdir(parents=True)
-        for name, code in (("build/bench/bin_scenes_bench", 0), ("bench/stress/soak", 1), ("bench/publish", 0),
+        for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
                            ("bench/inspect_all", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
@@ -136,9 +136,9 @@ at rest: at_rest of scenes | | all
             script.chmod(0o755)
         outcome = self.run_script("all", QUICK="")
         self.assertEqual(outcome.returncode, 1)
-        self.assertEqual(outcome.stderr, "bench/all: failed: bench/stress/soak\n")
+        self.assertEqual(outcome.stderr, "bench/all: failed: test/stress/soak\n")
         did = [line for line in outcome.stdout.splitlines() if line.startswith("did ") and "inspect_all" not in line]
-        self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did bench/stress/soak build",
+        self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did test/stress/soak build",
                                "did bench/publish"])
         missing = self.run_script("all", "nowhere")
         self.assertEqual(missing.returncode, 2)

@@ -1,4 +1,7 @@
-#include "config/config_fixture.hpp"
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <gtest/gtest.h>
 
 #include <limits>
 
