@@ -104,7 +104,7 @@ YAML::Node KeyReader::take(const Key& key) {
 Error KeyReader::wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node) const {
   return input_error(
       (path.empty() ? "the request" : "'" + path + "'") + ": expected " + expected + ", found " + shown(node),
-      source_.where(path), "see docs/request.md");
+      source_.where(path), "see docs/use/request.md");
 }
 
 void KeyReader::bin_kind(Bin& bin, const BinKeys& keys) {

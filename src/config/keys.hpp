@@ -1,5 +1,5 @@
 /// The table of request keys: every key once, with its field, unit, meaning and the consequence of changing it.
-/// Reading, writing back, `--set`, suggestions for unknown keys and docs/request.md all come from visiting it; the
+/// Reading, writing back, `--set`, suggestions for unknown keys and docs/use/request.md all come from visiting it; the
 /// default of a key is the value of its field in a default-constructed struct (scene/request.hpp).
 ///
 /// A visitor has  field(Key, value&)          one value

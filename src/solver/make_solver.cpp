@@ -11,7 +11,7 @@ namespace bin_scenes {
 namespace {
 
 /// Whether the sphere solver's passes run on the GPU; says why. Under a software GL they are much slower than the same
-/// passes in C++ (docs/solver.md, "On the GPU").
+/// passes in C++ (docs/develop/gpu.md).
 bool on_gpu(const SphereSettings& settings, std::size_t bodies, std::string& reason) {
   if (settings.device != SphereSettings::Device::automatic) return settings.device == SphereSettings::Device::gpu;
   if (bodies > most_gl_bodies()) {
@@ -54,7 +54,7 @@ std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<Pa
   }
   // Measured from 1 part to 64, convex and concave: Bullet never was the cheaper one, so only the device is left to
   // choose.
-  reason = "auto: sphere, as cheap as bullet or cheaper for every part and count measured (docs/solver.md)";
+  reason = "auto: sphere, as cheap as bullet or cheaper for every part and count measured (docs/use/choosing.md)";
   return make_sphere(request, reason);
 }
 
