@@ -41,7 +41,7 @@ class Device {
   void make_current();
 
   static std::vector<DeviceInfo> enumerate();
-  /// Whether EGL lists a device that is not Mesa's software; opens no context, which costs a software GL most.
+  /// Whether EGL lists a hardware device. Opens no context, which is the slow part of a software GL.
   static bool hardware_listed();
 
  private:
