@@ -26,8 +26,8 @@ struct SampleOptions {
 class MeshQuery;
 
 /// Corners first, then convex sharp edges at half the spacing of the faces, then faces by farthest point sampling,
-/// until `count` is reached. Corners and edges take at most 0.7 of it. Closed cavities and faces inside another shell of
-/// the same part get no samples, because nothing can touch them. Deterministic.
+/// until `count` is reached. Corners and edges take at most 0.7 of it. Closed cavities and faces inside another shell
+/// of the same part get no samples, because nothing can touch them. Deterministic.
 SampleSet surface_samples(const Mesh& mesh, const SampleOptions& options);
 SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options);
 

@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// A body is at rest when all its poses of the last `window` seconds lie within `move` and `turn` of one pose. Slow creep
-/// and swinging both count as motion, in all directions and about all axes.
+/// A body is at rest when all its poses of the last `window` seconds lie within `move` and `turn` of one pose. Slow
+/// creep and swinging both count as motion, in all directions and about all axes.
 class RestWatch {
  public:
   struct Limits {

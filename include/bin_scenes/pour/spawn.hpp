@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// A few dozen spheres that together enclose every triangle of a mesh: cheap bounds that, unlike a box, follow holes and
-/// arms.
+/// A few dozen spheres that together enclose every triangle of a mesh: cheap bounds that, unlike a box, follow
+/// holes and arms.
 struct Cover {
   struct Ball {
     Vec3 center;
@@ -41,8 +41,8 @@ class Rain {
 
   Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
 
-  /// Seeded pose of the model frame: uniform orientation and position between the walls, lowest point drop_height above the
-  /// heap. None if no attempt ends below the rim, or all end high above parts that still fall.
+  /// Seeded pose of the model frame: uniform orientation and position between the walls, lowest point drop_height above
+  /// the heap. None if no attempt ends below the rim, or all end high above parts that still fall.
   std::optional<Pose> place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
                             Random& random, int tries) const;
 
