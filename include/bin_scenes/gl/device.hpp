@@ -41,8 +41,6 @@ class Device {
   void make_current();
 
   static std::vector<DeviceInfo> enumerate();
-  /// Whether EGL lists a hardware device. Opens no context, which is the slow part of a software GL.
-  static bool hardware_listed();
 
  private:
   struct State;
