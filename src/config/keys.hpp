@@ -192,8 +192,8 @@ void visit(Visitor& v, SphereSettings& s) {
   v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
           s.field_cell);
   v.field({"device", "",
-           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the GPU if the OpenGL device is "
-           "hardware and a scene fits, and the report says why. Scenes repeat bit for bit on the same class of device"},
+           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
+           "measured on a card. Scenes repeat bit for bit on the same class of device"},
           s.device);
 }
 
