@@ -64,7 +64,8 @@ void advance_world(World& world, const Steps& steps, double time_step) {
 
 class SphereSolver final : public Solver {
  public:
-  explicit SphereSolver(const SphereSettings& settings) : settings_(settings), shapes_(settings) {}
+  SphereSolver(const SphereSettings& settings, const Variant& variant)
+      : settings_(settings), base_(variant.settings), shapes_(settings, variant.change) {}
 
   WorldId add_world(const WorldDef& def) override {
     WorldId id = 0;
@@ -74,8 +75,8 @@ class SphereSolver final : public Solver {
     slot = Slot{};
     slot.used = true;
     slot.bodies = def.bodies.size();
-    slot.world = make_world(def, settings_,
-                            [this](const PartModelPtr& part) -> const Shape& { return shapes_.of(part, profile_); });
+    slot.world = make_world(
+        def, settings_, [this](const PartModelPtr& part) -> const Shape& { return shapes_.of(part, profile_); }, base_);
     return id;
   }
 
@@ -161,6 +162,7 @@ class SphereSolver final : public Solver {
   void collect(const World& world) { add(profile_, world); }
 
   SphereSettings settings_;
+  Settings base_;
   ShapeCache shapes_;
   std::vector<std::unique_ptr<Slot>> slots_;
   Profile profile_;
@@ -170,9 +172,13 @@ class SphereSolver final : public Solver {
 }  // namespace
 
 std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings) {
+  return make_sphere_solver(settings, {});
+}
+
+std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings, const sphere::Variant& variant) {
   if (!(settings.time_step > 0))
     throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
-  return std::make_unique<SphereSolver>(settings);
+  return std::make_unique<SphereSolver>(settings, variant);
 }
 
 }  // namespace bin_scenes
