@@ -4,6 +4,9 @@
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
 
+#include <algorithm>
+#include <map>
+
 namespace bin_scenes::testing {
 
 const SolverCase sphere_default{"sphere", [] { return make_sphere_solver({}); }, 1e-4};
@@ -46,6 +49,60 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
   ASSERT_EQ(found.size(), 1u) << "once, however many parts there are";
   EXPECT_EQ(found[0].code, "field_coarsened");
   EXPECT_NE(found[0].remedy.find("set solver.sphere.field_cell to 0.00"), std::string::npos) << found[0].remedy;
+}
+
+// What benchmarks take away (bench/ablation.cpp) reaches the passes, and taking nothing away is the solver as it is.
+struct Tumbled {
+  std::vector<BodyState> states;
+  std::map<std::string, std::uint64_t> counters;
+
+  explicit Tumbled(const sphere::Variant& variant) {
+    Lab lab(make_sphere_solver({}, variant));
+    const PartModelPtr part = box(Vec3(0.05, 0.04, 0.03));
+    for (int i = 0; i < 4; ++i)
+      lab.place(part, Vec3(0.004 * i, 0, 0.04 + 0.06 * i),
+                Quat(Eigen::AngleAxisd(0.3 + i, Vec3(1, 2, 3).normalized())));
+    lab.simulate(0.5);
+    states = lab.states();
+    counters = lab.solver().profile().counters;
+  }
+  bool operator==(const Tumbled& other) const {
+    return std::equal(states.begin(), states.end(), other.states.begin(), [](const BodyState& a, const BodyState& b) {
+      return a.pose.position == b.pose.position && a.pose.orientation.coeffs() == b.pose.orientation.coeffs();
+    });
+  }
+};
+
+TEST(SphereVariant, TakesAwayWhatItNames) {
+  const Tumbled all{sphere::Variant{}};
+  EXPECT_TRUE(all == Tumbled{sphere::Variant{}});
+  EXPECT_GT(all.counters.at("pairs_recycled"), 0u);
+  EXPECT_LT(all.counters.at("nodes_tested"), all.counters.at("nodes_possible"));
+
+  sphere::Variant anew, unculled;
+  anew.settings.recycle = anew.settings.coarse_recycle = 0;
+  EXPECT_EQ(Tumbled(anew).counters.at("pairs_recycled"), 0u);
+  unculled.change = [](sphere::Shape& shape) {
+    for (sphere::Samples* samples : {&shape.coarse, &shape.fine})
+      for (auto* balls : {&samples->groups, &samples->clusters})
+        for (sphere::Ball& ball : *balls) ball.radius = 1e3f;
+  };
+  const Tumbled every(unculled);
+  EXPECT_EQ(every.counters.at("nodes_tested"), every.counters.at("nodes_possible"));
+  EXPECT_TRUE(every == all) << "bounds change no contact";
+
+  for (bool sphere::Settings::*mechanism :
+       {&sphere::Settings::warm_start, &sphere::Settings::speculation, &sphere::Settings::half_way_poses,
+        &sphere::Settings::relaxation, &sphere::Settings::gyroscopic}) {
+    sphere::Variant without;
+    without.settings.*mechanism = false;
+    EXPECT_FALSE(Tumbled(without) == all);
+  }
+  sphere::Variant upright;
+  upright.settings.oriented_boxes = false;
+  const Tumbled more(upright);
+  EXPECT_GT(more.counters.at("pairs"), all.counters.at("pairs"));
+  EXPECT_TRUE(more == all) << "pairs whose boxes are apart have no contacts";
 }
 
 // On a slope of 0.475 a box stands with friction 0.5 and slides with nine tenths of it.

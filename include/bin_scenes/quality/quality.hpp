@@ -24,9 +24,6 @@ Penetration penetration(const MeshQuery& a, const Pose& pose_a, const MeshQuery&
 /// open one is a sheet, solid on the side away from the part.
 Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& bin, const MeshQuery* bin_mesh);
 
-/// Shortest distance between two placed meshes (0 if they touch or overlap), up to `limit`.
-double clearance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, double limit);
-
 /// How far a can move along `direction` (unit, bin frame) before it touches b, up to `limit`. 0 where their surfaces
 /// cut each other along the way already.
 double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, const Vec3& direction,

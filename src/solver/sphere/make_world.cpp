@@ -37,10 +37,11 @@ std::vector<Plane> planes_of(const Bin& bin) {
 }  // namespace
 
 World make_world(const WorldDef& def, const SphereSettings& settings,
-                 const std::function<const Shape&(const PartModelPtr&)>& shape_of) {
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base) {
   World w;
+  w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
-  w.settings.cut_steps = settings.cut_steps;
+  w.settings.cut_steps = base.cut_steps && settings.cut_steps;
   w.gravity = def.gravity.cast<float>();
   w.wall_top = static_cast<float>(def.wall_height);
   w.ground_friction = static_cast<float>(def.bin.friction);
@@ -63,7 +64,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
   w.cold_steps = w.settings.cold_steps;
-  w.cuts = settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
+  w.cuts = w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
   return w;

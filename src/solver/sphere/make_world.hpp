@@ -9,10 +9,16 @@
 
 namespace bin_scenes::sphere {
 
+/// The solver with a mechanism taken away or changed, which no request can ask for: what benchmarks compare with.
+struct Variant {
+  Settings settings;                   ///< but for what the request says
+  std::function<void(Shape&)> change;  ///< is done to each part's shape
+};
+
 /// All bodies absent. A bin given as a mesh is one more, fixed body behind those of the definition.
 /// `shape_of`: the collision shape of a part; it must outlive the world.
 World make_world(const WorldDef& def, const SphereSettings& settings,
-                 const std::function<const Shape&(const PartModelPtr&)>& shape_of);
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base = {});
 
 /// What the user should know of a world: a time step that is too long for its parts is cut; the flags of its shapes.
 std::vector<Flag> flags_of(const World& world);

@@ -29,6 +29,8 @@ struct Softness {
 enum class Stiffness : std::uint32_t { soft, stiff, rigid };
 
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
+///
+/// What each gives is measured by taking it away (bench/ablation.cpp): most by a number below, the others by a switch.
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   bool cut_steps = true;         ///< for small and fast parts
@@ -65,6 +67,16 @@ struct Settings {
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;          ///< d within which it must have stayed
+
+  // Switches of what no number turns off, on in every request.
+  bool warm_start = true;      ///< a step begins with the forces of the last one
+  bool speculation = true;     ///< contacts that may close in a step are found before they do
+  bool soonest_first = true;   ///< of a pair's contacts those about to close go before those farther off
+  bool way_back = true;        ///< samples that are deep inside go back the way they came in
+  bool half_way_poses = true;  ///< contacts are found where bodies are half way through the step
+  bool relaxation = true;      ///< sweeps that take back the velocity which pushing overlap out has left
+  bool gyroscopic = true;      ///< torque of spinning parts whose inertia is not the same about all axes
+  bool oriented_boxes = true;  ///< pairs whose oriented boxes are apart are no pairs
 
   const Softness& softness(Stiffness of) const {
     return of == Stiffness::soft ? soft : of == Stiffness::stiff ? stiff : rigid;
@@ -179,11 +191,14 @@ struct World {
   /// Of the next step, over all contacts before bodies move, and after.
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Rigid contacts push slowly: one takes back what that leaves. With none a gear on its teeth rolls for ever.
-  int relaxing_sweeps() const { return stiffness == Stiffness::rigid ? 1 : sweeps(); }
+  int relaxing_sweeps() const {
+    if (!settings.relaxation) return 0;
+    return stiffness == Stiffness::rigid ? 1 : sweeps();
+  }
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
   /// Of the next step, in which nothing holds by friction.
   int slip_sub_steps() const {
-    const bool slips = forgets && stiffness == Stiffness::rigid;
+    const bool slips = forgets && stiffness == Stiffness::rigid && settings.probe_slip > 0;
     return slips ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
   }
   /// While a heap is probed, what is still among neighbours that are sleeps, whoever creeps elsewhere: all were awake
@@ -192,7 +207,7 @@ struct World {
   /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts are found, and have their levers and
   /// normals, where bodies are then, as in the symplectic Euler method over the sub-steps, which keeps energy: with
   /// those of the start what rolls on an edge is pushed on by the point that it has left.
-  float half_way() const { return 0.5f * (settings.time_step - sub_step()); }
+  float half_way() const { return settings.half_way_poses ? 0.5f * (settings.time_step - sub_step()) : 0; }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };

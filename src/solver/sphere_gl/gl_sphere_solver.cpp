@@ -4,6 +4,7 @@
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/shapes/shape_cache.hpp"
 #include "solver/sphere_gl/batch.hpp"
 #include "solver/step_limit.hpp"
 
@@ -50,7 +51,7 @@ Capacity fitting(Capacity capacity) {
 class GlSphereSolver final : public Solver {
  public:
   GlSphereSolver(const SphereSettings& settings, const Capacity& capacity)
-      : settings_(settings), bodies_(capacity.bodies), batch_(fitting(capacity)) {}
+      : settings_(settings), bodies_(capacity.bodies), shapes_(settings), batch_(fitting(capacity)) {}
 
   WorldId add_world(const WorldDef& def) override {
     if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())
@@ -61,8 +62,9 @@ class GlSphereSolver final : public Solver {
     const gl::TrafficCount count(profile_);
     Resident r;
     r.bodies = def.bodies.size();
-    r.world = sphere::make_world(def, settings_,
-                                 [this](const PartModelPtr& part) -> const sphere::Shape& { return shape_of(part); });
+    r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
+      return shapes_.of(part, profile_);
+    });
     r.island.assign(r.world.bodies.size(), 0);
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
@@ -282,24 +284,9 @@ class GlSphereSolver final : public Solver {
     }
   }
 
-  const sphere::Shape& shape_of(const PartModelPtr& part) {
-    auto& entry = shapes_[part.get()];
-    if (!entry.shape) {
-      StageTimer timer(profile_, "shape");
-      entry.part = part;  // keeps the address, and with it the key, alive
-      entry.shape = std::make_unique<sphere::Shape>(
-          sphere::make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
-    }
-    return *entry.shape;
-  }
-
-  struct Entry {
-    PartModelPtr part;
-    std::unique_ptr<sphere::Shape> shape;
-  };
   SphereSettings settings_;
   std::size_t bodies_;  ///< expected in a world
-  std::map<const PartModel*, Entry> shapes_;
+  sphere::ShapeCache shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
   std::vector<Flight> flights_;

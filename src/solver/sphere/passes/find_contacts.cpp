@@ -1,5 +1,5 @@
-#include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/math.hpp"
+#include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/passes/reduce.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace bin_scenes::sphere {
@@ -92,7 +93,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;
   } else {
-    const float margin = world.settings.margin * size + way;
+    const float margin = world.settings.margin * size + (world.settings.speculation ? way : 0.0f);
     const Placement there_a(world, a);
     const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
     candidates.clear();
@@ -102,7 +103,9 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
     // What is fast may meet all that is within its way.
-    const float soon = soon_share * size + std::max(0.0f, way - world.settings.margin * size);
+    const float soon = world.settings.soonest_first
+                           ? soon_share * size + std::max(0.0f, way - world.settings.margin * size)
+                           : std::numeric_limits<float>::infinity();
     reduce(candidates, m, size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();

@@ -133,9 +133,9 @@ bool near_ground(const World& world, const Bounds& box) {
 
 }  // namespace
 
-/// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor a
-/// sweep meets what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left out,
-/// unless they were in contact already (their manifold waits, untouched, until one of them wakes).
+/// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor
+/// a sweep meets what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left
+/// out, unless they were in contact already (their manifold waits, untouched, until one of them wakes).
 void find_pairs(World& world) {
   static thread_local std::vector<Bounds> boxes;
   static thread_local std::vector<Entry> entries;
@@ -168,7 +168,7 @@ void find_pairs(World& world) {
     if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
     const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
     if (!a.moves() && !b.moves()) return;
-    if (boxes_apart(world, a, b, p.margin + r.margin)) return;
+    if (world.settings.oriented_boxes && boxes_apart(world, a, b, p.margin + r.margin)) return;
     found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
   });
   sort_pairs(found, world.bodies.size());

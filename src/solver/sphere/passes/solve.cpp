@@ -145,7 +145,8 @@ void ContactSolver::accelerate() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
     motion.v += gain;
-    if (vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f) continue;  // 1e-4 rad a sub-step: the term is rounding
+    if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
+      continue;  // 1e-4 rad a sub-step: the term is rounding
     // Double precision: single would let |L| creep by a thousandth in ten thousand sub-steps.
     const Body& b = world_.bodies[bodies_[i]];
     const Mat3 r = b.q.cast<double>().normalized().toRotationMatrix();
@@ -263,7 +264,7 @@ void ContactSolver::look(const Bundle& bundle) {
 /// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
-  if (!push && first) look(bundle);
+  if (first && (!push || !settings_.relaxation)) look(bundle);
   if (push && first) resist_turn(bundle, swept.friction, swept.u);
   return swept;
 }

@@ -1,7 +1,7 @@
+#include "core/disjoint_sets.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace bin_scenes::sphere {
 
@@ -13,27 +13,13 @@ bool joins(const World& world, const Manifold& m) {
   return std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
 }
 
-/// Bodies joined by pressing contacts: union-find over manifolds.
-class Islands {
- public:
-  explicit Islands(const World& world) : parent_(world.bodies.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    for (const Manifold& m : world.manifolds)
-      if (joins(world, m)) join(m.a, m.b);
-  }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
- private:
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> parent_;
-};
+/// Bodies joined by pressing contacts.
+DisjointSets islands_of(const World& world) {
+  DisjointSets islands(world.bodies.size());
+  for (const Manifold& m : world.manifolds)
+    if (joins(world, m)) islands.join(m.a, m.b);
+  return islands;
+}
 
 void note_motion(const World& world, Body& b) {
   const Shape& s = *world.shapes[b.shape];
@@ -62,11 +48,11 @@ std::vector<char> kept_awake(const World& world) {
       if (joins(world, m) && (restless(world, m.a) || restless(world, m.b))) awake[m.a] = awake[m.b] = 1;
     return awake;
   }
-  Islands islands(world);
+  DisjointSets islands = islands_of(world);
   std::vector<char> of_island(count, 0);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (restless(world, i)) of_island[islands.of(i)] = 1;
-  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.of(i)];
+    if (restless(world, i)) of_island[islands.root(i)] = 1;
+  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.root(i)];
   return awake;
 }
 
@@ -92,10 +78,10 @@ void update_sleep(World& world) {
 }
 
 void wake(World& world, std::uint32_t body) {
-  Islands islands(world);
-  const std::uint32_t island = islands.of(body);
+  DisjointSets islands = islands_of(world);
+  const std::uint32_t island = islands.root(body);
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-    if (islands.of(i) == island) {
+    if (islands.root(i) == island) {
       world.bodies[i].asleep = false;
       world.bodies[i].still = 0;
     }
