@@ -10,7 +10,7 @@
 //  - Mass splitting. k counts one pair of bodies. Where each of a body's n neighbours sees the whole of its mass, their
 //    impulses add up to more than is needed, and iterations drive a pile apart instead of solving it. Bodies n times as
 //    light (Tonge, Benevolenski, Voroshilov 2012) cannot overshoot, but converge slowly; Jacobi iteration bears up to
-//    twice that step. With one neighbour eq 3.5 holds as it is. docs/thesis_preset.md has the figures.
+//    twice that step. With one neighbour eq 3.5 holds as it is. docs/lab/thesis.md has the figures.
 const float over_relaxation = 1.9;
 float lighter(uint neighbours) { return max(1.0, float(neighbours) / over_relaxation); }
 

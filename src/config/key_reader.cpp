@@ -105,7 +105,7 @@ Error KeyReader::wrong_type(const std::string& path, const std::string& expected
                             const std::string& meant) const {
   return input_error(
       (path.empty() ? "the request" : "'" + path + "'") + ": expected " + expected + ", found " + shown(node),
-      source_.where(path), meant.empty() ? "see docs/request.md" : "did you mean '" + meant + "'?");
+      source_.where(path), meant.empty() ? "see docs/use/request.md" : "did you mean '" + meant + "'?");
 }
 
 void KeyReader::bin_kind(Bin& bin, const BinKeys& keys) {

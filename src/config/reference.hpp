@@ -1,4 +1,4 @@
-/// The table of keys as rows: for docs/request.md and for suggestions.
+/// The table of keys as rows: for docs/use/request.md and for suggestions.
 #pragma once
 
 #include <string>

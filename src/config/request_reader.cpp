@@ -78,7 +78,7 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
       node.reset(node[words[i]]);
     } else {
       throw input_error("'" + words[i - 1] + "' is a value and has no key '" + words[i] + "'", where,
-                        "see docs/request.md");
+                        "see docs/use/request.md");
     }
   }
   node = value;
@@ -95,7 +95,7 @@ YAML::Node parse(const std::string& text, const std::string& file) {
                       "mind indentation, brackets and colons");
   }
   if (documents.empty() || documents[0].IsNull()) {
-    throw input_error("the request is empty", file, "it needs at least `parts`; see docs/request.md");
+    throw input_error("the request is empty", file, "it needs at least `parts`; see docs/use/request.md");
   }
   if (documents.size() > 1) {
     throw input_error("the file holds " + std::to_string(documents.size()) + " requests", file,

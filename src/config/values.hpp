@@ -52,7 +52,7 @@ std::string text_of(const std::vector<double>& value);
 std::string text_of(const std::vector<Pose>& value);
 std::string text_of(const std::vector<Twist>& value);
 
-// What a value looks like, for messages and docs/request.md.
+// What a value looks like, for messages and docs/use/request.md.
 inline std::string kind_of(bool) {
   return "true or false";
 }

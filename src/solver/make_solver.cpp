@@ -41,7 +41,7 @@ std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<Pa
   }
   // Measured from 1 part to 64, convex and concave: Bullet never was the cheaper one, so only the device is left to
   // choose.
-  reason = "auto: sphere, as cheap as bullet or cheaper for every part and count measured (docs/solver.md)";
+  reason = "auto: sphere, as cheap as bullet or cheaper for every part and count measured (docs/use/choosing.md)";
   return make_sphere(request, reason);
 }
 

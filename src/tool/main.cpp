@@ -21,7 +21,7 @@ int complain(const std::string& message, int code) {
 }
 
 void add_generate(CLI::App& app, GenerateOptions& o) {
-  app.add_option("REQUEST", o.request, "request file (docs/request.md)")->required();
+  app.add_option("REQUEST", o.request, "request file (docs/use/request.md)")->required();
   app.add_option("--out", o.out, "directory for the scenes: DIR/scene_000000/scene.json and so on")->required();
   app.add_option("--seed", o.seed, "seed of all scenes; scene i comes from (seed, i) alone");
   app.add_option("--scenes", o.scenes, "number of scenes");
@@ -54,7 +54,7 @@ int run(int argc, char** argv) {
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
 
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
-  CLI::App* reference_app = app.add_subcommand("reference", "docs/request.md")->group("");
+  CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
 
   try {
     app.parse(argc, argv);

@@ -36,13 +36,12 @@ class Scripts(unittest.TestCase):
     def setUp(self):
         self.root = pathlib.Path(tempfile.mkdtemp(prefix="bin_scenes_scripts_"))
         self.addCleanup(shutil.rmtree, self.root)
-        for folder in ("bench/plots", "bench/results/device", "docs"):
+        for folder in ("bench/plots", "bench/results/device", "docs/lab"):
             (self.root / folder).mkdir(parents=True)
         for script in ("publish", "plot"):
             shutil.copy(ROOT / "bench" / script, self.root / "bench")
         (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
-        for name in ("accuracy.md", "performance.md", "solver.md"):
-            (self.root / "docs" / name).write_text(DOC % "")
+        (self.root / "docs/lab/accuracy.md").write_text(DOC % "")
         (self.root / "bench/results/README.md").write_text("<!-- builds -->\n<!-- /builds -->\n")
 
     def run_script(self, name, *arguments, **environment):
@@ -50,7 +49,7 @@ class Scripts(unittest.TestCase):
                               capture_output=True, text=True)
 
     def doc(self):
-        return (self.root / "docs/accuracy.md").read_text()
+        return (self.root / "docs/lab/accuracy.md").read_text()
 
     def test_publish_fills_the_tables(self):
         self.run_script("publish")
@@ -60,6 +59,7 @@ class Scripts(unittest.TestCase):
         self.assertIn("| ring | bullet | - | stopped, too slow |", text)
         self.assertIn("| tee | sphere | 0 | 1234500 % |", text)
         self.assertIn("`bin_scenes_bench --filter scenes` on some CPU, 2 cores", text)
+        self.assertIn("[scenes.csv](../../bench/results/device/scenes.csv)", text)
         self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
 
     def test_publish_says_which_build_made_what(self):
@@ -72,18 +72,29 @@ class Scripts(unittest.TestCase):
         self.assertIn("| device | older | bullet: 0123456 1; sphere: 0123456 1, 9876543-dirty 1 |", text)
 
     def test_publish_chooses_rows(self):
-        (self.root / "docs/accuracy.md").write_text(DOC % "where: solver=sphere part=r*\n")
+        (self.root / "docs/lab/accuracy.md").write_text(DOC % "where: solver=sphere part=r*\n")
         self.run_script("publish")
         self.assertIn("| ring | sphere |", self.doc())
         self.assertNotIn("bullet", self.doc())
         self.assertNotIn("tee", self.doc())
+
+    def test_publish_adds_rows_up(self):
+        counts = (TABLE.split("part,")[0].replace("key key measure spread measure spread info", "key key key exact exact")
+                  + "theme,row,solver,tried,survived\n")
+        (self.root / "bench/results/device/stress.csv").write_text(
+            counts + "size,small,sphere,4,3\nsize,large,sphere,2,2\nsize,small,bullet,4,4\n")
+        (self.root / "docs/lab/stress.md").write_text(
+            "<!-- bench: stress\nsum: theme; solver\ncolumns: theme; solver; survived; tried\n-->\n<!-- /bench -->\n")
+        self.run_script("publish")
+        text = (self.root / "docs/lab/stress.md").read_text()
+        self.assertIn("| size | sphere | 5 | 6 |\n| size | bullet | 4 | 4 |\n", text)
 
     def test_publish_names_the_worst_of_all_rows(self):
         goals = TABLE.split("part,")[0].replace("scenes", "goals").replace("key key measure spread measure spread info",
                                                                          "key measure exact exact")
         (self.root / "bench/results/device/goals.csv").write_text(
             goals + "part,error_rel,at_rest,scenes\nring,0.002,9,10\ntee,0.004,10,10\nold,,,\n")
-        (self.root / "docs/solver.md").write_text("""<!-- worst
+        (self.root / "docs/lab/goals.md").write_text("""<!-- worst
 of: all = goals; rings = goals part=r*
 error, largest: error_rel | % | at most 1 %
 at rest: at_rest of scenes | | all
@@ -91,7 +102,7 @@ at rest: at_rest of scenes | | all
 <!-- /worst -->
 """)
         self.run_script("publish")
-        text = (self.root / "docs/solver.md").read_text()
+        text = (self.root / "docs/lab/goals.md").read_text()
         self.assertIn("| goal | limit | all | rings |", text)
         self.assertIn("| error, largest | at most 1 % | 0.4 % (tee) | 0.2 % (ring) |", text)
         self.assertIn("| at rest | all | 19 of 20 | 9 of 10 |", text)
@@ -99,7 +110,7 @@ at rest: at_rest of scenes | | all
     def test_check_tells_stale_tables(self):
         stale = self.run_script("publish", "--check")
         self.assertEqual(stale.returncode, 1)
-        self.assertIn("docs/accuracy.md", stale.stderr)
+        self.assertIn("docs/lab/accuracy.md", stale.stderr)
         self.run_script("publish")
         self.assertEqual(self.run_script("publish", "--check").returncode, 0)
 

@@ -406,12 +406,12 @@ TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
 }
 
 TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
-  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/request.md");
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/request.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   char holes[64];
   std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
   EXPECT_NE(text.find(holes), std::string::npos);
-  EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/request.md";
+  EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::vector<Row> all_rows(bool soak) {
 }
 
 struct Options {
-  std::string filter, solver, csv, results, table, out = "stress";
+  std::string filter, solver, csv, results, out = "stress";
   bool list = false, soak = false;
 };
 
@@ -86,7 +86,6 @@ int run(int argc, char** argv) {
   app.add_option("--out", o.out, "directory for models and the requests that failed")->capture_default_str();
   app.add_option("--csv", o.csv, "file for the results");
   app.add_option("--results", o.results, "folder: the results go to RESULTS/<device>/stress.csv too");
-  app.add_option("--table", o.table, "Markdown file whose table is replaced (docs/stress.md)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -132,7 +131,6 @@ int run(int argc, char** argv) {
     fs::create_directories(folder);
     write_csv(folder + "/stress.csv", tallies, command);
   }
-  if (!o.table.empty()) write_table(o.table, tallies, command);
 
   std::size_t tried = 0, survived = 0;
   for (const Tally& tally : tallies) tried += tally.tried, survived += tally.survived;

@@ -7,13 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace bin_scenes::stress {
 
 namespace {
-
-const std::string begin_mark = "<!-- stress table: begin -->", end_mark = "<!-- stress table: end -->";
 
 std::string figure(const char* format, double value) {
   char text[32];
@@ -37,46 +34,6 @@ void write_file(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text;
   if (!file.flush()) throw environment_error("cannot be written", path, "choose another path");
-}
-
-std::string table_of(const std::vector<Tally>& rows, const std::string& command) {
-  std::vector<std::string> devices;
-  for (const Tally& row : rows)
-    if (!row.device.empty() && std::find(devices.begin(), devices.end(), row.device) == devices.end())
-      devices.push_back(row.device);
-  std::size_t tried = 0, survived = 0;
-  std::ostringstream out;
-  out << "| theme | row | solver | mean step, ms | survived | overlap max, % (limit) | drift max, % | energy gained, % "
-         "(limit) | CPU s |\n"
-      << "|---|---|---|---|---|---|---|---|---|\n";
-  for (const Tally& row : rows) {
-    tried += row.tried;
-    survived += row.survived;
-    out << "| " << row.theme << " | " << row.row << " | " << row.solver << " | "
-        << figure("%.3g", 1e3 * row.mean_step()) << " | " << (row.survived < row.tried ? "**" : "") << row.survived
-        << " / " << row.tried << (row.survived < row.tried ? "**" : "") << " | "
-        << figure("%.2f", 100.0 * row.penetration) << " (" << range_of(row.penetration_limit, 100.0) << ") | "
-        << figure("%.2f", 100.0 * row.drift) << " | " << figure("%.2f", 100.0 * row.energy) << " ("
-        << range_of(row.energy_limit, 100.0) << ") | " << figure("%.1f", row.cpu_s) << " |\n";
-  }
-  std::ostringstream head;
-  for (const auto& [key, value] : bench::host())
-    if (key != "date" && key != "gl") head << key << ": " << value << "; ";
-  head << "solvers on: " << joined(devices, ", ") << "; command: `" << command << "`\n\n"
-       << "**" << survived << " / " << tried << "** survived.\n\n";
-  std::ostringstream failures;
-  for (const Tally& row : rows)
-    for (const std::string& failure : row.failures)
-      failures << "- " << row.theme << ", " << row.row << ", " << row.solver << ": " << failure << "\n";
-  std::ostringstream flat;
-  for (const Tally& row : rows)
-    if (row.flat)
-      flat << "- " << row.row << ", " << row.solver << ": memory in use grew by " << figure("%.0f", row.growth_bytes)
-           << " bytes from a tenth of the scenes to the last, peak " << figure("%.0f", row.peak_mb)
-           << " MB; CPU time of the last tenth / of the second: " << figure("%.2f", row.pace) << "\n";
-  const std::string over_scenes = flat.str().empty() ? "" : "\nMany scenes in one process:\n\n" + flat.str();
-  return head.str() + out.str() + over_scenes +
-         (failures.str().empty() ? "" : "\nDid not survive:\n\n" + failures.str());
 }
 
 }  // namespace
@@ -135,16 +92,6 @@ void write_csv(const std::string& path, const std::vector<Tally>& rows, const st
                   .info("peak_mb", t.peak_mb)
                   .info("failures", joined(t.failures, " | ")));
   write_file(path, bench::to_csv(table));
-}
-
-void write_table(const std::string& path, const std::vector<Tally>& rows, const std::string& command) {
-  std::stringstream old;
-  old << std::ifstream(path).rdbuf();
-  const std::string text = old.str();
-  const auto begin = text.find(begin_mark), end = text.find(end_mark);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw input_error("has no place for the table", path, "put the lines " + begin_mark + " and " + end_mark);
-  write_file(path, text.substr(0, begin + begin_mark.size()) + "\n" + table_of(rows, command) + text.substr(end));
 }
 
 }  // namespace bin_scenes::stress

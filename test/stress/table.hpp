@@ -1,4 +1,4 @@
-/// The suite's results as rows: survived / tried, for the console, CSV and the table of docs/stress.md.
+/// The suite's results as rows: survived / tried, for the console and as CSV.
 #pragma once
 
 #include "stress/trial.hpp"
@@ -33,7 +33,5 @@ struct Tally {
 
 /// As bin_scenes_bench keeps its tables: host and command above, survived / tried compared exactly.
 void write_csv(const std::string& path, const std::vector<Tally>& rows, const std::string& command);
-/// Replaces what lies between the two marks of an existing file: docs/stress.md is prose around a table.
-void write_table(const std::string& path, const std::vector<Tally>& rows, const std::string& command);
 
 }  // namespace bin_scenes::stress

@@ -472,7 +472,7 @@ TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {
         << outcome.out;
   }
   EXPECT_NE(outcome.out.find("ros "), std::string::npos) << outcome.out;
-  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/request.md");
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/request.md");
   EXPECT_EQ(run("reference").out, std::string(std::istreambuf_iterator<char>(file), {}));
 }
 

@@ -37,7 +37,7 @@ std::string write_request(const Request& request);
 /// Two scenes with the same index and hash are the same scene.
 std::string request_hash(const Request& request);
 
-/// docs/request.md: every key with type, default, unit and consequence.
+/// docs/use/request.md: every key with type, default, unit and consequence.
 std::string request_reference();
 
 }  // namespace bin_scenes

@@ -1,4 +1,4 @@
-/// Where the time of a scene went, and what was skipped. A stage has one name everywhere: file, shader, timer.
+/// Time of each stage of a scene, and counts of work done and skipped. A stage has one name in file, shader and timer.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace bin_scenes {
 
-/// Wall times (ms) and counters of one scene or batch, summed by name. Never decides anything in a simulation.
+/// Wall times (ms) and counters of one scene or batch, summed by name. Never influences a simulation.
 struct Profile {
   std::map<std::string, double> stages_ms;
   std::map<std::string, std::uint64_t> counters;
@@ -19,7 +19,7 @@ struct Profile {
     for (const auto& [name, ms] : other.stages_ms) stages_ms[name] += ms;
     for (const auto& [name, n] : other.counters) counters[name] += n;
   }
-  /// What was added after `before`, an earlier state of this profile.
+  /// Difference to `before`, an earlier state of this profile.
   Profile since(const Profile& before) const {
     Profile later = *this;
     for (const auto& [name, ms] : before.stages_ms) later.stages_ms[name] -= ms;
@@ -28,7 +28,7 @@ struct Profile {
   }
 };
 
-/// Adds the life time of the object to one stage.
+/// Adds the object's lifetime to one stage.
 class StageTimer {
  public:
   StageTimer(Profile& profile, std::string stage)

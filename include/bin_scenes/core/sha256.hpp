@@ -7,7 +7,7 @@
 
 namespace bin_scenes {
 
-/// The digest of contents that come in pieces.
+/// Digest of contents given in several pieces.
 class Sha256 {
  public:
   Sha256();

@@ -27,7 +27,7 @@ struct Pose {
     return {-(back * position), back};
   }
   bool finite() const { return position.allFinite() && orientation.coeffs().allFinite(); }
-  /// Of what is nowhere: not finite.
+  /// Pose of something that is not in the scene: not finite.
   static Pose none() { return {Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), Quat::Identity()}; }
 };
 

@@ -1,5 +1,5 @@
 /// Storage buffers (GL_SHADER_STORAGE_BUFFER): what compute passes read and write.
-/// Contents are zero after (re)allocation. A driver's largest block (128 MiB on llvmpipe) is checked, not assumed.
+/// Contents are zero after (re)allocation. The driver's limit on the size of a block (128 MiB on llvmpipe) is checked.
 #pragma once
 
 #include <cassert>
@@ -60,7 +60,7 @@ class Buffer {
   void grow(std::size_t count) {
     if (count > count_) storage_.grow(count * sizeof(T)), count_ = count;
   }
-  /// All contents; reallocates only if there are more elements than ever before.
+  /// Replaces the contents; reallocates only if the number of elements exceeds the capacity.
   void upload(const std::vector<T>& values) {
     if (values.size() > count_) resize(values.size());
     upload(0, values.data(), values.size());
@@ -94,7 +94,7 @@ class Buffer {
   std::size_t count_ = 0;
 };
 
-/// Copies ranges of buffers to the host without stalling: request() now, look again some steps later.
+/// Copies ranges of buffers to the host without stalling: request() starts the copy, ready() tells when it is done.
 class ReadBack {
  public:
   struct Range {
@@ -108,11 +108,11 @@ class ReadBack {
   ReadBack& operator=(const ReadBack&) = delete;
 
   void request(const Storage& source, std::size_t offset, std::size_t bytes) { request({{&source, offset, bytes}}); }
-  /// One behind the other; ranges that follow each other in the same buffer are one copy.
+  /// Ranges are stored one behind the other; adjacent ranges of one buffer are one copy.
   void request(const std::vector<Range>& ranges);
   bool pending() const { return fence_ != nullptr; }
   bool ready() const;  ///< never waits
-  const void* wait();  ///< waits if it must; valid until the next request()
+  const void* wait();  ///< waits if necessary; valid until the next request()
   template <class T>
   const T& wait_as() {
     return *static_cast<const T*>(wait());

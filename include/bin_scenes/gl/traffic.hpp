@@ -1,4 +1,4 @@
-/// What is asked of the device: where it is fast, dispatches, barriers and copies are what a step costs.
+/// Counts of dispatches, barriers and copied bytes: on a fast device they determine the cost of a step.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"
@@ -12,10 +12,10 @@ struct Traffic {
   std::uint64_t bytes_uploaded = 0, bytes_read_back = 0;  ///< between host and device
 };
 
-/// Of the whole process so far: one thread owns GL. The functions of this layer add to it.
+/// Totals of the process; one thread owns GL. The functions of this layer add to them.
 Traffic& traffic();
 
-/// Adds what is asked for during the life time of the object to the counters gl_dispatches, gl_barriers,
+/// Adds the counts during the object's lifetime to the counters gl_dispatches, gl_barriers,
 /// gl_bytes_uploaded and gl_bytes_read_back.
 class TrafficCount {
  public:

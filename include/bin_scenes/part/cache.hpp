@@ -1,6 +1,7 @@
 /// Disk cache of prepared parts in $XDG_CACHE_HOME/bin_scenes (else ~/.cache/bin_scenes).
-/// Keyed by content, parameters and format version; written by rename, so that two processes do no harm;
-/// checksummed and never trusted: a damaged file is rebuilt. Not writable is not an error: it works without.
+/// The key is made of content, parameters and format version. Files are written under a temporary name and renamed, so
+/// that two processes do not disturb each other. A checksum is tested on reading; a damaged file is built again. An
+/// unwritable cache is no error: parts are then prepared in each run.
 #pragma once
 
 #include "bin_scenes/core/sha256.hpp"
@@ -15,7 +16,7 @@ namespace bin_scenes {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What a cache file holds, mapped into memory: nothing is copied that is not read.
+/// The contents of a cache file, mapped into memory, so that only what is read is loaded.
 class CachedBytes {
  public:
   CachedBytes(const CachedBytes&) = delete;
@@ -42,7 +43,7 @@ class Cache {
   static Cache& global();  ///< BIN_SCENES_CACHE=off switches it off
 
   std::string directory() const;
-  /// Contents stored under `key` if whole and undamaged.
+  /// Contents stored under `key`; none if the file is missing or damaged.
   std::optional<CachedBytes> read(const std::string& kind, const std::string& key) const;
   void write(const std::string& kind, const std::string& key, const Bytes& bytes) const;
 };

@@ -1,4 +1,4 @@
-/// Exact questions to a triangle mesh: nearest point, inside or outside. The yardstick of quality and of shape errors.
+/// Exact queries on a triangle mesh: nearest point, inside or outside. Quality and shape errors are measured with them.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -22,8 +22,8 @@ class MeshQuery {
   MeshQuery& operator=(MeshQuery&&) noexcept;
 
   const Mesh& mesh() const;
-  /// Nearest surface point; gives up (distance = infinity) beyond `limit`. The tighter the limit the faster: a
-  /// neighbour's distance plus the way from there is always a valid one.
+  /// Nearest surface point; returns distance = infinity beyond `limit`. A small limit is faster; the distance found
+  /// for a neighbouring point plus the distance between the points is always a valid one.
   NearestPoint nearest(const Vec3& point, double limit = std::numeric_limits<double>::infinity()) const;
   /// Generalised winding number: 1 inside, 0 outside, robust to small gaps and overlapping shells (> 0.5 = inside).
   /// Far triangles are summed by a tree expansion (Barill et al. 2018): error below 3e-3, 3e-4 r.m.s.
@@ -47,7 +47,7 @@ class MeshQuery {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
   };
-  /// The tree itself, for walks over two meshes at once; empty for an empty mesh.
+  /// The nodes of the tree, for traversals of two meshes at once; empty for an empty mesh.
   const std::vector<Node>& nodes() const;
   std::size_t leaf_triangle(std::size_t position) const;
 

@@ -1,5 +1,5 @@
-/// One CAD part, made ready for simulation: mesh, mass properties, and the proxies a solver asks for, each made at
-/// most once per content and parameters (in memory and in the disk cache) and only when asked for.
+/// One CAD part, prepared for simulation: mesh, mass properties and collision shapes. A shape is made when a solver
+/// first needs it, once per content and parameters, and kept in memory and in the disk cache.
 #pragma once
 
 #include "bin_scenes/part/convex_hulls.hpp"
@@ -16,7 +16,7 @@
 
 namespace bin_scenes {
 
-/// What the process has done for its parts so far: the second start of a program should only read.
+/// Preparation done by this process so far. The second run of a program reads everything from the cache.
 struct PartWork {
   std::size_t built = 0;  ///< meshes loaded and proxies computed
   std::size_t read = 0;   ///< taken from the disk cache instead
@@ -34,7 +34,7 @@ class PartModel {
   const std::string& path() const;
   const Mesh& mesh() const;
   const LoadReport& load_report() const;
-  const std::string& mesh_key() const;  ///< hash of the mesh: the key of whatever is made from it alone
+  const std::string& mesh_key() const;  ///< hash of the mesh: cache key of everything that depends on the mesh alone
   const MassProperties& mass() const;  ///< density 1
   double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
   double radius() const;               ///< largest vertex distance from the centre of mass (m)

@@ -19,15 +19,15 @@ struct SampleSet {
 };
 
 struct SampleOptions {
-  int count = 1000;          ///< aim; met exactly unless the spacing comes to nothing
+  int count = 1000;          ///< number of samples; fewer only if the spacing becomes zero
   double sharp_angle = 0.5;  ///< rad: edges bent more than this are sampled as edges
 };
 
 class MeshQuery;
 
 /// Corners first, then convex sharp edges at half the spacing of the faces, then faces by farthest point sampling,
-/// until `count` is reached. Where corners and edges alone would need more than 0.7 of it, they are thinned out. Walls
-/// of closed cavities and faces inside another shell of the same part get none: nothing can touch them. Deterministic.
+/// until `count` is reached. Corners and edges take at most 0.7 of it. Closed cavities and faces inside another shell
+/// of the same part get no samples, because nothing can touch them. Deterministic.
 SampleSet surface_samples(const Mesh& mesh, const SampleOptions& options);
 SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options);
 

@@ -1,4 +1,4 @@
-/// How far a proxy (spheres, field, hulls) is from the mesh it stands for.
+/// Error of a collision shape (spheres, field, hulls) against the mesh.
 #pragma once
 
 #include "bin_scenes/part/convex_hulls.hpp"
@@ -11,8 +11,7 @@
 namespace bin_scenes {
 
 /// One-sided Hausdorff distances, mean over the area and maximum, as fractions of the bounding diagonal (measures.md);
-/// by dense sampling, so a maximum is a lower bound that is short by less than the sampling step, 0.5 % of the
-/// diagonal.
+/// by dense sampling, so that a maximum is too small by less than the sampling step, 0.5 % of the diagonal.
 struct ShapeError {
   double to_mesh_mean = 0, to_mesh_max = 0;      ///< proxy surface -> mesh
   double from_mesh_mean = 0, from_mesh_max = 0;  ///< mesh -> proxy surface

@@ -1,4 +1,4 @@
-/// A part as spheres (the thesis's shape): one per surface voxel, interior ones left out because they cannot touch.
+/// A part as spheres (the shape of the thesis): one per surface voxel; interior voxels get none, they cannot touch.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -23,8 +23,8 @@ struct VoxelOptions {
   int voxels = 10;         ///< along the longest side of the bounding box
   double tightness = 1.0;  ///< pitch / sphere diameter; < 1 = overlapping spheres
   bool keep_interior = false;
-  std::vector<double> radii;  ///< optional, instead of voxels: radii (m), largest first; big spheres fill the inside,
-                              ///< small ones the rim
+  std::vector<double> radii;  ///< optional, instead of voxels: radii (m), largest first; large spheres fill the inside,
+                              ///< small ones the surface
 };
 
 class MeshQuery;

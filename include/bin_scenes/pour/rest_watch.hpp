@@ -1,4 +1,4 @@
-/// The verdict on rest: poses over a window of simulated time, whatever the solver says of velocities or sleep.
+/// Decides on rest from poses over a window of simulated time, independently of the solver's velocities and sleep.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// A body rests once it has stayed, at every look, within `move` and `turn` of one and the same pose for `window`
-/// seconds: a slow creep and a swing to and fro both count as moving, along and about every axis alike.
+/// A body is at rest when all its poses of the last `window` seconds lie within `move` and `turn` of one pose. Slow
+/// creep and swinging both count as motion, in all directions and about all axes.
 class RestWatch {
  public:
   struct Limits {
@@ -19,10 +19,10 @@ class RestWatch {
 
   explicit RestWatch(std::size_t bodies) : bodies_(bodies) {}
 
-  /// Looks at a body at `time`. `center`: its centre of mass.
+  /// Records the pose of a body at `time`. `center`: its centre of mass.
   void look(std::size_t body, double time, const Vec3& center, const Quat& orientation, const Limits& limits);
   bool resting(std::size_t body) const { return bodies_[body].resting; }
-  /// Seconds for which a body has stayed so far.
+  /// Seconds since a body last moved.
   double still(std::size_t body, double time) const { return bodies_[body].seen ? time - bodies_[body].since : 0.0; }
 
  private:

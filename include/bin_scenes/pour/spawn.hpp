@@ -1,4 +1,4 @@
-/// Where parts start: above the growing heap, or on a grid, never overlapping anything.
+/// Start poses of parts: above the growing heap, or on a grid; they overlap nothing.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// Spheres that together enclose every triangle of a mesh, a few dozen whatever the mesh's size: cheap bounds of the
-/// posed mesh that, unlike its box, know of holes and arms.
+/// A few dozen spheres that together enclose every triangle of a mesh: cheap bounds that, unlike a box, follow
+/// holes and arms.
 struct Cover {
   struct Ball {
     Vec3 center;
@@ -36,13 +36,13 @@ class Rain {
   struct Obstacle {
     const Cover* cover;
     Pose pose;
-    bool settled;  ///< slow enough to count as heap; what still falls is only kept clear of
+    bool settled;  ///< slow enough to count as heap; parts that still fall are only avoided
   };
 
   Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
 
-  /// Seeded pose of the model frame: uniform orientation and place between the walls, lowest point drop_height above
-  /// what lies below; none if no try ends low enough (below the rim, and not high above parts that still fall).
+  /// Seeded pose of the model frame: uniform orientation and position between the walls, lowest point drop_height above
+  /// the heap. None if no attempt ends below the rim, or all end high above parts that still fall.
   std::optional<Pose> place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
                             Random& random, int tries) const;
 

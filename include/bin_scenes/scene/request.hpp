@@ -1,4 +1,4 @@
-/// What a user asks for: plain data, one field per key of the request file (docs/request.md), SI units.
+/// What a user asks for: plain data, one field per key of the request file (docs/use/request.md), SI units.
 /// config/ reads it from YAML, ros/ from the message; both fill the same struct and the same check() judges it.
 #pragma once
 

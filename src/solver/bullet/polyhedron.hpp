@@ -9,8 +9,8 @@ namespace bin_scenes::bullet {
 
 /// @param hull convex, closed; its triangles wind outwards
 /// Triangles in one plane, up to `flat` in the hull's unit, are one face. Bullet's own initializePolyhedralFeatures
-/// splits some planes into several faces, and clipping those misses corners: what rolls over the rim of a bolt's head
-/// meets them when they are already under (docs/solver_findings.md).
+/// splits some planes into several faces, and clipping those misses corners: a bolt that rolls on the rim of its head
+/// then gets contacts at corners that already overlap, and gains energy (docs/lab/findings/bullet.md).
 btConvexPolyhedron polyhedron_of(const Mesh& hull, double flat);
 
 }  // namespace bin_scenes::bullet

@@ -18,9 +18,9 @@ struct Capacity {
   std::size_t colors = 32;         ///< of a large world that may have dispatches of their own; others share a group
 };
 
-/// Capacity::group_bodies on a software device, at most. One group that pressed 358 bodies in a heap of random overlaps
-/// got wrong velocities on llvmpipe, without a word; a limit on turns of loops is taken to be why (docs/solver.md, "Not
-/// there yet"). A group of 160 such bodies is right, and gets no more work for being a heap of many layers.
+/// Largest Capacity::group_bodies on a software device. A group that pressed 358 bodies in a heap of random overlaps
+/// returned wrong velocities on llvmpipe silently; its limit on loop iterations is the suspected cause
+/// (docs/develop/gpu.md, "Limits"). A group of 160 such bodies is right.
 constexpr std::size_t software_group_bodies = 192;
 }  // namespace sphere_gl
 

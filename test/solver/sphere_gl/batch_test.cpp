@@ -248,7 +248,7 @@ gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double se
   return {};
 }
 
-// What a step costs on a device for which dispatches and barriers are dear (docs/solver.md, "Counted").
+// What a step costs on a device for which dispatches and barriers are dear (docs/develop/gpu.md).
 TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   const auto solver = make_gl_sphere_solver(coarse());
   std::vector<WorldId> ids;

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""The docs: links lead somewhere, the text stays short, pages and pictures are linked, the version is one."""
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "models/README.md", ROOT / "bench/results/README.md",
+         *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+def anchors(page):
+    """As GitHub makes them: lower case, without punctuation, hyphens for spaces."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-") for title in titles}
+
+
+def links(page):
+    """(text of the link, file, anchor) of all links into this tree."""
+    for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+        if "://" not in link:
+            path, _, anchor = link.partition("#")
+            yield link, (page.parent / path).resolve() if path else page, anchor
+
+
+def words(pages):
+    """Of running text: rows of tables do not count."""
+    return sum(len(line.split()) for page in pages for line in page.read_text().splitlines()
+               if not line.lstrip().startswith("|"))
+
+
+class Docs(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        for page in PAGES:
+            for link, target, anchor in links(page):
+                with self.subTest(page=page.relative_to(ROOT).as_posix(), link=link):
+                    self.assertTrue(target.exists(), "no such file")
+                    if anchor:
+                        self.assertIn(anchor, anchors(target))
+
+    def test_every_page_and_picture_is_linked(self):
+        linked = {target for page in PAGES for _, target, _ in links(page)}
+        for path in (ROOT / "docs").rglob("*.*"):
+            self.assertIn(path, linked, "nothing leads to it")
+
+    def test_text_is_short(self):
+        docs = [page for page in PAGES if "docs" in page.relative_to(ROOT).parts or page.parent == ROOT]
+        self.assertLessEqual(words(docs), 15000)
+        self.assertLessEqual(words([ROOT / "README.md"]), 900)
+        self.assertLessEqual(len((ROOT / "docs/develop/solver.md").read_text().splitlines()), 150)
+
+    def test_a_finding_answers_in_its_first_two_lines(self):
+        for page in (ROOT / "docs/lab/findings").glob("*.md"):
+            if page.name != "README.md":
+                title, *answer = page.read_text().splitlines()[:3]
+                self.assertTrue(title.startswith("# ") and title.endswith("?"), page.name)
+                self.assertTrue(all(line.endswith(".") for line in answer), page.name)
+
+    def test_the_version_is_one(self):
+        version = re.search(r"project\(bin_scenes VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        self.assertIn("<version>%s</version>" % version, (ROOT / "package.xml").read_text())
+        newest = re.search(r"^([\d.]+) \(\d{4}-\d\d-\d\d\)$", (ROOT / "CHANGELOG.rst").read_text(), re.M)
+        self.assertEqual(newest and newest[1], version)
+
+
+if __name__ == "__main__":
+    unittest.main()
