@@ -1,6 +1,6 @@
 /// Programs from shader files, and the dispatch of compute passes.
 ///
-/// A shader file contains no #version: the loader puts `#version 450 core` and the defines in
+/// A shader file holds no #version and no group size trickery: the loader puts `#version 450 core` and the defines in
 /// front, and replaces `#include "shared/x.h"` (path below the shader directory, each file at most once).
 /// Linked binaries are kept in $XDG_CACHE_HOME/bin_scenes/programs, keyed by driver and source; a file that is
 /// damaged or refused by the driver is compiled anew.
@@ -57,13 +57,13 @@ class Program {
 /// What later commands wait for. The safe one is the default.
 enum class Barrier {
   storage,  ///< later passes see what this one wrote, indirect arguments included
-  none,     ///< the next pass does not read or write what this one wrote
+  none,     ///< the next pass touches nothing this one wrote
   all       ///< also rendering, textures, copies and read-backs through the API
 };
 void barrier(Barrier kind = Barrier::all);
 
-/// An axis takes at most 65,535 groups; more are folded into y. The shader computes its index with thread_index() or
-/// group_index() of shared/dispatch.h and checks its own bound. With no groups nothing is dispatched.
+/// Groups beyond the 65,535 an axis takes are folded into y; the shader undoes it with thread_index() or
+/// group_index() of shared/dispatch.h and checks its own bound. No groups: nothing is called.
 std::array<unsigned, 2> folded_groups(std::size_t groups);
 void dispatch_groups(const Program& program, std::size_t groups, Barrier after = Barrier::storage);
 /// Enough groups for one invocation per item.
