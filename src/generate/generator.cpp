@@ -65,7 +65,7 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
     part_line.velocities.clear();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
       const ScenePart& part = scene.parts[i];
-      if (part.line != line || part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+      if (part.line != line || part.state == PartState::escaped || !is_there(part.state)) continue;
       part_line.poses.push_back(part.pose);  // from rest, as the drift of a finished scene is defined
       kept.push_back(i);
     }

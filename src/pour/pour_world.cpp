@@ -266,9 +266,9 @@ void PourWorld::look() {
       judge_answer();
     else if (!all_slow() || (time_ - asked_since_ > patience && too_many(less_still_than(calm))))
       enter(Phase::settle);
-  } else if (phase_ == Phase::press && !stood_ && all_still(calm)) {
+  } else if (phase_ == Phase::press && !stood_ && finish() == Pour::Finish::probed && all_still(calm)) {
     ask(Phase::probe);
-  } else if (phase_ == Phase::settle && all_still(calm)) {
+  } else if (phase_ == Phase::settle && finish() != Pour::Finish::settled && all_still(calm)) {
     enter(Phase::press);
   }
   // Stiff contacts take little out of rocking: not for what gets under way, nor for a start that was not at rest.
@@ -311,7 +311,20 @@ void PourWorld::settle() {
 
 bool PourWorld::over() const {
   if (plan_.request.seconds) return false;  // time_left() decides
-  return (waiting_.empty() && phase_ == Phase::press && stood_ && all_rest()) || time_ >= plan_.request.pour.limit;
+  return done() || time_ >= plan_.request.pour.limit;
+}
+
+bool PourWorld::done() const {
+  if (!waiting_.empty() || !all_rest()) return false;
+  switch (finish()) {
+    case Pour::Finish::settled:
+      return phase_ == Phase::settle || phase_ == Phase::press;
+    case Pour::Finish::pressed:
+      return phase_ == Phase::press;
+    case Pour::Finish::probed:
+      break;
+  }
+  return phase_ == Phase::press && stood_;
 }
 
 Progress PourWorld::progress() const {
@@ -364,6 +377,7 @@ Scene PourWorld::scene() {
   }
   report.solver = solver_.name();
   report.device = solver_.device();
+  report.finish = plan_.request.seconds || !done() ? "none" : name_of(heeds_phases_ ? finish() : Pour::Finish::settled);
   report.simulated_s = time_;
   report.steps = earlier_steps_ + solver_.steps(id_);
   report.flags = solver_.flags(id_);

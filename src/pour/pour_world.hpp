@@ -55,6 +55,8 @@ class PourWorld {
   bool all_still(double seconds) const { return less_still_than(seconds) == 0; }
   bool too_many(std::size_t moved) const;  ///< for a heap that stands
   bool all_asleep() const;
+  Pour::Finish finish() const { return plan_.request.pour.finish; }
+  bool done() const;  ///< what the request asks for
   void enter(Phase phase);
 
   const PourPlan& plan_;

@@ -115,7 +115,7 @@ struct RangeCamera::State {
 namespace {
 
 bool present(const ScenePart& part) {
-  return part.state != PartState::not_poured && part.pose.finite();
+  return is_there(part.state) && part.pose.finite();
 }
 
 }  // namespace

@@ -382,13 +382,24 @@ struct Probed {
 
   std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
 };
-Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25) {
+Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25,
+              Pour::Finish finish = Pour::Finish::probed) {
   HoveringSolver solver(habits);
   Request request = request_of(parts);
+  request.pour.finish = finish;
   request.pour.rest_window = rest_window;
   request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
-  EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+  const Report report = pour(request, {small_box()}, solver, {0})[0].report;
+  EXPECT_TRUE(report.at_rest);
+  EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
   return {solver.phases, solver.probed_s};
+}
+
+TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
+  const auto phases = [](Pour::Finish finish) { return probed({}, 2, 0.25, finish).phases; };
+  const std::vector<Phase> all = phases(Pour::Finish::probed);
+  EXPECT_EQ(phases(Pour::Finish::settled), std::vector<Phase>(all.begin(), all.begin() + 2));
+  EXPECT_EQ(phases(Pour::Finish::pressed), std::vector<Phase>(all.begin(), all.begin() + 3));
 }
 
 TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
@@ -453,6 +464,7 @@ TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
     HoveringSolver solver(habits);
     Request request = request_of(2);
     request.pour.pattern = Pour::Pattern::given;
+    request.pour.finish = Pour::Finish::probed;
     for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
     EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
     return solver.phases;
