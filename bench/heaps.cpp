@@ -2,6 +2,7 @@
 
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/quality/quality.hpp"
+#include "pour/settling.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,7 +63,7 @@ Heaps::Heaps(const Heap& heap, const Request& settings, std::size_t per_world, s
   const WorldDef def = world_of(request, parts_);
   for (std::size_t w = 0; w < worlds; ++w) {
     const WorldId id = solver_->add_world(def);
-    solver_->set_phase(id, Phase::settle);
+    solver_->set_phase(id, phases::settle);
     for (std::size_t h = 0, body = 0; h < per_world; ++h) {
       const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
                         heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);

@@ -2,6 +2,7 @@
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "heaps.hpp"
+#include "pour/settling.hpp"
 #include "without_skips.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ Row after_rest(const Request& request) {
   const WorldDef def = world_of(request, parts);
   const Scene scene = pour(request, parts, *solver, {0}).front();
   const WorldId world = solver->add_world(def);
-  solver->set_phase(world, Phase::settle);
+  solver->set_phase(world, phases::settle);
   for (std::size_t b = 0; b < scene.parts.size(); ++b) solver->insert(world, b, {scene.parts[b].pose, {}});
   std::vector<double> seconds;
   for (int k = 0; k < 4; ++k) {

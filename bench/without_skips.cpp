@@ -1,6 +1,7 @@
 #include "without_skips.hpp"
 
 #include "bin_scenes/core/random.hpp"
+#include "pour/settling.hpp"
 #include "runs.hpp"
 #include "solver/sphere/make_world.hpp"
 
@@ -70,7 +71,7 @@ Fall fall(const std::string& part, std::size_t count, double seconds, const Skip
   const auto steps = static_cast<int>(std::lround(0.5 * seconds / world.settings.time_step));
   tbb::task_arena(1).execute([&] {
     for (int k = 0; k < 2 * steps; ++k) {
-      if (k == steps) sphere::set_phase(world, Phase::settle);
+      if (k == steps) sphere::set_phase(world, phases::settle);
       sphere::step(world);
     }
   });

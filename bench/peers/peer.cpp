@@ -45,7 +45,9 @@ class PeerSolver final : public Solver {
     slot.world->remove(body);
     slot.in[body] = false;
   }
-  bool set_phase(WorldId, Phase) override { return false; }
+  bool set_phase(WorldId, const Phase&) override {
+    return false;
+  }
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "step");
     const Steps steps = steps_in(seconds, settings_.time_step);

@@ -87,25 +87,57 @@ struct Generator::State {
     estimate_memory(request, models.parts());
   }
 
-  void measure_drift(Scene& scene, const Request& request, Solver& solver, const RunHooks& hooks) {
+  static void measure_drift(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                            const std::shared_ptr<Solver>& solver, const PartModelPtr& bin_model,
+                            const RunHooks& hooks) {
     std::vector<std::size_t> kept;
     const Request next = going_on(request, scene, drift_seconds, kept);
     if (kept.empty()) return;
     RunHooks quiet;
     quiet.cancel = hooks.cancel;
-    const Scene moved = pour(next, models.parts(), solver, {scene.index}, quiet, models.bin()).at(0);
+    Heap again(next, parts, solver, scene.index, bin_model);
+    again.settle(quiet);
+    const Scene moved = again.scene();
     Scene before;
     for (const std::size_t i : kept) {
       before.parts.push_back(scene.parts[i]);
       before.parts.back().id = static_cast<int>(before.parts.size()) - 1;  // as the re-run counts them
     }
-    scene.report.drift = drift(before, moved, models.parts());
+    scene.report.drift = drift(before, moved, parts);
   }
 
-  void see(Result& result, const Request& request, bool silhouettes) {
+  /// What the report says of models and solver.
+  static void name_origin(Scene& scene, const std::vector<PartModelPtr>& parts, const std::string& solver_reason) {
+    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
+    scene.report.solver_reason = solver_reason;
+    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
+      if (std::find(parts.begin(), part, *part) != part) continue;
+      for (const Flag& flag : (*part)->load_report().flags) scene.report.flags.push_back(flag);
+    }
+  }
+
+  Result rendered(Scene&& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                  const PartModelPtr& bin_model, const Options& options, Reporter& reporter) {
+    Result result;
+    result.scene = std::move(scene);
+    result.scene.sensors.clear();
+    for (const Sensor& sensor : request.sensors) result.scene.sensors.push_back(resolved(sensor, request.bin));
+    if (!options.render || request.sensors.empty()) return result;
+    Profile rendering;
+    {
+      StageTimer timer(rendering, "render");
+      reporter.phase("render", result.scene.index, result.scene.parts.size());
+      see(result, request, parts, bin_model, options.silhouettes);
+    }
+    result.scene.report.profile.merge(rendering);
+    return result;
+  }
+
+  void see(Result& result, const Request& request, const std::vector<PartModelPtr>& parts,
+           const PartModelPtr& bin_model, bool silhouettes) {
     Scene& scene = result.scene;
     if (!camera) camera = std::make_unique<RangeCamera>();
-    result.images = camera->render(scene, request, models.parts(), models.bin(), silhouettes);
+    result.images = camera->render(scene, request, parts, bin_model, silhouettes);
     for (const RangeImage& image : result.images) {
       for (ScenePart& part : scene.parts) {
         const double seen = static_cast<double>(image.visible.at(part.id));
@@ -137,7 +169,7 @@ void Generator::generate(const Request& request, const Options& options, const s
   const std::vector<PartModelPtr>& parts = state_->models.parts();
   const PartModelPtr& bin_model = state_->models.bin();
   std::string solver_reason;
-  std::unique_ptr<Solver> solver;
+  std::shared_ptr<Solver> solver;
   {
     StageTimer timer(loading, "prepare");
     reporter.phase("prepare", request.first, request.part_count());
@@ -153,19 +185,7 @@ void Generator::generate(const Request& request, const Options& options, const s
     scene.report.profile.merge(judging);
   };
   const auto hand_on = [&](Scene&& scene) {
-    Result result;
-    result.scene = std::move(scene);
-    result.scene.sensors.clear();
-    for (const Sensor& sensor : request.sensors) result.scene.sensors.push_back(resolved(sensor, request.bin));
-    if (options.render && !request.sensors.empty()) {
-      Profile rendering;
-      {
-        StageTimer timer(rendering, "render");
-        reporter.phase("render", result.scene.index, result.scene.parts.size());
-        state_->see(result, request, options.silhouettes);
-      }
-      result.scene.report.profile.merge(rendering);
-    }
+    Result result = state_->rendered(std::move(scene), request, parts, bin_model, options, reporter);
     reporter.handed_on();
     done(std::move(result));
   };
@@ -179,20 +199,36 @@ void Generator::generate(const Request& request, const Options& options, const s
     judging.hand_on_judged();
   };
   pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
-    Report& report = scene.report;
-    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
-    report.solver_reason = solver_reason;
-    if (place == 0) report.profile.merge(loading);
-    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
-      if (std::find(parts.begin(), part, *part) != part) continue;
-      for (const Flag& flag : (*part)->load_report().flags) report.flags.push_back(flag);
-    }
+    State::name_origin(scene, parts, solver_reason);
+    if (place == 0) scene.report.profile.merge(loading);
     reporter.phase("quality", scene.index, scene.parts.size());
-    if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
+    if (request.drift_check) State::measure_drift(scene, request, parts, solver, bin_model, options.hooks);
     judging.add(place, std::move(scene));
     judging.hand_on_judged();
   });
   judging.finish();
+}
+
+Heap Generator::heap(const Request& request, const RunHooks& hooks) {
+  check(request);
+  Reporter reporter(hooks, 1);
+  state_->load(request, reporter);
+  reporter.phase("prepare", request.first, request.part_count());
+  std::string reason;
+  std::shared_ptr<Solver> solver = make_solver(request, state_->models.parts(), reason);
+  return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
+}
+
+Generator::Result Generator::result(const Heap& heap, const Options& options) {
+  const Request& request = heap.request();
+  Reporter reporter(options.hooks, 1);
+  Scene scene = heap.scene();
+  State::name_origin(scene, heap.parts(), heap.solver_reason());
+  reporter.phase("quality", scene.index, scene.parts.size());
+  if (request.drift_check)
+    State::measure_drift(scene, request, heap.parts(), heap.solver(), heap.bin_model(), options.hooks);
+  judge(scene, request, heap.parts(), heap.bin_model());
+  return state_->rendered(std::move(scene), request, heap.parts(), heap.bin_model(), options, reporter);
 }
 
 }  // namespace bin_scenes

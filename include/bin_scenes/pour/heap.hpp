@@ -11,6 +11,7 @@
 #include "bin_scenes/pour/pour.hpp"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace bin_scenes {
@@ -25,9 +26,9 @@ struct NewParts {
 class Heap {
  public:
   /// Scene `index` of the request, not poured yet. `parts`: by part line; `bin_model`: Bin::Kind::mesh only, loaded
-  /// through the cache when not given.
+  /// through the cache when not given; `solver_reason`: of make_solver(), for the report.
   Heap(const Request& request, const std::vector<PartModelPtr>& parts, std::shared_ptr<Solver> solver,
-       std::size_t index = 0, PartModelPtr bin_model = nullptr);
+       std::size_t index = 0, PartModelPtr bin_model = nullptr, std::string solver_reason = "");
   Heap(Heap&&) noexcept;
   Heap& operator=(Heap&&) noexcept;
   ~Heap();
@@ -55,9 +56,11 @@ class Heap {
   /// and visibility are not filled in (quality/, sensor/).
   Scene scene() const;
 
-  const Request& request() const;  ///< with the lines that were added, and the gravity of now
+  const Request& request() const;                  ///< with the lines that were added, and the gravity of now
   const std::vector<PartModelPtr>& parts() const;  ///< by part line
   const PartModelPtr& bin_model() const;
+  const std::shared_ptr<Solver>& solver() const;
+  const std::string& solver_reason() const;
 
  private:
   struct State;
