@@ -5,6 +5,7 @@
 #include "runs.hpp"
 
 #include "bin_scenes/core/random.hpp"
+#include "pour/settling.hpp"
 #include "solver/lab.hpp"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ Row repose(const std::string& name, std::size_t count, double friction, std::uin
   add_bed(def, width, friction, starts);
   const WorldId world = solver->add_world(def);
   for (std::size_t b = count; b < starts.size(); ++b) solver->insert(world, b, starts[b]);
-  solver->set_phase(world, Phase::pour);
+  solver->set_phase(world, phases::pour);
   Random random(seed, 0, Stream::probe);
   double top = d;
   for (std::size_t in = 0; in < count;) {
@@ -147,7 +148,7 @@ Row repose(const std::string& name, std::size_t count, double friction, std::uin
     for (std::size_t b = 0; b < in; ++b)
       if (states[b].pose.position.head<2>().norm() < 2.5 * d) top = std::max(top, states[b].pose.position.z() + radius);
   }
-  solver->set_phase(world, Phase::settle);
+  solver->set_phase(world, phases::settle);
   solver->advance({world}, 2.0);
   const std::vector<BodyState> states = solver->states(world);
   std::vector<Vec3> centers;

@@ -1,5 +1,6 @@
 /// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part,
 /// with the parts of one heap. Heaps at rest on an endless floor, or joined in one box, every part awake.
+#include "pour/settling.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
@@ -81,7 +82,7 @@ class Heaps {
     const WorldDef def = world_of(request, parts_);
     for (std::size_t w = 0; w < worlds; ++w) {
       const WorldId id = solver_->add_world(def);
-      solver_->set_phase(id, Phase::settle);
+      solver_->set_phase(id, phases::settle);
       for (std::size_t h = 0, body = 0; h < per_world; ++h) {
         const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
                           heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);

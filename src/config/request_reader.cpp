@@ -131,7 +131,7 @@ void go_on_from_scene(Request& request, const Where& where, const std::function<
                             "' of part line " + std::to_string(part.line) + ", which the request does not have",
                         where("pour.scene"), "list the same models in the same order as for that scene");
     }
-    if (part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+    if (part.state == PartState::escaped || !is_there(part.state)) continue;
     poses[part.line].push_back(part.pose);
     velocities[part.line].push_back(part.velocity);
   }

@@ -48,7 +48,7 @@ double body_bytes(const Request& request, const PartModel* part) {
     options.max_hulls = solver.bullet.max_hulls;
     return per_body + per_hull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }
-  if (solver.preset == SolverSettings::Preset::standard) return per_body + contacts_per_body * per_contact;
+  if (solver.preset != SolverSettings::Preset::thesis) return per_body + contacts_per_body * per_contact;
   const ThesisSettings& thesis = solver.thesis;
   const double across = thesis.radii.empty() ? thesis.voxels : 0.5 / thesis.radii.back();
   const double spheres = 6.0 * std::pow(across / thesis.tightness, 2);

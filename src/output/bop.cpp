@@ -37,7 +37,7 @@ Json in_mm(const Vec3& v) {
 std::vector<const ScenePart*> in_places(const Scene& scene) {
   std::vector<const ScenePart*> there;
   for (const ScenePart& part : scene.parts) {
-    if (part.state != PartState::not_poured && part.pose.finite()) there.push_back(&part);
+    if (is_there(part.state) && part.pose.finite()) there.push_back(&part);
   }
   std::vector<const ScenePart*> places(there.size(), nullptr), late;
   for (const ScenePart* part : there) {

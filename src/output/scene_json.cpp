@@ -79,7 +79,7 @@ Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<Par
   const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
   Json truth = Json::array();
   for (const ScenePart& part : scene.parts) {
-    if (part.state == PartState::not_poured || !part.pose.finite()) continue;
+    if (!is_there(part.state) || !part.pose.finite()) continue;
     const auto id = static_cast<std::size_t>(part.id);
     const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_camera * part.pose, image.sensor);
     const double all = static_cast<double>(image.total.at(id));
@@ -117,6 +117,7 @@ Json json_of(const Report& report) {
                {"solver", report.solver},
                {"solver_reason", report.solver_reason},
                {"device", report.device},
+               {"finish", report.finish},
                {"simulated_s", report.simulated_s},
                {"wall_s", report.wall_s},
                {"steps", report.steps},
@@ -170,7 +171,8 @@ Pose pose_of(const Json& json) {
 
 PartState state_of(const std::string& name) {
   for (const PartState state :
-       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured}) {
+       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured,
+        PartState::removed}) {
     if (name == name_of(state)) return state;
   }
   throw std::runtime_error("'" + name + "' is no state of a part");
@@ -199,6 +201,7 @@ Report report_of(const Json& json) {
   report.solver = json.value("solver", "");
   report.solver_reason = json.value("solver_reason", "");
   report.device = json.value("device", "");
+  report.finish = json.value("finish", "");
   report.simulated_s = json.value("simulated_s", 0.0);
   report.wall_s = json.value("wall_s", 0.0);
   report.steps = json.value("steps", std::uint64_t{0});

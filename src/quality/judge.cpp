@@ -15,7 +15,7 @@ constexpr double noise = 1e-6;
 std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModelPtr>& models) {
   std::vector<Placed> placed;
   for (const ScenePart& part : scene.parts) {
-    if (part.state == PartState::not_poured || !part.pose.finite()) continue;
+    if (!is_there(part.state) || !part.pose.finite()) continue;
     const PartModel& model = *models[part.line];
     Placed p{&part, &model.query(), model.diagonal(), {}};
     for (const Vec3& v : model.mesh().vertices) p.box.extend(part.pose * v);
@@ -163,7 +163,7 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
     report.reasons.push_back("part " + std::to_string(worst_gap.what) + " could fall by " + percent(worst_gap.value) +
                              " of its size, which is above accept.gap " + percent(request.accept.gap));
   }
-  const auto is_in = [](const ScenePart& p) { return p.state != PartState::not_poured && p.state != PartState::fixed; };
+  const auto is_in = [](const ScenePart& p) { return is_there(p.state) && p.state != PartState::fixed; };
   if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
     report.reasons.push_back("nothing was poured: no part found room below the rim");
   }
@@ -183,7 +183,7 @@ DriftReport drift(const Scene& before, const Scene& after, const std::vector<Par
   DriftReport report;
   std::vector<double> moves, turns;
   for (const ScenePart& start : before.parts) {
-    if (start.state == PartState::fixed || start.state == PartState::not_poured || !start.pose.finite()) continue;
+    if (start.state == PartState::fixed || !is_there(start.state) || !start.pose.finite()) continue;
     const auto end =
         std::find_if(after.parts.begin(), after.parts.end(), [&](const ScenePart& p) { return p.id == start.id; });
     if (end == after.parts.end() || !end->pose.finite()) continue;

@@ -12,6 +12,7 @@ namespace msgs = bin_scenes_msgs;
 static_assert(int(PartState::resting) == msgs::ScenePart::RESTING && int(PartState::moving) == msgs::ScenePart::MOVING);
 static_assert(int(PartState::escaped) == msgs::ScenePart::ESCAPED && int(PartState::fixed) == msgs::ScenePart::FIXED);
 static_assert(int(PartState::not_poured) == msgs::ScenePart::NOT_POURED);
+static_assert(int(PartState::removed) == msgs::ScenePart::REMOVED);
 
 geometry_msgs::Vector3 vector_message(const Vec3& v) {
   geometry_msgs::Vector3 message;
@@ -138,6 +139,7 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.device = report.device;
   message.simulated_s = report.simulated_s;
   message.wall_s = report.wall_s;
+  message.finish = report.finish;
   message.steps = report.steps;
   for (const auto& [name, ms] : report.profile.stages_ms) {
     msgs::StageTime stage;
@@ -187,6 +189,7 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.device = message.device;
   report.simulated_s = message.simulated_s;
   report.wall_s = message.wall_s;
+  report.finish = message.finish;
   report.steps = message.steps;
   for (const auto& stage : message.stages) report.profile.stages_ms[stage.stage] = stage.ms;
   for (const auto& counter : message.counters) report.profile.counters[counter.name] = counter.value;

@@ -67,6 +67,18 @@ const char* name_of(SensorModel model) {
   return "?";
 }
 
+const char* name_of(Pour::Finish finish) {
+  switch (finish) {
+    case Pour::Finish::settled:
+      return "settled";
+    case Pour::Finish::pressed:
+      return "pressed";
+    case Pour::Finish::probed:
+      return "probed";
+  }
+  return "?";
+}
+
 std::size_t Request::part_count() const {
   std::size_t n = 0;
   for (const PartLine& line : parts) n += line.count;

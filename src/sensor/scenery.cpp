@@ -202,7 +202,7 @@ Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<P
   }
   for (const ScenePart& part : scene.parts) {
     s.of_part.push_back(-1);
-    if (part.state == PartState::not_poured || !part.pose.finite()) continue;
+    if (!is_there(part.state) || !part.pose.finite()) continue;
     if (part.id < 0 || part.id >= 65535) {
       throw input_error("part " + std::to_string(part.id) + " has no 16-bit label", "sensors",
                         "show at most 65,535 parts in one scene");

@@ -1,9 +1,9 @@
 /// The main job, from request to judged scenes and their images. Tool, node and benchmark all call this.
 #pragma once
 
+#include "bin_scenes/pour/heap.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
-#include "bin_scenes/pour/pour.hpp"
 
 #include <functional>
 #include <memory>
@@ -33,6 +33,12 @@ class Generator {
   /// Loads, prepares, pours, judges and renders request.scenes scenes from request.first on, and hands each over as
   /// soon as it is done (in order of index, in the calling thread). Throws Error; scenes handed over before stay valid.
   void generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done);
+
+  /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
+  /// It may outlive the generator.
+  Heap heap(const Request& request, const RunHooks& hooks = {});
+  /// What generate() hands over, of a heap as it is now: judged and rendered, as its own request asks.
+  Result result(const Heap& heap, const Options& options);
 
   /// Models of the last request, by part line.
   const std::vector<PartModelPtr>& parts() const;

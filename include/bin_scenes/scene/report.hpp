@@ -43,6 +43,7 @@ struct Report {
   std::string solver;                  ///< "sphere", "sphere/thesis", "bullet"
   std::string solver_reason;           ///< why `auto` chose it
   std::string device;                  ///< GL_RENDERER, or "cpu"
+  std::string finish;                  ///< "settled", "pressed", "probed": what was done; "none": time ran out before
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t steps = 0;
   Profile profile;

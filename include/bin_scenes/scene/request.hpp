@@ -67,6 +67,13 @@ struct Pour {
     given  ///< poses come with the parts or from an earlier scene
   };
   Pattern pattern = Pattern::rain;
+  /// How much is done before a scene counts as finished. Each includes those before it and costs more time.
+  enum class Finish {
+    settled,  ///< on soft contacts: parts overlap by up to 0.1 % of their diagonal
+    pressed,  ///< stiff contacts take the overlap out
+    probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
+  };
+  Finish finish = Finish::probed;
   double drop_height = 0.02;     ///< rain: free way of a part's lowest point to the heap below it (m); higher = harder impacts
   double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
   std::string scene;             ///< given: path of a scene.json to go on from
@@ -75,6 +82,8 @@ struct Pour {
   double rest_move = 1e-3;       ///< largest displacement over the window / part diagonal that counts as rest
   double rest_turn = 1e-2;       ///< largest turn over the window (rad) that counts as rest
 };
+
+const char* name_of(Pour::Finish finish);
 
 enum class SolverType { automatic, sphere, bullet };
 const char* name_of(SolverType type);
@@ -125,7 +134,11 @@ struct SphereSettings {
 
 struct SolverSettings {
   SolverType type = SolverType::automatic;
-  enum class Preset { standard, thesis } preset = Preset::standard;  ///< which sphere solver
+  enum class Preset {
+    standard,  ///< every scene meets the goals of accuracy
+    quick,     ///< the default sphere solver with settings that err by up to 1 % of a part, for a fraction of the time
+    thesis     ///< the thesis's sphere solver
+  } preset = Preset::standard;
   BulletSettings bullet;
   ThesisSettings thesis;
   SphereSettings sphere;

@@ -89,11 +89,11 @@ class SphereSolver final : public Solver {
 
   void remove(WorldId id, std::size_t body) override {
     World& w = slots_[id]->world;
-    wake(w, static_cast<std::uint32_t>(body));
+    for (const std::uint32_t other : touched_by(w, static_cast<std::uint32_t>(body))) wake(w.bodies[other]);
     w.bodies[body].present = false;
   }
 
-  bool set_phase(WorldId id, Phase phase) override {
+  bool set_phase(WorldId id, const Phase& phase) override {
     sphere::set_phase(slots_[id]->world, phase);
     return true;
   }

@@ -29,7 +29,6 @@ struct Resident {
   Batch::Slot slot = 0;
   gpu::SphereProgress progress{};
   std::set<std::size_t> changed;  ///< bodies to upload
-  std::vector<std::uint32_t> island;
   std::uint64_t steps = 0;
 };
 
@@ -65,7 +64,6 @@ class GlSphereSolver final : public Solver {
     r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
       return shapes_.of(part, profile_);
     });
-    r.island.assign(r.world.bodies.size(), 0);
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));
@@ -87,19 +85,24 @@ class GlSphereSolver final : public Solver {
 
   void remove(WorldId id, std::size_t body) override {
     Resident& r = world(id);
-    for (std::size_t i = 0; i < r.world.bodies.size(); ++i)
-      if (r.island[i] == r.island[body]) wake(r, i);
+    for (const std::uint32_t other : touched(r.world, body)) wake(r, other);
     r.world.bodies[body].present = false;
     r.changed.insert(body);
   }
 
-  bool set_phase(WorldId id, Phase phase) override {
+  bool set_phase(WorldId id, const Phase& phase) override {
     Resident& r = world(id);
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
     tell(r);
-    for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
+    for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
+      if (phase.begins_asleep)
+        sphere::put_to_sleep(r.world.settings, r.world.bodies[i]);
+      else
+        sphere::wake(r.world.bodies[i]);
+      if (r.world.bodies[i].present) r.changed.insert(i);
+    }
     return true;
   }
 
@@ -188,11 +191,20 @@ class GlSphereSolver final : public Solver {
     tell_phase(r.world, r.progress);
   }
 
+  /// What has contacts with a body: found anew by the passes on the CPU, for which all others sleep.
+  static std::vector<std::uint32_t> touched(sphere::World world, std::size_t body) {
+    for (sphere::Body& b : world.bodies) sphere::put_to_sleep(world.settings, b);
+    sphere::wake(world.bodies[body]);
+    if (world.bodies[body].inverse_mass == 0) world.bodies[body].inverse_mass = 1;
+    sphere::find_pairs(world);
+    sphere::find_contacts(world);
+    return sphere::touched_by(world, static_cast<std::uint32_t>(body));
+  }
+
   static void wake(Resident& r, std::size_t body) {
     sphere::Body& b = r.world.bodies[body];
     if (!b.present) return;
-    b.asleep = false;
-    b.still = 0;
+    sphere::wake(b);
     r.changed.insert(body);
   }
 
@@ -279,7 +291,6 @@ class GlSphereSolver final : public Solver {
       Resident& r = world(id);
       for (std::size_t i = 0; i < r.world.bodies.size(); ++i, ++state) {
         read_state(*state, r.world.bodies[i]);
-        r.island[i] = state->flags.y;
       }
     }
   }
