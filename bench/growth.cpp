@@ -1,6 +1,5 @@
 /// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part,
 /// with the parts of one heap. Heaps at rest on an endless floor, or joined in one box, every part awake.
-#include "pour/settling.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
@@ -8,6 +7,7 @@
 
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/disjoint_sets.hpp"
+#include "pour/settling.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -158,7 +158,7 @@ class StockBulletSolver final : public Solver {
     slot.last[body] = slot.world->state(body);
     slot.world->remove(body);
   }
-  bool set_phase(WorldId, Phase) override { return false; }
+  bool set_phase(WorldId, const Phase&) override { return false; }
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "step");
     const Steps steps = steps_in(seconds, settings_.time_step);
