@@ -137,7 +137,9 @@ double Fringes::brightest(double column) const {
 }
 
 double Fringes::column_sigma(double image_sigma, double modulation) const {
-  return period_ / (2.0 * M_PI) * std::sqrt(2.0 / steps_) * image_sigma / modulation;
+  return period_ / (2.0 * M_PI) * amplitude_sigma(image_sigma) / modulation;
 }
+
+double Fringes::amplitude_sigma(double image_sigma) const { return std::sqrt(2.0 / steps_) * image_sigma; }
 
 }  // namespace bin_scenes

@@ -34,6 +34,8 @@ class Fringes {
   double brightest(double column) const;
   /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the phase's.
   double column_sigma(double image_sigma, double modulation) const;
+  /// The same for the amplitude read.
+  double amplitude_sigma(double image_sigma) const;
 
  private:
   int steps_, bits_, width_;

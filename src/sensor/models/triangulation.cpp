@@ -6,7 +6,7 @@
 namespace bin_scenes {
 
 Triangulation::Triangulation(const Lens& projector, const Pose& projector_in_camera)
-    : projector_(projector), distorted_(projector.distortion != std::array<double, 5>{}) {
+    : projector_(projector), distorted_(projector.distorts()) {
   const Pose camera = projector_in_camera.inverse();
   turn_ = camera.orientation.toRotationMatrix();
   origin_ = camera.position;
@@ -34,6 +34,13 @@ double Triangulation::depth(const Vec3& ray, double column) const {
   }
   const bool in_front = z > 0.0 && (origin_ + z * direction).z() > 0.0;
   return in_front ? z : std::numeric_limits<double>::quiet_NaN();
+}
+
+double Triangulation::columns_along(const Vec3& point, const Vec3& way) const {
+  const Vec3 at = origin_ + turn_ * point, step = turn_ * way;
+  return (projector_.fx * (step.x() * at.z() - at.x() * step.z()) +
+          projector_.skew * (step.y() * at.z() - at.y() * step.z())) /
+         (at.z() * at.z());
 }
 
 double Triangulation::depth_per_column(const Vec3& ray, double depth) const {

@@ -17,6 +17,8 @@ class Triangulation {
   double depth(const Vec3& ray, double column) const;
   /// |d depth / d column| (m) at a depth.
   double depth_per_column(const Vec3& ray, double depth) const;
+  /// Columns passed on a short way from a point (camera frame), distortion left out.
+  double columns_along(const Vec3& point, const Vec3& way) const;
 
  private:
   Lens projector_;
