@@ -19,6 +19,15 @@ double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_ligh
   return matte + M_PI * surface.gloss * facets * visible * in;
 }
 
+SeenPoint seen_point(const View& view, std::size_t pixel) {
+  const double z = view.depth[pixel];
+  if (std::isnan(z)) return {};
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  const Vec3 ray = view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+  const auto& n = view.normal[pixel];
+  return {view.pose * (z * ray), view.pose.orientation * Vec3(n[0], n[1], n[2]), view.line[pixel], true};
+}
+
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
   constexpr double gap = 1e-5;  // m
   const Vec3 start = surface + gap * normal;

@@ -1,10 +1,11 @@
 /// What the light of a projector or laser does to a surface: how much of it a camera sees, and where none falls.
 #pragma once
 
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/scene/sensor_models.hpp"
 #include "bin_scenes/sensor/lens.hpp"
 #include "bin_scenes/sensor/scenery.hpp"
 #include "bin_scenes/sensor/validity.hpp"
+#include "bin_scenes/sensor/view.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -31,6 +32,8 @@ struct SeenPoint {
   std::int32_t line = -1;
   bool hit = false;
 };
+
+SeenPoint seen_point(const View& view, std::size_t pixel);
 
 struct Lit {
   Validity code = Validity::nothing;  ///< valid, nothing, shadow or outside

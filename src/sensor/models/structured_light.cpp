@@ -9,11 +9,6 @@
 
 namespace bin_scenes {
 
-Measurement::Measurement(std::size_t pixels)
-    : depth(pixels, std::numeric_limits<double>::quiet_NaN()),
-      validity(pixels, Validity::nothing),
-      intensity(pixels, 0.0f) {}
-
 StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
     : scenery_(scenery),
       view_(view),

@@ -11,19 +11,12 @@
 #include "sensor/models/fringes.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
+#include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
 
 #include <vector>
 
 namespace bin_scenes {
-
-/// What a model makes of a view, row-major as that.
-struct Measurement {
-  std::vector<double> depth;       ///< m; NaN where the code is not valid
-  std::vector<Validity> validity;
-  std::vector<float> intensity;    ///< mean signal / full well, at most 1
-  explicit Measurement(std::size_t pixels);
-};
 
 class StructuredLight {
  public:
