@@ -19,7 +19,9 @@ void visit(Visitor& v, ImagerSettings& s) {
            "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise on "
            "dark parts, and bright or shiny ones saturate"},
           s.exposure);
-  v.field({"reference_distance", "m", "from the light; 0 = automatic exposure: the median distance of what is lit"},
+  v.field({"reference_distance", "m",
+           "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "
+           "what is lit"},
           s.reference_distance);
   v.field({"ambient", "", "signal / full well of a white surface without the sensor's light; adds shot noise"},
           s.ambient);

@@ -71,6 +71,6 @@ void Targets::add(const Mesh& mesh, const Pose& pose, const Surface& surface) {
   surfaces_.lines.push_back(surface);
 }
 
-Scenery Targets::scenery() { return Scenery(scene_, request_, models_, nullptr, cache_); }
+Scenery Targets::scenery() { return Scenery(scene_, request_, models_, nullptr, *cache_); }
 
 }  // namespace bin_scenes

@@ -4,6 +4,9 @@
 #include "bin_scenes/sensor/scenery.hpp"
 #include "sensor/models/illumination.hpp"
 
+#include <memory>
+#include <vector>
+
 namespace bin_scenes {
 
 /// A box around the origin.
@@ -24,7 +27,7 @@ class Targets {
   Request request_;
   Scene scene_;
   std::vector<PartModelPtr> models_;
-  SceneryCache cache_;
+  std::unique_ptr<SceneryCache> cache_ = std::make_unique<SceneryCache>();  // so that targets can be moved
   Surfaces surfaces_;
 };
 

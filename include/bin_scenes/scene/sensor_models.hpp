@@ -21,7 +21,8 @@ enum class MixedPixels {
 struct ImagerSettings {
   double exposure = 0.8;  ///< signal of a white matte surface that faces the light at reference_distance; more = less
                           ///< noise on dark parts, and bright or shiny ones saturate
-  double reference_distance = 0.0;  ///< m from the light; 0 = automatic exposure: the median distance of what is lit
+  double reference_distance = 0.0;  ///< m from the light; 0 = automatic exposure: for a white surface parallel to the
+                                    ///< image at the median distance of what is lit
   double ambient = 0.02;            ///< signal of a white surface without the sensor's light; adds shot noise only
   double full_well = 10000.0;       ///< electrons at saturation; shot noise of a signal s is sqrt(s / full_well)
   double read_noise = 5.0;          ///< electrons, standard deviation; 0 = none
@@ -36,7 +37,7 @@ struct StructuredLightSettings {
   double contrast = 0.95;  ///< (white - black) / (white + black) of the projector
   double defocus = 0.7;    ///< standard deviation of the projector's blur, its pixels; 0 = sharp
   double gamma = 1.0;      ///< decoded: exponent of the projector that nobody calibrated away; 1 = linear
-  double min_modulation = 0.003;  ///< amplitude / full well below which a pixel has too little signal (code 4)
+  double min_modulation = 0.004;  ///< amplitude / full well below which a pixel has too little signal (code 4)
   MixedPixels mixed = MixedPixels::remove;
   double edge_step = 0.005;  ///< m: depth step inside a pixel's footprint from which on it is a mixed pixel
 };

@@ -106,25 +106,30 @@ Fringes::Reading Fringes::read(const float* images) const {
   double phase = std::atan2(s, c) / (2.0 * M_PI);  // in periods, from here on
   if (phase < 0.0) phase += 1.0;
 
+  const double modulation = 2.0 / steps_ * std::sqrt(s * s + c * c);
   int half = 0, bit = 0;
+  bool sure = true;
   for (int b = 0; b < bits_; ++b) {
-    bit ^= images[steps_ + b] > mean ? 1 : 0;  // Gray to binary: each bit is the parity of those before it
+    const double over = images[steps_ + b] - mean;
+    sure = sure && std::abs(over) > 0.25 * modulation;
+    bit ^= over > 0.0 ? 1 : 0;  // Gray to binary: each bit is the parity of those before it
     half = 2 * half + bit;
   }
   // Where halves change their number is never near the quarter that is read: at phase 0 the halves on both sides
   // round to the same period, at phase 1/2 the period's own bits do not change.
   const int own = half / 2, rounded = (half + 1) / 2;
   int number = own;
-  bool sense = rounded - own >= 0;
   if (phase < 0.25) {
     number = rounded;
   } else if (phase > 0.75) {
     number = rounded - 1;
   }
-  sense = std::abs(number - own) <= 1;
+  // A grey bit is the edge of a stripe, or noise where no stripe ends.
+  const double to_edge = std::abs(2.0 * phase - std::round(2.0 * phase));
+  const bool sense = std::abs(number - own) <= 1 && (sure || to_edge < 0.25);
   double column = (number + phase) * period_ - 0.5;
   if (!sense || column < -0.5 - 1.0 || column > width_ - 0.5 + 1.0) column = std::numeric_limits<double>::quiet_NaN();
-  return {column, 2.0 / steps_ * std::sqrt(s * s + c * c)};
+  return {column, modulation};
 }
 
 double Fringes::seen_through(double columns) const {

@@ -51,7 +51,9 @@ Stereo::Setup stereo_setup(const Sensor& s) {
 }
 
 LaserLine::Setup laser_line_setup(const Sensor& s) {
-  return {lens_of(s), *s.pose, *s.laser.pose, 1e-3 * s.laser.width_mm, s.scan, s.laser_line, s.imager, s.noise, s.near, s.far};
+  const Vec3 way = s.scan.step * s.scan.direction.normalized();
+  return {lens_of(s),   *s.pose,      *s.laser.pose, 1e-3 * s.laser.width_mm, way,  s.scan.profiles,
+          s.laser_line, s.imager,     s.noise,       s.near,                  s.far};
 }
 
 RangeImage measure_structured_light(const Scenery& scenery, const View& view, const Sensor& sensor,

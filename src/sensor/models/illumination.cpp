@@ -67,15 +67,18 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   }
 }
 
-double median_distance(const std::vector<Lit>& lit) {
-  std::vector<double> distances;
-  for (const Lit& l : lit) {
-    if (l.code == Validity::valid) distances.push_back(l.distance);
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light) {
+  if (imager.reference_distance > 0.0) return imager.exposure * imager.reference_distance * imager.reference_distance;
+  const double light_z = (view.pose.inverse() * light).z();
+  std::vector<double> losses;  // distance^2 / cosine
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (lit[i].code != Validity::valid) continue;
+    losses.push_back(std::pow(lit[i].distance, 3) / std::max(std::abs(view.depth[i] - light_z), 1e-6));
   }
-  if (distances.empty()) return 1.0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  if (losses.empty()) return imager.exposure;
+  const auto middle = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);
+  std::nth_element(losses.begin(), middle, losses.end());
+  return imager.exposure * *middle;
 }
 
 }  // namespace bin_scenes

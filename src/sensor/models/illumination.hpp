@@ -50,7 +50,10 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
 /// shade itself.
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
 
-/// Distance that an automatic exposure takes for its reference: the median of what is lit; 1 if nothing is.
-double median_distance(const std::vector<Lit>& lit);
+/// Signal of a white = gain * reflected / distance^2. An automatic exposure gives a white matte surface that is parallel
+/// to the image the exposure's signal, at the median distance of what is lit: noise then grows with the square of the
+/// range, as triangulation says, not with the loss of light as well.
+/// @param light  where it stands, bin frame
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light);
 
 }  // namespace bin_scenes

@@ -50,14 +50,14 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
   }
   reference_ = setup_.imager.reference_distance;
   if (!(reference_ > 0.0)) {
-    std::vector<Lit> lit;
+    std::vector<double> distances{1.0};
     for (const Hit& hit : fan(setup_.laser_pose.position)) {
-      if (std::isnan(hit.distance)) continue;
-      lit.emplace_back();
-      lit.back().code = Validity::valid;
-      lit.back().distance = hit.distance;
+      if (!std::isnan(hit.distance)) distances.push_back(hit.distance);
     }
-    reference_ = median_distance(lit);
+    if (distances.size() > 1) distances.erase(distances.begin());
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    reference_ = *middle;
   }
 }
 
@@ -241,7 +241,7 @@ double LaserLine::depth_sigma() const {
 Profiles LaserLine::scanned(const Random& random) const {
   Profiles out;
   out.width = samples_;
-  out.height = setup_.scan.profiles;
+  out.height = setup_.profiles;
   const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   out.validity.assign(pixels, Validity::nothing);
@@ -249,9 +249,8 @@ Profiles LaserLine::scanned(const Random& random) const {
   out.normals = out.points;
   out.label.assign(pixels, 0);
   out.intensity.assign(pixels, 0.0f);
-  const Vec3 step = setup_.scan.step * setup_.scan.direction.normalized();
   in_parallel(static_cast<std::size_t>(out.height), [&](std::size_t profile) {
-    const Vec3 offset = (static_cast<double>(profile) - 0.5 * (out.height - 1)) * step;
+    const Vec3 offset = (static_cast<double>(profile) - 0.5 * (out.height - 1)) * setup_.scan;
     Lines lines;
     find_lines(offset, lines);
     read_lines(offset, lines, random.of_piece(profile), out, profile);

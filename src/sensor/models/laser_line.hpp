@@ -6,11 +6,10 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/scene/request.hpp"
-#include "bin_scenes/sensor/models.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
 
+#include <array>
 #include <vector>
 
 namespace bin_scenes {
@@ -30,7 +29,8 @@ class LaserLine {
     Lens camera;
     Pose camera_pose, laser_pose;  ///< in the bin frame, at the middle of the scan; the sheet is the laser's y-z plane
     double line_width = 3e-4;      ///< m, between the points of 1/e^2
-    Scan scan;
+    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, way from a profile to the next, bin frame
+    int profiles = 1000;
     LaserLineSettings settings;
     ImagerSettings imager;
     bool noise = true;

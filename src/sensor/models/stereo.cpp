@@ -62,9 +62,7 @@ Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surface
       imager_(setup.imager, setup.noise),
       second_(view.pose * Pose{Vec3(setup.settings.baseline, 0.0, 0.0), Quat::Identity()}),
       lit_(lit(view)) {
-  const double reference =
-      setup_.imager.reference_distance > 0.0 ? setup_.imager.reference_distance : median_distance(lit_);
-  gain_ = setup_.imager.exposure * reference * reference;
+  gain_ = gain_of(setup_.imager, lit_, view_, setup_.projector_pose.position);
 }
 
 std::vector<Lit> Stereo::lit(const View& view) const {

@@ -30,9 +30,7 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
     light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(),
           &lit_[row * width], width);
   });
-  const double reference =
-      setup_.imager.reference_distance > 0.0 ? setup_.imager.reference_distance : median_distance(lit_);
-  gain_ = setup_.imager.exposure * reference * reference;
+  gain_ = gain_of(setup_.imager, lit_, view_, setup_.projector_pose.position);
 }
 
 SeenPoint StructuredLight::seen(std::size_t pixel) const {
