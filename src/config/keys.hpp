@@ -8,22 +8,11 @@
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
-
-#include <utility>
-#include <vector>
+#include "config/key.hpp"
+#include "config/sensor_keys.hpp"
 
 namespace bin_scenes::config {
 
-struct Key {
-  const char* name;
-  const char* unit;     ///< "" if it has none
-  const char* text;     ///< meaning; what a larger or smaller value costs
-  bool written = true;  ///< false: has no meaning for the other values, and is left out when written back
-};
-
-/// Names of an enumeration as the request spells them.
-template <class Enum>
-using Names = std::vector<std::pair<const char*, Enum>>;
 inline Names<Unit> names(Unit) {
   return {{"m", Unit::metre}, {"cm", Unit::centimetre}, {"mm", Unit::millimetre}, {"inch", Unit::inch}};
 }
@@ -65,6 +54,7 @@ void visit(Visitor& v, Bin& bin) {
   v.field({"none", "", "true: nothing at all, free flight", kind.none}, kind.none);
   v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)"}, bin.friction);
   v.field({"restitution", "", "of walls and floor; the larger of part and bin counts in a contact"}, bin.restitution);
+  v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
   v.bin_kind(bin, kind);
 }
 
@@ -98,6 +88,7 @@ void visit(Visitor& v, PartLine& part) {
            !part.velocities.empty()},
           part.velocities);
   v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
+  v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
 }
 
 template <class Visitor>
@@ -192,8 +183,8 @@ void visit(Visitor& v, SphereSettings& s) {
   v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
           s.field_cell);
   v.field({"device", "",
-           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the GPU if the OpenGL device is "
-           "hardware and a scene fits, and the report says why. Scenes repeat bit for bit on the same class of device"},
+           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
+           "measured on a card. Scenes repeat bit for bit on the same class of device"},
           s.device);
 }
 
@@ -204,22 +195,6 @@ void visit(Visitor& v, SolverSettings& solver) {
   v.section({"bullet", "", "settings of Bullet"}, solver.bullet);
   v.section({"thesis", "", "settings of the sphere solver's preset thesis"}, solver.thesis);
   v.section({"sphere", "", "settings of the sphere solver's preset standard"}, solver.sphere);
-}
-
-template <class Visitor>
-void visit(Visitor& v, Sensor& sensor) {
-  v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
-  v.field({"width", "pixel", "image width"}, sensor.width);
-  v.field({"height", "pixel", "image height"}, sensor.height);
-  v.field({"fov", "rad", "horizontal field of view; sets the intrinsics unless k is given"}, sensor.fov);
-  v.field({"k", "pixel", "3x3 row-major intrinsics [fx, 0, cx, 0, fy, cy, 0, 0, 1] instead of fov", !sensor.k.empty()},
-          sensor.k);
-  v.field({"pose", "",
-           "optical frame (x right, y down, z forward) in the bin frame; left out: above the bin, looking down, the "
-           "whole rim in view"},
-          sensor.pose);
-  v.field({"near", "m", "nothing nearer is seen"}, sensor.near);
-  v.field({"far", "m", "nothing farther is seen"}, sensor.far);
 }
 
 template <class Visitor>
@@ -246,7 +221,7 @@ void visit(Visitor& v, Request& request) {
   v.list({"parts", "", "what is poured; several lines make a mixed bin"}, request.parts);
   v.section({"pour", "", "how parts get into the bin, and when they rest"}, request.pour);
   v.section({"solver", "", "what simulates"}, request.solver);
-  v.list({"sensors", "", "range cameras; none = no images"}, request.sensors);
+  v.list({"sensors", "", "range sensors; none = no images"}, request.sensors);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulate exactly this long instead of until rest"}, request.seconds);
   v.field({"drift_check", "",

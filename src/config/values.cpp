@@ -1,5 +1,6 @@
 #include "config/values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -139,6 +140,11 @@ void read_value(const YAML::Node& node, Twist& value) {
   value.angular = {v[3], v[4], v[5]};
 }
 
+void read_value(const YAML::Node& node, std::array<double, 5>& value) {
+  const std::vector<double> v = numbers(node, 5, kind_of(value));
+  std::copy(v.begin(), v.end(), value.begin());
+}
+
 void read_value(const YAML::Node& node, std::vector<double>& value) {
   value = numbers(node, kind_of(value));
 }
@@ -191,6 +197,9 @@ std::string text_of(const Twist& t) {
   return list_of({t.linear.x(), t.linear.y(), t.linear.z(), t.angular.x(), t.angular.y(), t.angular.z()});
 }
 
+std::string text_of(const std::array<double, 5>& value) {
+  return list_of({value.begin(), value.end()});
+}
 std::string text_of(const std::vector<double>& value) {
   return list_of(value);
 }

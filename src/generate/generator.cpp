@@ -1,7 +1,9 @@
 #include "bin_scenes/generate/generator.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "generate/judging.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_rig.hpp"
+#include "generate/finishing.hpp"
 #include "generate/model_store.hpp"
 
 #include <algorithm>
@@ -78,13 +80,15 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
 
 struct Generator::State {
   ModelStore models;
-  std::unique_ptr<RangeCamera> camera;
+  SensorRig rig;
+  std::vector<Sensor> sensors;  ///< of the request, with poses and intrinsics
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
     estimate_memory(request, {});
     models.load(request);
     estimate_memory(request, models.parts());
+    sensors = resolved_sensors(request, models.parts(), models.bin());
   }
 
   void measure_drift(Scene& scene, const Request& request, Solver& solver, const RunHooks& hooks) {
@@ -102,17 +106,21 @@ struct Generator::State {
     scene.report.drift = drift(before, moved, models.parts());
   }
 
-  void see(Result& result, const Request& request, bool silhouettes) {
+  /// What is done for a scene once it has been poured; in any thread.
+  void finish(Result& result, const Request& request, const Options& options) {
     Scene& scene = result.scene;
-    if (!camera) camera = std::make_unique<RangeCamera>();
-    result.images = camera->render(scene, request, models.parts(), models.bin(), silhouettes);
-    for (const RangeImage& image : result.images) {
-      for (ScenePart& part : scene.parts) {
-        const double seen = static_cast<double>(image.visible.at(part.id));
-        const double alone = static_cast<double>(image.total.at(part.id));
-        part.visible_fraction[image.sensor.name] = alone > 0 ? seen / alone : 0.0;
-      }
+    Profile spent;
+    {
+      StageTimer timer(spent, "quality");
+      judge(scene, request, models.parts(), models.bin());
     }
+    scene.sensors = sensors;
+    if (options.render && !sensors.empty()) {
+      StageTimer timer(spent, "render");
+      result.images = rig.look(scene, request, models.parts(), models.bin());
+    }
+    scene.report.profile.merge(spent);
+    if (options.prepare) options.prepare(result);
   }
 };
 
@@ -144,39 +152,18 @@ void Generator::generate(const Request& request, const Options& options, const s
     solver = make_solver(request, parts, solver_reason);
   }
 
-  const auto judge_one = [&](Scene& scene) {
-    Profile judging;
-    {
-      StageTimer timer(judging, "quality");
-      judge(scene, request, parts, bin_model);
-    }
-    scene.report.profile.merge(judging);
-  };
-  const auto hand_on = [&](Scene&& scene) {
-    Result result;
-    result.scene = std::move(scene);
-    result.scene.sensors.clear();
-    for (const Sensor& sensor : request.sensors) result.scene.sensors.push_back(resolved(sensor, request.bin));
-    if (options.render && !request.sensors.empty()) {
-      Profile rendering;
-      {
-        StageTimer timer(rendering, "render");
-        reporter.phase("render", result.scene.index, result.scene.parts.size());
-        state_->see(result, request, options.silhouettes);
-      }
-      result.scene.report.profile.merge(rendering);
-    }
-    reporter.handed_on();
-    done(std::move(result));
-  };
-  Judging judging(judge_one, hand_on);
+  Finishing finishing([&](Result& result) { state_->finish(result, request, options); },
+                      [&](Result&& result) {
+                        reporter.handed_on();
+                        done(std::move(result));
+                      });
 
   std::vector<std::size_t> indices(request.scenes);
   std::iota(indices.begin(), indices.end(), request.first);
   RunHooks hooks = options.hooks;
   hooks.progress = [&](const Progress& progress) {
     reporter.poured(progress);
-    judging.hand_on_judged();
+    finishing.hand_on_finished();
   };
   pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
     Report& report = scene.report;
@@ -189,10 +176,10 @@ void Generator::generate(const Request& request, const Options& options, const s
     }
     reporter.phase("quality", scene.index, scene.parts.size());
     if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
-    judging.add(place, std::move(scene));
-    judging.hand_on_judged();
+    finishing.add(place, std::move(scene));
+    finishing.hand_on_finished();
   });
-  judging.finish();
+  finishing.wait();
 }
 
 }  // namespace bin_scenes

@@ -14,7 +14,7 @@ namespace {
 // that cannot fit, not to count to the last byte.
 constexpr double program_bytes = 60e6;            // the tool with its libraries and threads
 constexpr double device_bytes = 75e6;             // an OpenGL context; of a software device, which lives in this process
-constexpr double per_triangle = 400.0;       // mesh, tree over it, copies on the device
+constexpr double per_triangle = 400.0;       // mesh, tree over it, tree for rays, copies on the device
 constexpr double per_body = 2000.0;          // state, definition, history of rest, report
 constexpr double per_sample = 64.0;          // contact sample with its normal
 constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
@@ -22,7 +22,7 @@ constexpr double per_contact = 160.0;
 constexpr double per_hull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
 constexpr double per_sphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
-constexpr double per_pixel = 140.0;         // depth, label, normal, intensity, on the device and here
+constexpr double per_pixel = 170.0;         // view, measured and true images, and a cloud on its way into a file
 
 double field_bytes(const PartModel& part, double relative_cell) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -78,7 +78,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   const bool thesis =
       request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
   const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
-  const double program = program_bytes + (thesis || !request.sensors.empty() ? device_bytes : 0.0);
+  const double program = program_bytes + (thesis ? device_bytes : 0.0);
   const double total = program + bodies + pixels + models + grid;
   if (total > request.memory_budget) {
     throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(bodies) +

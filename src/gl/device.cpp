@@ -247,12 +247,6 @@ void Device::make_current() {
                             state_->info.name, "one thread owns a device; use it from the thread that made it");
 }
 
-bool Device::hardware_listed() {
-  if (software_asked()) return false;
-  const std::vector<Candidate> all = candidates();
-  return std::any_of(all.begin(), all.end(), [](const Candidate& c) { return c.device && !c.info.software; });
-}
-
 std::vector<DeviceInfo> Device::enumerate() {
   const EGLDisplay display = eglGetCurrentDisplay();
   const EGLContext context = eglGetCurrentContext();

@@ -92,10 +92,6 @@ Program Program::compute(const std::string& file, const Defines& defines) {
   return link(stem(file), {{GL_COMPUTE_SHADER, file}}, defines);
 }
 
-Program Program::graphics(const std::string& vertex_file, const std::string& fragment_file, const Defines& defines) {
-  return link(stem(vertex_file), {{GL_VERTEX_SHADER, vertex_file}, {GL_FRAGMENT_SHADER, fragment_file}}, defines);
-}
-
 Program::~Program() {
   if (id_) glDeleteProgram(id_);
 }
@@ -131,9 +127,6 @@ void Program::set(const char* uniform, unsigned value) const {
 }
 void Program::set(const char* uniform, float value) const {
   glProgramUniform1f(id_, location(uniform), value);
-}
-void Program::set(const char* uniform, const float (&matrix)[16]) const {
-  glProgramUniformMatrix4fv(id_, location(uniform), 1, GL_FALSE, matrix);
 }
 
 void barrier(Barrier kind) {

@@ -28,7 +28,7 @@ Colour part_colour(std::size_t id) {
 
 /// Mean depth around each pixel, by a summed-area table (Crow 1984); unseen pixels do not count.
 std::vector<double> mean_depth(const RangeImage& image) {
-  const int width = image.sensor.width, height = image.sensor.height;
+  const int width = image.width, height = image.height;
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * (width + 1) + x; };
   std::vector<double> sum(static_cast<std::size_t>(width + 1) * (height + 1)), count(sum.size());
   for (int y = 0; y < height; ++y) {
@@ -56,7 +56,7 @@ std::vector<double> mean_depth(const RangeImage& image) {
 }  // namespace
 
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
-  const int width = image.sensor.width, height = image.sensor.height;
+  const int width = image.width, height = image.height;
   const Colour sky(0.97, 0.97, 0.98), bin(0.80, 0.82, 0.85);
   const Vec3 light = Vec3(-0.45, -0.65, -1.0).normalized();  // optical frame: left, up, towards the camera
 

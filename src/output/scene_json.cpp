@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -47,14 +48,50 @@ Json json_of(const Bin& bin) {
 }
 
 Json json_of(const Sensor& sensor) {
-  return {{"name", sensor.name},
-          {"frame", sensor.name + "_optical_frame"},
-          {"pose", json_of(sensor.pose.value_or(Pose()))},
-          {"width", sensor.width},
-          {"height", sensor.height},
-          {"K", sensor.k},
-          {"near", sensor.near},
-          {"far", sensor.far}};
+  Json json = {{"name", sensor.name},
+               {"frame", sensor.name + "_optical_frame"},
+               {"model", name_of(sensor.model)},
+               {"preset", sensor.preset},
+               {"pose", json_of(sensor.pose.value_or(Pose()))},
+               {"width", sensor.width},
+               {"height", sensor.height},
+               {"K", sensor.k},
+               {"distortion", sensor.distortion},
+               {"near", sensor.near},
+               {"far", sensor.far},
+               {"depth_scale", sensor.depth_scale},
+               {"noise", sensor.noise}};
+  if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
+    const Projector& p = sensor.projector;
+    json["projector"] = {{"pose", json_of(p.pose.value_or(Pose()))},
+                         {"width", p.width},
+                         {"height", p.height},
+                         {"fov", p.fov},
+                         {"distortion", p.distortion}};
+  }
+  if (sensor.model == SensorModel::laser_line) json["laser"] = {{"pose", json_of(sensor.laser.pose.value_or(Pose()))}};
+  return json;
+}
+
+/// What the sensor's camera truly has of each part.
+Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<PartModelPtr>& models) {
+  const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
+  const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  Json truth = Json::array();
+  for (const ScenePart& part : scene.parts) {
+    if (part.state == PartState::not_poured || !part.pose.finite()) continue;
+    const auto id = static_cast<std::size_t>(part.id);
+    const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_camera * part.pose, image.sensor);
+    const double all = static_cast<double>(image.total.at(id));
+    truth.push_back({{"id", part.id},
+                     {"pose_in_camera", json_of(bin_in_camera * part.pose)},
+                     {"visible_fraction", all > 0.0 ? static_cast<double>(image.visible.at(id)) / all : 0.0},
+                     {"bbox_visib", boxes.at(id).xywh()},
+                     {"bbox_obj", whole.xywh()},
+                     {"px_count_visib", image.visible.at(id)},
+                     {"px_count_all", image.total.at(id)}});
+  }
+  return truth;
 }
 
 Json json_of(const ScenePart& part) {
@@ -173,12 +210,16 @@ Report report_of(const Json& json) {
 
 }  // namespace
 
-std::string scene_json(const Scene& scene, const Request& request) {
+std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images,
+                       const std::vector<PartModelPtr>& parts) {
   Json json = {{"format", scene_format}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
   json["gravity"] = json_of(request.gravity);
   json["request_sha256"] = request.text_sha256;
   json["sensors"] = Json::array();
-  for (const Sensor& sensor : scene.sensors) json["sensors"].push_back(json_of(sensor));
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    json["sensors"].push_back(json_of(scene.sensors[i]));
+    if (i < images.size()) json["sensors"].back()["truth"] = truth_of(scene, images[i], parts);
+  }
   for (std::size_t line = 0; line < scene.model_sha256.size() && line < request.parts.size(); ++line) {
     json["models"].push_back({{"model", request.parts[line].model}, {"sha256", scene.model_sha256[line]}});
   }

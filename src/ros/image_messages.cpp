@@ -49,8 +49,8 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   using Field = sensor_msgs::PointField;
   sensor_msgs::PointCloud2 message;
   message.header = header;
-  message.width = static_cast<std::uint32_t>(image.sensor.width);
-  message.height = static_cast<std::uint32_t>(image.sensor.height);
+  message.width = static_cast<std::uint32_t>(image.width);
+  message.height = static_cast<std::uint32_t>(image.height);
   message.fields = {field("x", offsetof(Point, x), Field::FLOAT32),
                     field("y", offsetof(Point, y), Field::FLOAT32),
                     field("z", offsetof(Point, z), Field::FLOAT32),
@@ -65,9 +65,9 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   message.row_step = message.point_step * message.width;
   message.data.resize(std::size_t(message.row_step) * message.height);
   std::uint8_t* out = message.data.data();
-  for (int row = 0; row < image.sensor.height; ++row) {
-    for (int column = 0; column < image.sensor.width; ++column) {
-      const std::size_t pixel = std::size_t(row) * image.sensor.width + column;
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const std::size_t pixel = std::size_t(row) * image.width + column;
       const auto p = point_at(image, column, row);
       const auto& n = image.normal[pixel];
       const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};

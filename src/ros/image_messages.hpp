@@ -1,7 +1,7 @@
 /// Range image -> organised cloud, depth, labels and camera model, all of one stamp and one frame.
 #pragma once
 
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>

@@ -32,15 +32,6 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-/// Seen pixels of a part / pixels it would have alone, for parts that the sensor's view holds at all.
-void set_visible_fractions(Scene& scene, const RangeImage& image) {
-  for (ScenePart& part : scene.parts) {
-    const std::size_t id = static_cast<std::size_t>(part.id);
-    if (id >= image.total.size()) continue;
-    part.visible_fraction[image.sensor.name] = image.total[id] ? double(image.visible[id]) / image.total[id] : 0.0;
-  }
-}
-
 }  // namespace
 
 template <class Message, class Convert>
@@ -116,7 +107,6 @@ void SceneServer::work() {
   queue_.disable();
   // What owns GL objects dies in the thread that made them.
   sensors_.clear();
-  camera_.reset();
   generator_.reset();
 }
 
@@ -234,12 +224,8 @@ void SceneServer::show(Shown shown, bool render_anyway) {
 
 bool SceneServer::render() {
   if (!shown_->images.empty() || shown_->scene.sensors.empty()) return false;
-  if (!camera_) camera_ = std::make_unique<RangeCamera>();
-  Profile& profile = shown_->scene.report.profile;
-  const StageTimer timer(profile, "render");
-  shown_->images = camera_->render(shown_->scene, shown_->request, shown_->parts, shown_->bin_model);
-  profile.count("rendered_images", shown_->images.size());
-  for (const RangeImage& image : shown_->images) set_visible_fractions(shown_->scene, image);
+  const StageTimer timer(shown_->scene.report.profile, "render");
+  shown_->images = rig_.look(shown_->scene, shown_->request, shown_->parts, shown_->bin_model);
   ROS_INFO("rendered %zu images", shown_->images.size());
   return true;
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/sensor/sensor_rig.hpp"
 #include "lazy_topic.hpp"
 #include "settings.hpp"
 #include "topics.hpp"
@@ -81,7 +82,7 @@ class SceneServer {
 
   // Of the work thread alone.
   std::unique_ptr<Generator> generator_;
-  std::unique_ptr<RangeCamera> camera_;
+  SensorRig rig_;
   std::unique_ptr<Shown> shown_;
   std::vector<std::unique_ptr<SensorTopics>> sensors_;
   ros::Publisher scene_, markers_, tf_static_;

@@ -118,6 +118,7 @@ void report_cache() {
 
 int doctor() {
   const bool gl = report_devices();
+  line("auto", true, "takes sphere on the CPU: the GPU form has not been measured on a card");
   test_solver("bullet", SolverType::bullet, SolverSettings::Preset::standard);
   test_solver("sphere", SolverType::sphere, SolverSettings::Preset::standard);
   test_solver("sphere/thesis", SolverType::sphere, SolverSettings::Preset::thesis);

@@ -116,7 +116,6 @@ int generate(const GenerateOptions& options) {
   std::unique_ptr<TraceFile> trace;
   Generator::Options run;
   run.render = store.needs_images();
-  run.silhouettes = store.needs_silhouettes();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress); };
   if (!options.trace.empty()) {
@@ -127,8 +126,9 @@ int generate(const GenerateOptions& options) {
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;
     request.scenes = count;
+    run.prepare = [&](Generator::Result& result) { store.prepare(result, request, generator); };
     generator.generate(request, run, [&](Generator::Result&& result) {
-      store.write(result, request, generator);
+      store.commit(result, request, generator);
       const Report& report = result.scene.report;
       if (!report.accepted) apart.emplace_back(result.scene.index, joined(report.reasons));
       bar.clear();

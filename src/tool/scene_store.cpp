@@ -152,9 +152,6 @@ bool SceneStore::needs_sensors() const {
 bool SceneStore::needs_images() const {
   return needs_sensors() || wants("bag");
 }
-bool SceneStore::needs_silhouettes() const {
-  return wants("bop");
-}
 
 fs::path SceneStore::root(bool accepted) const {
   return accepted ? fs::path(directory_) : fs::path(directory_) / "set_apart";
@@ -216,11 +213,11 @@ std::vector<std::string> SceneStore::reasons(std::size_t index) const {
   return read_scene_json((fs::path(folder(index, false)) / "scene.json").string()).report.reasons;
 }
 
-void SceneStore::write(const Generator::Result& result, const Request& request, const Generator& generator) {
+void SceneStore::prepare(Generator::Result& result, const Request& request, const Generator& generator) const {
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
-  WholeFolders folders;
-  folders.write(folder(scene.index, accepted), [&](const std::string& hidden) {
+  const auto folders = std::make_shared<WholeFolders>();
+  folders->write(folder(scene.index, accepted), [&](const std::string& hidden) {
     const fs::path base(hidden);
     for (const RangeImage& image : result.images) {
       if (wants("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
@@ -230,23 +227,32 @@ void SceneStore::write(const Generator::Result& result, const Request& request, 
       bag_writer()((base / "scene.bag").string(), scene, request, result.images, generator.parts(),
                    generator.bin_model());
     }
-    write_text((base / "scene.json").string(), scene_json(scene, request));
+    write_text((base / "scene.json").string(), scene_json(scene, request, result.images, generator.parts()));
   });
   if (wants("bop")) {
-    if (models_written_.count(accepted) == 0) {
-      folders.write(root(accepted) / "bop" / "models",
-                    [&](const std::string& hidden) { write_bop_models(hidden, generator.parts()); });
-    }
-    folders.write(bop_folder(scene.index, accepted),
-                  [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
+    folders->write(bop_folder(scene.index, accepted),
+                   [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
+  }
+  result.images.clear();  // they are in files now, and a scene may wait long for its turn
+  result.prepared = folders;
+}
+
+void SceneStore::commit(const Generator::Result& result, const Request& request, const Generator& generator) {
+  const Scene& scene = result.scene;
+  const bool accepted = scene.report.accepted;
+  if (wants("bop") && models_written_.count(accepted) == 0) {
+    WholeFolders models;
+    models.write(root(accepted) / "bop" / "models",
+                 [&](const std::string& hidden) { write_bop_models(hidden, generator.parts()); });
+    models.commit();
+    models_written_.insert(accepted);
   }
 
   // What an earlier scene of this index left behind, on either side, shows another scene.
   std::error_code ignored;
   const std::optional<nlohmann::json> earlier = scene_in(folder(scene.index, accepted));
   const bool same = earlier && is_of(request, *earlier);
-  folders.commit();
-  if (wants("bop")) models_written_.insert(accepted);
+  static_cast<WholeFolders*>(result.prepared.get())->commit();
   if (!wants("bop") && !same) fs::remove_all(bop_folder(scene.index, accepted), ignored);
   fs::remove_all(folder(scene.index, !accepted), ignored);
   fs::remove_all(bop_folder(scene.index, !accepted), ignored);

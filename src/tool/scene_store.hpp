@@ -21,9 +21,8 @@ class SceneStore {
   /// Checks the formats and that `directory` can be written, and makes nothing yet.
   SceneStore(const std::string& directory, const std::vector<std::string>& formats);
 
-  bool needs_sensors() const;      ///< some format shows nothing but what a sensor sees
-  bool needs_images() const;       ///< some format holds what sensors see, if there are any
-  bool needs_silhouettes() const;  ///< some format shows each part alone
+  bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
+  bool needs_images() const;   ///< some format holds what sensors see, if there are any
 
   /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
@@ -34,9 +33,11 @@ class SceneStore {
   /// Reasons of a scene that is there, set apart.
   std::vector<std::string> reasons(std::size_t index) const;
 
-  /// All folders of the scene, or none of them where one cannot be written. What an earlier scene of this index left on
-  /// the other side goes.
-  void write(const Generator::Result& result, const Request& request, const Generator& generator);
+  /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its
+  /// images go.
+  void prepare(Generator::Result& result, const Request& request, const Generator& generator) const;
+  /// Gives the folders their names: all of them or none. What an earlier scene of this index left on the other side goes.
+  void commit(const Generator::Result& result, const Request& request, const Generator& generator);
 
  private:
   bool wants(const char* format) const { return formats_.count(format) != 0; }

@@ -18,6 +18,8 @@ const ros::Time stamp(12, 34);
 RangeImage some_image() {
   RangeImage image;
   image.sensor = testing::some_sensor("camera", 0.0);
+  image.width = 4;
+  image.height = 3;
   for (int i = 0; i < 12; ++i) {
     image.depth.push_back(0.5f + 0.01f * i);
     image.label.push_back(static_cast<std::uint16_t>(i * 5000));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bin_scenes/quality/quality.hpp"
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 #include "bin_scenes/pour/pour.hpp"
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, the camera.
+/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, search trees for rays.
 /// One thread at a time (the GL context belongs to the thread that made it).
 class Generator {
  public:
@@ -20,15 +20,18 @@ class Generator {
   struct Result {
     Scene scene;
     std::vector<RangeImage> images;  ///< only if asked for
+    std::shared_ptr<void> prepared;  ///< what Options::prepare leaves for the one who gets the scene
   };
   struct Options {
-    bool render = true;        ///< false: no sensor image is made (nobody looks)
-    bool silhouettes = false;  ///< of every part in every image, as if it were alone
+    bool render = true;  ///< false: no sensor image is made (nobody looks)
+    /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
+    /// poured: the place for what takes long, such as writing files. It may take the images away.
+    std::function<void(Result&)> prepare;
     RunHooks hooks;
   };
 
   /// Loads, prepares, pours, judges and renders request.scenes scenes from request.first on, and hands each over as
-  /// soon as it is done (in order of index). Throws Error; scenes handed over before stay valid.
+  /// soon as it is done (in order of index, in the calling thread). Throws Error; scenes handed over before stay valid.
   void generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done);
 
   /// Models of the last request, by part line.

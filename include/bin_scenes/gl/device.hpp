@@ -41,8 +41,6 @@ class Device {
   void make_current();
 
   static std::vector<DeviceInfo> enumerate();
-  /// Whether EGL lists a device that is not Mesa's software; opens no context, which costs a software GL most.
-  static bool hardware_listed();
 
  private:
   struct State;

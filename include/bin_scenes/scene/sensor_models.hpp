@@ -4,13 +4,6 @@
 
 namespace bin_scenes {
 
-/// How a surface returns light.
-struct Surface {
-  double albedo = 0.5;     ///< share of light that a matte surface returns, 0 to 1; darker = more noise and drop-outs
-  double gloss = 0.0;      ///< share that goes into the highlight instead, 0 to 1; more = saturation there, dark elsewhere
-  double roughness = 0.4;  ///< width of the highlight, 0 mirror to 1 matte (GGX, alpha = roughness squared)
-};
-
 /// What a device does with a pixel whose footprint crosses a depth edge.
 enum class MixedPixels {
   remove,  ///< invalid, code 6: the device's filter finds it

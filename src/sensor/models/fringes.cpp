@@ -108,10 +108,10 @@ Fringes::Reading Fringes::read(const float* images) const {
 
   const double modulation = 2.0 / steps_ * std::sqrt(s * s + c * c);
   int half = 0, bit = 0;
-  bool sure = true;
+  unsigned unsure = 0;  // bits that are neither dark nor bright, by their weight
   for (int b = 0; b < bits_; ++b) {
     const double over = images[steps_ + b] - mean;
-    sure = sure && std::abs(over) > 0.25 * modulation;
+    unsure = 2 * unsure + (std::abs(over) > 0.25 * modulation ? 0u : 1u);
     bit ^= over > 0.0 ? 1 : 0;  // Gray to binary: each bit is the parity of those before it
     half = 2 * half + bit;
   }
@@ -124,9 +124,11 @@ Fringes::Reading Fringes::read(const float* images) const {
   } else if (phase > 0.75) {
     number = rounded - 1;
   }
-  // A grey bit is the edge of a stripe, or noise where no stripe ends.
-  const double to_edge = std::abs(2.0 * phase - std::round(2.0 * phase));
-  const bool sense = std::abs(number - own) <= 1 && (sure || to_edge < 0.25);
+  // The half that begins nearest: of a Gray code one bit changes there, and only that may be grey.
+  const int edge = 2 * number + static_cast<int>(std::lround(2.0 * phase));
+  const unsigned changing = static_cast<unsigned>(edge & -edge);
+  const bool near_edge = std::abs(2.0 * phase - std::round(2.0 * phase)) < 0.25;
+  const bool sense = std::abs(number - own) <= 1 && (unsure & ~(near_edge ? changing : 0u)) == 0;
   double column = (number + phase) * period_ - 0.5;
   if (!sense || column < -0.5 - 1.0 || column > width_ - 0.5 + 1.0) column = std::numeric_limits<double>::quiet_NaN();
   return {column, modulation};

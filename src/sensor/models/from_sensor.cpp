@@ -1,6 +1,5 @@
 #include "sensor/models/from_sensor.hpp"
 
-#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "sensor/models/time_of_flight.hpp"

@@ -16,7 +16,7 @@ double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_ligh
   const double facets = a2 / (M_PI * bend * bend);
   const double visible =
       0.5 / (in * std::sqrt(out * out * (1.0 - a2) + a2) + out * std::sqrt(in * in * (1.0 - a2) + a2));
-  return matte + M_PI * surface.gloss * facets * visible * in;
+  return matte + M_PI * surface.albedo * surface.gloss * facets * visible * in;
 }
 
 SeenPoint seen_point(const View& view, std::size_t pixel) {

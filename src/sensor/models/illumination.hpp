@@ -1,23 +1,12 @@
 /// What the light of a projector or laser does to a surface: how much of it a camera sees, and where none falls.
 #pragma once
 
-#include "bin_scenes/scene/sensor_models.hpp"
-#include "bin_scenes/sensor/lens.hpp"
-#include "bin_scenes/sensor/scenery.hpp"
-#include "bin_scenes/sensor/validity.hpp"
-#include "bin_scenes/sensor/view.hpp"
+#include "bin_scenes/sensor/models.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace bin_scenes {
-
-/// Of the part lines of a request, and of its bin.
-struct Surfaces {
-  std::vector<Surface> lines;
-  Surface bin;
-  const Surface& of(std::int32_t line) const { return line < 0 ? bin : lines[static_cast<std::size_t>(line)]; }
-};
 
 /// Light that a surface sends to an eye, over that which a white matte surface sends that faces the light: a matte share
 /// and a lobe of microfacets (Walter et al. 2007, "Microfacet models for refraction", GGX). All directions are unit and

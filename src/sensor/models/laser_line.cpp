@@ -218,16 +218,32 @@ void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, P
 
 double LaserLine::depth_sigma() const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr int draws = 4000;  // know a standard deviation within 1 %
   Lines lines;
   find_lines(Vec3::Zero(), lines);
   for (const Lines::Line& line : lines.lines) {
     if (line.sample != samples_ / 2 || !line.visible || line.signal < setup_.settings.min_signal) continue;
-    // find_line takes the logarithms of two rows a reach away; each errs by the noise / signal there.
     const double sigma = sigma_at(line.depth);
-    const double reach = std::max(1.0, std::round(sigma));
-    const double flank = line.signal * std::exp(-0.5 * reach * reach / (sigma * sigma));
-    const double speckle = setup_.settings.speckle;
-    const double row = sigma * sigma / reach * std::sqrt(0.5 * (speckle * speckle + imager_.variance(flank) / (flank * flank)));
+    const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+    Random draw(0, 0, Stream::probe);
+    std::vector<float> window(static_cast<std::size_t>(2 * reach + 1));
+    double square = 0.0;
+    int found = 0;
+    for (int k = 0; k < draws; ++k) {
+      const double across = reach + (k + 0.5) / draws - 0.5;
+      for (std::size_t i = 0; i < window.size(); ++i) {
+        const double x = (static_cast<double>(i) - across) / sigma;
+        const double speckle = setup_.noise ? std::max(0.0, 1.0 + setup_.settings.speckle * draw.normal()) : 1.0;
+        window[i] = static_cast<float>(line.signal * std::exp(-0.5 * x * x) * speckle);
+      }
+      imager_.expose(window.data(), window.size(), draw);
+      const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
+      if (!peak) continue;
+      square += (peak->row - across) * (peak->row - across);
+      ++found;
+    }
+    if (found < draws / 2) return nan;
+    const double row = std::sqrt(square / found);
     const auto depth = [&](double across) {
       const Vec3 ray = upright_ ? setup_.camera.ray(across, line.sample) : setup_.camera.ray(line.sample, across);
       return sheet_.dot(setup_.laser_pose.position - setup_.camera_pose.position) /

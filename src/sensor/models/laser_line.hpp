@@ -39,8 +39,8 @@ class LaserLine {
   LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup);
 
   Profiles scanned(const Random& random) const;
-  /// Standard deviation of the depth (m) of the middle sample of the middle profile, to first order in the noise; NaN
-  /// where there is no line.
+  /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two rows:
+  /// drawn, as the peak's is no formula. NaN where there is no line.
   double depth_sigma() const;
 
  private:

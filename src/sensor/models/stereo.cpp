@@ -26,7 +26,8 @@ std::vector<float> dot_pattern(int width, int height, double dots, double ratio)
   std::vector<float> pattern(static_cast<std::size_t>(width) * height);
   Random random(0, 0, Stream::sensor);  // made once in the factory: the same for every scene
   for (float& p : pattern) p = random.uniform() < dots ? 1.0f : 0.0f;
-  const double sigma = std::hypot(0.5, 0.4 * ratio);
+  // The projector's pixel, and the camera's with its lens: sharper dots would be aliased.
+  const double sigma = std::hypot(0.5, 0.6 * ratio);
   const int reach = static_cast<int>(std::ceil(3.0 * sigma));
   std::vector<float> kernel(2 * reach + 1);
   float sum = 0.0f;

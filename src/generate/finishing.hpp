@@ -1,0 +1,46 @@
+/// Scenes on their way from the solver to the caller: judged, seen and made ready by other threads while the next ones
+/// are poured, handed on in order by the thread that pours.
+#pragma once
+
+#include "bin_scenes/generate/generator.hpp"
+
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace bin_scenes {
+
+class Finishing {
+ public:
+  using Result = Generator::Result;
+  /// `finish` runs in any thread and for several scenes at once; `hand_on` in the thread that calls this class.
+  Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on)
+      : finish_(std::move(finish)), hand_on_(std::move(hand_on)) {}
+  ~Finishing();  ///< waits for scenes that are being finished; they are lost
+  Finishing(const Finishing&) = delete;
+  Finishing& operator=(const Finishing&) = delete;
+
+  void add(std::size_t place, Scene&& scene);  ///< places count from 0, each comes once
+  void hand_on_finished();                     ///< those that are ready and whose turn it is; never waits
+  void wait();                                 ///< for all, and hands them on; throws what `finish` threw
+
+ private:
+  struct Entry {
+    Result result;
+    std::exception_ptr failed;
+    std::atomic<bool> finished{false};
+  };
+
+  std::function<void(Result&)> finish_;
+  std::function<void(Result&&)> hand_on_;
+  std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
+  std::size_t next_ = 0;                                   ///< place whose turn it is
+  std::atomic<std::size_t> waiting_{0};                    ///< scenes not finished yet
+  tbb::task_group tasks_;
+};
+
+}  // namespace bin_scenes
