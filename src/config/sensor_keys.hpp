@@ -3,6 +3,7 @@
 
 #include "bin_scenes/scene/request.hpp"
 #include "config/key.hpp"
+#include "config/sensor_model_keys.hpp"
 
 namespace bin_scenes::config {
 
@@ -81,7 +82,13 @@ void visit(Visitor& v, Sensor& sensor) {
           sensor.fidelity);
   v.section({"projector", "", "structured_light, stereo: source of the pattern"}, sensor.projector);
   v.section({"laser", "", "laser_line: the sheet of light"}, sensor.laser);
-  v.section({"scan", "", "laser_line: how the sheet moves over the bin"}, sensor.scan);
+  v.section({"scan", "", "laser_line: how camera and laser move; their poses are those at the middle of the way"},
+            sensor.scan);
+  v.section({"imager", "", "structured_light, laser_line, stereo: the camera's chip"}, sensor.imager);
+  v.section({"structured_light", "", "fringes: phase shift and Gray code"}, sensor.structured_light);
+  v.section({"laser_line", "", "the line of light and its peak"}, sensor.laser_line);
+  v.section({"stereo", "", "the second camera, dots and matching"}, sensor.stereo);
+  v.section({"time_of_flight", "", "noise along the ray and across it"}, sensor.time_of_flight);
   v.field({"noise", "", "false: every random effect is off; geometry (shadow, field of view) stays"}, sensor.noise);
 }
 

@@ -1,6 +1,7 @@
 #include "bin_scenes/scene/request.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "scene/sensor_check.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -282,6 +283,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   check_distortion(key + ".distortion", sensor.distortion);
   if (sensor.pose) check_pose(key + ".pose", *sensor.pose);
   check_light(key, sensor);
+  check_sensor_models(key, sensor);
   above(key + ".near", sensor.near, 0.0, infinity, "m");
   above(key + ".far", sensor.far, sensor.near, 1e4, "m, beyond near");
 }

@@ -29,6 +29,13 @@ struct InspectOptions {
 };
 int inspect(const InspectOptions& options);
 
+struct SensorOptions {
+  std::string sensor;  ///< name of a preset, or a file of sensor keys
+  std::string plot;    ///< SVG file; empty = none
+  bool json = false;
+};
+int sensor(const SensorOptions& options);
+
 int doctor();
 
 }  // namespace bin_scenes

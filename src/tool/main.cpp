@@ -53,6 +53,12 @@ int run(int argc, char** argv) {
                           "OBJ file to write the convex hulls to, an object each (m)");
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
 
+  SensorOptions sensor_options;
+  CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
+  sensor_app->add_option("SENSOR", sensor_options.sensor, "name of a preset, or a file of sensor keys")->required();
+  sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over incidence and albedo");
+  sensor_app->add_flag("--json", sensor_options.json, "as JSON");
+
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
   CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
 
@@ -65,6 +71,7 @@ int run(int argc, char** argv) {
   }
   if (generate_app->parsed()) return generate(generate_options);
   if (inspect_app->parsed()) return inspect(inspect_options);
+  if (sensor_app->parsed()) return sensor(sensor_options);
   if (doctor_app->parsed()) return doctor();
   if (reference_app->parsed()) std::cout << request_reference();
   return exit_done;

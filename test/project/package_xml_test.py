@@ -17,6 +17,7 @@ DEBIAN = {
     "gtest": ["libgtest-dev"],
     "libepoxy-dev": ["libepoxy-dev", "libegl-dev"],
     "libpcl-all-dev": ["libpcl-dev"],
+    "libopencv-dev": ["libopencv-calib3d-dev"],
     "nlohmann-json-dev": ["nlohmann-json3-dev"],
     "opengl": ["libegl1", "libopengl0", "libgl1-mesa-dri"],
     "tbb": ["libtbb-dev"],

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/sensor_models.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,7 +20,7 @@ const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
 /// What light does on a part or the bin. Drives intensity, noise, drop-out and saturation of sensors, nothing else.
 struct Surface {
   double albedo = 0.5;     ///< share of the light sent back, 0..1; dark parts are noisier and drop out
-  double gloss = 0.2;      ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
+  double gloss = 0.0;      ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
   double roughness = 0.4;  ///< width of the mirrored lobe, 0..1; smaller = narrower and brighter highlights
 };
 
@@ -177,7 +178,7 @@ struct Laser {
   double width_mm = 0.3;     ///< of the line on the surface (mm, between the points of 1/e^2); wider = more speckle noise
 };
 
-/// laser_line: how the sheet moves over the bin.
+/// laser_line: how camera and laser move over the bin together; their poses are those at the middle of the way.
 struct Scan {
   Vec3 direction = Vec3::UnitX();  ///< bin frame, any length
   double step = 0.0005;            ///< m between profiles
@@ -199,6 +200,11 @@ struct Sensor {
   Projector projector;          ///< structured_light, stereo
   Laser laser;                  ///< laser_line
   Scan scan;                    ///< laser_line
+  ImagerSettings imager;        ///< structured_light, laser_line, stereo: the camera's chip
+  StructuredLightSettings structured_light;
+  LaserLineSettings laser_line;
+  StereoSettings stereo;
+  TimeOfFlightSettings time_of_flight;
   bool noise = true;            ///< false: every random effect is off; geometry (shadow, field of view) stays
   double depth_scale = 1e-4;    ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };

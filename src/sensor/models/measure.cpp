@@ -1,4 +1,4 @@
-#include "bin_scenes/core/error.hpp"
+#include "sensor/models/from_sensor.hpp"
 #include "sensor/models/ideal.hpp"
 
 namespace bin_scenes {
@@ -10,15 +10,25 @@ Surfaces surfaces_of(const Request& request) {
   return surfaces;
 }
 
-RangeImage measure(const Scenery&, const View& view, const Sensor& sensor, const Surfaces&, const Draw&) {
+RangeImage measure(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+                   const Draw& draw) {
   RangeImage image;
   switch (sensor.model) {
     case SensorModel::ideal:
       image = measure_ideal(view);
       break;
-    default:
-      throw input_error(std::string("there is no model ") + name_of(sensor.model) + " in this build",
-                        "sensors: " + sensor.name, "set its model to ideal");
+    case SensorModel::structured_light:
+      image = measure_structured_light(scenery, view, sensor, surfaces, draw);
+      break;
+    case SensorModel::laser_line:
+      image = measure_laser_line(scenery, view, sensor, surfaces, draw);
+      break;
+    case SensorModel::stereo:
+      image = measure_stereo(scenery, view, sensor, surfaces, draw);
+      break;
+    case SensorModel::time_of_flight:
+      image = measure_time_of_flight(scenery, view, sensor, surfaces, draw);
+      break;
   }
   image.sensor = sensor;
   if (image.width == 0) image.width = view.lens.width, image.height = view.lens.height;
