@@ -105,7 +105,7 @@ const Mechanism mechanisms[] = {
     // Coming to rest.
     {"sleep", "parts at rest are simulated on", [](Variant& v) { v.settings.rest_window = infinity; }},
     {"slip", "a probe begins with friction", [](Variant& v) { v.settings.probe_slip = 0; }},
-    {"grip", "all of friction holds in a probe", [](Variant& v) { v.settings.probe_grip = 1; }}};
+    {"grip", "all of friction holds in a probe", [](Variant& v) { v.settings.friction_reserve = false; }}};
 
 struct Heap {
   const char* part;

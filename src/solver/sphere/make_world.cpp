@@ -95,7 +95,7 @@ void place(World& world, std::size_t body, const BodyState& state) {
 }
 
 bool take_phase(World& world, const Phase& phase) {
-  const auto grip = static_cast<float>(phase.friction);
+  const float grip = world.settings.friction_reserve ? static_cast<float>(phase.friction) : 1.0f;
   if (phase.fine_samples == world.fine && phase.stiffness == world.stiffness && grip == world.grip &&
       phase.sleep == world.sleep && !phase.forgets && !phase.begins_asleep)
     return false;

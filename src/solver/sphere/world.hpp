@@ -76,6 +76,7 @@ struct Settings {
   bool way_back = true;        ///< samples that are deep inside go back the way they came in
   bool half_way_poses = true;  ///< contacts are found where bodies are half way through the step
   bool relaxation = true;      ///< sweeps that take back the velocity which pushing overlap out has left
+  bool friction_reserve = true;  ///< a stage of settling may let a share of friction hold
   bool gyroscopic = true;      ///< torque of spinning parts whose inertia is not the same about all axes
   bool oriented_boxes = true;  ///< pairs whose oriented boxes are apart are no pairs
 
