@@ -1,14 +1,8 @@
 #include "generate/finishing.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 namespace bin_scenes {
-
-namespace {
-
-/// Scenes that may wait to be finished. On one core nobody does it beside the thread that pours: it then does it
-/// itself.
-constexpr std::size_t most_waiting = 256;
-
-}  // namespace
 
 Finishing::~Finishing() {
   tasks_.wait();
@@ -17,17 +11,20 @@ Finishing::~Finishing() {
 void Finishing::add(std::size_t place, Scene&& scene) {
   Entry& entry = *(entries_[place] = std::make_unique<Entry>());
   entry.result.scene = std::move(scene);
-  ++waiting_;
-  tasks_.run([this, &entry] {
+  const std::size_t parts = entry.result.scene.parts.size();
+  waiting_ += parts;
+  tasks_.run([this, &entry, parts, flag = cancel_flag()] {
+    const CancelScope scope(flag);
     try {
+      stop_if_cancelled();
       finish_(entry.result);
     } catch (...) {
       entry.failed = std::current_exception();
     }
     entry.finished = true;
-    --waiting_;
+    waiting_ -= parts;
   });
-  if (waiting_ > most_waiting) tasks_.wait();
+  if (waiting_ > most_parts_waiting) tasks_.wait();
 }
 
 void Finishing::hand_on_finished() {

@@ -14,6 +14,10 @@
 
 namespace bin_scenes {
 
+/// Parts of scenes that may wait to be finished. On one core nobody does it beside the thread that pours: it then does
+/// it itself.
+constexpr std::size_t most_parts_waiting = 100'000;
+
 class Finishing {
  public:
   using Result = Generator::Result;
@@ -39,7 +43,7 @@ class Finishing {
   std::function<void(Result&&)> hand_on_;
   std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
   std::size_t next_ = 0;                                   ///< place whose turn it is
-  std::atomic<std::size_t> waiting_{0};                    ///< scenes not finished yet
+  std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
   tbb::task_group tasks_;
 };
 

@@ -1,13 +1,12 @@
 #include "bin_scenes/generate/generator.hpp"
 
-#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
 #include "generate/finishing.hpp"
 #include "generate/model_store.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace bin_scenes {
 
@@ -24,9 +23,7 @@ class Reporter {
   Reporter(const RunHooks& hooks, std::size_t scenes) : hooks_(hooks), scenes_(static_cast<double>(scenes)) {}
 
   void phase(const std::string& name, std::size_t scene, std::size_t parts) {
-    if (hooks_.cancel && hooks_.cancel->load()) {
-      throw Error(ErrorKind::cancelled, "cancelled", "", "");
-    }
+    stop_if_cancelled();
     Progress progress;
     progress.phase = name;
     progress.scene = scene;
@@ -150,6 +147,7 @@ const PartModelPtr& Generator::bin_model() const {
 }
 
 void Generator::generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done) {
+  const CancelScope scope(options.hooks.cancel);
   check(request);
   Reporter reporter(options.hooks, request.scenes);
   Profile loading;
@@ -173,14 +171,13 @@ void Generator::generate(const Request& request, const Options& options, const s
                         done(std::move(result));
                       });
 
-  std::vector<std::size_t> indices(request.scenes);
-  std::iota(indices.begin(), indices.end(), request.first);
+  const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;
   hooks.progress = [&](const Progress& progress) {
     reporter.poured(progress);
     finishing.hand_on_finished();
   };
-  pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
+  pour(request, parts, *solver, scenes, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
     State::name_origin(scene, parts, solver_reason);
     if (place == 0) scene.report.profile.merge(loading);
     reporter.phase("quality", scene.index, scene.parts.size());
@@ -192,6 +189,7 @@ void Generator::generate(const Request& request, const Options& options, const s
 }
 
 Heap Generator::heap(const Request& request, const RunHooks& hooks) {
+  const CancelScope scope(hooks.cancel);
   check(request);
   Reporter reporter(hooks, 1);
   state_->load(request, reporter);
@@ -202,6 +200,7 @@ Heap Generator::heap(const Request& request, const RunHooks& hooks) {
 }
 
 Generator::Result Generator::result(const Heap& heap, const Options& options) {
+  const CancelScope scope(options.hooks.cancel);
   const Request& request = heap.request();
   Reporter reporter(options.hooks, 1);
   Result result;

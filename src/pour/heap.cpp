@@ -2,6 +2,7 @@
 
 #include "pour/settle_heaps.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 
 #include <chrono>
@@ -64,7 +65,13 @@ bool Heap::settle(const RunHooks& hooks) {
   if (core.settled()) return true;
   core.start_clock();
   const HeapSource source{1, [&](std::size_t) -> HeapCore& { return core; }, [](std::size_t) {}};
-  settle_heaps(*state_->solver, source, hooks);
+  const CancelScope scope(hooks.cancel);
+  try {
+    settle_heaps(*state_->solver, source, hooks);
+  } catch (...) {
+    core.recover();
+    throw;
+  }
   state_->profile = state_->solver->profile().since(before);
   state_->wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return core.at_rest();

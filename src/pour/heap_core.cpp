@@ -2,6 +2,8 @@
 
 #include "solver/step_limit.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +63,9 @@ void HeapCore::start_clock() {
   time_ = 0.0;
   settling_.start_clock();
   rest_ = RestWatch(states_.size());
+  audit_.emplace(plan_->world);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in) audit_->enter(b, states_[b]);
   earlier_steps_ = std::uint64_t{0} - solver_.steps(id_);
   fresh_ = true;
 }
@@ -68,6 +73,7 @@ void HeapCore::start_clock() {
 void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
   states();
   const std::size_t first = states_.size();
+  audit_.reset();  // it is of the plan that goes
   plan_ = std::move(plan);
   solver_.remove_world(id_);
   make_world(true);
@@ -80,7 +86,10 @@ void HeapCore::remove(std::size_t body) {
     states();
     begin(Stage::mend);
   }
-  if (place_[body] == Place::in) solver_.remove(id_, body);
+  if (place_[body] == Place::in) {
+    solver_.remove(id_, body);
+    audit_->leave(body);
+  }
   waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), body), waiting_.end());
   place_[body] = Place::removed;
   states_[body] = {Pose::none(), {}};
@@ -90,14 +99,22 @@ void HeapCore::set_gravity(const Vec3& gravity) {
   states();
   auto plan = std::make_shared<PourPlan>(*plan_);
   plan->request.gravity = plan->world.gravity = gravity;
+  audit_.reset();
   plan_ = std::move(plan);
   solver_.remove_world(id_);
   make_world(!waiting_.empty());
   begin(waiting_.empty() ? Stage::hold : Stage::pour);
 }
 
+void HeapCore::recover() {
+  solver_.remove_world(id_);
+  make_world(walls_raised_);
+  begin(waiting_.empty() ? Stage::settle : Stage::pour);
+}
+
 void HeapCore::insert(std::size_t body, const BodyState& state) {
   solver_.insert(id_, body, state);
+  if (audit_) audit_->enter(body, state);
   states_[body] = state;
   place_[body] = Place::in;
 }
@@ -195,11 +212,13 @@ void HeapCore::judge() {
     if (!finite || outside(states_[b].pose * part.mass().center)) {
       solver_.remove(id_, b);
       place_[b] = Place::escaped;
+      audit_->leave(b);
       continue;
     }
     rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
                {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
+  audit_->look(time_, states_);
   fresh_ = true;
 }
 
@@ -261,7 +280,7 @@ void HeapCore::let_in() {
   for (const std::size_t b : waiting_) {
     std::optional<Pose> pose;
     const Cover& shape = plan_->covers[plan_->line_of[b]];
-    if (misses < misses_per_look) pose = rain.place(part(b), shape, obstacles, random_, tries_per_part);
+    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, obstacles, random_, tries_per_part);
     if (!pose) {
       ++misses;
       still.push_back(b);
@@ -272,7 +291,7 @@ void HeapCore::let_in() {
     obstacles.push_back({&shape, *pose, false});
   }
   // Nothing moves any more and still nobody finds a place: the bin is full.
-  if (still.size() == waiting_.size() && all_rest()) {
+  if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
     for (const std::size_t b : still) place_[b] = Place::no_room;
     still.clear();
   }
@@ -367,6 +386,8 @@ Scene HeapCore::scene() {
   report.simulated_s = time_;
   report.steps = earlier_steps_ + solver_.steps(id_);
   report.flags = solver_.flags(id_);
+  report.energy = audit_->worst();
+  for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
   if (!report.not_poured.empty())
     report.flags.push_back({"not_poured",
                             std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +

@@ -2,6 +2,7 @@
 /// advances the solver (settle_heaps.hpp), so that many heaps of one solver can be stepped together.
 #pragma once
 
+#include "pour/energy_audit.hpp"
 #include "pour/pour_plan.hpp"
 #include "pour/settling.hpp"
 
@@ -9,6 +10,7 @@
 #include "bin_scenes/pour/rest_watch.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -25,6 +27,8 @@ class HeapCore final : private HeapView {
   void extend(std::shared_ptr<const PourPlan> plan);
   void remove(std::size_t body);
   void set_gravity(const Vec3& gravity);
+  /// After a step that was broken off: a new world with the states of the last look, which settles anew.
+  void recover();
 
   // A settle.
   /// Starts the clock; what was under way before goes on.
@@ -95,6 +99,7 @@ class HeapCore final : private HeapView {
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first
   RestWatch rest_;
+  std::optional<EnergyAudit> audit_;  ///< of this settle
 };
 
 }  // namespace bin_scenes

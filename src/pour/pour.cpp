@@ -2,6 +2,8 @@
 
 #include "pour/settle_heaps.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <chrono>
 #include <cstring>
 #include <map>
@@ -51,8 +53,9 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
 }
 
 void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
           const std::function<void(std::size_t, Scene&&)>& poured) {
+  const CancelScope scope(hooks.cancel);
   struct Running {
     std::unique_ptr<HeapCore> heap;
     std::chrono::steady_clock::time_point begin;
@@ -61,11 +64,11 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
   const Profile before = solver.profile();
   std::map<std::size_t, Running> running;
   HeapSource source;
-  source.count = indices.size();
+  source.count = scenes.count;
   source.next = [&](std::size_t place) -> HeapCore& {
     Running& r = running[place];
     r.begin = std::chrono::steady_clock::now();
-    r.heap = std::make_unique<HeapCore>(plan, solver, indices[place]);
+    r.heap = std::make_unique<HeapCore>(plan, solver, scenes.index(place));
     return *r.heap;
   };
   source.over = [&](std::size_t place) {
@@ -73,7 +76,7 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
     scene.report.wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - running[place].begin).count();
     running.erase(place);
-    if (indices.size() == 1) scene.report.profile.merge(solver.profile().since(before));  // heaps share its counters
+    if (scenes.count == 1) scene.report.profile.merge(solver.profile().since(before));  // heaps share its counters
     poured(place, std::move(scene));
   };
   settle_heaps(solver, source, hooks);
@@ -82,7 +85,8 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
 std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
                         const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
   std::vector<Scene> scenes(indices.size());
-  pour(request, parts, solver, indices, hooks, std::move(bin_model),
+  const SceneList list{indices.size(), [&](std::size_t place) { return indices[place]; }};
+  pour(request, parts, solver, list, hooks, std::move(bin_model),
        [&](std::size_t place, Scene&& scene) { scenes[place] = std::move(scene); });
   return scenes;
 }
