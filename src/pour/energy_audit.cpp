@@ -13,12 +13,6 @@ constexpr double earth = 9.81;        ///< m/s2
 constexpr double allowed = 1e-3;      ///< share of kinetic energy: the goal for force-free tumbling
 constexpr double touching = 0.02;     ///< of the diagonal: parts nearer than this may have touched
 
-/// First of the group, with the way to it shortened (Tarjan's union by path halving).
-std::size_t root(std::vector<std::size_t>& parents, std::size_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
 }  // namespace
 
 EnergyAudit::EnergyAudit(const WorldDef& world)
@@ -44,24 +38,21 @@ void EnergyAudit::enter(std::size_t body, const BodyState& state) {
   bodies_[body] = body_at(body, state);
 }
 
-std::vector<std::size_t> EnergyAudit::groups(const std::vector<Reach>& reaches) const {
-  std::vector<std::size_t> parents(reaches.size()), order(reaches.size());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto lower = [&](std::size_t i) { return reaches[i].center.x() - reaches[i].radius; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lower(a) < lower(b); });
+DisjointSets EnergyAudit::groups(const std::vector<Reach>& reaches) const {
+  DisjointSets groups(reaches.size());
+  std::vector<std::uint32_t> order(reaches.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto lower = [&](std::uint32_t i) { return reaches[i].center.x() - reaches[i].radius; };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return lower(a) < lower(b); });
   for (std::size_t i = 0; i < order.size(); ++i) {  // sweep along x
     const Reach& a = reaches[order[i]];
     for (std::size_t k = i + 1; k < order.size() && lower(order[k]) <= a.center.x() + a.radius; ++k) {
       const Reach& b = reaches[order[k]];
       const double near = a.radius + b.radius;
-      if ((a.center - b.center).squaredNorm() > near * near) continue;
-      const std::size_t one = root(parents, order[i]), other = root(parents, order[k]);
-      parents[std::max(one, other)] = std::min(one, other);
+      if ((a.center - b.center).squaredNorm() <= near * near) groups.join(order[i], order[k]);
     }
   }
-  for (std::size_t i = 0; i < parents.size(); ++i) parents[i] = root(parents, i);
-  return parents;
+  return groups;
 }
 
 void EnergyAudit::look(double time, const std::vector<BodyState>& states) {
@@ -84,13 +75,13 @@ void EnergyAudit::look(double time, const std::vector<BodyState>& states) {
   }
   if (!gained) return;  // nobody gained more than the worst so far, however its group fared
 
-  const std::vector<std::size_t> group = groups(reaches);
+  DisjointSets group = groups(reaches);
   std::vector<double> sums(reaches.size(), 0.0);
-  for (std::size_t i = 0; i < reaches.size(); ++i) sums[group[i]] += reaches[i].gain;
-  for (std::size_t i = 0; i < reaches.size(); ++i) {
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) sums[group.root(i)] += reaches[i].gain;
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) {
     const BodyDef& def = world_.bodies[reaches[i].body];
     const double unit = def.mass * gravity_ * world_.parts[def.part]->diagonal();
-    const double gain = std::min(reaches[i].gain, sums[group[i]]) / unit;
+    const double gain = std::min(reaches[i].gain, sums[group.root(i)]) / unit;
     if (gain > worst_.gain) worst_ = {gain, time, static_cast<int>(reaches[i].body)};
   }
 }

@@ -13,6 +13,7 @@
 
 #include "bin_scenes/scene/report.hpp"
 #include "bin_scenes/solver/solver.hpp"
+#include "core/disjoint_sets.hpp"
 
 #include <vector>
 
@@ -49,7 +50,7 @@ class EnergyAudit {
   };
 
   Body body_at(std::size_t body, const BodyState& state) const;
-  std::vector<std::size_t> groups(const std::vector<Reach>& reaches) const;
+  DisjointSets groups(const std::vector<Reach>& reaches) const;
 
   const WorldDef& world_;
   double gravity_;  ///< m/s2; that of the earth where there is none, to have a unit
