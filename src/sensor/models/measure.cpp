@@ -10,11 +10,11 @@ Surfaces surfaces_of(const Request& request) {
   return surfaces;
 }
 
-RangeImage measure(const Scenery&, const View& view, const Sensor& sensor, const Surfaces&, const Draw&) {
+RangeImage measure(const Scenery&, View&& view, const Sensor& sensor, const Surfaces&, const Draw&) {
   RangeImage image;
   switch (sensor.model) {
     case SensorModel::ideal:
-      image = measure_ideal(view);
+      image = measure_ideal(std::move(view));
       break;
     default:
       throw input_error(std::string("there is no model ") + name_of(sensor.model) + " in this build",
