@@ -6,7 +6,9 @@
 #ifdef BIN_SCENES_HAS_PCL
 #include <pcl/io/pcd_io.h>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
 #endif
 
 namespace bin_scenes {
@@ -59,18 +61,18 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   Eigen::Vector4f origin(0, 0, 0, 1);
   origin.head<3>() = pose.position.cast<float>();
   // Only the header by PCL's hand: it writes files through a mapping, where a full disk is a signal and no error.
-  std::string bytes =
+  const std::string header =
       pcl::PCDWriter().generateHeaderBinary(header_of(image), origin, pose.orientation.cast<float>()) + "DATA binary\n";
-  const std::size_t header = bytes.size(), points = image.depth.size();
-  bytes.resize(header + points * point_bytes);
+  const std::size_t points = image.depth.size(), size = header.size() + points * point_bytes;
+  const std::unique_ptr<char[]> bytes(new char[size]);  // tens of megabytes: not written twice
+  char* at = std::copy(header.begin(), header.end(), bytes.get());
   const std::vector<std::array<float, 3>> positions = points_of(image);
-  char* at = &bytes[header];
   for (std::size_t i = 0; i < points; ++i, at += point_bytes) {
     const Point point = {positions[i], image.normal[i], image.intensity[i], image.label[i]};
     std::memcpy(at, &point, sizeof(Point));
     at[sizeof(Point)] = static_cast<char>(image.validity[i]);
   }
-  write_bytes(path, bytes.data(), bytes.size());
+  write_bytes(path, bytes.get(), size);
 }
 
 #else

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <thread>
 
 namespace bin_scenes {
 namespace {
@@ -266,6 +269,67 @@ TEST_F(GeneratorTest, RendersOnlyWhenSomebodyLooks) {
     EXPECT_GT(part.visible_fraction.at("camera"), 0.0);
     EXPECT_LE(part.visible_fraction.at("camera"), 1.0);
   }
+}
+
+TEST_F(GeneratorTest, ScenesArePreparedBesideThePourAndHandedOverInOrder) {
+  Request request = boxes(2);
+  request.scenes = 6;
+  std::atomic<int> prepared{0};
+  Generator::Options options;
+  options.prepare = [&](Generator::Result& result) {
+    ++prepared;
+    EXPECT_TRUE(result.scene.report.at_rest) << "it has been judged";
+    result.prepared = std::make_shared<std::size_t>(result.scene.index);
+  };
+  const auto caller = std::this_thread::get_id();
+  std::size_t next = 0;
+  generator.generate(request, options, [&](Generator::Result&& result) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_EQ(result.scene.index, next);
+    EXPECT_EQ(*static_cast<std::size_t*>(result.prepared.get()), next++);
+  });
+  EXPECT_EQ(prepared, 6);
+  EXPECT_EQ(next, 6u);
+}
+
+TEST_F(GeneratorTest, WhatCannotBePreparedEndsTheRunAndLeavesEarlierScenes) {
+  Request request = boxes(2);
+  request.scenes = 4;
+  Generator::Options options;
+  options.prepare = [](Generator::Result& result) {
+    if (result.scene.index == 2) throw environment_error("the disk is full", "somewhere", "free space");
+  };
+  std::size_t handed_over = 0;
+  try {
+    generator.generate(request, options, [&](Generator::Result&&) { ++handed_over; });
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::environment);
+  }
+  EXPECT_EQ(handed_over, 2u);
+}
+
+TEST_F(GeneratorTest, ASensorThatCannotSeeIsRefusedBeforeAnythingIsPoured) {
+  Request request = boxes(2);
+  request.sensors.emplace_back();
+  request.sensors[0].pose = Pose{Vec3(0, 0, 1), Quat::Identity()};  // looks up
+  Generator::Options options;
+  bool poured = false;
+  options.hooks.progress = [&](const Progress& progress) { poured |= progress.simulated_s > 0.0; };
+  EXPECT_THROW(run(request, options), Error);
+  EXPECT_FALSE(poured);
+}
+
+TEST_F(GeneratorTest, FixedPartsAreSeenLikeOthers) {
+  Request request = boxes(1);
+  request.parts[0].fixed = true;
+  request.parts[0].poses = {{Vec3(0, 0, 0.05), Quat::Identity()}};
+  request.sensors.emplace_back();
+  request.sensors[0].width = 64;
+  request.sensors[0].height = 48;
+  const auto results = run(request);
+  EXPECT_EQ(results.at(0).scene.parts.at(0).visible_fraction.at("camera"), 1.0);
+  EXPECT_EQ(results[0].images.at(0).label[24 * 64 + 32], 1);
 }
 
 TEST_F(GeneratorTest, DriftIsMeasuredOnlyWhenAskedFor) {
