@@ -145,8 +145,7 @@ void cost(Run& out, const char* what, SensorModel model, Fidelity fidelity) {
   for (int k = 0; k < (out.quick() ? 1 : 3); ++k) {
     const auto begin = std::chrono::steady_clock::now();
     const double cpu_begin = cpu_seconds();
-    const View view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
-    measure(scenery, view, sensor, targets.surfaces(), {1, static_cast<std::size_t>(k), 0});
+    measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor, targets.surfaces(), {1, static_cast<std::size_t>(k), 0});
     cpu.push_back(cpu_seconds() - cpu_begin);
     wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }

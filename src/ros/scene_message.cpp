@@ -1,5 +1,6 @@
 #include "scene_message.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace bin_scenes {
@@ -105,6 +106,9 @@ bin_scenes_msgs::Bin bin_message(const Bin& bin) {
 bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
   msgs::Sensor message;
   message.name = sensor.name;
+  message.model = name_of(sensor.model);
+  message.preset = sensor.preset;
+  message.D.assign(sensor.distortion.begin(), sensor.distortion.end());
   message.width = static_cast<std::uint32_t>(sensor.width);
   message.height = static_cast<std::uint32_t>(sensor.height);
   message.fov = sensor.fov;
@@ -118,6 +122,12 @@ bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
 Sensor sensor_from(const bin_scenes_msgs::Sensor& message) {
   Sensor sensor;
   sensor.name = message.name;
+  for (const SensorModel model : {SensorModel::ideal, SensorModel::structured_light, SensorModel::laser_line,
+                                  SensorModel::stereo, SensorModel::time_of_flight}) {
+    if (message.model == name_of(model)) sensor.model = model;
+  }
+  sensor.preset = message.preset;
+  if (message.D.size() == 5) std::copy(message.D.begin(), message.D.end(), sensor.distortion.begin());
   sensor.width = static_cast<int>(message.width);
   sensor.height = static_cast<int>(message.height);
   sensor.fov = message.fov;

@@ -63,13 +63,16 @@ SceneServer::SensorTopics::SensorTopics(SceneServer& server, std::size_t index, 
                       index, [](const RangeImage& image,
                                 const std_msgs::Header& header) { return camera_info_message(image.sensor, header); })),
       labels(server.node_, topic::of_sensor(topic::labels, index, sensor), &server.queue_,
-             server.from_image<sensor_msgs::Image>(index, label_message)) {}
+             server.from_image<sensor_msgs::Image>(index, label_message)),
+      validity(server.node_, topic::of_sensor(topic::validity, index, sensor), &server.queue_,
+               server.from_image<sensor_msgs::Image>(index, validity_message)) {}
 
 void SceneServer::SensorTopics::renew() {
   points.renew();
   depth.renew();
   camera_info.renew();
   labels.renew();
+  validity.renew();
 }
 
 SceneServer::SceneServer(const ros::NodeHandle& node, Settings settings) : node_(node), settings_(std::move(settings)) {

@@ -55,10 +55,12 @@ class SceneServer {
     LazyTopic<sensor_msgs::PointCloud2> points;
     LazyTopic<sensor_msgs::Image> depth;
     LazyTopic<sensor_msgs::CameraInfo> camera_info;
-    LazyTopic<sensor_msgs::Image> labels;
+    LazyTopic<sensor_msgs::Image> labels, validity;
 
     SensorTopics(SceneServer& server, std::size_t index, const std::string& name);
-    bool wanted() const { return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted(); }
+    bool wanted() const {
+      return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted();
+    }
     void renew();
   };
 

@@ -42,8 +42,7 @@ Sensor at_origin(const Sensor& sensor) {
 
 RangeImage shot(const Sensor& sensor, Targets& targets, std::size_t index) {
   const Scenery scenery = targets.scenery();
-  const View view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
-  return measure(scenery, view, sensor, targets.surfaces(), {0, index, 0});
+  return measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor, targets.surfaces(), {0, index, 0});
 }
 
 /// Valid points, optionally of one label.

@@ -38,11 +38,12 @@ std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, co
   const Surfaces surfaces = surfaces_of(request);
   std::vector<RangeImage> images;
   for (const Sensor& sensor : scene.sensors) {
-    const View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+    View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+    std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, images.size()};
-    images.push_back(measure(scenery, view, sensor, surfaces, draw));
+    images.push_back(measure(scenery, std::move(view), sensor, surfaces, draw));
     RangeImage& image = images.back();
-    count_pixels(image, scene, silhouettes(scenery, view, sensor.near, sensor.far));
+    count_pixels(image, scene, std::move(alone));
     scene.report.profile.count("views");
     std::size_t there = 0;
     for (std::size_t i = 0; i < scenery.part_count(); ++i) there += scenery.part(i).mesh != nullptr;

@@ -1,6 +1,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
+#include "bin_scenes/config/sensor_presets.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -421,6 +422,64 @@ TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
   std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
   EXPECT_NE(text.find(holes), std::string::npos);
   EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/request.md";
+}
+
+TEST_F(ConfigTest, ARefusedValueIsToldWithItsLine) {
+  expect_refused(bolts + "    friction: -0.5\n", {"request.yaml:3", "'parts[0].friction'", "at least 0", "is -0.5"});
+  expect_refused(bolts, {"--set parts[0].friction", "is -1"}, {"parts[0].friction=-1"});
+}
+
+class SensorPresets : public ConfigTest {
+ protected:
+  SensorPresets() {
+    put("presets/close_fringes.yaml",
+        "model: structured_light\nwidth: 800\nfov: 0.5\nprojector: {pose: [0.2, 0, 1], fov: 0.6}\n");
+    put("presets/calibrated.yaml", "k: [900, 0, 400, 0, 900, 300, 0, 0, 1]\n");
+    put("presets/wrong.yaml", "model: ideal\nwidht: 3\n");
+    ::setenv("BIN_SCENES_SENSORS", (dir / "presets").c_str(), 1);
+  }
+  ~SensorPresets() override { ::unsetenv("BIN_SCENES_SENSORS"); }
+
+  Sensor sensor(const std::string& keys) {
+    return read("parts: [{model: bolt.stl}]\nsensors: [{" + keys + "}]\n").sensors.at(0);
+  }
+};
+
+TEST_F(SensorPresets, ValuesOfThePresetYieldToThoseOfTheRequest) {
+  const Sensor s = sensor("name: left, preset: close_fringes, width: 640, projector: {width: 912}");
+  EXPECT_EQ(s.name, "left");
+  EXPECT_EQ(s.model, SensorModel::structured_light);
+  EXPECT_EQ(s.preset, "close_fringes");
+  EXPECT_EQ(s.width, 640);
+  EXPECT_EQ(s.height, 480);
+  EXPECT_EQ(s.fov, 0.5);
+  EXPECT_EQ(s.projector.width, 912);
+  EXPECT_EQ(s.projector.fov, 0.6);
+  EXPECT_TRUE(s.projector.pose);
+}
+
+TEST_F(SensorPresets, KeysThatSayTheSameInOtherWordsReplaceEachOther) {
+  EXPECT_FALSE(sensor("preset: calibrated").k.empty());
+  EXPECT_TRUE(sensor("preset: calibrated, fov: 0.4").k.empty());
+  EXPECT_FALSE(sensor("preset: close_fringes, projector: {baseline: 0.1}").projector.pose);
+}
+
+TEST_F(SensorPresets, MistakesAreNamedWhereTheyStand) {
+  const std::string bolts = "parts: [{model: bolt.stl}]\n";
+  expect_refused(bolts + "sensors: [{preset: close_fringe}]\n", {"close_fringes", "request.yaml:2"});
+  expect_refused(bolts + "sensors: [{preset: ../request}]\n", {"no sensor preset"});
+  expect_refused(bolts + "sensors: [{preset: wrong}]\n", {"widht", "width", "wrong.yaml:2"});
+  expect_refused(bolts + "sensors: [{model: laser_lin}]\n", {"did you mean 'laser_line'?"});
+}
+
+TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
+  ::unsetenv("BIN_SCENES_SENSORS");
+  EXPECT_FALSE(sensor_presets().empty());
+  for (const std::string& name : sensor_presets()) {
+    SCOPED_TRACE(name);
+    const Sensor s = sensor("preset: " + name);
+    EXPECT_EQ(s.preset, name);
+  }
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ sensors:
 MODELS = ["bracket_l.stl", "gear_spur.stl"]
 TOPICS = {
     "scene": Scene, "markers": MarkerArray, "points": PointCloud2, "depth/image_rect": Image,
-    "depth/camera_info": CameraInfo, "labels/image_raw": Image,
+    "depth/camera_info": CameraInfo, "labels/image_raw": Image, "validity/image_raw": Image,
 }
 TOLERANCE = 0.3e-3  # m: points on their part's mesh
 

@@ -24,8 +24,8 @@ struct Draw {
 };
 
 /// Measured and true images; counts and silhouettes are the caller's. @param sensor  resolved()
-/// @param view  of the sensor's camera, near to far
-RangeImage measure(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+/// @param view  of the sensor's camera, near to far; its images may be taken over
+RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw);
 
 }  // namespace bin_scenes

@@ -5,6 +5,6 @@
 
 namespace bin_scenes {
 
-RangeImage measure_ideal(const View& view);
+RangeImage measure_ideal(View&& view);
 
 }  // namespace bin_scenes

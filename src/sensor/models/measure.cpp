@@ -10,12 +10,12 @@ Surfaces surfaces_of(const Request& request) {
   return surfaces;
 }
 
-RangeImage measure(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw) {
   RangeImage image;
   switch (sensor.model) {
     case SensorModel::ideal:
-      image = measure_ideal(view);
+      image = measure_ideal(std::move(view));
       break;
     case SensorModel::structured_light:
       image = measure_structured_light(scenery, view, sensor, surfaces, draw);
