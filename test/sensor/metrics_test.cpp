@@ -43,8 +43,8 @@ double predicted(const SensorMetrics& m, double albedo) {
 
 TEST(SensorMetrics, NoiseIsNearTheOnePredicted) {
   // Measured at an albedo of 0.8 over the whole image, predicted at 0.9 in its middle.
-  for (const SensorModel model : {SensorModel::structured_light, SensorModel::stereo, SensorModel::time_of_flight,
-                                  SensorModel::laser_line}) {
+  for (const SensorModel model :
+       {SensorModel::structured_light, SensorModel::stereo, SensorModel::time_of_flight, SensorModel::laser_line}) {
     const SensorMetrics m = measure_sensor(small(model));
     EXPECT_GT(m.valid_points, 3000u) << name_of(model);
     EXPECT_GT(m.temporal_noise / predicted(m, 0.9), 0.6) << name_of(model);

@@ -54,8 +54,8 @@ std::vector<float> match(const Stereo::Pair& images, int width, int height, cons
   // Penalties for a change of disparity by one and by more, as OpenCV's documentation advises for one channel.
   const int area = s.window * s.window, rim = least_disparity + s.disparities;
   const cv::Ptr<cv::StereoSGBM> matcher = cv::StereoSGBM::create(
-      least_disparity, s.disparities, s.window, 8 * area, 32 * area, static_cast<int>(std::lround(s.max_difference)), 31,
-      s.uniqueness, s.speckle_size, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
+      least_disparity, s.disparities, s.window, 8 * area, 32 * area, static_cast<int>(std::lround(s.max_difference)),
+      31, s.uniqueness, s.speckle_size, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat found;
   matcher->compute(with_rim(images.first, width, height, rim), with_rim(images.second, width, height, rim), found);
   const std::vector<char> good = textured(images.first, width, height, s.window, s.min_texture);
