@@ -1,4 +1,5 @@
-/// Sensors against closed forms, predicted noise and each other, and what they cost: the goals of docs for range sensors.
+/// Sensors against closed forms, predicted noise and each other, and what they cost: the goals of docs for range
+/// sensors.
 #include "framework/benchmark.hpp"
 #include "runs.hpp"
 
@@ -91,13 +92,17 @@ void noise(Run& out, double z, double degrees, double albedo, Fidelity fidelity)
     ++n;
   }
   const double count = static_cast<double>(n);
-  out.row(Row(key).exact("ratio", std::sqrt(square / count)).exact("sigma_mm", 1e3 * predicted / count).info("samples", count));
+  out.row(Row(key)
+              .exact("ratio", std::sqrt(square / count))
+              .exact("sigma_mm", 1e3 * predicted / count)
+              .info("samples", count));
 }
 
 void ball(Run& out, Fidelity fidelity, bool with_noise) {
-  const Row key = Row()
-                      .key("what", fidelity == Fidelity::decoded ? "decoded: ball of 100 mm" : "analytic: ball of 100 mm")
-                      .key("noise", with_noise ? "default" : "off");
+  const Row key =
+      Row()
+          .key("what", fidelity == Fidelity::decoded ? "decoded: ball of 100 mm" : "analytic: ball of 100 mm")
+          .key("noise", with_noise ? "default" : "off");
   if (!out.wanted(key)) return;
   Sensor sensor = sensor_of(SensorModel::structured_light, 1.0);
   sensor.fidelity = fidelity;
@@ -112,7 +117,9 @@ void ball(Run& out, Fidelity fidelity, bool with_noise) {
     points.push_back(shot.measured.depth[i] *
                      shot.view.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width)));
   }
-  out.row(Row(key).exact("radius_error_mm", 1e3 * std::abs(fit_ball(points).radius - 0.1)).info("samples", static_cast<double>(points.size())));
+  out.row(Row(key)
+              .exact("radius_error_mm", 1e3 * std::abs(fit_ball(points).radius - 0.1))
+              .info("samples", static_cast<double>(points.size())));
 }
 
 /// 256 balls of 5,120 triangles in the image.
@@ -145,8 +152,8 @@ void cost(Run& out, const char* what, SensorModel model, Fidelity fidelity) {
   for (int k = 0; k < (out.quick() ? 1 : 3); ++k) {
     const auto begin = std::chrono::steady_clock::now();
     const double cpu_begin = cpu_seconds();
-    const View view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
-    measure(scenery, view, sensor, targets.surfaces(), {1, static_cast<std::size_t>(k), 0});
+    measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor, targets.surfaces(),
+            {1, static_cast<std::size_t>(k), 0});
     cpu.push_back(cpu_seconds() - cpu_begin);
     wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }

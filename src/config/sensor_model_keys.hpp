@@ -15,14 +15,16 @@ inline Names<LaserLineSettings::Peak> names(LaserLineSettings::Peak) {
 
 template <class Visitor>
 void visit(Visitor& v, ImagerSettings& s) {
-  v.field({"exposure", "",
-           "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise on "
-           "dark parts, and bright or shiny ones saturate"},
-          s.exposure);
-  v.field({"reference_distance", "m",
-           "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "
-           "what is lit"},
-          s.reference_distance);
+  v.field(
+      {"exposure", "",
+       "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise on "
+       "dark parts, and bright or shiny ones saturate"},
+      s.exposure);
+  v.field(
+      {"reference_distance", "m",
+       "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "
+       "what is lit"},
+      s.reference_distance);
   v.field({"ambient", "", "signal / full well of a white surface without the sensor's light; adds shot noise"},
           s.ambient);
   v.field({"full_well", "electrons", "at saturation; shot noise of a signal s is sqrt(s / full_well)"}, s.full_well);
@@ -49,7 +51,8 @@ void visit(Visitor& v, StructuredLightSettings& s) {
 template <class Visitor>
 void visit(Visitor& v, LaserLineSettings& s) {
   v.field({"fan", "rad", "opening of the sheet about its z axis"}, s.fan);
-  v.field({"power", "", "signal / full well at the line's peak on a white matte surface that faces the laser"}, s.power);
+  v.field({"power", "", "signal / full well at the line's peak on a white matte surface that faces the laser"},
+          s.power);
   v.field({"blur", "pixel", "standard deviation of the camera's blur; adds to the line's width"}, s.blur);
   v.field({"speckle", "", "contrast of speckle in one pixel, 0 to 1; moves the peak; 0 = none"}, s.speckle);
   v.field({"min_signal", "", "peak signal / full well below which a line is missing (code 4)"}, s.min_signal);
@@ -60,14 +63,18 @@ template <class Visitor>
 void visit(Visitor& v, StereoSettings& s) {
   v.field({"baseline", "m", "to the second camera along the first one's x; longer = less noise, more occlusion"},
           s.baseline);
-  v.field({"disparities", "pixel",
-           "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it"},
-          s.disparities);
+  v.field(
+      {"disparities", "pixel",
+       "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it"},
+      s.disparities);
   v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges"}, s.window);
   v.field({"dots", "", "share of the projector's pixels that are dots; 0 = no pattern, passive stereo"}, s.dots);
   v.field({"uniqueness", "%", "by which the best match must beat the second; more = more holes, fewer outliers"},
           s.uniqueness);
   v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers"}, s.max_difference);
+  v.field({"min_texture", "grey levels",
+           "of 255: standard deviation in a window below which nothing is matched; 0 = noise is matched as well"},
+          s.min_texture);
   v.field({"speckle_size", "pixel", "smaller islands of disparity are removed; 0 = none are"}, s.speckle_size);
   v.field({"disparity_noise", "pixel", "analytic: standard deviation at full signal"}, s.disparity_noise);
   v.field({"min_signal", "", "analytic: signal / full well below which nothing is matched (code 8)"}, s.min_signal);
@@ -81,10 +88,12 @@ void visit(Visitor& v, TimeOfFlightSettings& s) {
   v.field({"axial_angle", "m^1.5", "times t^2 / (pi/2 - t)^2 / sqrt(z), t the angle of incidence"}, s.axial_angle);
   v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane"}, s.lateral);
   v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)"}, s.lateral_angle);
-  v.field({"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = the same noise for all"},
-          s.albedo);
-  v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)"},
-          s.min_signal);
+  v.field(
+      {"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = the same noise for all"},
+      s.albedo);
+  v.field(
+      {"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)"},
+      s.min_signal);
   v.field({"mixed", "", "pixels that see foreground and background: keep = flying points, remove = invalid (code 6)"},
           s.mixed);
   v.field({"edge_step", "m", "depth step inside a pixel's footprint from which on it is a mixed pixel"}, s.edge_step);

@@ -36,6 +36,7 @@ void check_stereo(const std::string& key, const Sensor& sensor) {
                                  {"dots", s.dots, 0.0, 0.9, "share of the projector's pixels; 0 = passive"},
                                  {"uniqueness", double(s.uniqueness), 0, 100, "%"},
                                  {"max_difference", s.max_difference, 0.0, 100.0, "pixels"},
+                                 {"min_texture", s.min_texture, 0.0, 255.0, "grey levels"},
                                  {"speckle_size", double(s.speckle_size), 0, 100000, "pixels; 0 = none removed"},
                                  {"disparity_noise", s.disparity_noise, 0.0, 10.0, deviation},
                                  {"min_signal", s.min_signal, tiny, 1.0, "share of the full well, above 0"}});

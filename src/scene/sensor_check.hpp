@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Throws an input Error at `key`.something for the first setting that makes no sense, whatever the sensor's model; what
-/// only holds for some models is asked of those.
+/// Throws an input Error at `key`.something for the first setting that makes no sense, whatever the sensor's model;
+/// what only holds for some models is asked of those.
 void check_sensor_models(const std::string& key, const Sensor& sensor);
 
 }  // namespace bin_scenes

@@ -16,7 +16,9 @@ namespace {
 constexpr double albedo = 0.8;  // of balls and plates, as vendors' targets
 constexpr int repeats = 8;
 
-Vec3 as_vector(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+Vec3 as_vector(const std::array<float, 3>& p) {
+  return {p[0], p[1], p[2]};
+}
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -42,8 +44,8 @@ Sensor at_origin(const Sensor& sensor) {
 
 RangeImage shot(const Sensor& sensor, Targets& targets, std::size_t index) {
   const Scenery scenery = targets.scenery();
-  const View view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
-  return measure(scenery, view, sensor, targets.surfaces(), {0, index, 0});
+  return measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor,
+                 targets.surfaces(), {0, index, 0});
 }
 
 /// Valid points, optionally of one label.
@@ -72,8 +74,13 @@ Eigen::Vector2d half_field(const Sensor& sensor, double distance) {
 
 std::array<Vec3, 7> positions(const Sensor& sensor, const std::array<double, 3>& z, double share) {
   const Eigen::Vector2d half = share * half_field(sensor, z[1]);
-  return {Vec3(0, 0, z[1]),           Vec3(-half.x(), 0, z[1]), Vec3(half.x(), 0, z[1]), Vec3(0, -half.y(), z[1]),
-          Vec3(0, half.y(), z[1]),    Vec3(-half.x(), -half.y(), z[0]), Vec3(half.x(), half.y(), z[2])};
+  return {Vec3(0, 0, z[1]),
+          Vec3(-half.x(), 0, z[1]),
+          Vec3(half.x(), 0, z[1]),
+          Vec3(0, -half.y(), z[1]),
+          Vec3(0, half.y(), z[1]),
+          Vec3(-half.x(), -half.y(), z[0]),
+          Vec3(half.x(), half.y(), z[2])};
 }
 
 void measure_balls(const Sensor& sensor, SensorMetrics& m) {
@@ -101,7 +108,8 @@ void measure_balls(const Sensor& sensor, SensorMetrics& m) {
 Targets plate(const Vec3& middle, const Quat& turn, double size) {
   Targets targets;
   const double thickness = 0.01 * size;
-  targets.add(box_target({size, size, thickness}), {middle + turn * Vec3(0, 0, 0.5 * thickness), turn}, {albedo, 0.0, 0.4});
+  targets.add(box_target({size, size, thickness}), {middle + turn * Vec3(0, 0, 0.5 * thickness), turn},
+              {albedo, 0.0, 0.4});
   return targets;
 }
 

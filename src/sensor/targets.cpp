@@ -21,11 +21,11 @@ Mesh box_target(const Vec3& size) {
 Mesh ball_target(double radius, int level) {
   const double g = 0.5 * (1.0 + std::sqrt(5.0));
   Mesh ball;
-  ball.vertices = {{-1, g, 0},  {1, g, 0},   {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g},  {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  ball.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  ball.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  ball.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vec3& v : ball.vertices) v.normalize();
   for (int i = 0; i < level; ++i) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -50,7 +50,8 @@ Mesh ball_target(double radius, int level) {
     const Vec3 &a = ball.vertices[i], &b = ball.vertices[j], &c = ball.vertices[k];
     const double weight = ball.area_vector(t).norm();
     const double edges = ((a + b) / 2).norm() + ((b + c) / 2).norm() + ((c + a) / 2).norm();
-    sum += weight * (3.0 / 60 * (a.norm() + b.norm() + c.norm()) + 8.0 / 60 * edges + 27.0 / 60 * ((a + b + c) / 3).norm());
+    sum += weight *
+           (3.0 / 60 * (a.norm() + b.norm() + c.norm()) + 8.0 / 60 * edges + 27.0 / 60 * ((a + b + c) / 3).norm());
     area += weight;
   }
   for (Vec3& v : ball.vertices) v *= radius * area / sum;
@@ -71,6 +72,8 @@ void Targets::add(const Mesh& mesh, const Pose& pose, const Surface& surface) {
   surfaces_.lines.push_back(surface);
 }
 
-Scenery Targets::scenery() { return Scenery(scene_, request_, models_, nullptr, *cache_); }
+Scenery Targets::scenery() {
+  return Scenery(scene_, request_, models_, nullptr, *cache_);
+}
 
 }  // namespace bin_scenes

@@ -18,10 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double degrees(double radians) { return radians * 180.0 / M_PI; }
+double degrees(double radians) {
+  return radians * 180.0 / M_PI;
+}
 
 /// JSON has no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json list(const std::array<double, 7>& values) {
   Json json = Json::array();
@@ -66,8 +70,10 @@ void print_text(const Sensor& sensor, const SensorMetrics& m) {
   for (std::size_t i = 0; i + 3 < m.predicted.size(); i += 4) {
     std::printf("  %5.3f m, incidence %2.0f deg ", m.predicted[i].distance, degrees(m.predicted[i].incidence));
     for (std::size_t k = i; k < i + 4; ++k) {
-      if (std::isfinite(m.predicted[k].sigma)) std::printf(" %12.4f", 1e3 * m.predicted[k].sigma);
-      else std::printf(" %12s", "-");
+      if (std::isfinite(m.predicted[k].sigma))
+        std::printf(" %12.4f", 1e3 * m.predicted[k].sigma);
+      else
+        std::printf(" %12s", "-");
     }
     std::printf("\n");
   }
@@ -107,7 +113,8 @@ void plot(const std::string& path, const SensorMetrics& m) {
   for (const int d : {0, 10, 20, 30, 40, 50, 60, 70}) {
     out << "<text x=\"" << x(d * M_PI / 180.0) << "\" y=\"288\" text-anchor=\"middle\">" << d << "</text>\n";
   }
-  out << "<text x=\"270\" y=\"308\" text-anchor=\"middle\">incidence (degrees)</text>\n<text x=\"70\" y=\"18\">sigma of "
+  out << "<text x=\"270\" y=\"308\" text-anchor=\"middle\">incidence (degrees)</text>\n<text x=\"70\" y=\"18\">sigma "
+         "of "
          "depth (mm) at "
       << m.distances[1] << " m</text>\n";
   const char* const colours[] = {"#000", "#a33", "#36a", "#2a2"};

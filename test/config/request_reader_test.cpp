@@ -60,7 +60,16 @@ solver:
   sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
 sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
-  - {name: right, k: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
+  - name: right
+    k: [500, 0, 320, 0, 500, 240, 0, 0, 1]
+    imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
+    structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
+                       mixed: keep, edge_step: 0.002}
+    laser_line: {fan: 0.7, power: 0.4, blur: 0.9, speckle: 0.1, min_signal: 0.03, peak: nearest}
+    stereo: {baseline: 0.2, disparities: 256, window: 9, dots: 0.2, uniqueness: 5, max_difference: 2, min_texture: 2, speckle_size: 50,
+             disparity_noise: 0.1, min_signal: 0.05}
+    time_of_flight: {axial: 0.002, axial_growth: 0.003, axial_distance: 0.5, axial_angle: 0.0002, lateral: 0.7,
+                     lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03}
 accept: {penetration: 0.03, gap: 0.04, escaped: true}
 seconds: 1.5
 drift_check: true

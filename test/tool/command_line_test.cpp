@@ -526,5 +526,19 @@ TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {
   EXPECT_EQ(run("reference").out, std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
+TEST_F(CommandLine, ASensorIsMeasuredBeforeAnyScene) {
+  put("sensor.yaml", "model: structured_light\nwidth: 160\nheight: 120\nfov: 0.4\nnear: 0.7\nfar: 1.4\n");
+  const Outcome outcome = run("sensor sensor.yaml --json --plot noise.svg");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json j = Json::parse(outcome.out);
+  EXPECT_EQ(j["model"], "structured_light");
+  EXPECT_EQ(j["predicted_sigma"].size(), 48u);  // 3 distances, 4 incidences, 4 albedos
+  EXPECT_GT(j["temporal_noise"].get<double>(), 1e-6);
+  EXPECT_LT(j["temporal_noise"].get<double>(), 1e-3);
+  EXPECT_EQ(j["probing_error_form"].size(), 7u);
+  EXPECT_NE(text("noise.svg").find("</svg>"), std::string::npos);
+  expect_failure("sensor structured_lihgt_0.7m_750mm", 2, {"structured_light_0.7m_750mm"});
+}
+
 }  // namespace
 }  // namespace bin_scenes

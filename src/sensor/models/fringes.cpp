@@ -11,8 +11,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int samples = 16;    // of the table in a column: linear between them errs by 1e-4 of the amplitude
-constexpr int margin = 8;      // columns that the pattern goes on beyond the projector's edges, for the blur
+constexpr int samples = 16;     // of the table in a column: linear between them errs by 1e-4 of the amplitude
+constexpr int margin = 8;       // columns that the pattern goes on beyond the projector's edges, for the blur
 constexpr double levels = 255;  // a projector shows 8 bits
 
 int bits_for(double halves) {
@@ -35,7 +35,8 @@ Fringes::Fringes(const StructuredLightSettings& s, int width)
   if (bits_ < needed) {
     throw input_error(std::to_string(bits_) + " Gray-code images tell " +
                           std::to_string(static_cast<int>(std::ldexp(1.0, bits_ - 1))) +
-                          " fringes apart, the projector has " + std::to_string(static_cast<int>(std::ceil(width / period_))),
+                          " fringes apart, the projector has " +
+                          std::to_string(static_cast<int>(std::ceil(width / period_))),
                       "structured_light.gray_bits",
                       "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
   }
@@ -147,6 +148,8 @@ double Fringes::column_sigma(double image_sigma, double modulation) const {
   return period_ / (2.0 * M_PI) * amplitude_sigma(image_sigma) / modulation;
 }
 
-double Fringes::amplitude_sigma(double image_sigma) const { return std::sqrt(2.0 / steps_) * image_sigma; }
+double Fringes::amplitude_sigma(double image_sigma) const {
+  return std::sqrt(2.0 / steps_) * image_sigma;
+}
 
 }  // namespace bin_scenes

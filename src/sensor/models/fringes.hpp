@@ -1,6 +1,6 @@
-/// The images of a fringe projector: `steps` cosines, each shifted by an equal share of a period, then the bits of a Gray
-/// code that counts half periods. The last bit counts halves so that a period is never read off where its number changes
-/// (complementary Gray code: Zhang et al. 2012, "Phase unwrapping using complementary Gray code").
+/// The images of a fringe projector: `steps` cosines, each shifted by an equal share of a period, then the bits of a
+/// Gray code that counts half periods. The last bit counts halves so that a period is never read off where its number
+/// changes (complementary Gray code: Zhang et al. 2012, "Phase unwrapping using complementary Gray code").
 #pragma once
 
 #include "bin_scenes/scene/sensor_models.hpp"
@@ -32,7 +32,8 @@ class Fringes {
   double seen_through(double columns) const;
   /// Largest value of cos over the images at this column: what saturates first.
   double brightest(double column) const;
-  /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the phase's.
+  /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the
+  /// phase's.
   double column_sigma(double image_sigma, double modulation) const;
   /// The same for the amplitude read.
   double amplitude_sigma(double image_sigma) const;

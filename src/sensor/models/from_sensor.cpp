@@ -12,7 +12,9 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-Random random_of(const Draw& draw) { return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor); }
+Random random_of(const Draw& draw) {
+  return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
+}
 
 void add_truth(RangeImage& image, const View& view) {
   image.truth_depth.assign(view.depth.begin(), view.depth.end());
@@ -51,8 +53,8 @@ Stereo::Setup stereo_setup(const Sensor& s) {
 
 LaserLine::Setup laser_line_setup(const Sensor& s) {
   const Vec3 way = s.scan.step * s.scan.direction.normalized();
-  return {lens_of(s),   *s.pose,      *s.laser.pose, 1e-3 * s.laser.width_mm, way,  s.scan.profiles,
-          s.laser_line, s.imager,     s.noise,       s.near,                  s.far};
+  return {lens_of(s), *s.pose, *s.laser.pose, 1e-3 * s.laser.width_mm, way, s.scan.profiles, s.laser_line, s.imager,
+          s.noise,    s.near,  s.far};
 }
 
 RangeImage measure_structured_light(const Scenery& scenery, const View& view, const Sensor& sensor,

@@ -12,7 +12,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double edge = 1e-3;  // m: two neighbours of the fan that lie further off each other's plane are no one surface
+constexpr double edge =
+    1e-3;  // m: two neighbours of the fan that lie further off each other's plane are no one surface
 
 /// Depth step between two hits of neighbouring rays, as the plane of either says.
 bool one_surface(const Hit& a, const Vec3& along_a, const Hit& b, const Vec3& along_b) {
@@ -32,7 +33,7 @@ struct LaserLine::Lines {
     std::uint16_t label;
     bool visible;
   };
-  std::vector<Line> lines;  ///< by sample
+  std::vector<Line> lines;      ///< by sample
   std::vector<Validity> codes;  ///< by sample: why there is none
 };
 
@@ -44,7 +45,8 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
   samples_ = upright_ ? setup_.camera.height : setup_.camera.width;
   // Three rays of the fan for two samples of the camera, if it stands as far away as the laser.
   const double half = std::tan(0.5 * setup_.settings.fan);
-  const int rays = std::max(2, static_cast<int>(std::ceil(3.0 * half * (upright_ ? setup_.camera.fy : setup_.camera.fx))));
+  const int rays =
+      std::max(2, static_cast<int>(std::ceil(3.0 * half * (upright_ ? setup_.camera.fy : setup_.camera.fx))));
   for (int i = 0; i < rays; ++i) {
     directions_.push_back(setup_.laser_pose.orientation * Vec3(0.0, half * (2.0 * i / (rays - 1) - 1.0), 1.0));
   }
@@ -131,9 +133,11 @@ void LaserLine::find_lines(const Vec3& offset, Lines& out) const {
         if (across(*pixel) < -0.5 || across(*pixel) > limit) continue;
         // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
         const double distance = (laser - point).norm();
-        const double light = reflected(surfaces_.of(hit.line), hit.normal, (laser - point) / distance, (eye - point).normalized());
+        const double light =
+            reflected(surfaces_.of(hit.line), hit.normal, (laser - point) / distance, (eye - point).normalized());
         out.lines.push_back({s, across(*pixel), (to_camera * (point - eye)).z(),
-                             setup_.settings.power * light * reference_ / distance, point, hit.normal, hit.label, light > 0.0});
+                             setup_.settings.power * light * reference_ / distance, point, hit.normal, hit.label,
+                             light > 0.0});
         out.codes[static_cast<std::size_t>(s)] = Validity::shadow;  // unless the camera sees it
       }
     }
@@ -155,7 +159,8 @@ void LaserLine::find_lines(const Vec3& offset, Lines& out) const {
                    [](const Lines::Line& a, const Lines::Line& b) { return a.sample < b.sample; });
 }
 
-void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, Profiles& out, std::size_t profile) const {
+void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, Profiles& out,
+                           std::size_t profile) const {
   const Vec3 eye = setup_.camera_pose.position + offset, laser = setup_.laser_pose.position + offset;
   const Pose back = setup_.camera_pose.inverse();
   const std::size_t row = profile * static_cast<std::size_t>(samples_);

@@ -15,12 +15,12 @@
 namespace bin_scenes {
 
 struct Profiles {
-  int width = 0, height = 0;                   ///< samples of a profile, profiles
-  std::vector<Validity> validity;              ///< row-major, as all that follow
-  std::vector<std::array<float, 3>> points;    ///< m, in the frame of the camera's given pose; NaN where not valid
-  std::vector<std::array<float, 3>> normals;   ///< true, same frame
-  std::vector<std::uint16_t> label;            ///< true, of the line that was found
-  std::vector<float> intensity;                ///< signal of the peak
+  int width = 0, height = 0;                  ///< samples of a profile, profiles
+  std::vector<Validity> validity;             ///< row-major, as all that follow
+  std::vector<std::array<float, 3>> points;   ///< m, in the frame of the camera's given pose; NaN where not valid
+  std::vector<std::array<float, 3>> normals;  ///< true, same frame
+  std::vector<std::uint16_t> label;           ///< true, of the line that was found
+  std::vector<float> intensity;               ///< signal of the peak
 };
 
 class LaserLine {
@@ -39,8 +39,8 @@ class LaserLine {
   LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup);
 
   Profiles scanned(const Random& random) const;
-  /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two rows:
-  /// drawn, as the peak's is no formula. NaN where there is no line.
+  /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two
+  /// rows: drawn, as the peak's is no formula. NaN where there is no line.
   double depth_sigma() const;
 
  private:
@@ -57,7 +57,7 @@ class LaserLine {
   const Surfaces& surfaces_;
   Setup setup_;
   Imager imager_;
-  bool upright_;                  ///< the line runs along the image's columns: a sample is a row
+  bool upright_;  ///< the line runs along the image's columns: a sample is a row
   int samples_;
   std::vector<Vec3> directions_;  ///< of the fan, bin frame
   Vec3 sheet_;                    ///< normal, bin frame

@@ -11,9 +11,9 @@ namespace bin_scenes {
 
 /// Row-major, as the image of the sensor.
 struct Measurement {
-  std::vector<double> depth;       ///< m; NaN where the code is not valid
+  std::vector<double> depth;  ///< m; NaN where the code is not valid
   std::vector<Validity> validity;
-  std::vector<float> intensity;    ///< mean signal / full well, at most 1
+  std::vector<float> intensity;  ///< mean signal / full well, at most 1
 
   explicit Measurement(std::size_t pixels)
       : depth(pixels, std::numeric_limits<double>::quiet_NaN()),

@@ -20,7 +20,8 @@ std::vector<float> correlated_noise(int width, int height, double window, const 
 
   // White noise over the image and a rim of the kernel's reach: rows first, then columns.
   const int wide = width + 2 * reach, high = height + 2 * reach;
-  std::vector<float> rows(static_cast<std::size_t>(width) * high), field(static_cast<std::size_t>(width) * height, 0.0f);
+  std::vector<float> rows(static_cast<std::size_t>(width) * high),
+      field(static_cast<std::size_t>(width) * height, 0.0f);
   in_parallel(static_cast<std::size_t>(high), [&](std::size_t y) {
     Random own = random.of_piece(y);
     std::vector<float> white(static_cast<std::size_t>(wide) + 1);

@@ -1,5 +1,5 @@
-/// Normally distributed numbers over an image whose neighbours resemble each other, as errors of a matcher do that looks
-/// at windows: two windows that overlap share their pixels' noise.
+/// Normally distributed numbers over an image whose neighbours resemble each other, as errors of a matcher do that
+/// looks at windows: two windows that overlap share their pixels' noise.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -5,7 +5,8 @@
 
 namespace bin_scenes {
 
-/// Standard deviation of the depth (m) of a matte plate on the optical axis; 0 of `ideal`, NaN where nothing is measured.
+/// Standard deviation of the depth (m) of a matte plate on the optical axis; 0 of `ideal`, NaN where nothing is
+/// measured.
 /// @param sensor     resolved()
 /// @param distance   m along the optical axis
 /// @param incidence  rad, by which the plate is turned about the camera's x

@@ -13,7 +13,8 @@ namespace {
 /// Bilinear between the projector's pixels.
 double sampled(const std::vector<float>& pattern, const Lens& projector, double column, double row) {
   const double x = std::clamp(column, 0.0, projector.width - 1.0), y = std::clamp(row, 0.0, projector.height - 1.0);
-  const int i = std::min(static_cast<int>(x), projector.width - 2), j = std::min(static_cast<int>(y), projector.height - 2);
+  const int i = std::min(static_cast<int>(x), projector.width - 2),
+            j = std::min(static_cast<int>(y), projector.height - 2);
   const double u = x - i, v = y - j;
   const float* const at = &pattern[static_cast<std::size_t>(j) * projector.width + i];
   const float* const below = at + projector.width;
@@ -31,7 +32,8 @@ std::vector<float> dot_pattern(int width, int height, double dots, double ratio)
   const int reach = static_cast<int>(std::ceil(3.0 * sigma));
   std::vector<float> kernel(2 * reach + 1);
   float sum = 0.0f;
-  for (int k = -reach; k <= reach; ++k) sum += kernel[k + reach] = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)));
+  for (int k = -reach; k <= reach; ++k)
+    sum += kernel[k + reach] = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)));
   std::vector<float> rows(pattern.size());
   const auto blur = [&](const std::vector<float>& in, std::vector<float>& out, int step, int count, int other) {
     in_parallel(static_cast<std::size_t>(height), [&](std::size_t y) {
@@ -123,13 +125,14 @@ Measurement Stereo::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
   const Pair pair = images(random);
   const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
-  const std::vector<float> disparity =
-      match(pair, view_.lens.width, view_.lens.height, setup_.settings, least);
+  const std::vector<float> disparity = match(pair, view_.lens.width, view_.lens.height, setup_.settings, least);
   for (std::size_t i = 0; i < disparity.size(); ++i) {
     out.intensity[i] = static_cast<float>(pair.first[i]) / 255.0f;
     const double z = of_disparity(disparity[i]);
     const bool good = z >= setup_.near && z <= setup_.far;
-    out.validity[i] = good ? Validity::valid : lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
+    out.validity[i] = good                                ? Validity::valid
+                      : lit_[i].code == Validity::nothing ? Validity::nothing
+                                                          : Validity::unmatched;
     if (good) out.depth[i] = z;
   }
   return out;
@@ -158,8 +161,10 @@ Measurement Stereo::analytic(const Random& random) const {
     std::vector<std::uint8_t> hidden(width);
     for (std::size_t x = 0; x < width; ++x) {
       const SeenPoint point = seen_point(view_, row * width + x);
-      if (point.hit) rays[x] = ray_between(point.position, point.normal, second_.position);
-      else rays[x].direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+      if (point.hit)
+        rays[x] = ray_between(point.position, point.normal, second_.position);
+      else
+        rays[x].direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     }
     scenery_.blocked(rays.data(), hidden.data(), width);
     for (std::size_t x = 0; x < width; ++x) {

@@ -118,9 +118,11 @@ void StructuredLight::sample(const std::vector<std::size_t>& pixels, Samples& ou
 
 /// Column that the fringes of a pixel's four samples add up to, as a phase near that of the brightest.
 double StructuredLight::mixed_column(const Lit* lit) const {
-  const auto signal = [](const Lit& l) { return l.code == Validity::valid ? l.reflected / (l.distance * l.distance) : 0.0; };
-  const Lit* const brightest =
-      std::max_element(lit, lit + Samples::per_pixel, [&](const Lit& a, const Lit& b) { return signal(a) < signal(b); });
+  const auto signal = [](const Lit& l) {
+    return l.code == Validity::valid ? l.reflected / (l.distance * l.distance) : 0.0;
+  };
+  const Lit* const brightest = std::max_element(lit, lit + Samples::per_pixel,
+                                                [&](const Lit& a, const Lit& b) { return signal(a) < signal(b); });
   double sine = 0.0, cosine = 0.0;
   const double turn = 2.0 * M_PI / setup_.settings.period;
   for (int k = 0; k < Samples::per_pixel; ++k) {

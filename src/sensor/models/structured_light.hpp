@@ -1,8 +1,8 @@
 /// A fringe projector beside a camera. Both fidelities share geometry, light and the chip's noise: `analytic` takes the
 /// noise of the column from its formula, `decoded` makes the images and reads the column from them.
 ///
-/// With s the signal of the projector's white at a pixel, the fringe there has mean A = ambient + s * mean and amplitude
-/// B = s * amplitude * (blur by the pixel's footprint). The chip's noise sigma(A) makes the phase err by
+/// With s the signal of the projector's white at a pixel, the fringe there has mean A = ambient + s * mean and
+/// amplitude B = s * amplitude * (blur by the pixel's footprint). The chip's noise sigma(A) makes the phase err by
 /// sqrt(2 / steps) sigma / B and the column by period / 2 pi of that; the ray meets the plane of that column.
 #pragma once
 

@@ -24,8 +24,8 @@ Returned returned(const View& view, std::size_t pixel, const Surfaces& surfaces,
   const auto& n = view.normal[pixel];
   const Vec3 normal = view.pose.orientation * Vec3(n[0], n[1], n[2]);
   const auto width = static_cast<std::size_t>(view.lens.width);
-  const Vec3 middle = view.pose.orientation *
-                      view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+  const Vec3 middle =
+      view.pose.orientation * view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
   const double plane = view.depth[pixel] * normal.dot(middle);
   Returned sum;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
@@ -72,7 +72,8 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
         v *= sigma;
       }
       for (int k = 0; k < samples; ++k) {
-        const Vec3 offset((u + (k & 1 ? 0.25 : -0.25)) / view.lens.fx, (v + (k & 2 ? 0.25 : -0.25)) / view.lens.fy, 0.0);
+        const Vec3 offset((u + (k & 1 ? 0.25 : -0.25)) / view.lens.fx, (v + (k & 2 ? 0.25 : -0.25)) / view.lens.fy,
+                          0.0);
         rays[samples * x + k] = {view.pose.position, turn * (middle + offset), near, far};
       }
     }

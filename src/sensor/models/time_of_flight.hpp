@@ -1,5 +1,5 @@
-/// A time-of-flight camera: its light stands beside the lens, so nothing is in shadow; noise along the ray and across it
-/// (time_of_flight_noise.hpp), and pixels whose light comes back from two depths.
+/// A time-of-flight camera: its light stands beside the lens, so nothing is in shadow; noise along the ray and across
+/// it (time_of_flight_noise.hpp), and pixels whose light comes back from two depths.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

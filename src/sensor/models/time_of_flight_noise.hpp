@@ -16,7 +16,8 @@ inline double left_to_grazing(double incidence) {
 }
 }  // namespace detail
 
-/// Standard deviation of depth (m) at z (m) under an incidence (rad); `signal` as seen by a facing surface of that albedo.
+/// Standard deviation of depth (m) at z (m) under an incidence (rad); `signal` as seen by a facing surface of that
+/// albedo.
 inline double axial_sigma(const TimeOfFlightSettings& s, double z, double incidence, double signal) {
   const double far = z - s.axial_distance, tilt = incidence / detail::left_to_grazing(incidence);
   const double sigma = s.axial + s.axial_growth * far * far + s.axial_angle / std::sqrt(z) * tilt * tilt;

@@ -1,5 +1,5 @@
-#include "bin_scenes/core/error.hpp"
 #include "sensor/models/fringes.hpp"
+#include "bin_scenes/core/error.hpp"
 #include "sensor/models/imager.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,8 @@ TEST(Fringes, AFootprintWeakensTheAmplitude) {
 
 TEST(Fringes, ACodeThatMakesNoSenseHasNoColumn) {
   const Fringes fringes(StructuredLightSettings{}, 1280);
-  std::vector<float> images = seen(fringes, 600.0 + 7.5);  // the middle of a period: both readings of its number are sure
+  std::vector<float> images =
+      seen(fringes, 600.0 + 7.5);  // the middle of a period: both readings of its number are sure
   ASSERT_FALSE(std::isnan(fringes.read(images.data()).column));
   for (std::size_t b = 8; b < images.size(); ++b) images[b] = 1.0f;  // white in all: half 170, beyond the projector
   EXPECT_TRUE(std::isnan(fringes.read(images.data()).column));

@@ -82,8 +82,8 @@ TEST(LaserLine, NoiseIsAsPredicted) {
 }
 
 TEST(LaserLine, BehindAStepNeitherLaserNorCameraSees) {
-  // A block 0.1 m high. The laser's shadow on the plate begins at the block's left edge and is h * tan(angle) wide; over
-  // a scan it covers as many profiles as that is long.
+  // A block 0.1 m high. The laser's shadow on the plate begins at the block's left edge and is h * tan(angle) wide;
+  // over a scan it covers as many profiles as that is long.
   const double h = 0.1, half = 0.01;
   LaserLine::Setup setup = device(0.4);
   setup.noise = false;
@@ -109,7 +109,8 @@ TEST(LaserLine, BehindAStepNeitherLaserNorCameraSees) {
 }
 
 TEST(LaserLine, TheBrighterOfTwoLinesInAColumnIsReported) {
-  // A narrow bar in front of the plate, lit edge beside lit plate: where its sides are seen both lines lie in one sample.
+  // A narrow bar in front of the plate, lit edge beside lit plate: where its sides are seen both lines lie in one
+  // sample.
   LaserLine::Setup setup = device();
   setup.noise = false;
   Targets targets;

@@ -17,7 +17,8 @@ TEST(CorrelatedNoise, HasUnitVarianceAndFallsWithTheWindow) {
     const auto correlation = [&](int lag) {
       double sum = 0.0;
       for (int y = 0; y < size; ++y) {
-        for (int x = 0; x + lag < size; ++x) sum += static_cast<double>(field[y * size + x]) * field[y * size + x + lag];
+        for (int x = 0; x + lag < size; ++x)
+          sum += static_cast<double>(field[y * size + x]) * field[y * size + x + lag];
       }
       return sum / (static_cast<double>(size) * (size - lag));
     };

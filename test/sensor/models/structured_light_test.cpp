@@ -1,5 +1,5 @@
-#include "sensor/fit.hpp"
 #include "sensor/models/structured_light.hpp"
+#include "sensor/fit.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ struct Device {
 
   explicit Device(double baseline = 0.2, double distance = 1.0) {
     setup.projector = Lens::from_fov(1280, 800, 0.6);
-    setup.projector_pose = {Vec3(baseline, 0.0, 0.0), Quat(Eigen::AngleAxisd(-std::atan(baseline / distance), Vec3::UnitY()))};
+    setup.projector_pose = {Vec3(baseline, 0.0, 0.0),
+                            Quat(Eigen::AngleAxisd(-std::atan(baseline / distance), Vec3::UnitY()))};
     setup.near = 0.05;
     setup.far = 10.0;
   }
@@ -51,7 +52,8 @@ Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t s
 std::vector<double> errors(const Shot& shot) {
   std::vector<double> all;
   for (std::size_t i = 0; i < shot.view.depth.size(); ++i) {
-    if (shot.measured.validity[i] == Validity::valid) all.push_back(std::abs(shot.measured.depth[i] - shot.view.depth[i]));
+    if (shot.measured.validity[i] == Validity::valid)
+      all.push_back(std::abs(shot.measured.depth[i] - shot.view.depth[i]));
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -171,8 +173,8 @@ TEST(StructuredLight, ShadowBehindAStepIsAsWideAsGeometrySays) {
   targets.add(box_target({2 * half, 0.5, h}), {Vec3(0, 0, z - 0.5 * h), Quat::Identity()});
   for (const bool decoded : {false, true}) {
     const Shot shot = shoot(targets, device, decoded);
-    const double end = -half + (-half - 0.3) * h / (z - h);   // on the plate, x
-    const double begin = -half * z / (z - h);                 // where the camera sees past the block's top edge
+    const double end = -half + (-half - 0.3) * h / (z - h);  // on the plate, x
+    const double begin = -half * z / (z - h);                // where the camera sees past the block's top edge
     const double width = (begin - end) / z * device.camera.fx;
     for (int row = 60; row < 90; ++row) {
       int pixels = 0;
@@ -224,8 +226,8 @@ TEST(StructuredLight, DarkSaturatedAndShinySurfacesDropOut) {
 Targets still_life() {
   Targets targets = plate(1.0);
   targets.add(ball_target(0.05, 5), {Vec3(-0.06, 0.0, 0.95), Quat::Identity()}, {0.8, 0.1, 0.4});
-  targets.add(box_target({0.05, 0.08, 0.06}), {Vec3(0.07, 0.02, 0.95), Quat(Eigen::AngleAxisd(0.5, Vec3(1, 1, 1).normalized()))},
-              {0.1, 0.0, 0.4});
+  targets.add(box_target({0.05, 0.08, 0.06}),
+              {Vec3(0.07, 0.02, 0.95), Quat(Eigen::AngleAxisd(0.5, Vec3(1, 1, 1).normalized()))}, {0.1, 0.0, 0.4});
   return targets;
 }
 

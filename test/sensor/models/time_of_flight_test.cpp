@@ -43,7 +43,8 @@ TEST(TimeOfFlight, AxialNoiseIsThatOfTheFormula) {
         for (std::size_t i = 0; i < shot.view.depth.size(); ++i) {
           if (shot.measured.validity[i] != Validity::valid) continue;
           const auto& normal = shot.view.normal[i];
-          const Vec3 ray = shot.view.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width)).normalized();
+          const Vec3 ray =
+              shot.view.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width)).normalized();
           const double incidence = std::acos(-ray.dot(Vec3(normal[0], normal[1], normal[2])));
           const double sigma = axial_sigma(settings, shot.view.depth[i], incidence, albedo);
           sum += std::pow((shot.measured.depth[i] - shot.view.depth[i]) / sigma, 2);
@@ -85,7 +86,8 @@ TEST(TimeOfFlight, EdgesAreMovedByTheLateralNoiseAndMixed) {
       far_crossed += error > 0.05 && std::abs(x - edge) > 5.5 * settings.lateral;
     }
   }
-  EXPECT_GT(static_cast<double>(crossed) / static_cast<double>(rows), 0.5);  // a normal jitter crosses 0.4 sigma on each side
+  EXPECT_GT(static_cast<double>(crossed) / static_cast<double>(rows),
+            0.5);  // a normal jitter crosses 0.4 sigma on each side
   EXPECT_LT(static_cast<double>(crossed) / static_cast<double>(rows), 1.6);
   EXPECT_GT(mixed, 10u);
   EXPECT_EQ(far_crossed, 0u);
@@ -99,7 +101,8 @@ TEST(TimeOfFlight, DarkSurfacesDropOut) {
   Targets targets;
   add_plate(targets, 1.0, 0.0, 0.005);
   const Shot shot = shoot(targets, {}, true);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(shot.measured.validity.begin(), shot.measured.validity.end(), Validity::dark)),
+  EXPECT_EQ(static_cast<std::size_t>(
+                std::count(shot.measured.validity.begin(), shot.measured.validity.end(), Validity::dark)),
             shot.view.depth.size());
 }
 
