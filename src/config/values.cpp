@@ -192,7 +192,7 @@ std::string text_of(const Twist& t) {
 }
 
 std::string text_of(const std::array<double, 5>& value) {
-  return list_of({value.begin(), value.end()});
+  return list_of<double>({value.begin(), value.end()});
 }
 std::string text_of(const std::vector<double>& value) {
   return list_of(value);
