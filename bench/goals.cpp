@@ -144,7 +144,7 @@ void made_part_row(Run& out, const std::string& name, const Write& write, const 
 
 void unseen(Run& out) {
   for (int part = 1; part <= (out.quick() ? 1 : 20); ++part) {
-    char name[16];
+    char name[32];
     std::snprintf(name, sizeof name, "random_%02d", part);
     const auto write = [&](const std::string& folder) {
       return write_random_part(folder, static_cast<std::uint64_t>(part));

@@ -37,7 +37,8 @@ bool unpack(const std::string& text, Row& row) {
     const Table table = from_csv(text, "a row's process");
     if (table.rows.size() != 1) return false;
     bool whole = false;
-    for (const auto& [column, value] : table.row(0).cells())
+    const Row only = table.row(0);
+    for (const auto& [column, value] : only.cells())
       column.name == last ? void(whole = true) : void(row.add(column, value));
     return whole;
   } catch (const Error&) {
