@@ -16,7 +16,7 @@ inline btVector3 to_bt(const Vec3& v) {
 }
 inline btTransform to_bt(const Pose& pose, double scale = 1.0) {
   const Quat& q = pose.orientation;
-  return {btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bt(Vec3(pose.position * scale))};
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bt(Vec3(pose.position * scale)));
 }
 
 /// The pair's friction as every solver of this project takes it.
