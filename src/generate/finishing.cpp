@@ -19,11 +19,21 @@ void Finishing::add(std::size_t place, Scene&& scene) {
   entry.result.scene = std::move(scene);
   ++waiting_;
   tasks_.run([this, &entry] {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      freed_.wait(lock, [&] { return free_ > 0; });  // those before it need nothing from it: they come to an end
+      --free_;
+    }
     try {
       finish_(entry.result);
     } catch (...) {
       entry.failed = std::current_exception();
     }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++free_;
+    }
+    freed_.notify_one();
     entry.finished = true;
     --waiting_;
   });
