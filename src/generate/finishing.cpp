@@ -15,12 +15,22 @@ void Finishing::add(std::size_t place, Scene&& scene) {
   waiting_ += parts;
   tasks_.run([this, &entry, parts, flag = cancel_flag()] {
     const CancelScope scope(flag);
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      freed_.wait(lock, [&] { return free_ > 0; });  // those before it need nothing from it: they come to an end
+      --free_;
+    }
     try {
       stop_if_cancelled();
       finish_(entry.result);
     } catch (...) {
       entry.failed = std::current_exception();
     }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++free_;
+    }
+    freed_.notify_one();
     entry.finished = true;
     waiting_ -= parts;
   });

@@ -7,10 +7,12 @@
 #include <tbb/task_group.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 
 namespace bin_scenes {
 
@@ -21,9 +23,10 @@ constexpr std::size_t most_parts_waiting = 100'000;
 class Finishing {
  public:
   using Result = Generator::Result;
-  /// `finish` runs in any thread and for several scenes at once; `hand_on` in the thread that calls this class.
-  Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on)
-      : finish_(std::move(finish)), hand_on_(std::move(hand_on)) {}
+  /// `finish` runs in any thread and for up to `at_once` scenes at once: their images have to fit into memory together.
+  /// `hand_on` runs in the thread that calls this class.
+  Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on, std::size_t at_once)
+      : finish_(std::move(finish)), hand_on_(std::move(hand_on)), free_(at_once) {}
   ~Finishing();  ///< waits for scenes that are being finished; they are lost
   Finishing(const Finishing&) = delete;
   Finishing& operator=(const Finishing&) = delete;
@@ -44,6 +47,9 @@ class Finishing {
   std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
   std::size_t next_ = 0;                                   ///< place whose turn it is
   std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  std::size_t free_;  ///< scenes that may be begun now
   tbb::task_group tasks_;
 };
 

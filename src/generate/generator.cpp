@@ -79,12 +79,13 @@ struct Generator::State {
   ModelStore models;
   SensorRig rig;
   std::vector<Sensor> sensors;  ///< of the request, with poses and intrinsics
+  std::size_t at_once = 1;      ///< scenes whose images fit into memory together
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
     estimate_memory(request, {});
     models.load(request);
-    estimate_memory(request, models.parts());
+    at_once = scenes_seen_at_once(request, estimate_memory(request, models.parts()));
     sensors = resolved_sensors(request, models.parts(), models.bin());
   }
 
@@ -169,7 +170,8 @@ void Generator::generate(const Request& request, const Options& options, const s
                       [&](Result&& result) {
                         reporter.handed_on();
                         done(std::move(result));
-                      });
+                      },
+                      state_->at_once);
 
   const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;

@@ -16,18 +16,18 @@ namespace {
 
 // Bytes, set by the peak of whole runs (heaps of 64 to 2000 parts, on llvmpipe): the estimate has to catch requests
 // that cannot fit, not to count to the last byte.
-constexpr double program_bytes = 60e6;            // the tool with its libraries and threads
-constexpr double device_bytes = 75e6;             // an OpenGL context; of a software device, which lives in this process
-constexpr double per_waiting_part = 500.0;   // of a scene that waits to be finished: pose, name, report
-constexpr double per_triangle = 400.0;       // mesh, tree over it, tree for rays, copies on the device
-constexpr double per_body = 2000.0;          // state, definition, history of rest, report
-constexpr double per_sample = 64.0;          // contact sample with its normal
+constexpr double program_bytes = 60e6;        // the tool with its libraries and threads
+constexpr double device_bytes = 75e6;         // an OpenGL context; of a software device, which lives in this process
+constexpr double per_waiting_part = 500.0;    // of a scene that waits to be finished: pose, name, report
+constexpr double per_triangle = 400.0;        // mesh, tree over it, tree for rays, copies on the device
+constexpr double per_body = 2000.0;           // state, definition, history of rest, report
+constexpr double per_sample = 64.0;           // contact sample with its normal
 constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
 constexpr double per_contact = 160.0;
-constexpr double per_hull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
-constexpr double per_sphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
+constexpr double per_hull = 9000.0;          // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
-constexpr double per_pixel = 170.0;         // view, measured and true images, and a cloud on its way into a file
+constexpr double per_pixel = 120.0;          // view, measured and true images, and a cloud on its way into a file
 
 double field_bytes(const PartModel& part, double relative_cell) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -66,7 +66,19 @@ std::string in_megabytes(double bytes) {
   return text;
 }
 
+/// Images of one scene.
+double image_bytes(const Request& request) {
+  double bytes = 0.0;
+  for (const Sensor& sensor : request.sensors) bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
+  return bytes;
+}
+
 }  // namespace
+
+std::size_t scenes_seen_at_once(const Request& request, double estimate) {
+  const double one = std::max(1.0, image_bytes(request));
+  return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
+}
 
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
   double bodies = 0.0;
@@ -79,8 +91,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
   bodies *= std::min(scenes, at_once);
   bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
-  double pixels = 0.0;
-  for (const Sensor& sensor : request.sensors) pixels += per_pixel * sensor.width * static_cast<double>(sensor.height);
+  const double pixels = image_bytes(request);
   double models = 0.0;
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) {
     models += model_bytes(request, *part);

@@ -50,7 +50,9 @@ class Generator {
 };
 
 /// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget. Without
-/// parts (not loaded yet) only what follows from the counts and settings of the request.
+/// parts (not loaded yet) only what follows from the counts and settings of the request. Images count for one scene.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
+/// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.
+std::size_t scenes_seen_at_once(const Request& request, double estimate);
 
 }  // namespace bin_scenes
