@@ -1,17 +1,16 @@
-/// Equal balls in bulk: how densely they pack, and how steep a heap of them is. Both solvers, default settings and
-/// other time steps.
+/// Equal balls in bulk: how densely they pack, and how steep a heap of them is. Both solvers, default settings.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
 #include "runs.hpp"
 
 #include "bin_scenes/core/random.hpp"
+#include "pour/settling.hpp"
 #include "solver/lab.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace bin_scenes::bench {
 namespace {
@@ -20,20 +19,10 @@ constexpr double radius = 0.0125;  ///< m
 constexpr double d = 2.0 * radius;
 constexpr double density = 7850.0;
 
-/// By its default settings, or with steps of this length that nothing cuts.
-struct Stepper {
-  std::string solver;
-  std::optional<double> time_step;
-};
-
-Request balls_in_box(const Stepper& stepper, std::size_t count, const Vec3& inner_size, double friction,
+Request balls_in_box(const std::string& solver, std::size_t count, const Vec3& inner_size, double friction,
                      std::uint64_t seed) {
   Request request;
-  choose_solver(request, stepper.solver);
-  if (stepper.time_step) {
-    request.solver.sphere.time_step = request.solver.bullet.time_step = *stepper.time_step;
-    request.solver.sphere.cut_steps = request.solver.bullet.cut_steps = false;
-  }
+  choose_solver(request, solver);
   request.seed = seed;
   request.parts.emplace_back();
   request.parts[0].model = "ball";
@@ -67,10 +56,10 @@ double filled(const std::vector<Vec3>& centers, double ball, const Vec3& lower, 
 
 /// Rain from half a diameter into a box as wide as the heap is high (13 diameters for 2000 balls); density three
 /// thirteenths of that away from walls, floor and surface.
-Row packing(const Stepper& stepper, std::size_t count, double friction, std::uint64_t seed) {
+Row packing(const std::string& name, std::size_t count, double friction, std::uint64_t seed) {
   const double begin = cpu_seconds(), width = 13.0 * d * std::cbrt(static_cast<double>(count) / 2000.0),
                away = 3.0 / 13.0 * width;
-  Request request = balls_in_box(stepper, count, Vec3(width, width, 0.6), friction, seed);
+  Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
   request.pour.drop_height = 0.5 * d;
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
   std::string reason;
@@ -132,9 +121,9 @@ double slope_of(const std::vector<Vec3>& centers) {
 
 /// Balls fall, seven every twentieth of a second, from half a diameter onto the top of their heap; two seconds later
 /// it is measured.
-Row repose(const Stepper& stepper, std::size_t count, double friction, std::uint64_t seed) {
+Row repose(const std::string& name, std::size_t count, double friction, std::uint64_t seed) {
   const double begin = cpu_seconds(), width = 28.0 * d;
-  Request request = balls_in_box(stepper, count, Vec3(width, width, 0.6), friction, seed);
+  Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
@@ -143,7 +132,7 @@ Row repose(const Stepper& stepper, std::size_t count, double friction, std::uint
   add_bed(def, width, friction, starts);
   const WorldId world = solver->add_world(def);
   for (std::size_t b = count; b < starts.size(); ++b) solver->insert(world, b, starts[b]);
-  solver->set_phase(world, Phase::pour);
+  solver->set_phase(world, phases::pour);
   Random random(seed, 0, Stream::probe);
   double top = d;
   for (std::size_t in = 0; in < count;) {
@@ -159,7 +148,7 @@ Row repose(const Stepper& stepper, std::size_t count, double friction, std::uint
     for (std::size_t b = 0; b < in; ++b)
       if (states[b].pose.position.head<2>().norm() < 2.5 * d) top = std::max(top, states[b].pose.position.z() + radius);
   }
-  solver->set_phase(world, Phase::settle);
+  solver->set_phase(world, phases::settle);
   solver->advance({world}, 2.0);
   const std::vector<BodyState> states = solver->states(world);
   std::vector<Vec3> centers;
@@ -177,7 +166,7 @@ Row repose(const Stepper& stepper, std::size_t count, double friction, std::uint
 
 struct Form {
   const char *name, *unit;
-  Row (*measure)(const Stepper& stepper, std::size_t count, double friction, std::uint64_t seed);
+  Row (*measure)(const std::string& solver, std::size_t count, double friction, std::uint64_t seed);
   double friction, lower, upper;  ///< of the goal
 };
 const double any = std::numeric_limits<double>::quiet_NaN();
@@ -186,55 +175,44 @@ const Form forms[] = {
     {"angle of repose", "deg", repose, 0.2, any, any},      {"angle of repose", "deg", repose, 0.4, any, any},
     {"angle of repose", "deg", repose, 0.6, any, any},      {"angle of repose", "deg", repose, 0.8, any, any}};
 
-/// Other time steps; the packing of Bullet takes ten minutes at half its own.
-std::vector<std::optional<double>> time_steps(const std::string& solver, const Form& form, bool quick) {
-  if (quick) return {std::nullopt};
-  if (solver == "sphere") return {std::nullopt, 0.005, 0.00125};
-  if (form.measure == packing) return {std::nullopt, 1.0 / 120.0};
-  return {std::nullopt, 1.0 / 120.0, 1.0 / 480.0};
-}
-
 void run(Run& out) {
   const std::size_t count = out.quick() ? 120 : 1000;
   for (const std::string solver : {"sphere", "bullet"}) {
     double steepest_below = -std::numeric_limits<double>::infinity();
-    for (const Form& form : forms)
-      for (const std::optional<double>& time_step : time_steps(solver, form, out.quick())) {
-        const Row key = Row()
-                            .key("form", form.name)
-                            .key("friction", form.friction)
-                            .key("solver", solver)
-                            .key("time_step_s", time_step ? Row::text(*time_step) : "default");
-        if (!out.wanted(key)) continue;
-        const std::size_t balls = form.measure == repose ? count / 2 : count;
-        // Of 10, slopes are off by as much as they differ at 0.6 and 0.8.
-        const int seeds = out.quick() || time_step ? 1 : form.measure == packing ? 5 : 30;
-        std::vector<Row> scenes;
-        Isolated one;
-        for (int seed = 1; seed <= seeds; ++seed) {
-          one = isolated([&] {
-            return form.measure({solver, time_step}, balls, form.friction, static_cast<std::uint64_t>(seed));
-          });
-          if (!one.good) break;
-          scenes.push_back(one.row);
-        }
-        Row row = Row(key).info("unit", form.unit).info("balls", balls);
-        if (!one.good) {
-          out.row(row.append(one.row));
-          continue;
-        }
-        const Row all = joined(scenes);
-        const double value = all.number("value");
-        const bool packs = !std::isnan(form.lower);
-        if (packs) {
-          row.info("goal", Row::text(form.lower) + " to " + Row::text(form.upper));
-          row.info("met", value >= form.lower && value <= form.upper);
-        } else if (!time_step) {
-          row.info("goal", "rises with friction").info("met", value > steepest_below);
-          steepest_below = value;
-        }
-        out.row(row.append(all));
+    for (const Form& form : forms) {
+      const Row key = Row()
+                          .key("form", form.name)
+                          .key("friction", form.friction)
+                          .key("solver", solver)
+                          .key("time_step_s", "default");
+      if (!out.wanted(key)) continue;
+      const std::size_t balls = form.measure == repose ? count / 2 : count;
+      // Of 10, slopes are off by as much as they differ at 0.6 and 0.8.
+      const int seeds = out.quick() ? 1 : form.measure == packing ? 5 : 30;
+      std::vector<Row> scenes;
+      Isolated one;
+      for (int seed = 1; seed <= seeds; ++seed) {
+        one = isolated([&] { return form.measure(solver, balls, form.friction, static_cast<std::uint64_t>(seed)); });
+        if (!one.good) break;
+        scenes.push_back(one.row);
       }
+      Row row = Row(key).info("unit", form.unit).info("balls", balls);
+      if (!one.good) {
+        out.row(row.append(one.row));
+        continue;
+      }
+      const Row all = joined(scenes);
+      const double value = all.number("value");
+      const bool packs = !std::isnan(form.lower);
+      if (packs) {
+        row.info("goal", Row::text(form.lower) + " to " + Row::text(form.upper));
+        row.info("met", value >= form.lower && value <= form.upper);
+      } else {
+        row.info("goal", "rises with friction").info("met", value > steepest_below);
+        steepest_below = value;
+      }
+      out.row(row.append(all));
+    }
   }
 }
 

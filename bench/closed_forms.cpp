@@ -3,7 +3,7 @@
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
-#include "requests.hpp"
+#include "runs.hpp"
 
 #include "bin_scenes/core/error.hpp"
 #include "solver/closed_form_scenes.hpp"
@@ -19,6 +19,7 @@ namespace {
 
 using testing::Lab;
 using MakeLab = std::function<Lab()>;
+using Errors = std::vector<double>;
 
 struct Quantity {
   const char *name, *unit;  ///< "rel": of the exact value
@@ -29,30 +30,22 @@ constexpr double rounding = 1e-5;  ///< of single precision: errors below say no
 
 struct Form {
   std::vector<Quantity> quantities;
-  std::vector<double> (*measure)(const MakeLab& lab);  ///< their errors
-  bool ball;                                           ///< a ball alone: one sphere for the thesis's solver
+  Errors (*measure)(const MakeLab& lab);  ///< their errors
+  bool ball;                              ///< a ball alone: one sphere for the thesis's solver
   bool thesis;        ///< whether the thesis's solver, whose floor is a lattice of spheres, can be asked
   bool dear = false;  ///< quick forms take default steps only
 };
 
-std::vector<double> free_fall(const MakeLab& lab) {
-  return {testing::free_fall(lab()).way};
-}
-
-std::vector<double> bounce(const MakeLab& lab) {
+Errors bounce(const MakeLab& lab) {
   double worst = 0.0;
   for (const double drop : {0.3, 0.437, 0.6})
     worst = std::max(worst, std::abs(testing::bounce(lab(), drop, 0.9) / 0.81 - 1.0));
   return {worst};
 }
 
-std::vector<double> slide(const MakeLab& lab) {
-  return {testing::slide(lab()).way};
-}
-
 /// Angle at which a box begins to slip (a tenth of a millimetre in a second: 0.001 degree more than what it takes to
 /// move at all), by bisection to 0.001 degree.
-std::vector<double> friction_angle(const MakeLab& lab) {
+Errors friction_angle(const MakeLab& lab) {
   double worst = 0.0;
   for (const double heading : {0.0, 0.4, 0.25 * M_PI}) {
     double sticks = std::atan(0.5) - 0.1, slips = std::atan(0.5) + 0.1;
@@ -65,11 +58,7 @@ std::vector<double> friction_angle(const MakeLab& lab) {
   return {worst};
 }
 
-std::vector<double> roll(const MakeLab& lab) {
-  return {testing::roll(lab())};
-}
-
-std::vector<double> collision(const MakeLab& lab) {
+Errors collision(const MakeLab& lab) {
   double momentum = 0.0, energy = 0.0;
   for (const double restitution : {0.0, 0.5, 1.0}) {
     const testing::Collision change = testing::collide(lab(), restitution);
@@ -80,38 +69,43 @@ std::vector<double> collision(const MakeLab& lab) {
   return {momentum, energy};
 }
 
-std::vector<double> tumble(const MakeLab& lab) {
+Errors tumble(const MakeLab& lab) {
   const testing::Tumble result = testing::tumble(lab());
   return {std::max(result.highest - 1.0, 1.0 - result.lowest), result.highest - 1.0, result.spin};
 }
 
-std::vector<double> stack(const MakeLab& lab) {
-  return {testing::stack_drift(lab(), 30.0)};
-}
-
-std::vector<double> brick_stacks(const MakeLab& lab) {
+Errors brick_stacks(const MakeLab& lab) {
   const std::vector<double> drifts = testing::brick_stack_drifts(lab, 30.0);
   const double mean = std::accumulate(drifts.begin(), drifts.end(), 0.0) / static_cast<double>(drifts.size());
   return {mean, *std::max_element(drifts.begin(), drifts.end())};
 }
 
-std::vector<double> rods(const MakeLab& lab) {
+Errors rods(const MakeLab& lab) {
   const testing::Rods speeds = testing::meet_along_rods(lab());
   return {std::max(std::abs(speeds.first), std::abs(speeds.second - 1.0))};
 }
 
 const Form forms[] = {
-    {{{"free_fall", "rel", 1e-4}}, free_fall, false, true},
+    {{{"free_fall", "rel", 1e-4}},
+     [](const MakeLab& lab) { return Errors{testing::free_fall(lab()).way}; },
+     false,
+     true},
     {{{"bounce_0.9", "rel", 1e-2}}, bounce, true, true},
-    {{{"sliding_distance", "rel", 5e-3}}, slide, false, true},
+    {{{"sliding_distance", "rel", 5e-3}},
+     [](const MakeLab& lab) { return Errors{testing::slide(lab()).way}; },
+     false,
+     true},
     {{{"friction_angle", "deg", 0.5}}, friction_angle, false, false},
-    {{{"rolling_15_deg", "rel", 2e-3}}, roll, true, true},
+    {{{"rolling_15_deg", "rel", 2e-3}}, [](const MakeLab& lab) { return Errors{testing::roll(lab())}; }, true, true},
     {{{"collision_momentum", "rel", 1e-5}, {"collision_energy_gain", "rel", 1e-5}}, collision, false, true},
     {{{"tumbling_energy", "rel", 1e-3}, {"tumbling_energy_gain", "rel", 1e-4}, {"tumbling_spin", "rel", 1e-3}},
      tumble,
      false,
      true},
-    {{{"stack_10_boxes_30_s", "edge", 1e-3}}, stack, false, false},
+    {{{"stack_10_boxes_30_s", "edge", 1e-3}},
+     [](const MakeLab& lab) { return Errors{testing::stack_drift(lab(), 30.0)}; },
+     false,
+     false},
     {{{"brick_stacks_mean", "edge", 1e-3}, {"brick_stacks_worst", "edge", 1e-3}}, brick_stacks, false, false, true},
     {{{"two_rods", "rel", 1e-2}}, rods, false, true}};
 

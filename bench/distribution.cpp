@@ -14,8 +14,7 @@
 namespace bin_scenes::bench {
 namespace {
 
-constexpr double touching = 2e-3;  ///< clearance / diagonal that counts as a contact
-constexpr int gpu_seeds = 20;      ///< a scene takes long where llvmpipe is the device
+constexpr int gpu_seeds = 20;  ///< a scene takes long where llvmpipe is the device
 
 /// A part whose piles are looked at; a reference has twice the seeds.
 struct Pile {
@@ -42,19 +41,10 @@ std::vector<double> values_of(const std::string& text) {
 }
 
 std::vector<double> contacts_of(const Scene& scene, const PartModel& part) {
-  std::vector<double> contacts(scene.parts.size(), 0.0);
-  const double limit = touching * part.diagonal();
-  std::vector<Vec3> centers;
-  for (const ScenePart& p : scene.parts) centers.push_back(p.pose * part.mass().center);
-  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if ((centers[i] - centers[k]).norm() > 2.0 * part.radius() + limit) continue;
-      if (clearance(part.query(), scene.parts[i].pose, part.query(), scene.parts[k].pose, 2.0 * limit) > limit)
-        continue;
-      ++contacts[i];
-      ++contacts[k];
-    }
-  }
+  std::vector<Pose> poses;
+  for (const ScenePart& p : scene.parts) poses.push_back(p.pose);
+  std::vector<double> contacts(poses.size(), 0.0);
+  for (const auto& [a, b] : touching_pairs(part, poses)) ++contacts[a], ++contacts[b];
   return contacts;
 }
 

@@ -58,11 +58,6 @@ tests() {
   echo "        all tests: $((SECONDS - start)) s"
 }
 
-# Rows of a benchmark, printed one below the other.
-rows() {
-  cat "$out"/results/*/"$1" "$out"/quick/*/"$1" 2>/dev/null | grep -v '^#' | sed 's/^/        /' || true
-}
-
 {
   uname -srm
   echo "cores: $(nproc)"
@@ -85,25 +80,22 @@ bench() {  # NAME LIMIT ARGUMENTS...
   step "bench_$name" "$limit" "$bundle/run" bin_scenes_bench --results "$results" ${small:+--quick} "$@"
 }
 
-# Small forms of what needs little, before what may use up the time: what is skipped, closed forms, and the least
-# iterations at which the thesis's cubes stand.
-for name in skipping closed_forms; do small=1 bench "$name" 60 --filter "$name"; done
+# Small forms of what needs little, before what may use up the time: closed forms, and the least iterations at which
+# the thesis's cubes stand.
+small=1 bench closed_forms 60 --filter closed_forms
 small=1 bench stability 30 --filter thesis_tables --rows table=stability
 
 # One scene alone, and accepted scenes a second of 512 in one run.
 bench throughput 120 --filter throughput --rows solver=sphere/gpu
-rows throughput.csv
 
 # The thesis's teapots, 256 to 1024, stage by stage, then its other tables.
 bench teapots 90 --filter thesis_tables --rows table=teapots --rows 'setting=*sphere/thesis*'
-for table in spheres_per_body static_spheres bodies grid_size cell_size; do
+for table in spheres_per_body static_spheres; do
   bench "$table" 40 --filter thesis_tables --rows "table=$table"
 done
-rows thesis_tables.csv
 
 # The goals of the default solver on the device, by the report's own figures.
 bench goals 120 --filter goals --rows solver=sphere/gpu
-rows goals.csv
 
 # One world of up to 65,536 parts, and up to 1024 worlds.
 bench growth 100 --filter growth --rows solver=sphere/gpu

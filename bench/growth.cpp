@@ -3,22 +3,146 @@
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
-#include "heaps.hpp"
+#include "runs.hpp"
+
+#include "bin_scenes/output/scene_writer.hpp"
+#include "core/disjoint_sets.hpp"
+#include "pour/settling.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
 
 namespace bin_scenes::bench {
 namespace {
 
 constexpr const char* part = "channel_u";
 
-/// Counter of a solver, 0 if it has none of that name.
-double counted(const Heaps& heaps, const std::string& name) {
-  const auto& counters = heaps.solver().profile().counters;
-  const auto found = counters.find(name);
-  return found == counters.end() ? 0.0 : static_cast<double>(found->second);
+// Worlds that are piled from the first step on: one heap is poured once and set up as often as needed, so that the cost
+// of a step can be measured without pouring 65,536 parts.
+
+/// `count` parts at rest; kept in `path`, made if missing.
+struct Heap {
+  Request request;  ///< of one heap
+  std::vector<BodyState> rest;
+  double width = 0.0;  ///< edge of a square that holds the heap (m)
+};
+
+/// Poured into the bin of the request, which may be an endless floor; poses of the parts.
+void pour_once(Heap& heap, const std::string& path) {
+  choose_solver(heap.request, "sphere");
+  if (!std::filesystem::exists(path)) {
+    const std::vector<PartModelPtr> parts = load_parts(heap.request);
+    std::string reason;
+    const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
+    write_text(path, scene_json(pour(heap.request, parts, *solver, {0}).front(), heap.request));
+  }
+  for (const ScenePart& p : read_scene_json(path).parts) heap.rest.push_back({p.pose, {}});
 }
+
+/// On an endless floor, with some room around it.
+Heap heap_at_rest(const std::string& part, std::size_t count, const std::string& path) {
+  Heap heap;
+  heap.request = bin_of(part, count);
+  heap.request.bin = Bin();
+  heap.request.bin.kind = Bin::Kind::floor;
+  pour_once(heap, path);
+  Aabb box;
+  for (const BodyState& state : heap.rest) box.extend(state.pose.position);
+  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * load_parts(heap.request).front()->diagonal();
+  return heap;
+}
+
+/// In a box that wide: set up side by side in one box, without walls between them, they lean on each other.
+Heap boxed_heap(const std::string& part, std::size_t count, double width, const std::string& path) {
+  Heap heap;
+  heap.request = bin_of(part, count);
+  heap.request.bin.inner_size = Vec3(width, width, 0.4);  // all find room below the rim
+  heap.width = width;
+  pour_once(heap, path);
+  return heap;
+}
+
+/// A solver with worlds of heaps in it.
+class Heaps {
+ public:
+  /// `per_world` heaps side by side in each of `worlds` worlds.
+  Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
+    Request request = heap.request;
+    request.solver = settings.solver;
+    request.parts[0].count = heap.rest.size() * per_world;
+    parts_ = load_parts(request);
+    std::string reason;
+    solver_ = make_solver(request, parts_, reason);
+    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
+    const double side = heap.width * static_cast<double>(columns - 1);
+    request.bin.inner_size.head<2>().array() += side;
+    const WorldDef def = world_of(request, parts_);
+    for (std::size_t w = 0; w < worlds; ++w) {
+      const WorldId id = solver_->add_world(def);
+      solver_->set_phase(id, phases::settle);
+      for (std::size_t h = 0, body = 0; h < per_world; ++h) {
+        const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
+                          heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);
+        for (BodyState state : heap.rest) {
+          state.pose.position += middle;
+          solver_->insert(id, body++, state);
+        }
+      }
+      worlds_.push_back(id);
+    }
+    bodies_ = request.parts[0].count * worlds;
+  }
+
+  struct Cost {
+    double wall_ms, cpu_ms;  ///< of a step of every world, mean over the steps
+  };
+  Cost steps(int count) {
+    const Clock clock;
+    solver_->advance(worlds_, count * solver_->step_size());
+    return {1e3 * clock.wall_s() / count, 1e3 * clock.cpu_s() / count};
+  }
+  /// Puts all bodies where they are, at rest and awake.
+  void wake() {
+    for (const WorldId id : worlds_) {
+      const std::vector<BodyState> states = solver_->states(id);
+      for (std::size_t b = 0; b < states.size(); ++b) solver_->insert(id, b, {states[b].pose, {}});
+    }
+  }
+  /// Share of all bodies.
+  double asleep() const {
+    std::size_t count = 0;
+    for (const WorldId id : worlds_)
+      for (const bool sleeps : solver_->asleep(id)) count += sleeps ? 1 : 0;
+    return static_cast<double>(count) / static_cast<double>(bodies_);
+  }
+  /// Share of the first world's bodies that are one heap, each touching another of it.
+  double joined() const {
+    std::vector<Pose> poses;
+    for (const BodyState& state : solver_->states(worlds_.front())) poses.push_back(state.pose);
+    DisjointSets heaps(poses.size());
+    for (const auto& [a, b] : touching_pairs(*parts_.front(), poses)) heaps.join(a, b);
+    std::vector<std::size_t> size(poses.size(), 0);
+    for (std::uint32_t i = 0; i < poses.size(); ++i) ++size[heaps.root(i)];
+    return static_cast<double>(*std::max_element(size.begin(), size.end())) / static_cast<double>(poses.size());
+  }
+  /// Counter of the solver, 0 if it has none of that name.
+  double counted(const std::string& name) const {
+    const auto& counters = solver_->profile().counters;
+    const auto found = counters.find(name);
+    return found == counters.end() ? 0.0 : static_cast<double>(found->second);
+  }
+  std::size_t bodies() const { return bodies_; }
+  const Solver& solver() const { return *solver_; }
+
+ private:
+  std::vector<PartModelPtr> parts_;
+  std::unique_ptr<Solver> solver_;
+  std::vector<WorldId> worlds_;
+  std::size_t bodies_ = 0;
+};
 
 /// A few steps to build contacts, then the samples; parts do not fall asleep that soon. `before` steps go ahead of
 /// that, for heaps that are not at rest as they are set up.
@@ -27,14 +151,14 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
   const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
   if (before > 0) {
     heaps.steps(before);
-    heaps.wake(1.0);
+    heaps.wake();
   }
   heaps.steps(steps);
   std::vector<double> wall, cpu, part_us;
   double dispatches = 0;
   const Profile profile = heaps.solver().profile();
   for (int k = 0; k < 3; ++k) {
-    dispatches = counted(heaps, "gl_dispatches");
+    dispatches = heaps.counted("gl_dispatches");
     const Heaps::Cost cost = heaps.steps(steps);
     wall.push_back(cost.wall_ms);
     cpu.push_back(cost.cpu_ms);
@@ -50,141 +174,103 @@ Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, s
                 .info("device", heaps.solver().device());
   if (heap.request.bin.kind == Bin::Kind::box) row.exact("joined_share", heaps.joined());
   if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
-    const double held = counted(heaps, "gl_bytes_held") - counted(heaps, "gl_bytes_shared");
-    row.exact("dispatches_a_step", (counted(heaps, "gl_dispatches") - dispatches) / steps)
+    const double held = heaps.counted("gl_bytes_held") - heaps.counted("gl_bytes_shared");
+    row.exact("dispatches_a_step", (heaps.counted("gl_dispatches") - dispatches) / steps)
         .exact("bytes_a_part", held / static_cast<double>(heaps.bodies()));
   }
   return row;
 }
 
-/// Emits the rows of one curve and, at the end, the exponents of its cost and memory over x: of all rows of the table,
-/// those kept from an earlier run included.
-class Curve {
- public:
-  Curve(Run& out, const std::string& solver, const std::string& over) : out_(out), solver_(solver), over_(over) {}
-  ~Curve() {
-    if (!out_.wanted(key("exponent"))) return;
-    Samples cost, memory;
-    double constant = 0.0;  // MB that the smallest size takes too: parts, fields, what loading took
-    for (std::size_t r = 0; r < out_.table().rows.size(); ++r) {
-      const Row row = out_.table().row(r);
-      const double x = row.number("x"), step_ms = row.number("step_cpu_ms"), added_mb = row.number("added_mb");
-      if (row.at("solver") != solver_ || row.at("over") != over_ || std::isnan(x) || std::isnan(step_ms)) continue;
-      if (cost.x.empty()) constant = added_mb;
-      cost.add(x, step_ms);
-      // Less than that is lost in what loading took for a while.
-      if (added_mb - constant > std::max(1.0, 0.1 * constant)) memory.add(x, added_mb - constant);
-    }
-    if (cost.x.size() < 2) return;
-    Row row = key("exponent");
-    row.measure("exponent_of_step", cost.exponent());
-    if (memory.x.size() > 1) row.measure("exponent_of_memory", memory.exponent());
-    out_.row(row);
-  }
-  /// False where the limit was reached: larger ones would not fit either.
-  bool point(std::size_t bodies, std::size_t worlds, double x, const std::function<Row()>& work, double limit_cpu_s) {
-    if (!out_.wanted(key(Row::text(x)))) return true;
-    const Isolated one = isolated(work, limit_cpu_s);
-    Row row = key(Row::text(x)).info("bodies", bodies).info("worlds", worlds).append(one.row);
-    if (one.good) row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
-    out_.row(row);
-    return one.good;
-  }
-
- private:
-  struct Samples {
-    std::vector<double> x, y;
-    void add(double at, double value) {
-      x.push_back(at);
-      y.push_back(value);
-    }
-    /// Of the four largest: small ones are dominated by what every step costs.
-    double exponent() const {
-      const std::size_t skip = x.size() > 4 ? x.size() - 4 : 0;
-      return fitted_exponent({x.begin() + skip, x.end()}, {y.begin() + skip, y.end()});
-    }
-  };
-  Row key(const std::string& x) const { return Row().key("solver", solver_).key("over", over_).key("x", x); }
-
-  Run& out_;
-  std::string solver_, over_;
+struct Point {
+  std::size_t bodies, worlds;
+  double x;
+  std::function<Row()> work;
 };
 
-void run(Run& out) {
-  const double limit_cpu_s = out.quick() ? 10.0 : 150.0;
-  const std::string path = out.scratch() + "/heap_";
-  const auto heap_of = [&](std::size_t count) {
-    const std::string file = path + std::to_string(count) + ".json";
-    isolated([&] { return heap_at_rest(part, count, file), Row(); });
-    return heap_at_rest(part, count, file);
+/// The rows of one curve, as far as the limit lets them get, and the exponents of its cost and memory over x: of all
+/// rows of the table, so that one that is measured again counts with those that stay. Of the four largest: small ones
+/// are dominated by what every step costs.
+void curve(Run& out, const std::string& solver, const std::string& over, const std::vector<Point>& points) {
+  const auto key = [&](const std::string& x) { return Row().key("solver", solver).key("over", over).key("x", x); };
+  for (const Point& point : points) {
+    const Row keys = key(Row::text(point.x));
+    if (!out.wanted(keys)) continue;
+    const Isolated one = isolated(point.work, out.quick() ? 10.0 : 150.0);
+    Row row = Row(keys).info("bodies", point.bodies).info("worlds", point.worlds).append(one.row);
+    if (one.good) row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
+    out.row(row);
+    if (!one.good) break;  // larger ones would not fit either
+  }
+  if (!out.wanted(key("exponent"))) return;
+  std::vector<double> x, cost, x_of_memory, memory;
+  double constant = 0.0;  // MB that the smallest size takes too: parts, fields, what loading took
+  for (std::size_t r = 0; r < out.table().rows.size(); ++r) {
+    const Row row = out.table().row(r);
+    const double at = row.number("x"), step_ms = row.number("step_cpu_ms"), added_mb = row.number("added_mb");
+    if (row.at("solver") != solver || row.at("over") != over || std::isnan(at) || std::isnan(step_ms)) continue;
+    if (x.empty()) constant = added_mb;
+    x.push_back(at);
+    cost.push_back(step_ms);
+    if (added_mb - constant <= std::max(1.0, 0.1 * constant)) continue;  // lost in what loading took for a while
+    x_of_memory.push_back(at);
+    memory.push_back(added_mb - constant);
+  }
+  const auto exponent = [](const std::vector<double>& x, const std::vector<double>& y) {
+    const auto skip = static_cast<long>(x.size() > 4 ? x.size() - 4 : 0);
+    return fitted_exponent({x.begin() + skip, x.end()}, {y.begin() + skip, y.end()});
   };
-  const std::vector<std::string> solvers =
-      out.quick() ? std::vector<std::string>{"sphere", "sphere/gpu"}
-                  : std::vector<std::string>{"sphere", "sphere/gpu", "bullet", "sphere/thesis"};
+  if (x.size() < 2) return;
+  Row row = key("exponent").measure("exponent_of_step", exponent(x, cost));
+  if (memory.size() > 1) row.measure("exponent_of_memory", exponent(x_of_memory, memory));
+  out.row(row);
+}
 
-  const Heap large = heap_of(out.quick() ? 16 : 64), small = heap_of(16);
+void run(Run& out) {
+  const bool quick = out.quick();
+  const auto made = [&](const std::string& name, const std::function<Heap(const std::string& path)>& make) {
+    const std::string path = out.scratch() + "/heap_" + name + ".json";
+    isolated([&] { return make(path), Row(); });
+    return make(path);
+  };
+  const auto heap_of = [&](std::size_t count) {
+    return made(std::to_string(count), [&](const std::string& path) { return heap_at_rest(part, count, path); });
+  };
+  std::vector<std::string> solvers = {"sphere", "sphere/gpu"};
+  if (!quick) solvers.insert(solvers.end(), {"bullet", "sphere/thesis"});
+  const Heap large = heap_of(quick ? 16 : 64), small = heap_of(16);
   for (const std::string& solver : solvers) {
     Request settings = large.request;
     choose_solver(settings, solver);
-    {
-      Curve curve(out, solver, "parts of one world");
-      for (std::size_t heaps = 1; heaps <= (out.quick() ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4) {
-        const std::size_t bodies = heaps * large.rest.size();
-        if (!curve.point(
-                bodies, 1, static_cast<double>(bodies), [&] { return step_row(large, settings, heaps, 1); },
-                limit_cpu_s))
-          break;
-      }
+    std::vector<Point> of_parts, of_worlds;
+    for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4) {
+      const std::size_t bodies = heaps * large.rest.size();
+      of_parts.push_back(
+          {bodies, 1, static_cast<double>(bodies), [=, &large] { return step_row(large, settings, heaps, 1); }});
     }
-    {
-      Curve curve(out, solver, "worlds of 16 parts");
-      for (std::size_t worlds = 1; worlds <= (out.quick() ? 4u : 1024u); worlds *= 4) {
-        const std::size_t bodies = worlds * small.rest.size();
-        if (!curve.point(
-                bodies, worlds, static_cast<double>(worlds), [&] { return step_row(small, settings, 1, worlds); },
-                limit_cpu_s))
-          break;
-      }
-    }
+    for (std::size_t worlds = 1; worlds <= (quick ? 4u : 1024u); worlds *= 4)
+      of_worlds.push_back({worlds * small.rest.size(), worlds, static_cast<double>(worlds),
+                           [=, &small] { return step_row(small, settings, 1, worlds); }});
+    curve(out, solver, "parts of one world", of_parts);
+    curve(out, solver, "worlds of 16 parts", of_worlds);
   }
-  {
-    // Five layers; a second after the walls between them are gone, what they held leans on its neighbours.
-    const std::size_t count = out.quick() ? 16 : 64;
-    const double width = out.quick() ? 0.08 : 0.12;
-    const std::string file = path + "boxed.json";
-    isolated([&] { return boxed_heap(part, count, width, file), Row(); });
-    const Heap boxed = boxed_heap(part, count, width, file);
-    Curve curve(out, "sphere", "one heap");
-    for (std::size_t heaps = 4; heaps <= (out.quick() ? 4u : 64u); heaps *= 4) {
-      const std::size_t bodies = heaps * boxed.rest.size();
-      if (!curve.point(
-              bodies, 1, static_cast<double>(bodies), [&] { return step_row(boxed, boxed.request, heaps, 1, 400); },
-              limit_cpu_s))
-        break;
-    }
+  // Five layers; a second after the walls between them are gone, what they held leans on its neighbours.
+  const Heap boxed = made(
+      "boxed", [&](const std::string& path) { return boxed_heap(part, quick ? 16 : 64, quick ? 0.08 : 0.12, path); });
+  std::vector<Point> of_one_heap, of_samples;
+  for (std::size_t heaps = 4; heaps <= (quick ? 4u : 64u); heaps *= 4) {
+    const std::size_t bodies = heaps * boxed.rest.size();
+    of_one_heap.push_back({bodies, 1, static_cast<double>(bodies),
+                           [=, &boxed] { return step_row(boxed, boxed.request, heaps, 1, 400); }});
   }
-  {
-    Curve curve(out, "sphere", "samples of a part");
-    for (const int samples :
-         out.quick() ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
-      Request settings = large.request;
-      settings.solver.sphere.fine_samples = samples;
-      settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
-      if (!curve.point(
-              large.rest.size(), 1, samples, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
-        break;
-    }
-  }
-  if (out.quick()) return;
-  Curve voxels(out, "sphere/thesis", "voxels along a part");
-  for (const int along : {5, 7, 10, 14, 20}) {
+  for (const int samples : quick ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
     Request settings = large.request;
-    choose_solver(settings, "sphere/thesis");
-    settings.solver.thesis.voxels = along;
-    if (!voxels.point(
-            large.rest.size(), 1, along, [&] { return step_row(large, settings, 1, 1); }, limit_cpu_s))
-      break;
+    settings.solver.sphere.fine_samples = samples;
+    settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
+    of_samples.push_back(
+        {large.rest.size(), 1, static_cast<double>(samples), [=, &large] { return step_row(large, settings, 1, 1); }});
   }
+  curve(out, "sphere", "one heap", of_one_heap);
+  curve(out, "sphere", "samples of a part", of_samples);
 }
 
 const Registration registration{"growth",

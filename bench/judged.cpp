@@ -45,29 +45,41 @@ double disagreement(const Row& scene) {
   return worst;
 }
 
-}  // namespace
-
-Row judged_scene(const std::string& scratch, const Request& request, const std::string& pieces,
-                 const std::optional<PeerSettings>& peer, const Judged& how) {
+Row judged_scene(const std::string& scratch, const Request& request, const std::string& pieces, const MakeSolver& make,
+                 const Judged& how) {
   const std::string path = scratch + "/scene.json";
-  const auto pour = [&] {
-    if (!peer) return pour_timed(request);
-    PeerSettings settings = *peer;
-    settings.pieces = {read_pieces(pieces, millimetre)};
-    return pour_timed(request, [&](const std::vector<PartModelPtr>&) { return make_peer(settings); });
-  };
   Isolated poured = isolated(
       [&] {
-        const Poured result = pour();
+        const Poured result = make ? pour_timed(request, make) : pour_timed(request);
         write_text(path, scene_json(result.scene, request));
         return figures_of(result);
       },
       how.limit_cpu_s);
-  if (!poured.good || !how.referee) return poured.row;
+  if (!poured.good || how.judged == 0) return poured.row;
   const Isolated said = isolated([&] { return referee_row(path, request, pieces); }, referee_limit_cpu_s);
   poured.row.append(said.row);
   if (said.good) poured.row.measure("report_to_referee_rel", disagreement(poured.row));
   return poured.row;
+}
+
+}  // namespace
+
+std::vector<Row> judged_scenes(const std::string& scratch, Request request, const std::string& pieces,
+                               const MakeSolver& make, Judged how, int seeds) {
+  std::vector<Row> scenes;
+  for (int seed = 1; seed <= seeds; ++seed, how.judged = std::max(0, how.judged - 1)) {
+    request.seed = static_cast<std::uint64_t>(seed);
+    scenes.push_back(judged_scene(scratch, request, pieces, make, how));
+    if (scenes.back().at("scenes").empty()) break;
+  }
+  return scenes;
+}
+
+MakeSolver stock_bullet_on(const std::string& pieces, StockBullet settings) {
+  return [pieces, settings](const std::vector<PartModelPtr>&) mutable {
+    settings.pieces = {read_pieces(pieces, millimetre)};
+    return make_stock_bullet(settings);
+  };
 }
 
 }  // namespace bin_scenes::bench

@@ -28,7 +28,6 @@ void list(const std::vector<Benchmark>& all) {
 }
 
 int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const std::string& arguments) {
-  if (!options.json) options.csv = true;
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
   if (failed) throw environment_error(failed.message(), options.out, "give a folder that can be written with --out");
@@ -51,18 +50,15 @@ int main_of(int argc, char** argv) {
   std::vector<std::string> filter;
   std::string results = "bench_results";
   Run::Options options;
-  options.csv = false;
   app.add_flag("--list", list_only, "the benchmarks that there are, or that --filter chooses");
   app.add_option("--filter", filter, "names or glob patterns of benchmarks; default: all")->delimiter(',');
-  app.add_option("--rows", options.rows, "key=glob: only rows like this (solver=sphere); the file's other rows stay")
+  app.add_option("--rows", options.rows, "key=glob: only rows like this (solver=sphere)")
       ->check([](const std::string& filter) {
         return filter.find('=') == std::string::npos ? "expected key=glob, found '" + filter + "'" : std::string();
       });
   app.add_option("--results", results, "the results go to RESULTS/<device>")->capture_default_str();
   app.add_option("--out", options.out, "folder of the results, instead of RESULTS/<device>");
   app.add_flag("--quick", options.quick, "small forms of all: minutes instead of hours, figures to look at only");
-  app.add_flag("--csv", options.csv, "write <benchmark>.csv (default)");
-  app.add_flag("--json", options.json, "write <benchmark>.json");
 
   std::string before, after;
   double floor = 0.03;

@@ -1,6 +1,5 @@
 /// What a part costs before the first step: loading, mass, and the shapes that a solver asks for; from nothing (cold)
-/// and from the disk cache (warm). Each run is a process of its own, as a user's is. Besides the sample parts those of
-/// the folder in BIN_SCENES_REAL_PARTS, whose names end in their unit (nut_mm.stl), unless the file says it (DAE).
+/// and from the disk cache (warm). Each run is a process of its own, as a user's is.
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
 #include "framework/benchmark.hpp"
@@ -8,67 +7,36 @@
 #include "runs.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 
 namespace bin_scenes::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Sample {
-  std::string name, path;
-  std::optional<Unit> unit;
-};
-
-std::optional<Unit> unit_in_name(const fs::path& path) {
-  if (path.extension() == ".dae") return std::nullopt;
-  const std::string stem = path.stem().string();
-  for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
-    if (stem.substr(stem.rfind('_') + 1) == name_of(unit)) return unit;
-  return std::nullopt;
-}
-
-std::vector<Sample> samples_to_measure(bool quick) {
-  std::vector<Sample> samples;
+std::vector<std::string> samples_to_measure(bool quick) {
+  std::vector<std::string> samples;
   for (const auto& entry : fs::directory_iterator(fs::path(Run::part("x")).parent_path())) {
     const fs::path path = entry.path();
-    if (path.extension() == ".stl") samples.push_back({path.stem(), path, Unit::millimetre});
+    const bool wanted = !quick || path.stem() == "channel_u" || path.stem() == "conrod";
+    if (path.extension() == ".stl" && wanted) samples.push_back(path.stem());
   }
-  if (quick) {
-    const auto unwanted = [](const Sample& s) { return s.name != "channel_u" && s.name != "conrod"; };
-    samples.erase(std::remove_if(samples.begin(), samples.end(), unwanted), samples.end());
-  } else if (const char* folder = std::getenv("BIN_SCENES_REAL_PARTS")) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const fs::path path = entry.path();
-      for (const char* extension : {".stl", ".obj", ".ply", ".dae", ".off"})
-        if (path.extension() == extension) samples.push_back({path.stem(), path, unit_in_name(path)});
-    }
-  }
-  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.name < b.name; });
+  std::sort(samples.begin(), samples.end());
   return samples;
 }
 
-Row prepare(const Sample& sample, const std::string& solver_name) {
-  Request request = bin_of("conrod", 1);
-  request.parts[0].model = fs::path(sample.path).filename();
-  request.parts[0].path = sample.path;
-  request.parts[0].unit = sample.unit;
+Row prepare(const std::string& part, const std::string& solver_name) {
+  Request request = bin_of(part, 1);
   choose_solver(request, solver_name);
-  LoadOptions load;
-  load.unit = request.parts[0].unit;
-  const double cpu_before = cpu_seconds();
-  const auto begin = std::chrono::steady_clock::now();
-  const std::vector<PartModelPtr> parts = {PartModel::load(request.parts[0].path, load)};
+  const Clock clock;
+  const std::vector<PartModelPtr> parts = load_parts(request);
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
   solver->add_world(world_of(request, parts));
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   return Row()
-      .info("seconds", spent.count())
-      .info("cpu_s", cpu_seconds() - cpu_before)
+      .info("seconds", clock.wall_s())
+      .info("cpu_s", clock.cpu_s())
       .info("triangles", parts[0]->mesh().triangles.size())
       .info("built", PartModel::work().built);
 }
@@ -80,9 +48,9 @@ double megabytes_in(const std::string& folder) {
   return 1e-6 * bytes;
 }
 
-void measure(Run& out, const Sample& sample, const std::string& solver, int repeats) {
+void measure(Run& out, const std::string& part, const std::string& solver, int repeats) {
   Row row;
-  row.key("part", sample.name).key("solver", solver);
+  row.key("part", part).key("solver", solver);
   if (!out.wanted(row)) return;
   std::vector<double> cold, cold_cpu, warm, warm_cpu, peak;
   double cache_mb = 0.0;
@@ -93,7 +61,7 @@ void measure(Run& out, const Sample& sample, const std::string& solver, int repe
     for (std::vector<double>* times : {&cold, &warm}) {
       const Isolated one = isolated([&] {
         ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-        return prepare(sample, solver);
+        return prepare(part, solver);
       });
       if (!one.good) return out.row(row.append(one.row));
       times->push_back(one.row.number("seconds"));
@@ -121,8 +89,8 @@ void measure(Run& out, const Sample& sample, const std::string& solver, int repe
 }
 
 void run(Run& out) {
-  for (const Sample& sample : samples_to_measure(out.quick()))
-    for (const char* solver : {"sphere", "bullet", "sphere/thesis"}) measure(out, sample, solver, out.quick() ? 1 : 3);
+  for (const std::string& part : samples_to_measure(out.quick()))
+    for (const char* solver : {"sphere", "bullet", "sphere/thesis"}) measure(out, part, solver, out.quick() ? 1 : 3);
 }
 
 const Registration registration{

@@ -1,9 +1,9 @@
 #include "referee.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "peers/bullet_part.hpp"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
-#include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,33 +25,10 @@ constexpr double time_step = 0.00025;         ///< s
 constexpr int iterations = 100;
 constexpr double push_out = 0.0015;  ///< share of an overlap let out in a step: a tenth in 1/60 s
 
-btVector3 to_bt(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-btQuaternion to_bt(const Quat& q) {
-  return {q.x(), q.y(), q.z(), q.w()};
-}
-
-/// A part's collision shape about its centre of mass, in its principal axes.
-struct Shape {
-  std::vector<std::unique_ptr<btConvexHullShape>> hulls;
-  btCompoundShape compound;
-  btTransform principal;  ///< principal frame in the model frame
-  btVector3 inertia;      ///< at mass 1
-
-  Shape(const PartModel& part, const Pieces& pieces, double scale) {
-    const MassProperties& mass = part.mass();
-    principal = btTransform(to_bt(mass.principal_axes), to_bt(Vec3(mass.center * scale)));
-    inertia = to_bt(Vec3(mass.principal * (scale * scale / mass.volume)));
-    for (const std::vector<Vec3>& piece : pieces) {
-      auto hull = std::make_unique<btConvexHullShape>();
-      for (const Vec3& vertex : piece) hull->addPoint(to_bt(Vec3(vertex * scale)), false);
-      hull->setMargin(0.0);
-      hull->recalcLocalAabb();
-      hull->initializePolyhedralFeatures();
-      compound.addChildShape(principal.inverse(), hull.get());
-      hulls.push_back(std::move(hull));
-    }
+/// With what face contacts need.
+struct Shape : BulletPart {
+  Shape(const PartModel& part, const Pieces& pieces, double scale) : BulletPart(part, pieces, 0.0, scale) {
+    for (const auto& hull : hulls) hull->initializePolyhedralFeatures();
     compound.setMargin(0.0);
   }
 };
@@ -97,10 +74,6 @@ std::vector<std::unique_ptr<Shape>> shapes_of(const std::vector<PartModelPtr>& p
   for (std::size_t line = 0; line < parts.size(); ++line)
     shapes.push_back(std::make_unique<Shape>(*parts[line], pieces[line], scale));
   return shapes;
-}
-
-btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
-  return std::sqrt(a->getFriction() * b->getFriction());
 }
 
 class World {
@@ -202,7 +175,7 @@ Overlap referee_overlap(const Scene& scene, const Request& request, const std::v
     if (!is_in(part)) continue;
     Placed p;
     p.shape = shapes[part.line].get();
-    p.model = btTransform(to_bt(part.pose.orientation), to_bt(Vec3(part.pose.position * scale)));
+    p.model = to_bt(part.pose, scale);
     p.center = (p.model * p.shape->principal).getOrigin();
     p.diagonal = scale * parts[part.line]->diagonal();
     double behind = 0.0;
@@ -242,8 +215,7 @@ Drift referee_drift(const Scene& scene, const Request& request, const std::vecto
   for (const ScenePart& part : scene.parts) {
     if (!is_in(part)) continue;
     Shape& shape = *shapes[part.line];
-    const btTransform model(to_bt(part.pose.orientation), to_bt(Vec3(part.pose.position * scale)));
-    const btTransform start = model * shape.principal;
+    const btTransform start = to_bt(part.pose, scale) * shape.principal;
     judged.push_back(
         {&world.add(shape, start, request.parts[part.line].friction), start, scale * parts[part.line]->diagonal()});
   }

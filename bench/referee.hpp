@@ -1,6 +1,6 @@
 /// An outside judge of final scenes: the parts' exact convex pieces in stock Bullet, double precision, 0.25 ms, no
-/// margins. What overlaps is measured piece by piece; what rests stays, what overlaps, floats or was only called resting
-/// moves.
+/// margins. What overlaps is measured piece by piece; what rests stays, what overlaps, floats or was only called
+/// resting moves.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

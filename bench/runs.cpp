@@ -1,6 +1,9 @@
 #include "runs.hpp"
 
+#include "bin_scenes/core/error.hpp"
+#include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
+#include "quality/clearance.hpp"
 
 #include <sys/resource.h>
 
@@ -8,6 +11,33 @@
 #include <cstdio>
 
 namespace bin_scenes::bench {
+
+Request bin_of(const std::string& part, std::size_t count) {
+  Request request;
+  PartLine line;
+  line.model = part + ".stl";
+  line.path = Run::part(part);
+  line.unit = Unit::millimetre;
+  line.count = count;
+  line.density = 7850.0;
+  request.parts.push_back(line);
+  const double side = std::sqrt(static_cast<double>(count) / 150.0);
+  request.bin.inner_size = Vec3(0.40 * side, 0.30 * side, 0.20);
+  request.seed = 1;
+  return request;
+}
+
+void choose_solver(Request& request, const std::string& name) {
+  if (name == "bullet") {
+    request.solver.type = SolverType::bullet;
+  } else if (name == "sphere" || name == "sphere/gpu" || name == "sphere/thesis") {
+    request.solver.type = SolverType::sphere;
+    request.solver.preset = name == "sphere/thesis" ? SolverSettings::Preset::thesis : SolverSettings::Preset::standard;
+    if (name == "sphere/gpu") request.solver.sphere.device = SphereSettings::Device::gpu;
+  } else {
+    throw input_error("no solver is called '" + name + "'", "benchmark", "sphere, sphere/gpu, sphere/thesis or bullet");
+  }
+}
 
 std::string stages_of(const Profile& profile, double scale) {
   double total = 0.0;
@@ -59,6 +89,20 @@ std::vector<PartModelPtr> load_parts(const Request& request) {
   return parts;
 }
 
+namespace {
+
+/// Of a scene of one part line: half a second more, by the request's own solver.
+void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& parts) {
+  next.pour.pattern = Pour::Pattern::given;
+  next.seconds = 0.5;
+  for (const ScenePart& part : scene.parts) next.parts[0].poses.push_back(part.pose);
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(next, parts, reason);
+  scene.report.drift = drift(scene, pour(next, parts, *solver, {scene.index}).front(), parts);
+}
+
+}  // namespace
+
 Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
   const Clock clock;
@@ -68,7 +112,22 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();
   judge(out.scene, request, out.parts);
+  if (request.drift_check) measure_drift(out.scene, request, out.parts);
   return out;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> touching_pairs(const PartModel& part,
+                                                                    const std::vector<Pose>& poses) {
+  const double limit = 2e-3 * part.diagonal();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t i = 0; i < poses.size(); ++i)
+    for (std::uint32_t k = 0; k < i; ++k) {
+      const Vec3 apart = poses[i] * part.mass().center - poses[k] * part.mass().center;
+      if (apart.norm() > 2.0 * part.radius() + limit) continue;
+      if (test::clearance(part.query(), poses[i], part.query(), poses[k], 2.0 * limit) <= limit)
+        pairs.emplace_back(k, i);
+    }
+  return pairs;
 }
 
 void warm_up(const Request& request) {
@@ -95,7 +154,8 @@ Row figures_of(const Poured& poured) {
       .measure("gap_p95_rel", report.gap.p95 / diagonal);
   if (report.drift.measured) {
     row.measure("own_drift_p95_rel", report.drift.p95 / diagonal)
-        .measure("own_drift_max_rel", report.drift.max / diagonal);
+        .measure("own_drift_max_rel", report.drift.max / diagonal)
+        .measure("own_turn_p95_deg", report.drift.turn_p95 * 180.0 / M_PI);
   }
   return row.exact("scenes", 1)
       .exact("at_rest", static_cast<int>(report.at_rest))

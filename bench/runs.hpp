@@ -3,7 +3,6 @@
 
 #include "bin_scenes/generate/generator.hpp"
 #include "framework/table.hpp"
-#include "requests.hpp"
 
 #include <chrono>
 #include <functional>
@@ -11,6 +10,13 @@
 #include <vector>
 
 namespace bin_scenes::bench {
+
+/// `count` copies of a part of models/ (steel) in a box, friction 0.5 everywhere. The floor grows with the count from
+/// 0.40 x 0.30 m for 150 parts, so that heaps are equally deep.
+Request bin_of(const std::string& part, std::size_t count);
+
+/// The solvers as figures name them: "sphere", "bullet", "sphere/thesis".
+void choose_solver(Request& request, const std::string& name);
 
 /// Of all threads of this process so far (s).
 double cpu_seconds();
@@ -42,6 +48,10 @@ using MakeSolver = std::function<std::unique_ptr<Solver>(const std::vector<PartM
 Poured pour_timed(const Request& request, const MakeSolver& make);
 /// Models of the request's part lines.
 std::vector<PartModelPtr> load_parts(const Request& request);
+
+/// Pairs of equal parts at these poses whose surfaces are closer than two thousandths of a diagonal.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> touching_pairs(const PartModel& part,
+                                                                    const std::vector<Pose>& poses);
 
 /// Makes what the request needs of its parts, so that it is in the cache when a scene is timed.
 void warm_up(const Request& request);

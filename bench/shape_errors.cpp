@@ -2,7 +2,6 @@
 /// samples.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "requests.hpp"
 #include "runs.hpp"
 
 #include <cmath>

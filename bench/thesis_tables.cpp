@@ -3,7 +3,7 @@
 /// have nothing to stand beside.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "requests.hpp"
+#include "runs.hpp"
 
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/pour/pour.hpp"
@@ -191,19 +191,6 @@ void step_tables(Run& out) {
     row("static_spheres", "bin " + std::to_string(width) + " wide", {128, 3, width, width == 20 ? 15 : 20}, settings,
         {ms});
   row("static_spheres", "bin 137 wide, on demand", {128, 3, 137, 20, false}, settings, {});
-
-  for (const std::size_t bodies : {64, 128, 256, 512, 1024})
-    row("bodies", std::to_string(bodies) + " x 27", {bodies, 3}, settings, {});
-  for (const int size : {32, 64, 128}) {
-    ThesisSettings with = settings;
-    with.grid_size = size;
-    row("grid_size", std::to_string(size) + "^3", {128, 3}, with, {});
-  }
-  for (const double size : {1.0, 2.0, 4.0, 8.0}) {
-    ThesisSettings with = settings;
-    with.cell_size = size;
-    row("cell_size", Row::text(size) + " diameters", {128, 3}, with, {});
-  }
 }
 
 struct Stability {

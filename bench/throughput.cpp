@@ -3,15 +3,10 @@
 #include "framework/isolated.hpp"
 #include "runs.hpp"
 
-#include <chrono>
 #include <numeric>
 
 namespace bin_scenes::bench {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 Row timed(Request request, std::size_t scenes) {
   request.scenes = scenes;
@@ -23,29 +18,28 @@ Row timed(Request request, std::size_t scenes) {
   {
     const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
     pour(request, parts, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
-    const auto begin = std::chrono::steady_clock::now();
+    const Clock clock;
     pour(request, parts, *solver, indices);
-    simulation_s = seconds_since(begin);
+    simulation_s = clock.wall_s();
   }
   Generator generator;
   Generator::Options options;
   options.render = false;
   double judging_ms = 0.0;
   std::size_t accepted = 0;
-  const double cpu_begin = cpu_seconds();
-  const auto begin = std::chrono::steady_clock::now();
+  const Clock clock;
   generator.generate(request, options, [&](Generator::Result&& result) {
     const Report& report = result.scene.report;
     accepted += report.accepted ? 1 : 0;
     const auto quality = report.profile.stages_ms.find("quality");
     if (quality != report.profile.stages_ms.end()) judging_ms += quality->second;
   });
-  const double whole_s = seconds_since(begin);
+  const double whole_s = clock.wall_s();
   const auto count = static_cast<double>(scenes);
   return Row()
       .measure("simulation_s", simulation_s)
       .measure("whole_s", whole_s)
-      .measure("whole_cpu_s", cpu_seconds() - cpu_begin)
+      .measure("whole_cpu_s", clock.cpu_s())
       .measure("judging_ms", judging_ms / count)
       .exact("accepted", accepted)
       .measure("accepted_per_s", static_cast<double>(accepted) / whole_s);

@@ -3,7 +3,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "peers/peer.hpp"
+#include "peers/stock_bullet.hpp"
 #include "runs.hpp"
 
 #include <algorithm>
@@ -42,31 +42,28 @@ struct Mark {
 Row bullet_row(const Request& request, const std::string& pieces, double as_long) {
   const Clock clock;
   const std::vector<PartModelPtr> parts = load_parts(request);
-  PeerSettings settings;
-  settings.engine = "bullet_stock";
-  settings.time_step = 0.01;
-  settings.iterations = 10;
+  StockBullet settings;
   settings.pieces = {shapes_of(*parts.front(), request, pieces)};
   const std::size_t shapes = settings.pieces.front().size();
   std::optional<Mark> slow, asleep, same;
   Mark now;
   std::atomic<bool> known{false};
   double moved = 0.0;
-  settings.watch = [&](double simulated, PeerRest rest) {
+  settings.watch = [&](double simulated, BulletRest rest) {
     now = {clock.cpu_s(), clock.wall_s(), simulated};
     const auto reach = [&](std::optional<Mark>& mark, bool reached) {
       if (!mark && reached) mark = now;
     };
-    if (rest == PeerRest::moves) moved = simulated;
+    if (rest == BulletRest::moves) moved = simulated;
     reach(same, simulated >= as_long);
     reach(slow, simulated - moved >= slow_for);
-    reach(asleep, rest == PeerRest::asleep);
+    reach(asleep, rest == BulletRest::asleep);
     known = (same && asleep) || simulated >= std::max(as_long, given_up);
   };
   RunHooks hooks;
   hooks.cancel = &known;
   try {
-    pour(request, parts, *make_peer(settings), {request.first}, hooks);
+    pour(request, parts, *make_stock_bullet(settings), {request.first}, hooks);
   } catch (const Error& stopped) {
     if (stopped.kind() != ErrorKind::cancelled) throw;
   }

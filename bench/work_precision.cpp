@@ -1,5 +1,5 @@
 /// Work-precision diagram: error of the final scene over scene time, each solver over its settings. Where the exact
-/// convex pieces of a part are known, other engines get the exact shape and the referee judges all alike.
+/// convex pieces of a part are known, stock Bullet gets the exact shape and the referee judges all alike.
 #include "framework/benchmark.hpp"
 #include "judged.hpp"
 #include "solver/step_limit.hpp"
@@ -14,20 +14,23 @@ namespace {
 /// One point of a curve.
 struct Setting {
   std::string solver, sleeping, varied, value;
-  std::function<void(Request&)> apply;  ///< on the request; none for a peer
-  std::optional<PeerSettings> peer;
+  std::function<void(Request&)> apply;  ///< on the request; none for stock Bullet
+  MakeSolver make;                      ///< stock Bullet, or none
 };
 
 std::vector<Setting> settings_of_solvers(bool quick) {
   std::vector<Setting> all;
   const auto add = [&](const std::string& solver, const std::string& varied, double value,
                        const std::function<void(SolverSettings&)>& change) {
-    all.push_back({solver, "yes", varied, Row::text(value),
+    all.push_back({solver,
+                   "yes",
+                   varied,
+                   Row::text(value),
                    [=](Request& request) {
                      choose_solver(request, solver);
                      change(request.solver);
                    },
-                   std::nullopt});
+                   {}});
   };
   const SphereSettings sphere;
   const BulletSettings bullet;
@@ -68,26 +71,24 @@ std::vector<Setting> settings_of_solvers(bool quick) {
   return all;
 }
 
-/// They need the exact pieces.
-std::vector<Setting> settings_of_peers(bool quick) {
+/// Stock Bullet on the exact pieces of a folder.
+std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool quick) {
   std::vector<Setting> all;
-  const auto add = [&](const std::string& engine, const std::string& varied, double rate, int iterations) {
-    const bool stock = engine == "bullet_stock";
-    Setting peer{engine, stock ? "yes" : "no", varied, Row::text(varied == "time_step" ? 1.0 / rate : iterations),
-                 {},     PeerSettings{}};
-    peer.peer->engine = engine;
-    peer.peer->time_step = 1.0 / rate;
-    peer.peer->iterations = iterations;
-    all.push_back(peer);
+  const auto add = [&](const std::string& varied, double rate, int iterations) {
+    StockBullet stock;
+    stock.time_step = 1.0 / rate;
+    stock.iterations = iterations;
+    all.push_back({"bullet_stock",
+                   "yes",
+                   varied,
+                   Row::text(varied == "time_step" ? 1.0 / rate : iterations),
+                   {},
+                   stock_bullet_on(pieces, stock)});
   };
-  for (const double rate : quick ? std::vector<double>{240} : std::vector<double>{100, 240}) {
-    add("bullet_stock", "time_step", rate, 10);
-    add("ode", "time_step", rate, 50);
-    if (rate <= 100) add("dart", "time_step", rate, 50);  // its dense systems take minutes a scene as it is
-  }
+  add("time_step", 240, 10);
   if (quick) return all;
-  add("bullet_stock", "iterations", 100, 50);
-  for (const int iterations : {20, 200}) add("ode", "iterations", 100, iterations);
+  add("time_step", 100, 10);
+  add("iterations", 100, 50);
   return all;
 }
 
@@ -125,7 +126,7 @@ void curves(Run& out, const std::string& part) {
   const bool exact = std::filesystem::exists(Run::pieces(part));
   std::vector<Setting> settings = settings_of_solvers(out.quick());
   if (exact)
-    for (const Setting& peer : settings_of_peers(out.quick())) settings.push_back(peer);
+    for (const Setting& stock : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(stock);
   const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
   std::set<std::pair<std::string, double>> steps;  // a time_step that is cut to that of another setting is the same run
   for (const Setting& setting : settings) {
@@ -146,14 +147,9 @@ void curves(Run& out, const std::string& part) {
     }
     if (!out.wanted(row)) continue;
     if (setting.apply) warm_up(request);
-    std::vector<Row> scenes;
     const int seeds = out.quick() ? 1 : setting.solver == "sphere" && setting.varied == "default" ? 10 : 2;
-    for (int seed = 1; seed <= seeds; ++seed) {
-      request.seed = static_cast<std::uint64_t>(seed);
-      scenes.push_back(
-          judged_scene(out.scratch(), request, Run::pieces(part), setting.peer, {out.quick() ? 20.0 : 30.0, exact}));
-      if (scenes.back().at("scenes").empty()) break;
-    }
+    const std::vector<Row> scenes = judged_scenes(out.scratch(), request, Run::pieces(part), setting.make,
+                                                  {out.quick() ? 20.0 : 30.0, exact ? seeds : 0}, seeds);
     out.row(row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes)));
   }
   std::vector<Row> rows;
@@ -173,7 +169,7 @@ void run(Run& out) {
 }
 
 const Registration registration{"work_precision",
-                                "error over scene time: all solvers over their settings, ODE and DART beside",
+                                "error over scene time: all solvers over their settings, stock Bullet beside",
                                 {"part", "bodies", "solver", "sleeping", "varied", "value"},
                                 run};
 

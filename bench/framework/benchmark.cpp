@@ -110,8 +110,7 @@ bool Run::wanted(const Row& keys) const {
 
 void Run::amend(const Row& row) {
   table_.add(row.at("commit").empty() ? Row(row).info("commit", commit()) : row);
-  if (options_.csv) write_text(options_.out + "/" + name_ + ".csv", to_csv(table_));
-  if (options_.json) write_text(options_.out + "/" + name_ + ".json", to_json(table_));
+  write_text(options_.out + "/" + name_ + ".csv", to_csv(table_));
 }
 
 void Run::row(const Row& row) {
@@ -131,7 +130,7 @@ void Run::row(const Row& row) {
 Ended run(const Benchmark& benchmark, const Run::Options& options, const std::string& command) {
   Table table;
   const std::string before = options.out + "/" + benchmark.name + ".csv";
-  if (!options.rows.empty() && fs::exists(before)) table = read_csv(before);
+  if (fs::exists(before)) table = read_csv(before);
   table.header = {{"benchmark", benchmark.name}, {"about", benchmark.about}, {"command", command}};
   for (const auto& line : host()) table.header.push_back(line);
   table.header.emplace_back("quick", options.quick ? "yes" : "no");

@@ -29,8 +29,8 @@ class Run {
  public:
   struct Options {
     std::string out;  ///< folder of the results
-    bool quick = false, csv = true, json = false;
-    std::vector<std::string> rows;  ///< "key=glob": only rows whose keys match; the file's other rows stay
+    bool quick = false;
+    std::vector<std::string> rows;  ///< "key=glob": only rows whose keys match
   };
   Run(const std::string& name, const Options& options, Table& table);
   ~Run();
@@ -39,7 +39,7 @@ class Run {
   /// Whether rows with these keys were asked for; ask before the work is done.
   bool wanted(const Row& keys) const;
   /// Adds a row to `<out>/<name>.csv`, which is whole after each row, and prints it. A row with the keys of an earlier
-  /// one takes its place.
+  /// one takes its place; other rows of an earlier run stay, those of engines that are no longer measured among them.
   void row(const Row& row);
   /// The same without printing it: for what can only be told when all rows are there.
   void amend(const Row& row);

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <sstream>
 
 namespace bin_scenes::bench {
 
@@ -24,28 +23,27 @@ namespace {
 
 constexpr double wall_per_cpu = 30.0;  ///< a process that waits longer than this for its CPU time hangs
 
-// A row on its way through the pipe: role, name, value, one cell a line.
+// A row goes through the pipe as a table; one cut short by a crash has no last column.
+constexpr const char* last = "whole";
+
 std::string packed(const Row& row) {
-  std::string out;
-  for (const auto& [column, value] : row.cells()) {
-    std::string flat = value;
-    for (char& c : flat)
-      if (c == '\n' || c == '\t') c = ' ';
-    out += std::to_string(static_cast<int>(column.role)) + "\t" + column.name + "\t" + flat + "\n";
-  }
-  return out + "end\n";  // a row cut short by a crash has no end
+  Table table;
+  table.add(Row(row).info(last, true));
+  return to_csv(table);
 }
 
 bool unpack(const std::string& text, Row& row) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (line == "end") return true;
-    const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
-    if (first == std::string::npos || second == std::string::npos) return false;
-    row.add({line.substr(first + 1, second - first - 1), static_cast<Role>(std::stoi(line.substr(0, first)))},
-            line.substr(second + 1));
+  try {
+    const Table table = from_csv(text, "a row's process");
+    if (table.rows.size() != 1) return false;
+    bool whole = false;
+    const Row only = table.row(0);
+    for (const auto& [column, value] : only.cells())
+      column.name == last ? void(whole = true) : void(row.add(column, value));
+    return whole;
+  } catch (const Error&) {
+    return false;
   }
-  return false;
 }
 
 [[noreturn]] void child(const std::function<Row()>& work, int pipe, double limit_cpu_s) {

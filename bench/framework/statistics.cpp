@@ -8,7 +8,31 @@ namespace bin_scenes::bench {
 
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums of squares and products of log x and log y about their means.
+struct LogSums {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+LogSums log_sums(const std::vector<double>& x, const std::vector<double>& y) {
+  const double n = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += std::log(x[i]) / n;
+    mean_y += std::log(y[i]) / n;
+  }
+  LogSums sums;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::log(x[i]) - mean_x, v = std::log(y[i]) - mean_y;
+    sums.xx += u * u;
+    sums.xy += u * v;
+    sums.yy += v * v;
+  }
+  return sums;
 }
+
+constexpr double same = 1e-12;  ///< variance of logarithms that are equal but for rounding
+
+}  // namespace
 
 double quantile(std::vector<double> samples, double q) {
   if (samples.empty()) return nan;
@@ -45,33 +69,6 @@ double wasserstein(std::vector<double> a, std::vector<double> b) {
   }
   return area;
 }
-
-namespace {
-
-/// Sums of squares and products of log x and log y about their means.
-struct LogSums {
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-};
-LogSums log_sums(const std::vector<double>& x, const std::vector<double>& y) {
-  const double n = static_cast<double>(x.size());
-  double mean_x = 0.0, mean_y = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += std::log(x[i]) / n;
-    mean_y += std::log(y[i]) / n;
-  }
-  LogSums sums;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]) - mean_x, v = std::log(y[i]) - mean_y;
-    sums.xx += u * u;
-    sums.xy += u * v;
-    sums.yy += v * v;
-  }
-  return sums;
-}
-
-constexpr double same = 1e-12;  ///< variance of logarithms that are equal but for rounding
-
-}  // namespace
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
   const LogSums s = log_sums(x, y);

@@ -3,8 +3,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "framework/statistics.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 namespace bin_scenes::bench {
 
@@ -168,69 +167,38 @@ std::string to_csv(const Table& table) {
 Table from_csv(const std::string& text, const std::string& where) {
   Table table;
   std::vector<Role> roles;
-  std::size_t begin = 0, number = 0;
+  std::size_t number = 0;
   const auto fail = [&](const std::string& what) {
     return input_error(what, where + ":" + std::to_string(number), "make the file again with bin_scenes_bench");
   };
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
+  const auto role_of = [&](const std::string& word) {
+    for (const auto& [role, name] : role_names)
+      if (word == name) return role;
+    throw fail("unknown role '" + word + "' of a column");
+  };
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
     ++number;
-    if (line.empty()) continue;
-    if (line.rfind("# ", 0) == 0) {
-      const std::size_t colon = line.find(": ");
+    if (const std::size_t colon = line.find(": "); line.rfind("# ", 0) == 0) {
       if (colon == std::string::npos) continue;
-      const std::string key = line.substr(2, colon - 2), value = line.substr(colon + 2);
-      if (key != "roles") {
-        table.header.emplace_back(key, value);
-        continue;
-      }
-      for (std::size_t at = 0; at <= value.size();) {
-        const std::size_t space = std::min(value.find(' ', at), value.size());
-        const std::string word = value.substr(at, space - at);
-        const auto role = std::find_if(std::begin(role_names), std::end(role_names),
-                                       [&](const auto& known) { return word == known.second; });
-        if (role == std::end(role_names)) throw fail("unknown role '" + word + "' of a column");
-        roles.push_back(role->first);
-        at = space + 1;
-      }
-      continue;
-    }
-    const std::vector<std::string> fields = fields_of(line);
-    if (table.columns.empty()) {
+      table.header.emplace_back(line.substr(2, colon - 2), line.substr(colon + 2));
+      if (table.header.back().first != "roles") continue;
+      std::istringstream words(table.header.back().second);
+      for (std::string word; words >> word;) roles.push_back(role_of(word));
+      table.header.pop_back();
+    } else if (const std::vector<std::string> fields = fields_of(line); table.columns.empty() && !line.empty()) {
       if (fields.size() != roles.size()) throw fail("as many roles as columns are needed above the column names");
       for (std::size_t c = 0; c < fields.size(); ++c) table.columns.push_back({fields[c], roles[c]});
-      continue;
+    } else if (!line.empty()) {
+      if (fields.size() != table.columns.size())
+        throw fail(std::to_string(fields.size()) + " fields in a table of " + std::to_string(table.columns.size()) +
+                   " columns");
+      table.rows.emplace_back();
+      for (std::size_t c = 0; c < fields.size(); ++c) table.rows.back()[table.columns[c].name] = fields[c];
     }
-    if (fields.size() != table.columns.size())
-      throw fail(std::to_string(fields.size()) + " fields in a table of " + std::to_string(table.columns.size()) +
-                 " columns");
-    table.rows.emplace_back();
-    for (std::size_t c = 0; c < fields.size(); ++c) table.rows.back()[table.columns[c].name] = fields[c];
   }
   if (table.columns.empty()) throw fail("no column names");
   return table;
-}
-
-std::string to_json(const Table& table) {
-  nlohmann::ordered_json json;
-  for (const auto& [key, value] : table.header) json[key] = value;
-  json["rows"] = nlohmann::ordered_json::array();
-  for (const auto& row : table.rows) {
-    nlohmann::ordered_json object = nlohmann::ordered_json::object();
-    for (const Column& column : table.columns) {
-      const auto value = row.find(column.name);
-      if (value == row.end() || value->second.empty()) continue;
-      const double number = number_of(value->second);
-      if (std::isfinite(number))
-        object[column.name] = number;
-      else
-        object[column.name] = value->second;
-    }
-    json["rows"].push_back(object);
-  }
-  return json.dump(2) + "\n";
 }
 
 Table read_csv(const std::string& path) {

@@ -29,20 +29,17 @@ struct Column {
 /// an empty value is "not measured".
 class Row {
  public:
-  Row& key(const std::string& name, const std::string& value) { return add({name, Role::key}, value); }
-  Row& exact(const std::string& name, const std::string& value) { return add({name, Role::exact}, value); }
-  Row& info(const std::string& name, const std::string& value) { return add({name, Role::info}, value); }
-  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
-  Row& key(const std::string& name, Number value) {
-    return key(name, text(value));
+  template <class Value>
+  Row& key(const std::string& name, const Value& value) {
+    return add({name, Role::key}, text(value));
   }
-  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
-  Row& exact(const std::string& name, Number value) {
-    return exact(name, text(value));
+  template <class Value>
+  Row& exact(const std::string& name, const Value& value) {
+    return add({name, Role::exact}, text(value));
   }
-  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
-  Row& info(const std::string& name, Number value) {
-    return info(name, text(value));
+  template <class Value>
+  Row& info(const std::string& name, const Value& value) {
+    return add({name, Role::info}, text(value));
   }
   /// Median and range of the samples; none: both empty.
   Row& measure(const std::string& name, const std::vector<double>& samples);
@@ -63,6 +60,8 @@ class Row {
     return std::to_string(value);
   }
   static std::string text(bool value) { return value ? "yes" : "no"; }
+  static std::string text(const std::string& value) { return value; }
+  static std::string text(const char* value) { return value; }
 
  private:
   std::vector<std::pair<Column, std::string>> cells_;
@@ -85,7 +84,6 @@ struct Table {
 /// RFC 4180 below the header block; column roles are one of the `#` lines.
 std::string to_csv(const Table& table);
 Table from_csv(const std::string& text, const std::string& where);  ///< throws an input Error naming `where` and line
-std::string to_json(const Table& table);
 
 Table read_csv(const std::string& path);
 

@@ -36,6 +36,9 @@
 #define SPHERE_MAX_CONTACTS 8       // per pair, after reduction
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
+#define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
+#define SPHERE_SLEEP_BY_PART 1u
+#define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_MAX_WAYS 4           // out of a point near sharp edges
@@ -89,6 +92,7 @@ struct SphereSettingsBlock {
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts
   float probe_slip;        // s of a step that begins without forces, without friction
+  float touch_move;        // d: rest_move where bodies sleep by touch
   vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
@@ -115,7 +119,8 @@ struct SphereProgress {
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
-  uint unused0, unused1;                     // states, which are of vec4, lie behind it in what is read back
+  uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
+  uint unused;                               // states, which are of vec4, lie behind it in what is read back
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;

@@ -1,25 +1,28 @@
-// Rest of a body. `time_step` in s. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
-
-bool sleeps_by_part(uint w) { return progress[w].stiffness == SPHERE_RIGID; }
+// Rest of a body of world `w`. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
 
 bool is_restless(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 
-void note_motion(uint body, float time_step) {
+// Whether it moved on in this step: bodies that are woken by touch have not, unless they go.
+bool went_on(uint body) { return moves(body) && states[body].still_position.w == 0.0; }
+
+void note_motion(uint body, uint w) {
   SphereState s = states[body];
   uint shape = bodies[body].ids.x;
-  float limit = settings.rest_move * shapes[shape].box_half.w;
+  float within = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH ? settings.touch_move : settings.rest_move;
+  float limit = within * shapes[shape].box_half.w;
   vec3 way = s.position.xyz - s.still_position.xyz;
   float turned = 2.0 * length(quat_multiply(quat_conjugate(s.still_orientation), s.orientation).xyz);
   if (length(way) > limit || turned * shapes[shape].box_center.w > limit) {
     states[body].still_position = vec4(s.position.xyz, 0.0);
     states[body].still_orientation = s.orientation;
   } else {
-    states[body].still_position.w += time_step;
+    states[body].still_position.w += progress[w].time_step;
   }
 }
 
-// Puts a body to sleep or wakes it, with its island; woken by part it sleeps again if it stays.
-void settle(uint body, uint label, bool restless, bool by_part) {
+// Puts a body to sleep or wakes it, with its island; woken by part it sleeps again if it stays, by touch after the rest
+// window.
+void settle(uint body, uint label, bool restless, uint w) {
   uint flags = states[body].flags.x;
   states[body].flags.y = label;
   if ((flags & SPHERE_PRESENT) == 0u || bodies[body].material.x == 0.0) return;
@@ -28,6 +31,7 @@ void settle(uint body, uint label, bool restless, bool by_part) {
     states[body].velocity = vec4(0.0);
     states[body].spin = vec4(0.0);
   }
-  if (restless && asleep && !by_part) states[body].still_position.w = 0.0;
+  if (restless && asleep && progress[w].sleep != SPHERE_SLEEP_BY_PART)
+    states[body].still_position.w = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH ? progress[w].time_step : 0.0;
   states[body].flags.x = restless ? flags & ~SPHERE_ASLEEP : flags | SPHERE_ASLEEP;
 }

@@ -1,7 +1,7 @@
 // One group a world: an island of bodies joined by pressing contacts sleeps when all of them stayed where they are for
 // the rest window; a moving body that presses on a sleeping one wakes the whole island. Labels spread over manifolds to
-// the lowest body of each island; walls and fixed bodies join nothing. In a probe the restless keep only themselves and
-// whoever presses on them awake. Ends the step. Twin: update_sleep().
+// the lowest body of each island; walls and fixed bodies join nothing. By part the restless keep only themselves and
+// whoever presses on them awake; by touch what moves on wakes whatever has contacts with it. Ends the step. Twin: update_sleep().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_GROUP) in;
@@ -36,22 +36,24 @@ void main() {
 
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) {
     uint body = world.bodies.x + i;
-    if (moves(body)) note_motion(body, progress[w].time_step);
+    if (moves(body)) note_motion(body, w);
     label[i] = i;
     awake[i] = is_restless(body) ? 1u : 0u;
   }
   if (thread < 2u) changed[thread] = 0u;
   barrier();
-  bool by_part = sleeps_by_part(w);
+  bool by_part = progress[w].sleep == SPHERE_SLEEP_BY_PART, by_touch = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH;
   for (uint round = 0u;; ++round) {
     uint turn = round & 1u;
     for (uint p = thread; p < count; p += SPHERE_GROUP) {
       SpherePair pair = pairs[list + p];
-      if (pair.b == SPHERE_GROUND || manifolds[world.pairs.x + pair.slot].state.y == 0u) continue;
+      if (pair.b == SPHERE_GROUND) continue;
+      uvec4 manifold = manifolds[world.pairs.x + pair.slot].state;
+      if ((by_touch ? manifold.x : manifold.y) == 0u) continue;
       if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
       uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x, la = label[a], lb = label[b];
-      if (by_part) {
-        if (((awake[a] | awake[b]) & 1u) != 0u) {
+      if (by_part || by_touch) {
+        if (by_touch ? went_on(pair.a) || went_on(pair.b) : ((awake[a] | awake[b]) & 1u) != 0u) {
           atomicOr(awake[a], 2u);
           atomicOr(awake[b], 2u);
         }
@@ -73,7 +75,7 @@ void main() {
     if ((awake[i] & 1u) != 0u) atomicOr(awake[label[i]], 2u);
   barrier();
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
-    settle(world.bodies.x + i, world.bodies.x + label[i], awake[label[i]] != 0u, by_part);
+    settle(world.bodies.x + i, world.bodies.x + label[i], awake[label[i]] != 0u, w);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     if (progress[w].cold_steps != 0u) --progress[w].cold_steps;

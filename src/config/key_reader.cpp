@@ -101,10 +101,11 @@ YAML::Node KeyReader::take(const Key& key) {
   return node;
 }
 
-Error KeyReader::wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node) const {
+Error KeyReader::wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node,
+                            const std::string& meant) const {
   return input_error(
       (path.empty() ? "the request" : "'" + path + "'") + ": expected " + expected + ", found " + shown(node),
-      source_.where(path), "see docs/use/request.md");
+      source_.where(path), meant.empty() ? "see docs/use/request.md" : "did you mean '" + meant + "'?");
 }
 
 void KeyReader::bin_kind(Bin& bin, const BinKeys& keys) {

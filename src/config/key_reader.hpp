@@ -31,6 +31,11 @@ class Source {
   std::map<std::string, int> lines_;
 };
 
+/// A map that names a preset starts from its values; only sensors do.
+template <class Struct>
+void start_from_preset(const YAML::Node&, const std::string&, const Source&, Struct&) {}
+void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Sensor& sensor);
+
 class KeyReader {
  public:
   /// `path` of the map itself: "", "solver.bullet" or "parts[2]".
@@ -43,7 +48,7 @@ class KeyReader {
         read_value(node, value);
       } catch (const Mismatch& mismatch) {
         const YAML::Node item = mismatch.item < node.size() && node.IsSequence() ? node[mismatch.item] : node;
-        throw wrong_type(path_of(key.name) + mismatch.index(), mismatch.expected, item);
+        throw wrong_type(path_of(key.name) + mismatch.index(), mismatch.expected, item, mismatch.meant);
       }
     }
   }
@@ -82,12 +87,14 @@ class KeyReader {
  private:
   YAML::Node take(const Key& key);
   std::string path_of(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
-  Error wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node) const;
+  Error wrong_type(const std::string& path, const std::string& expected, const YAML::Node& node,
+                   const std::string& meant = "") const;
 
   template <class Struct>
   void read_map(const YAML::Node& node, const std::string& path, Struct& value) {
     source_.remember(path, node);
     if (!node.IsMap()) throw wrong_type(path, "a map of keys", node);
+    start_from_preset(node, path, source_, value);
     KeyReader reader(node, path, source_);
     visit(reader, value);
     reader.finish();

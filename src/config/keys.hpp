@@ -8,27 +8,19 @@
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
-
-#include <utility>
-#include <vector>
+#include "config/key.hpp"
+#include "config/sensor_keys.hpp"
 
 namespace bin_scenes::config {
 
-struct Key {
-  const char* name;
-  const char* unit;     ///< "" if it has none
-  const char* text;     ///< meaning; what a larger or smaller value costs
-  bool written = true;  ///< false: has no meaning for the other values, and is left out when written back
-};
-
-/// Names of an enumeration as the request spells them.
-template <class Enum>
-using Names = std::vector<std::pair<const char*, Enum>>;
 inline Names<Unit> names(Unit) {
   return {{"m", Unit::metre}, {"cm", Unit::centimetre}, {"mm", Unit::millimetre}, {"inch", Unit::inch}};
 }
 inline Names<Pour::Pattern> names(Pour::Pattern) {
   return {{"rain", Pour::Pattern::rain}, {"grid", Pour::Pattern::grid}, {"given", Pour::Pattern::given}};
+}
+inline Names<Pour::Finish> names(Pour::Finish) {
+  return {{"settled", Pour::Finish::settled}, {"pressed", Pour::Finish::pressed}, {"probed", Pour::Finish::probed}};
 }
 inline Names<SolverType> names(SolverType) {
   return {{"auto", SolverType::automatic}, {"sphere", SolverType::sphere}, {"bullet", SolverType::bullet}};
@@ -57,24 +49,25 @@ void visit(Visitor& v, Bin& bin) {
   v.field({"inner_size", "m", "box: inner length x, width y and height z", box}, bin.inner_size);
   v.field({"wall_thickness", "m", "box: thickness of walls and floor; seen by cameras, never by the physics", box},
           bin.wall_thickness);
-  v.field({"mesh", "", "a bin of its own shape instead of a box: path of its mesh, written like parts[].model", mesh},
-          bin.mesh);
+  v.field({"mesh", "", "path of a mesh that is the bin, instead of a box; written like parts[].model", mesh}, bin.mesh);
   v.field({"unit", "", "mesh: unit of the file", mesh}, bin.unit);
   v.field({"pose", "", "mesh: frame of the file in the bin frame", mesh}, bin.pose);
   v.field({"floor", "", "true: an endless floor at z = 0 instead of a box", kind.floor}, kind.floor);
-  v.field({"none", "", "true: nothing at all, free flight", kind.none}, kind.none);
+  v.field({"none", "", "true: no bin, free flight", kind.none}, kind.none);
   v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)"}, bin.friction);
-  v.field({"restitution", "", "of walls and floor; the larger of part and bin counts in a contact"}, bin.restitution);
+  v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin"}, bin.restitution);
+  v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
   v.bin_kind(bin, kind);
 }
 
 template <class Visitor>
 void visit(Visitor& v, PartLine& part) {
-  v.field({"model", "",
-           "mesh file: path relative to the request, absolute, or package://name/path; a closed solid: holes of at "
-           "most 2 % of its diagonal around are closed and the report says so, larger ones are an error unless "
-           "thickness is given"},
-          part.model);
+  v.field(
+      {"model", "",
+       "mesh file: path relative to the request, absolute, or package://name/path; it must be a closed solid: holes "
+       "of at most 2 % of its diagonal around are closed, and the report says so; larger holes are an error unless "
+       "thickness is given"},
+      part.model);
   v.field({"unit", "",
            "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
            "bin, which is an error that names the likely unit"},
@@ -84,7 +77,8 @@ void visit(Visitor& v, PartLine& part) {
   v.field({"density", "kg/m3", "mass = density * volume of the mesh; 1000 if mass is not given either"}, part.density);
   v.field({"mass", "kg", "of one part, instead of density"}, part.mass);
   v.field({"friction", "", "the coefficient of a contact is sqrt(a * b)"}, part.friction);
-  v.field({"restitution", "", "the larger of the two counts in a contact; high values take longer to come to rest"},
+  v.field({"restitution", "",
+           "a contact uses the larger one of the two; parts with high values take longer to come to rest"},
           part.restitution);
   v.field({"thickness", "m", "gives an open surface walls of this thickness instead of refusing it"}, part.thickness);
   v.field({"poses", "m",
@@ -98,6 +92,7 @@ void visit(Visitor& v, PartLine& part) {
            !part.velocities.empty()},
           part.velocities);
   v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
+  v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
 }
 
 template <class Visitor>
@@ -107,16 +102,22 @@ void visit(Visitor& v, Pour& pour) {
            "rain: parts enter just above the heap as it grows; grid: all at once on a 3-D grid above the bin; given: "
            "poses come with the parts or from scene"},
           pour.pattern);
-  v.field({"drop_height", "m", "rain: free way of a part above the heap; higher = harder impacts and longer scenes"},
+  v.field({"finish", "",
+           "how much is done before a scene counts as finished, each step on top of the one before: settled: parts "
+           "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: proved to stand without "
+           "remembered forces and with a tenth less friction, which takes up to twice the time of pressed"},
+          pour.finish);
+  v.field({"drop_height", "m", "rain: free fall of a part above the heap; higher = harder impacts and longer scenes"},
           pour.drop_height);
   v.field({"grid_spacing", "", "grid: cell edge / bounding diameter of the largest part"}, pour.grid_spacing);
-  v.field({"scene", "",
-           "given: path of an earlier scene.json to go on from; its parts are matched with the part lines by position "
-           "in the list, parts that had escaped are left out",
-           false},
-          pour.scene);
-  v.field({"limit", "s", "simulated time after which a scene that still moves is given up"}, pour.limit);
-  v.field({"rest_window", "s", "nothing may have moved over this window of simulated time; longer = surer and slower"},
+  v.field(
+      {"scene", "",
+       "given: path of an earlier scene.json to continue from; its parts are matched with the part lines by position "
+       "in the list; escaped parts are left out",
+       false},
+      pour.scene);
+  v.field({"limit", "s", "simulated time after which a scene that still moves ends, not at rest"}, pour.limit);
+  v.field({"rest_window", "s", "simulated time over which no part may move; longer = more certain rest, longer scenes"},
           pour.rest_window);
   v.field({"rest_move", "", "largest displacement over the window / part diagonal that counts as rest"},
           pour.rest_move);
@@ -125,37 +126,39 @@ void visit(Visitor& v, Pour& pour) {
 
 template <class Visitor>
 void visit(Visitor& v, BulletSettings& s) {
-  v.field({"time_step", "s", "larger is faster and lets thin parts interlock"}, s.time_step);
-  v.field({"cut_steps", "",
-           "steps that are too long for small or fast parts are cut; false = such parts sink into each other or pass "
-           "through: for measuring what long steps do"},
-          s.cut_steps);
+  v.field({"time_step", "s", "larger = faster, but thin parts interlock"}, s.time_step);
   v.field(
-      {"iterations", "",
-       "sequential-impulse sweeps per step, two a sub-step, and as many that relax; more = stiffer piles, linear cost"},
-      s.iterations);
-  v.field({"margin", "", "collision margin / part diagonal, shrunk into the hulls; smaller = slower and exacter"},
-          s.margin);
-  v.field({"sleeping", "", "islands at rest cost nothing; false = every part is simulated to the end"}, s.sleeping);
+      {"cut_steps", "",
+       "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
+       "for measuring long steps"},
+      s.cut_steps);
+  v.field({"iterations", "",
+           "sequential-impulse sweeps a step, two a sub-step, and as many relaxing sweeps; more = stiffer piles, "
+           "linear cost"},
+          s.iterations);
+  v.field({"margin", "", "collision margin / part diagonal, inside the hulls; smaller = slower, more exact"}, s.margin);
+  v.field({"sleeping", "", "true: islands at rest cost nothing; false: every part is simulated to the end"},
+          s.sleeping);
   v.field({"hull_error", "",
            "largest surface error of the convex decomposition / part diagonal; smaller = more hulls, cost grows with "
            "their square"},
           s.hull_error);
-  v.field({"hull_volume_error", "",
-           "by how much the hulls together may be larger than the part / its volume; smaller = more hulls; the report "
-           "says where max_hulls does not do for it"},
-          s.hull_volume_error);
-  v.field({"max_hulls", "", "cap on hulls per part; it goes before both errors"}, s.max_hulls);
+  v.field(
+      {"hull_volume_error", "",
+       "largest excess volume of all hulls together / volume of the part; smaller = more hulls; the report has a flag "
+       "if max_hulls does not suffice"},
+      s.hull_volume_error);
+  v.field({"max_hulls", "", "largest number of hulls per part; takes precedence over both errors"}, s.max_hulls);
 }
 
 template <class Visitor>
 void visit(Visitor& v, ThesisSettings& s) {
-  v.field({"time_step", "s", "larger is faster; thin parts tunnel"}, s.time_step);
+  v.field({"time_step", "s", "larger = faster, but thin parts tunnel"}, s.time_step);
   v.field({"sub_steps", "", "whole steps of time_step / sub_steps each; linear cost"}, s.sub_steps);
-  v.field({"iterations", "", "impulse and velocity passes per step (5 or 10 in the thesis); higher stacks need more"},
+  v.field({"iterations", "", "impulse and velocity passes a step (5 or 10 in the thesis); higher stacks need more"},
           s.iterations);
-  v.field({"bias", "", "share of the penetration turned into velocity per step; more = stiffer, and jitter"}, s.bias);
-  v.field({"slop", "", "penetration left alone / sphere radius; 0 = contacts flicker"}, s.slop);
+  v.field({"bias", "", "share of the penetration turned into velocity each step; more = stiffer, with jitter"}, s.bias);
+  v.field({"slop", "", "penetration that is tolerated / sphere radius; 0 = contacts flicker"}, s.slop);
   v.field({"rest_velocity", "m/s", "approach speed below which restitution is 0; 0 = 2 g time_step"}, s.rest_velocity);
   v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square"}, s.voxels);
   v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface"},
@@ -171,25 +174,25 @@ void visit(Visitor& v, ThesisSettings& s) {
   v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube"}, s.grid_size);
   v.field({"cell_size", "", "cell edge / largest sphere diameter, at least 1; larger = more candidates per cell"},
           s.cell_size);
-  v.field({"contacts_per_sphere", "", "first capacity; grown, with a flag in the report, when it does not do"},
+  v.field({"contacts_per_sphere", "", "initial capacity; enlarged if necessary, with a flag in the report"},
           s.contacts_per_sphere);
 }
 
 template <class Visitor>
 void visit(Visitor& v, SphereSettings& s) {
-  v.field({"time_step", "s", "one collision detection each; larger is faster and lets thin parts interlock"},
-          s.time_step);
-  v.field({"cut_steps", "",
-           "steps that are too long for small or fast parts are cut; false = such parts sink into each other or pass "
-           "through: for measuring what long steps do"},
-          s.cut_steps);
-  v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
-  v.field({"coarse_samples", "", "surface samples per part while pouring, at least: thin parts get more"},
-          s.coarse_samples);
+  v.field({"time_step", "s", "one collision detection each; larger = faster, but thin parts interlock"}, s.time_step);
   v.field(
-      {"fine_samples", "", "surface samples per part while settling, at least; more = less penetration, linear cost"},
-      s.fine_samples);
-  v.field({"field_cell", "", "cell of the distance field / part diagonal; smaller = exacter, memory with its cube"},
+      {"cut_steps", "",
+       "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
+       "for measuring long steps"},
+      s.cut_steps);
+  v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
+  v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more"}, s.coarse_samples);
+  v.field({"fine_samples", "",
+           "surface samples per part while settling; thin parts get more; more = less penetration, linear cost"},
+          s.fine_samples);
+  v.field({"field_cell", "",
+           "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube"},
           s.field_cell);
   v.field({"device", "",
            "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
@@ -199,27 +202,12 @@ void visit(Visitor& v, SphereSettings& s) {
 
 template <class Visitor>
 void visit(Visitor& v, SolverSettings& solver) {
-  v.field({"type", "", "auto picks by device, part and count, and the report says why"}, solver.type);
-  v.field({"preset", "", "which sphere solver: the default one, or the thesis's method for its tables"}, solver.preset);
+  v.field({"type", "", "auto chooses by device, part and count; the report says why"}, solver.type);
+  v.field({"preset", "", "standard: the default sphere solver; thesis: the method of the thesis, for its tables"},
+          solver.preset);
   v.section({"bullet", "", "settings of Bullet"}, solver.bullet);
   v.section({"thesis", "", "settings of the sphere solver's preset thesis"}, solver.thesis);
   v.section({"sphere", "", "settings of the sphere solver's preset standard"}, solver.sphere);
-}
-
-template <class Visitor>
-void visit(Visitor& v, Sensor& sensor) {
-  v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
-  v.field({"width", "pixel", "image width"}, sensor.width);
-  v.field({"height", "pixel", "image height"}, sensor.height);
-  v.field({"fov", "rad", "horizontal field of view; sets the intrinsics unless k is given"}, sensor.fov);
-  v.field({"k", "pixel", "3x3 row-major intrinsics [fx, 0, cx, 0, fy, cy, 0, 0, 1] instead of fov", !sensor.k.empty()},
-          sensor.k);
-  v.field({"pose", "",
-           "optical frame (x right, y down, z forward) in the bin frame; left out: above the bin, looking down, the "
-           "whole rim in view"},
-          sensor.pose);
-  v.field({"near", "m", "nothing nearer is seen"}, sensor.near);
-  v.field({"far", "m", "nothing farther is seen"}, sensor.far);
 }
 
 template <class Visitor>
@@ -228,9 +216,13 @@ void visit(Visitor& v, Acceptance& accept) {
       {"penetration", "", "largest penetration of any pair / smaller part's diagonal; deeper: the scene is set apart"},
       accept.penetration);
   v.field({"gap", "",
-           "largest way that a part at rest could fall before it touches what is below / its diagonal; farther: the "
+           "largest distance that a part at rest could fall before it touches something / its diagonal; farther: the "
            "scene is set apart"},
           accept.gap);
+  v.field({"energy", "",
+           "largest energy that a part gained from nowhere between two looks (1/60 s) / (its mass * gravity * its "
+           "diagonal); more: contacts threw it about, and the scene is set apart"},
+          accept.energy);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
 }
 
@@ -239,21 +231,23 @@ void visit(Visitor& v, Request& request) {
   v.field({"seed", "", "same request, seed and device class = same scene, bit for bit; 0 is a seed like any other"},
           request.seed);
   v.field({"scenes", "", "number of scenes"}, request.scenes);
-  v.field({"first", "", "index of the first scene; scene i comes from (seed, i) alone, so a job can be split"},
+  v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split"},
           request.first);
   v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, request.bin);
   v.field({"gravity", "m/s2", "in the bin frame"}, request.gravity);
-  v.list({"parts", "", "what is poured; several lines make a mixed bin"}, request.parts);
-  v.section({"pour", "", "how parts get into the bin, and when they rest"}, request.pour);
-  v.section({"solver", "", "what simulates"}, request.solver);
-  v.list({"sensors", "", "range cameras; none = no images"}, request.sensors);
+  v.list({"parts", "", "parts to pour; several lines make a mixed bin"}, request.parts);
+  v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
+  v.section({"solver", "", "solver and its settings"}, request.solver);
+  v.list({"sensors", "", "range sensors; none = no images"}, request.sensors);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
-  v.field({"seconds", "s", "simulate exactly this long instead of until rest"}, request.seconds);
+  v.field({"seconds", "s", "simulates exactly this long instead of until rest"}, request.seconds);
   v.field({"drift_check", "",
-           "run on from rest for 0.5 s and report how far parts move; by the same solver with the same settings, so it "
-           "tells whether the scene rests for that solver, not whether it would for another"},
+           "true: the same solver continues from rest for 0.5 s, and the report says how far parts move; this tells "
+           "nothing "
+           "about other engines"},
           request.drift_check);
-  v.field({"memory_budget", "byte", "a request estimated above it is refused with the figure"}, request.memory_budget);
+  v.field({"memory_budget", "byte", "a request whose estimate exceeds it is refused, with the figure"},
+          request.memory_budget);
 }
 
 }  // namespace bin_scenes::config

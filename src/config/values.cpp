@@ -1,5 +1,6 @@
 #include "config/values.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -51,14 +52,8 @@ Quat orientation_of(const double* xyzw) {
   return std::abs(length - 1.0) < 1e-14 ? q : q.normalized();
 }
 
-std::string list_of(const std::vector<double>& values) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < values.size(); ++i) text += (i ? ", " : "") + text_of(values[i]);
-  return text + "]";
-}
-
 template <class Item>
-std::string lines_of(const std::vector<Item>& items) {
+std::string list_of(const std::vector<Item>& items) {
   std::string text = "[";
   for (std::size_t i = 0; i < items.size(); ++i) text += (i ? ", " : "") + text_of(items[i]);
   return text + "]";
@@ -139,6 +134,11 @@ void read_value(const YAML::Node& node, Twist& value) {
   value.angular = {v[3], v[4], v[5]};
 }
 
+void read_value(const YAML::Node& node, std::array<double, 5>& value) {
+  const std::vector<double> v = numbers(node, 5, kind_of(value));
+  std::copy(v.begin(), v.end(), value.begin());
+}
+
 void read_value(const YAML::Node& node, std::vector<double>& value) {
   value = numbers(node, kind_of(value));
 }
@@ -178,27 +178,30 @@ std::string text_of(const std::string& value) {
 }
 
 std::string text_of(const Vec3& v) {
-  return list_of({v.x(), v.y(), v.z()});
+  return list_of<double>({v.x(), v.y(), v.z()});
 }
 
 std::string text_of(const Pose& pose) {
   const Vec3& p = pose.position;
   const Quat& q = pose.orientation;
-  return list_of({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()});
+  return list_of<double>({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()});
 }
 
 std::string text_of(const Twist& t) {
-  return list_of({t.linear.x(), t.linear.y(), t.linear.z(), t.angular.x(), t.angular.y(), t.angular.z()});
+  return list_of<double>({t.linear.x(), t.linear.y(), t.linear.z(), t.angular.x(), t.angular.y(), t.angular.z()});
 }
 
+std::string text_of(const std::array<double, 5>& value) {
+  return list_of<double>({value.begin(), value.end()});
+}
 std::string text_of(const std::vector<double>& value) {
   return list_of(value);
 }
 std::string text_of(const std::vector<Pose>& value) {
-  return lines_of(value);
+  return list_of(value);
 }
 std::string text_of(const std::vector<Twist>& value) {
-  return lines_of(value);
+  return list_of(value);
 }
 
 }  // namespace bin_scenes::config

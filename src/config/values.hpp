@@ -2,9 +2,11 @@
 #pragma once
 
 #include "config/keys.hpp"
+#include "config/suggest.hpp"
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +20,7 @@ struct Mismatch {
 
   std::string expected;
   std::size_t item = whole;  ///< of a list, where one of its items is to blame
+  std::string meant = "";    ///< the word that may have been meant
 
   std::string index() const { return item == whole ? "" : "[" + std::to_string(item) + "]"; }
 };
@@ -30,6 +33,7 @@ void read_value(const YAML::Node& node, std::string& value);
 void read_value(const YAML::Node& node, Vec3& value);
 void read_value(const YAML::Node& node, Pose& value);  ///< [x,y,z,qx,qy,qz,qw], [x,y,z] or {position, orientation_xyzw}
 void read_value(const YAML::Node& node, Twist& value);  ///< [vx,vy,vz,wx,wy,wz]
+void read_value(const YAML::Node& node, std::array<double, 5>& value);
 void read_value(const YAML::Node& node, std::vector<double>& value);
 void read_value(const YAML::Node& node, std::vector<Pose>& value);
 void read_value(const YAML::Node& node, std::vector<Twist>& value);
@@ -43,6 +47,7 @@ std::string text_of(const std::string& value);
 std::string text_of(const Vec3& value);
 std::string text_of(const Pose& value);
 std::string text_of(const Twist& value);
+std::string text_of(const std::array<double, 5>& value);
 std::string text_of(const std::vector<double>& value);
 std::string text_of(const std::vector<Pose>& value);
 std::string text_of(const std::vector<Twist>& value);
@@ -68,6 +73,9 @@ inline std::string kind_of(const Vec3&) {
 }
 inline std::string kind_of(const Pose&) {
   return "[x, y, z, qx, qy, qz, qw]";
+}
+inline std::string kind_of(const std::array<double, 5>&) {
+  return "[k1, k2, p1, p2, k3]";
 }
 inline std::string kind_of(const std::vector<double>&) {
   return "list of numbers";
@@ -95,7 +103,9 @@ void read_value(const YAML::Node& node, Enum& value) {
       return;
     }
   }
-  throw Mismatch{kind_of(Enum{})};
+  std::vector<std::string> known;
+  for (const auto& [name, meaning] : names(Enum{})) known.push_back(name);
+  throw Mismatch{kind_of(Enum{}), Mismatch::whole, nearest(text, known)};
 }
 
 template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>

@@ -14,6 +14,10 @@ constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
 Random::Random(std::uint64_t seed, std::uint64_t index, Stream stream)
     : state_(mix(mix(mix(seed + golden) + index + golden) + static_cast<std::uint64_t>(stream) + golden)) {}
 
+Random Random::of_piece(std::uint64_t piece) const {
+  return Random(mix(mix(state_ + golden) ^ mix(piece + golden)));
+}
+
 std::uint64_t Random::next() { return mix(state_ += golden); }
 
 double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
@@ -32,6 +36,12 @@ std::uint64_t Random::below(std::uint64_t count) {
 double Random::normal() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
   return radius * std::cos(2.0 * M_PI * uniform());
+}
+
+void Random::normals(double& a, double& b) {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform())), angle = 2.0 * M_PI * uniform();
+  a = radius * std::cos(angle);
+  b = radius * std::sin(angle);
 }
 
 Quat Random::orientation() {

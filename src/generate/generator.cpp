@@ -1,11 +1,12 @@
 #include "bin_scenes/generate/generator.hpp"
 
-#include "bin_scenes/core/error.hpp"
-#include "generate/judging.hpp"
+#include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_rig.hpp"
+#include "generate/finishing.hpp"
 #include "generate/model_store.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace bin_scenes {
 
@@ -22,9 +23,7 @@ class Reporter {
   Reporter(const RunHooks& hooks, std::size_t scenes) : hooks_(hooks), scenes_(static_cast<double>(scenes)) {}
 
   void phase(const std::string& name, std::size_t scene, std::size_t parts) {
-    if (hooks_.cancel && hooks_.cancel->load()) {
-      throw Error(ErrorKind::cancelled, "cancelled", "", "");
-    }
+    stop_if_cancelled();
     Progress progress;
     progress.phase = name;
     progress.scene = scene;
@@ -65,7 +64,7 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
     part_line.velocities.clear();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
       const ScenePart& part = scene.parts[i];
-      if (part.line != line || part.state == PartState::escaped || part.state == PartState::not_poured) continue;
+      if (part.line != line || part.state == PartState::escaped || !is_there(part.state)) continue;
       part_line.poses.push_back(part.pose);  // from rest, as the drift of a finished scene is defined
       kept.push_back(i);
     }
@@ -78,41 +77,63 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
 
 struct Generator::State {
   ModelStore models;
-  std::unique_ptr<RangeCamera> camera;
+  SensorRig rig;
+  std::vector<Sensor> sensors;  ///< of the request, with poses and intrinsics
+  std::size_t at_once = 1;      ///< scenes whose images fit into memory together
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
     estimate_memory(request, {});
     models.load(request);
-    estimate_memory(request, models.parts());
+    at_once = scenes_seen_at_once(request, estimate_memory(request, models.parts()));
+    sensors = resolved_sensors(request, models.parts(), models.bin());
   }
 
-  void measure_drift(Scene& scene, const Request& request, Solver& solver, const RunHooks& hooks) {
+  static void measure_drift(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                            const std::shared_ptr<Solver>& solver, const PartModelPtr& bin_model,
+                            const RunHooks& hooks) {
     std::vector<std::size_t> kept;
     const Request next = going_on(request, scene, drift_seconds, kept);
     if (kept.empty()) return;
     RunHooks quiet;
     quiet.cancel = hooks.cancel;
-    const Scene moved = pour(next, models.parts(), solver, {scene.index}, quiet, models.bin()).at(0);
+    Heap again(next, parts, solver, scene.index, bin_model);
+    again.settle(quiet);
+    const Scene moved = again.scene();
     Scene before;
     for (const std::size_t i : kept) {
       before.parts.push_back(scene.parts[i]);
       before.parts.back().id = static_cast<int>(before.parts.size()) - 1;  // as the re-run counts them
     }
-    scene.report.drift = drift(before, moved, models.parts());
+    scene.report.drift = drift(before, moved, parts);
   }
 
-  void see(Result& result, const Request& request, bool silhouettes) {
-    Scene& scene = result.scene;
-    if (!camera) camera = std::make_unique<RangeCamera>();
-    result.images = camera->render(scene, request, models.parts(), models.bin(), silhouettes);
-    for (const RangeImage& image : result.images) {
-      for (ScenePart& part : scene.parts) {
-        const double seen = static_cast<double>(image.visible.at(part.id));
-        const double alone = static_cast<double>(image.total.at(part.id));
-        part.visible_fraction[image.sensor.name] = alone > 0 ? seen / alone : 0.0;
-      }
+  /// What the report says of models and solver.
+  static void name_origin(Scene& scene, const std::vector<PartModelPtr>& parts, const std::string& solver_reason) {
+    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
+    scene.report.solver_reason = solver_reason;
+    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
+      if (std::find(parts.begin(), part, *part) != part) continue;
+      for (const Flag& flag : (*part)->load_report().flags) scene.report.flags.push_back(flag);
     }
+  }
+
+  /// What is done for a scene once it has been poured; in any thread. `sensors`: resolved.
+  void finish(Result& result, const Request& request, const std::vector<PartModelPtr>& parts,
+              const PartModelPtr& bin_model, const std::vector<Sensor>& sensors, const Options& options) {
+    Scene& scene = result.scene;
+    Profile spent;
+    {
+      StageTimer timer(spent, "quality");
+      judge(scene, request, parts, bin_model);
+    }
+    scene.sensors = sensors;
+    if (options.render && !sensors.empty()) {
+      StageTimer timer(spent, "render");
+      result.images = rig.look(scene, request, parts, bin_model);
+    }
+    scene.report.profile.merge(spent);
+    if (options.prepare) options.prepare(result);
   }
 };
 
@@ -127,6 +148,7 @@ const PartModelPtr& Generator::bin_model() const {
 }
 
 void Generator::generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done) {
+  const CancelScope scope(options.hooks.cancel);
   check(request);
   Reporter reporter(options.hooks, request.scenes);
   Profile loading;
@@ -137,62 +159,61 @@ void Generator::generate(const Request& request, const Options& options, const s
   const std::vector<PartModelPtr>& parts = state_->models.parts();
   const PartModelPtr& bin_model = state_->models.bin();
   std::string solver_reason;
-  std::unique_ptr<Solver> solver;
+  std::shared_ptr<Solver> solver;
   {
     StageTimer timer(loading, "prepare");
     reporter.phase("prepare", request.first, request.part_count());
     solver = make_solver(request, parts, solver_reason);
   }
 
-  const auto judge_one = [&](Scene& scene) {
-    Profile judging;
-    {
-      StageTimer timer(judging, "quality");
-      judge(scene, request, parts, bin_model);
-    }
-    scene.report.profile.merge(judging);
-  };
-  const auto hand_on = [&](Scene&& scene) {
-    Result result;
-    result.scene = std::move(scene);
-    result.scene.sensors.clear();
-    for (const Sensor& sensor : request.sensors) result.scene.sensors.push_back(resolved(sensor, request.bin));
-    if (options.render && !request.sensors.empty()) {
-      Profile rendering;
-      {
-        StageTimer timer(rendering, "render");
-        reporter.phase("render", result.scene.index, result.scene.parts.size());
-        state_->see(result, request, options.silhouettes);
-      }
-      result.scene.report.profile.merge(rendering);
-    }
-    reporter.handed_on();
-    done(std::move(result));
-  };
-  Judging judging(judge_one, hand_on);
+  Finishing finishing([&](Result& result) { state_->finish(result, request, parts, bin_model, state_->sensors, options); },
+                      [&](Result&& result) {
+                        reporter.handed_on();
+                        done(std::move(result));
+                      },
+                      state_->at_once);
 
-  std::vector<std::size_t> indices(request.scenes);
-  std::iota(indices.begin(), indices.end(), request.first);
+  const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;
   hooks.progress = [&](const Progress& progress) {
     reporter.poured(progress);
-    judging.hand_on_judged();
+    finishing.hand_on_finished();
   };
-  pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
-    Report& report = scene.report;
-    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
-    report.solver_reason = solver_reason;
-    if (place == 0) report.profile.merge(loading);
-    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
-      if (std::find(parts.begin(), part, *part) != part) continue;
-      for (const Flag& flag : (*part)->load_report().flags) report.flags.push_back(flag);
-    }
+  pour(request, parts, *solver, scenes, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
+    State::name_origin(scene, parts, solver_reason);
+    if (place == 0) scene.report.profile.merge(loading);
     reporter.phase("quality", scene.index, scene.parts.size());
-    if (request.drift_check) state_->measure_drift(scene, request, *solver, options.hooks);
-    judging.add(place, std::move(scene));
-    judging.hand_on_judged();
+    if (request.drift_check) State::measure_drift(scene, request, parts, solver, bin_model, options.hooks);
+    finishing.add(place, std::move(scene));
+    finishing.hand_on_finished();
   });
-  judging.finish();
+  finishing.wait();
+}
+
+Heap Generator::heap(const Request& request, const RunHooks& hooks) {
+  const CancelScope scope(hooks.cancel);
+  check(request);
+  Reporter reporter(hooks, 1);
+  state_->load(request, reporter);
+  reporter.phase("prepare", request.first, request.part_count());
+  std::string reason;
+  std::shared_ptr<Solver> solver = make_solver(request, state_->models.parts(), reason);
+  return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
+}
+
+Generator::Result Generator::result(const Heap& heap, const Options& options) {
+  const CancelScope scope(options.hooks.cancel);
+  const Request& request = heap.request();
+  Reporter reporter(options.hooks, 1);
+  Result result;
+  result.scene = heap.scene();
+  State::name_origin(result.scene, heap.parts(), heap.solver_reason());
+  reporter.phase("quality", result.scene.index, result.scene.parts.size());
+  if (request.drift_check)
+    State::measure_drift(result.scene, request, heap.parts(), heap.solver(), heap.bin_model(), options.hooks);
+  state_->finish(result, request, heap.parts(), heap.bin_model(),
+                 resolved_sensors(request, heap.parts(), heap.bin_model()), options);
+  return result;
 }
 
 }  // namespace bin_scenes

@@ -1,6 +1,10 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 
+#include "generate/finishing.hpp"
+
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,17 +16,18 @@ namespace {
 
 // Bytes, set by the peak of whole runs (heaps of 64 to 2000 parts, on llvmpipe): the estimate has to catch requests
 // that cannot fit, not to count to the last byte.
-constexpr double program_bytes = 60e6;            // the tool with its libraries and threads
-constexpr double device_bytes = 75e6;             // an OpenGL context; of a software device, which lives in this process
-constexpr double per_triangle = 400.0;       // mesh, tree over it, copies on the device
-constexpr double per_body = 2000.0;          // state, definition, history of rest, report
-constexpr double per_sample = 64.0;          // contact sample with its normal
+constexpr double program_bytes = 60e6;        // the tool with its libraries and threads
+constexpr double device_bytes = 75e6;         // an OpenGL context; of a software device, which lives in this process
+constexpr double per_waiting_part = 500.0;    // of a scene that waits to be finished: pose, name, report
+constexpr double per_triangle = 400.0;        // mesh, tree over it, tree for rays, copies on the device
+constexpr double per_body = 2000.0;           // state, definition, history of rest, report
+constexpr double per_sample = 64.0;           // contact sample with its normal
 constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
 constexpr double per_contact = 160.0;
-constexpr double per_hull = 9000.0;         // of a body: Bullet keeps a manifold for each pair of hulls that are near
-constexpr double per_sphere = 120.0;        // of the thesis's solver, its share of grid and sorting included
+constexpr double per_hull = 9000.0;          // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
-constexpr double per_pixel = 140.0;         // depth, label, normal, intensity, on the device and here
+constexpr double per_pixel = 120.0;          // view, measured and true images, and a cloud on its way into a file
 
 double field_bytes(const PartModel& part, double relative_cell) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -48,7 +53,7 @@ double body_bytes(const Request& request, const PartModel* part) {
     options.max_hulls = solver.bullet.max_hulls;
     return per_body + per_hull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
   }
-  if (solver.preset == SolverSettings::Preset::standard) return per_body + contacts_per_body * per_contact;
+  if (solver.preset != SolverSettings::Preset::thesis) return per_body + contacts_per_body * per_contact;
   const ThesisSettings& thesis = solver.thesis;
   const double across = thesis.radii.empty() ? thesis.voxels : 0.5 / thesis.radii.back();
   const double spheres = 6.0 * std::pow(across / thesis.tightness, 2);
@@ -61,7 +66,19 @@ std::string in_megabytes(double bytes) {
   return text;
 }
 
+/// Images of one scene.
+double image_bytes(const Request& request) {
+  double bytes = 0.0;
+  for (const Sensor& sensor : request.sensors) bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
+  return bytes;
+}
+
 }  // namespace
+
+std::size_t scenes_seen_at_once(const Request& request, double estimate) {
+  const double one = std::max(1.0, image_bytes(request));
+  return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
+}
 
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
   double bodies = 0.0;
@@ -69,8 +86,12 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
     const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
     bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
   }
-  double pixels = 0.0;
-  for (const Sensor& sensor : request.sensors) pixels += per_pixel * sensor.width * static_cast<double>(sensor.height);
+  // The CPU pours as many scenes at once as it has threads, and some that are finished wait for a judge.
+  const double scenes = static_cast<double>(request.scenes), count = static_cast<double>(request.part_count());
+  const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
+  bodies *= std::min(scenes, at_once);
+  bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
+  const double pixels = image_bytes(request);
   double models = 0.0;
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) {
     models += model_bytes(request, *part);
@@ -78,7 +99,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   const bool thesis =
       request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
   const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
-  const double program = program_bytes + (thesis || !request.sensors.empty() ? device_bytes : 0.0);
+  const double program = program_bytes + (thesis ? device_bytes : 0.0);
   const double total = program + bodies + pixels + models + grid;
   if (total > request.memory_budget) {
     throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(bodies) +

@@ -1,5 +1,6 @@
 #include "bin_scenes/gl/program.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
@@ -24,6 +25,7 @@ std::string log_of(unsigned id, bool program) {
 }
 
 unsigned compile(unsigned stage, const ShaderSource& source) {
+  stop_if_cancelled();
   const unsigned id = glCreateShader(stage);
   const char* text = source.text.c_str();
   glShaderSource(id, 1, &text, nullptr);
@@ -92,10 +94,6 @@ Program Program::compute(const std::string& file, const Defines& defines) {
   return link(stem(file), {{GL_COMPUTE_SHADER, file}}, defines);
 }
 
-Program Program::graphics(const std::string& vertex_file, const std::string& fragment_file, const Defines& defines) {
-  return link(stem(vertex_file), {{GL_VERTEX_SHADER, vertex_file}, {GL_FRAGMENT_SHADER, fragment_file}}, defines);
-}
-
 Program::~Program() {
   if (id_) glDeleteProgram(id_);
 }
@@ -131,9 +129,6 @@ void Program::set(const char* uniform, unsigned value) const {
 }
 void Program::set(const char* uniform, float value) const {
   glProgramUniform1f(id_, location(uniform), value);
-}
-void Program::set(const char* uniform, const float (&matrix)[16]) const {
-  glProgramUniformMatrix4fv(id_, location(uniform), 1, GL_FALSE, matrix);
 }
 
 void barrier(Barrier kind) {

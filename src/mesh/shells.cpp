@@ -2,27 +2,21 @@
 
 #include "edge_uses.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include "core/disjoint_sets.hpp"
+
+#include <cmath>
 
 namespace bin_scenes::repair {
 
 Shells shells(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  DisjointSets triangles(mesh.triangles.size());
   for_each_edge(edge_uses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
-    if (last - first != 2) return;
-    const std::uint32_t a = root(first->triangle), b = root(first[1].triangle);
-    parent[std::max(a, b)] = std::min(a, b);
+    if (last - first == 2) triangles.join(first->triangle, first[1].triangle);
   });
   Shells result;
-  result.of_triangle.resize(parent.size());
-  for (std::uint32_t t = 0; t < parent.size(); ++t) {
-    const std::uint32_t r = root(t);
+  result.of_triangle.resize(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t r = triangles.root(t);
     result.of_triangle[t] = r == t ? static_cast<std::uint32_t>(result.count++) : result.of_triangle[r];
   }
   return result;

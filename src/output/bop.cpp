@@ -1,6 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "output/png.hpp"
+#include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -33,60 +33,11 @@ Json in_mm(const Vec3& v) {
   return {millimetres * v.x(), millimetres * v.y(), millimetres * v.z()};
 }
 
-/// Inclusive pixel bounds; BOP writes them as x, y, width, height and -1 for nothing.
-struct Box {
-  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-  void extend(int x, int y) {
-    left = std::min(left, x), top = std::min(top, y), right = std::max(right, x), bottom = std::max(bottom, y);
-  }
-  Json json() const {
-    if (right < left) return {-1, -1, -1, -1};
-    return {left, top, right - left + 1, bottom - top + 1};
-  }
-};
-
-/// Of the whole silhouette, hidden or outside the image included: the projected vertices.
-Json projected_box(const Mesh& mesh, const Pose& model_in_camera, const std::vector<double>& k) {
-  Box box;
-  for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 p = model_in_camera * vertex;
-    if (p.z() <= 1e-6) return Box().json();  // behind the camera: no box of the silhouette exists
-    box.extend(static_cast<int>(std::floor(k[0] * p.x() / p.z() + k[2] + 0.5)),
-               static_cast<int>(std::floor(k[4] * p.y() / p.z() + k[5] + 0.5)));
-  }
-  return box.json();
-}
-
-std::vector<Box> visible_boxes(const RangeImage& image, std::size_t parts) {
-  std::vector<Box> boxes(parts);
-  for (int y = 0; y < image.sensor.height; ++y) {
-    for (int x = 0; x < image.sensor.width; ++x) {
-      const std::uint16_t label = image.label[static_cast<std::size_t>(y) * image.sensor.width + x];
-      if (label > 0 && label <= parts) boxes[label - 1u].extend(x, y);
-    }
-  }
-  return boxes;
-}
-
-std::vector<std::uint8_t> visible_mask(const RangeImage& image, int id) {
-  std::vector<std::uint8_t> mask(image.label.size());
-  std::transform(image.label.begin(), image.label.end(), mask.begin(),
-                 [&](std::uint16_t label) { return label == id + 1 ? 255 : 0; });
-  return mask;
-}
-
-std::vector<std::uint8_t> whole_mask(const RangeImage& image, int id) {
-  const std::vector<bool>& silhouette = image.silhouette.at(static_cast<std::size_t>(id));
-  std::vector<std::uint8_t> mask(silhouette.size());
-  std::transform(silhouette.begin(), silhouette.end(), mask.begin(), [](bool in) { return in ? 255 : 0; });
-  return mask;
-}
-
 /// Parts that have a pose, each at the place of its id as far as ids go without a gap; the last ones fill the gaps.
 std::vector<const ScenePart*> in_places(const Scene& scene) {
   std::vector<const ScenePart*> there;
   for (const ScenePart& part : scene.parts) {
-    if (part.state != PartState::not_poured && part.pose.finite()) there.push_back(&part);
+    if (is_there(part.state) && part.pose.finite()) there.push_back(&part);
   }
   std::vector<const ScenePart*> places(there.size(), nullptr), late;
   for (const ScenePart* part : there) {
@@ -106,11 +57,11 @@ std::vector<const ScenePart*> in_places(const Scene& scene) {
 
 void write_gray(const std::string& path, const RangeImage& image) {
   std::vector<std::uint8_t> gray;
+  gray.reserve(image.intensity.size());
   for (const float value : image.intensity) {
-    gray.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)))
-                                        : 0);
+    gray.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f) : 0);
   }
-  write_png8(path, image.sensor.width, image.sensor.height, 1, gray);
+  write_bytes(path, png8(image.width, image.height, 1, gray));
 }
 
 void make_directory(const fs::path& path) {
@@ -136,7 +87,7 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
                const std::vector<RangeImage>& images) {
   const fs::path root(directory);
   for (const char* folder : {"depth", "gray", "mask_visib"}) make_directory(root / folder);
-  if (!images.empty() && !images[0].silhouette.empty()) make_directory(root / "mask");
+  if (!images.empty() && !images[0].silhouettes.empty()) make_directory(root / "mask");
   const std::vector<int> object_ids = bop_object_ids(parts);
   const std::vector<const ScenePart*> places = in_places(scene);
   Json camera = Json::object(), truth = Json::object(), info = Json::object();
@@ -145,35 +96,40 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
     const std::string key = std::to_string(n), file = six_digits(n);
     const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
     camera[key] = {{"cam_K", image.sensor.k},
-                   {"depth_scale", 0.1},
+                   {"depth_scale", millimetres * image.sensor.depth_scale},
                    {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
                    {"cam_t_w2c", in_mm(bin_in_camera.position)}};
-    write_png16((root / "depth" / (file + ".png")).string(), image.sensor.width, image.sensor.height,
-                depth_in_tenth_mm(image));
+    write_bytes((root / "depth" / (file + ".png")).string(),
+                png16(image.width, image.height, counted_depth(image.depth, image.sensor.depth_scale)));
     write_gray((root / "gray" / (file + ".png")).string(), image);
-    const std::vector<Box> boxes = visible_boxes(image, scene.parts.size());
+    const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
+    std::vector<std::size_t> valid(image.visible.size());
+    for (const std::uint16_t label : image.label) {
+      if (label) ++valid[label - 1u];
+    }
     truth[key] = Json::array();
     info[key] = Json::array();
     for (const ScenePart* placed : places) {
       const ScenePart& part = *placed;
       const Pose pose = bin_in_camera * part.pose;
       const std::size_t visible = image.visible.at(part.id), total = image.total.at(part.id);
+      const int width = image.sensor.width, height = image.sensor.height;
+      const Bytes seen = mask_png(width, height, visible_mask(image, part.id, boxes[part.id]));
+      const Bytes whole =
+          image.silhouettes.empty() ? Bytes() : mask_png(width, height, whole_mask(image.silhouettes.at(part.id)));
       for (const std::size_t number : std::set<std::size_t>{truth[key].size(), static_cast<std::size_t>(part.id)}) {
         const std::string name = file + "_" + six_digits(number) + ".png";
-        const auto write = [&](const char* folder, const std::vector<std::uint8_t>& mask) {
-          write_png8((root / folder / name).string(), image.sensor.width, image.sensor.height, 1, mask);
-        };
-        write("mask_visib", visible_mask(image, part.id));
-        if (!image.silhouette.empty()) write("mask", whole_mask(image, part.id));
+        write_bytes((root / "mask_visib" / name).string(), seen);
+        if (!whole.empty()) write_bytes((root / "mask" / name).string(), whole);
       }
       truth[key].push_back({{"cam_R_m2c", row_major(pose.orientation.toRotationMatrix())},
                             {"cam_t_m2c", in_mm(pose.position)},
                             {"obj_id", object_ids.at(part.line)},
                             {"id", part.id}});
-      info[key].push_back({{"bbox_obj", projected_box(parts.at(part.line)->mesh(), pose, image.sensor.k)},
-                           {"bbox_visib", boxes[part.id].json()},
+      info[key].push_back({{"bbox_obj", projected_box(parts.at(part.line)->mesh(), pose, image.sensor).xywh()},
+                           {"bbox_visib", boxes[part.id].xywh()},
                            {"px_count_all", total},
-                           {"px_count_valid", visible},
+                           {"px_count_valid", valid.at(part.id)},
                            {"px_count_visib", visible},
                            {"visib_fract", total ? static_cast<double>(visible) / static_cast<double>(total) : 0.0}});
     }

@@ -6,7 +6,9 @@
 #ifdef BIN_SCENES_HAS_PCL
 #include <pcl/io/pcd_io.h>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
 #endif
 
 namespace bin_scenes {
@@ -17,41 +19,37 @@ namespace {
 
 /// A point as it lies in the file; no padding.
 struct Point {
-  float x, y, z, normal_x, normal_y, normal_z, intensity;
+  std::array<float, 3> position, normal;
+  float intensity;
   std::uint32_t label;
 };
-static_assert(sizeof(Point) == 32, "one point is 32 bytes in the file");
+static_assert(sizeof(Point) == 32, "before its validity, one byte, a point is 32 bytes in the file");
+constexpr std::size_t point_bytes = sizeof(Point) + 1;
 
-pcl::PCLPointCloud2 cloud_of(const RangeImage& image) {
+pcl::PCLPointCloud2 header_of(const RangeImage& image) {
   pcl::PCLPointCloud2 cloud;
-  cloud.width = image.sensor.width;
-  cloud.height = image.sensor.height;
+  cloud.width = image.width;
+  cloud.height = image.height;
   cloud.is_dense = false;
-  cloud.point_step = sizeof(Point);
+  cloud.point_step = point_bytes;
   cloud.row_step = cloud.width * cloud.point_step;
   std::uint32_t offset = 0;
-  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label"}) {
+  const auto add = [&](const char* name, std::uint8_t type, std::uint32_t size) {
     pcl::PCLPointField field;
     field.name = name;
     field.offset = offset;
     field.count = 1;
-    field.datatype = field.name == "label" ? pcl::PCLPointField::UINT32 : pcl::PCLPointField::FLOAT32;
+    field.datatype = type;
     cloud.fields.push_back(field);
-    offset += 4;
+    offset += size;
+  };
+  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity"}) {
+    add(name, pcl::PCLPointField::FLOAT32, 4);
   }
-  cloud.data.resize(static_cast<std::size_t>(cloud.row_step) * cloud.height);
-  for (int row = 0; row < image.sensor.height; ++row) {
-    for (int column = 0; column < image.sensor.width; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * image.sensor.width + column;
-      const auto [x, y, z] = point_at(image, column, row);
-      const auto& n = image.normal[i];
-      const Point point = {x, y, z, n[0], n[1], n[2], image.intensity[i], image.label[i]};
-      std::memcpy(&cloud.data[i * sizeof(Point)], &point, sizeof(Point));
-    }
-  }
+  add("label", pcl::PCLPointField::UINT32, 4);
+  add("validity", pcl::PCLPointField::UINT8, 1);
   return cloud;
 }
-
 }  // namespace
 
 bool pcd_supported() {
@@ -63,11 +61,18 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   Eigen::Vector4f origin(0, 0, 0, 1);
   origin.head<3>() = pose.position.cast<float>();
   // Only the header by PCL's hand: it writes files through a mapping, where a full disk is a signal and no error.
-  const pcl::PCLPointCloud2 cloud = cloud_of(image);
-  std::string bytes =
-      pcl::PCDWriter().generateHeaderBinary(cloud, origin, pose.orientation.cast<float>()) + "DATA binary\n";
-  bytes.append(cloud.data.begin(), cloud.data.end());
-  write_bytes(path, bytes.data(), bytes.size());
+  const std::string header =
+      pcl::PCDWriter().generateHeaderBinary(header_of(image), origin, pose.orientation.cast<float>()) + "DATA binary\n";
+  const std::size_t points = image.depth.size(), size = header.size() + points * point_bytes;
+  const std::unique_ptr<char[]> bytes(new char[size]);  // tens of megabytes: not written twice
+  char* at = std::copy(header.begin(), header.end(), bytes.get());
+  const std::vector<std::array<float, 3>> positions = points_of(image);
+  for (std::size_t i = 0; i < points; ++i, at += point_bytes) {
+    const Point point = {positions[i], image.normal[i], image.intensity[i], image.label[i]};
+    std::memcpy(at, &point, sizeof(Point));
+    at[sizeof(Point)] = static_cast<char>(image.validity[i]);
+  }
+  write_bytes(path, bytes.get(), size);
 }
 
 #else

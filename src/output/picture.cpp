@@ -9,9 +9,9 @@ namespace {
 
 using Colour = Eigen::Array3d;
 
-constexpr double ink = 0.35;       ///< brightness left on the line between two parts
-constexpr double hollow_color = 0.65;    ///< how much of its light a hollow may lose
-constexpr int neighbourhood = 10;  ///< pixels around one that tell whether it lies in a hollow
+constexpr double ink = 0.35;           ///< brightness left on the line between two parts
+constexpr double hollow_color = 0.65;  ///< how much of its light a hollow may lose
+constexpr int neighbourhood = 10;      ///< pixels around one that tell whether it lies in a hollow
 
 /// Hues a golden angle apart: neighbours in id are far apart in colour, however many there are. Saturation and value
 /// take turns, so that equal hues still differ.
@@ -28,15 +28,19 @@ Colour part_colour(std::size_t id) {
 
 /// Mean depth around each pixel, by a summed-area table (Crow 1984); unseen pixels do not count.
 std::vector<double> mean_depth(const RangeImage& image) {
-  const int width = image.sensor.width, height = image.sensor.height;
+  const int width = image.width, height = image.height;
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * (width + 1) + x; };
-  std::vector<double> sum(static_cast<std::size_t>(width + 1) * (height + 1)), count(sum.size());
+  struct Sum {
+    double depth = 0.0, count = 0.0;
+  };
+  std::vector<Sum> sum(static_cast<std::size_t>(width + 1) * (height + 1));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float z = image.depth[static_cast<std::size_t>(y) * width + x];
       const bool seen = std::isfinite(z);
-      sum[at(x + 1, y + 1)] = (seen ? z : 0.0) + sum[at(x, y + 1)] + sum[at(x + 1, y)] - sum[at(x, y)];
-      count[at(x + 1, y + 1)] = seen + count[at(x, y + 1)] + count[at(x + 1, y)] - count[at(x, y)];
+      const Sum &left = sum[at(x, y + 1)], &above = sum[at(x + 1, y)], &corner = sum[at(x, y)];
+      sum[at(x + 1, y + 1)] = {(seen ? z : 0.0) + left.depth + above.depth - corner.depth,
+                               seen + left.count + above.count - corner.count};
     }
   }
   std::vector<double> mean(image.depth.size());
@@ -44,10 +48,10 @@ std::vector<double> mean_depth(const RangeImage& image) {
     for (int x = 0; x < width; ++x) {
       const int x0 = std::max(0, x - neighbourhood), x1 = std::min(width, x + neighbourhood + 1);
       const int y0 = std::max(0, y - neighbourhood), y1 = std::min(height, y + neighbourhood + 1);
-      const auto box = [&](const std::vector<double>& t) {
-        return t[at(x1, y1)] - t[at(x0, y1)] - t[at(x1, y0)] + t[at(x0, y0)];
-      };
-      mean[static_cast<std::size_t>(y) * width + x] = box(sum) / std::max(1.0, box(count));
+      const Sum &last = sum[at(x1, y1)], &left = sum[at(x0, y1)], &above = sum[at(x1, y0)], &corner = sum[at(x0, y0)];
+      mean[static_cast<std::size_t>(y) * width + x] =
+          (last.depth - left.depth - above.depth + corner.depth) /
+          std::max(1.0, last.count - left.count - above.count + corner.count);
     }
   }
   return mean;
@@ -56,7 +60,7 @@ std::vector<double> mean_depth(const RangeImage& image) {
 }  // namespace
 
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
-  const int width = image.sensor.width, height = image.sensor.height;
+  const int width = image.width, height = image.height;
   const Colour sky(0.97, 0.97, 0.98), bin(0.80, 0.82, 0.85);
   const Vec3 light = Vec3(-0.45, -0.65, -1.0).normalized();  // optical frame: left, up, towards the camera
 
@@ -85,7 +89,7 @@ std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
       const bool down = y + 1 < height && image.label[i + width] != image.label[i];
       if (right || down) colour *= ink;
       for (int c = 0; c < 3; ++c) {
-        rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0))));
+        rgb.push_back(static_cast<std::uint8_t>(255.0 * std::clamp(colour[c], 0.0, 1.0) + 0.5));
       }
     }
   }

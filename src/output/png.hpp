@@ -1,25 +1,43 @@
 /// Lossless images, and bytes to a file in one go.
 #pragma once
 
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace bin_scenes {
 
-/// Row-major samples, `channels` (1 = grey, 3 = RGB) a pixel. Throws an environment Error.
-void write_png8(const std::string& path, int width, int height, int channels, const std::vector<std::uint8_t>& samples);
-void write_png16(const std::string& path, int width, int height, const std::vector<std::uint16_t>& samples);
+using Bytes = std::vector<std::uint8_t>;
 
-/// Depth in units of 0.1 mm, 0 where nothing was seen, 65535 where it is 6.5535 m or more.
-std::vector<std::uint16_t> depth_in_tenth_mm(const RangeImage& image);
+/// Row-major samples, `channels` (1 = grey, 3 = RGB) a pixel. Throws an environment Error.
+Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>& samples);
+Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples);
+
+/// A picture of few colours: a third of the bytes of RGB, and of the time to pack them.
+struct Palette {
+  int width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 3>> colours;  ///< at most 256
+  std::vector<std::uint8_t> pixels;                  ///< row-major, index into colours
+};
+Bytes png_of(const Palette& picture);
+
+/// Depth in counts of the sensor's depth_scale, 0 where nothing is valid, 65535 where it is that many or more.
+std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double scale);
 
 /// The scene as a picture, RGB: a colour a part, light from the upper left, edges and hollows darkened.
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image);
+/// Depth in colours, with a bar that tells them in metres.
+Palette depth_picture(const RangeImage& image);
+/// Validity in colours, with a legend of the codes that occur.
+Palette validity_picture(const RangeImage& image);
 
 /// Through a temporary name.
 void write_bytes(const std::string& path, const void* data, std::size_t size);
+inline void write_bytes(const std::string& path, const Bytes& bytes) {
+  write_bytes(path, bytes.data(), bytes.size());
+}
 
 }  // namespace bin_scenes

@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -47,14 +48,50 @@ Json json_of(const Bin& bin) {
 }
 
 Json json_of(const Sensor& sensor) {
-  return {{"name", sensor.name},
-          {"frame", sensor.name + "_optical_frame"},
-          {"pose", json_of(sensor.pose.value_or(Pose()))},
-          {"width", sensor.width},
-          {"height", sensor.height},
-          {"K", sensor.k},
-          {"near", sensor.near},
-          {"far", sensor.far}};
+  Json json = {{"name", sensor.name},
+               {"frame", sensor.name + "_optical_frame"},
+               {"model", name_of(sensor.model)},
+               {"preset", sensor.preset},
+               {"pose", json_of(sensor.pose.value_or(Pose()))},
+               {"width", sensor.width},
+               {"height", sensor.height},
+               {"K", sensor.k},
+               {"distortion", sensor.distortion},
+               {"near", sensor.near},
+               {"far", sensor.far},
+               {"depth_scale", sensor.depth_scale},
+               {"noise", sensor.noise}};
+  if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
+    const Projector& p = sensor.projector;
+    json["projector"] = {{"pose", json_of(p.pose.value_or(Pose()))},
+                         {"width", p.width},
+                         {"height", p.height},
+                         {"fov", p.fov},
+                         {"distortion", p.distortion}};
+  }
+  if (sensor.model == SensorModel::laser_line) json["laser"] = {{"pose", json_of(sensor.laser.pose.value_or(Pose()))}};
+  return json;
+}
+
+/// What the sensor's camera truly has of each part.
+Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<PartModelPtr>& models) {
+  const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
+  const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  Json truth = Json::array();
+  for (const ScenePart& part : scene.parts) {
+    if (!is_there(part.state) || !part.pose.finite()) continue;
+    const auto id = static_cast<std::size_t>(part.id);
+    const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_camera * part.pose, image.sensor);
+    const double all = static_cast<double>(image.total.at(id));
+    truth.push_back({{"id", part.id},
+                     {"pose_in_camera", json_of(bin_in_camera * part.pose)},
+                     {"visible_fraction", all > 0.0 ? static_cast<double>(image.visible.at(id)) / all : 0.0},
+                     {"bbox_visib", boxes.at(id).xywh()},
+                     {"bbox_obj", whole.xywh()},
+                     {"px_count_visib", image.visible.at(id)},
+                     {"px_count_all", image.total.at(id)}});
+  }
+  return truth;
 }
 
 Json json_of(const ScenePart& part) {
@@ -80,6 +117,7 @@ Json json_of(const Report& report) {
                {"solver", report.solver},
                {"solver_reason", report.solver_reason},
                {"device", report.device},
+               {"finish", report.finish},
                {"simulated_s", report.simulated_s},
                {"wall_s", report.wall_s},
                {"steps", report.steps},
@@ -100,6 +138,7 @@ Json json_of(const Report& report) {
     json["drift"] = json_of(static_cast<const Quantiles&>(report.drift));
     json["drift"]["turn_p95"] = report.drift.turn_p95;
   }
+  json["energy"] = {{"gain", report.energy.gain}, {"time", report.energy.time}, {"part", report.energy.part}};
   json["escaped"] = report.escaped;
   json["not_poured"] = report.not_poured;
   char hash[17];  // as text: many readers of JSON keep only 53 bits of a number
@@ -133,7 +172,8 @@ Pose pose_of(const Json& json) {
 
 PartState state_of(const std::string& name) {
   for (const PartState state :
-       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured}) {
+       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured,
+        PartState::removed}) {
     if (name == name_of(state)) return state;
   }
   throw std::runtime_error("'" + name + "' is no state of a part");
@@ -162,6 +202,7 @@ Report report_of(const Json& json) {
   report.solver = json.value("solver", "");
   report.solver_reason = json.value("solver_reason", "");
   report.device = json.value("device", "");
+  report.finish = json.value("finish", "");
   report.simulated_s = json.value("simulated_s", 0.0);
   report.wall_s = json.value("wall_s", 0.0);
   report.steps = json.value("steps", std::uint64_t{0});
@@ -173,12 +214,16 @@ Report report_of(const Json& json) {
 
 }  // namespace
 
-std::string scene_json(const Scene& scene, const Request& request) {
+std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images,
+                       const std::vector<PartModelPtr>& parts) {
   Json json = {{"format", scene_format}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
   json["gravity"] = json_of(request.gravity);
   json["request_sha256"] = request.text_sha256;
   json["sensors"] = Json::array();
-  for (const Sensor& sensor : scene.sensors) json["sensors"].push_back(json_of(sensor));
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    json["sensors"].push_back(json_of(scene.sensors[i]));
+    if (i < images.size()) json["sensors"].back()["truth"] = truth_of(scene, images[i], parts);
+  }
   for (std::size_t line = 0; line < scene.model_sha256.size() && line < request.parts.size(); ++line) {
     json["models"].push_back({{"model", request.parts[line].model}, {"sha256", scene.model_sha256[line]}});
   }

@@ -106,12 +106,12 @@ HullPlanes::HullPlanes(const Mesh& hull) : bounds_(hull.bounds()) {
 
 double HullPlanes::outside(const Vec3& p) const {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Plane& plane : planes_) most = std::max(most, plane.normal.dot(p) - plane.offset);
+  for (const Plane& plane : planes_) most = std::max(most, plane.above(p));
   return most;
 }
 
 bool HullPlanes::outside_by_more(const Vec3& p, double limit) const {
-  const auto beyond = [&](const Plane& plane) { return plane.normal.dot(p) - plane.offset > limit; };
+  const auto beyond = [&](const Plane& plane) { return plane.above(p) > limit; };
   return std::any_of(planes_.begin(), planes_.end(), beyond);
 }
 

@@ -1,50 +1,14 @@
 #include "bin_scenes/pour/pour.hpp"
 
-#include "pour/pour_world.hpp"
-#include "solver/step_limit.hpp"
+#include "pour/settle_heaps.hpp"
 
-#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/cancel.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
+#include <map>
 
 namespace bin_scenes {
-
-namespace {
-
-constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two looks at a world
-
-struct Running {
-  std::size_t place;  ///< in the list of indices
-  std::unique_ptr<PourWorld> world;
-  std::chrono::steady_clock::time_point begin;
-};
-
-/// Worlds that are simulated and looked at together. Of two groups one is looked at while the device works on the
-/// other.
-struct Group {
-  std::vector<Running> running;
-  std::uint64_t left = 0;       ///< steps to the end of the slice
-  std::uint64_t clock = 0;      ///< steps of the world that is traced
-  bool begun = false;           ///< a piece of the slice
-  std::uint64_t under_way = 0;  ///< its steps
-  double seconds = 0.0;         ///< simulated by them
-  std::vector<WorldId> ids() const {
-    std::vector<WorldId> all;
-    for (const Running& r : running) all.push_back(r.world->id());
-    return all;
-  }
-};
-
-/// Step at whose end the next sample of a trace is due: the one nearest to a multiple of 1 / rate (Hz).
-std::uint64_t next_sample(std::uint64_t now, double rate, double step) {
-  const double number = std::floor((static_cast<double>(now) + 0.5) * step * rate) + 1.0;
-  return std::max(now + 1, static_cast<std::uint64_t>(std::llround(number / (rate * step))));
-}
-
-}  // namespace
 
 WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model) {
   WorldDef world;
@@ -89,112 +53,40 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
 }
 
 void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
           const std::function<void(std::size_t, Scene&&)>& poured) {
-  const PourPlan plan(request, parts, std::move(bin_model));
-  const double step = solver.step_size();
-  const auto slice = static_cast<std::uint64_t>(std::max(1.0, std::round(slice_seconds / step)));
-  const bool tracing = hooks.trace && hooks.trace_rate > 0.0;
-  // Trace samples count from each world's own start, so a traced world runs by itself. It makes no other difference.
-  const std::size_t at_once = tracing ? 1 : std::max<std::size_t>(1, solver.worlds_at_once());
-  std::vector<Group> groups(solver.works_aside() && at_once > 1 ? 2 : 1);
-  const std::size_t group_size = at_once / groups.size();
-
-  std::size_t next = 0, done = 0;
-  double fraction = 0.0;
-  double last_sample = 0.0;  // s
+  const CancelScope scope(hooks.cancel);
+  struct Running {
+    std::unique_ptr<HeapCore> heap;
+    std::chrono::steady_clock::time_point begin;
+  };
+  const auto plan = std::make_shared<const PourPlan>(request, parts, std::move(bin_model));
   const Profile before = solver.profile();
-
-  const auto sample = [&](Running& r) {
-    last_sample = r.world->time();
-    hooks.trace(r.world->index(), last_sample, r.world->states());
+  std::map<std::size_t, Running> running;
+  HeapSource source;
+  source.count = scenes.count;
+  source.next = [&](std::size_t place) -> HeapCore& {
+    Running& r = running[place];
+    r.begin = std::chrono::steady_clock::now();
+    r.heap = std::make_unique<HeapCore>(plan, solver, scenes.index(place));
+    return *r.heap;
   };
-  const auto finish_if = [&](Group& group, auto&& over) {
-    const auto finished = [&](Running& r) {
-      if (!over(*r.world)) return false;
-      if (tracing && r.world->time() > last_sample) sample(r);
-      Scene scene = r.world->scene();
-      scene.report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - r.begin).count();
-      r.world.reset();
-      ++done;
-      if (indices.size() == 1) scene.report.profile.merge(solver.profile().since(before));  // worlds share its counters
-      poured(r.place, std::move(scene));
-      return true;
-    };
-    group.running.erase(std::remove_if(group.running.begin(), group.running.end(), finished), group.running.end());
+  source.over = [&](std::size_t place) {
+    Scene scene = running[place].heap->scene();
+    scene.report.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - running[place].begin).count();
+    running.erase(place);
+    if (scenes.count == 1) scene.report.profile.merge(solver.profile().since(before));  // heaps share its counters
+    poured(place, std::move(scene));
   };
-  const auto fill = [&](Group& group) {
-    if (group.running.empty()) group.clock = 0;
-    while (group.running.size() < group_size && next < indices.size()) {
-      group.running.push_back({next, nullptr, std::chrono::steady_clock::now()});
-      Running& r = group.running.back();
-      r.world = std::make_unique<PourWorld>(plan, solver, indices[next++]);
-      if (tracing) sample(r);
-    }
-    group.left = slice;
-  };
-  // A slice, in pieces that also end where a trace sample or a world's set time is due.
-  const auto begin_piece = [&](Group& group) {
-    std::uint64_t steps = group.left;
-    if (tracing) steps = std::min(steps, next_sample(group.clock, hooks.trace_rate, step) - group.clock);
-    double seconds = static_cast<double>(steps) * step;
-    for (const Running& r : group.running) seconds = std::min(seconds, r.world->time_left());
-    group.under_way = steps_in(seconds, step).count();
-    if (group.under_way > 0) group.seconds = solver.begin(group.ids(), seconds);
-  };
-  const auto end_piece = [&](Group& group) {
-    if (group.under_way > 0) {
-      solver.finish(group.ids());
-      for (Running& r : group.running) r.world->advanced(group.seconds);
-      const bool due =
-          tracing && group.clock + group.under_way == next_sample(group.clock, hooks.trace_rate, step);
-      group.clock += group.under_way;
-      group.left -= group.under_way;
-      if (due)
-        for (Running& r : group.running) sample(r);
-    }
-    finish_if(group, [&](PourWorld& world) {
-      if (world.time_left() > 0.0) return false;
-      world.judge();
-      return true;
-    });
-  };
-  const auto tell = [&](const Group& looked_at) {
-    if (!hooks.progress) return;
-    double sum = static_cast<double>(done);
-    for (const Group& group : groups)
-      for (const Running& r : group.running) sum += r.world->progress().fraction;
-    fraction = std::max(fraction, sum / static_cast<double>(indices.size()));
-    for (const Running& r : looked_at.running) {
-      Progress progress = r.world->progress();
-      progress.fraction = fraction;
-      hooks.progress(progress);
-    }
-  };
-
-  for (Group& group : groups) fill(group);
-  while (done < indices.size()) {
-    for (Group& group : groups) {
-      if (hooks.cancel && hooks.cancel->load()) throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
-      if (group.begun) {
-        end_piece(group);
-        if (group.left == 0) {
-          for (Running& r : group.running) r.world->look();
-          tell(group);
-          finish_if(group, [](PourWorld& world) { return world.over(); });
-        }
-        if (group.left == 0 || group.running.empty()) fill(group);
-      }
-      group.begun = !group.running.empty();
-      if (group.begun) begin_piece(group);
-    }
-  }
+  settle_heaps(solver, source, hooks);
 }
 
 std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
                         const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
   std::vector<Scene> scenes(indices.size());
-  pour(request, parts, solver, indices, hooks, std::move(bin_model),
+  const SceneList list{indices.size(), [&](std::size_t place) { return indices[place]; }};
+  pour(request, parts, solver, list, hooks, std::move(bin_model),
        [&](std::size_t place, Scene&& scene) { scenes[place] = std::move(scene); });
   return scenes;
 }

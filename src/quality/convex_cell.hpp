@@ -1,18 +1,11 @@
 /// Small convex polyhedra made by cutting a box with half-spaces, and the exact depth of two of them.
 #pragma once
 
-#include "bin_scenes/core/types.hpp"
+#include "bin_scenes/part/hull_geometry.hpp"
 
 #include <vector>
 
 namespace bin_scenes {
-
-/// Half-space normal . x <= offset; the normal points out of the solid.
-struct Plane {
-  Vec3 normal = Vec3::UnitZ();
-  double offset = 0.0;
-  double above(const Vec3& x) const { return normal.dot(x) - offset; }
-};
 
 class ConvexCell {
  public:

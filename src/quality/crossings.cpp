@@ -1,5 +1,7 @@
 #include "crossings.hpp"
 
+#include "core/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -112,32 +114,26 @@ std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Po
 
 std::vector<std::vector<std::size_t>> connected(const std::vector<Crossing>& crossings, double tolerance) {
   const std::size_t count = crossings.size();
-  std::vector<std::size_t> order(count), parent(count);
+  std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  DisjointSets sets(count);
   const auto left = [&](std::size_t i) { return crossings[i].box.lower.x(); };
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t j) { return left(i) != left(j) ? left(i) < left(j) : i < j; });
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
   std::vector<std::size_t> active;
   for (const std::size_t i : order) {
     active.erase(std::remove_if(active.begin(), active.end(),
                                 [&](std::size_t j) { return crossings[j].box.upper.x() + tolerance < left(i); }),
                  active.end());
-    for (const std::size_t j : active) {
-      if (!crossings[i].box.overlaps(crossings[j].box, tolerance)) continue;
-      const std::size_t r = root(i), s = root(j);
-      parent[std::max(r, s)] = std::min(r, s);
-    }
+    for (const std::size_t j : active)
+      if (crossings[i].box.overlaps(crossings[j].box, tolerance))
+        sets.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
     active.push_back(i);
   }
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::size_t> group_of(count, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t r = root(i);  // the smallest of its group, so it comes first
+    const std::size_t r = sets.root(static_cast<std::uint32_t>(i));  // the smallest of its group, so it comes first
     if (r == i) {
       group_of[i] = groups.size();
       groups.emplace_back();

@@ -1,4 +1,6 @@
 #include "core/in_parallel.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "gap.hpp"
 
 #include <algorithm>
@@ -15,7 +17,7 @@ constexpr double noise = 1e-6;
 std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModelPtr>& models) {
   std::vector<Placed> placed;
   for (const ScenePart& part : scene.parts) {
-    if (part.state == PartState::not_poured || !part.pose.finite()) continue;
+    if (!is_there(part.state) || !part.pose.finite()) continue;
     const PartModel& model = *models[part.line];
     Placed p{&part, &model.query(), model.diagonal(), {}};
     for (const Vec3& v : model.mesh().vertices) p.box.extend(part.pose * v);
@@ -35,6 +37,7 @@ std::vector<Overlapping> near_pairs(const std::vector<Placed>& placed) {
   const auto fixed = [&](std::size_t i) { return placed[i].part->state == PartState::fixed; };
   std::vector<Overlapping> pairs;
   for (std::size_t s = 0; s < order.size(); ++s) {
+    stop_if_cancelled();
     const Placed& one = placed[order[s]];
     for (std::size_t t = s + 1; t < order.size() && placed[order[t]].box.lower.x() <= one.box.upper.x(); ++t) {
       if (!one.box.overlaps(placed[order[t]].box) || (fixed(order[s]) && fixed(order[t]))) continue;
@@ -163,7 +166,14 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
     report.reasons.push_back("part " + std::to_string(worst_gap.what) + " could fall by " + percent(worst_gap.value) +
                              " of its size, which is above accept.gap " + percent(request.accept.gap));
   }
-  const auto is_in = [](const ScenePart& p) { return p.state != PartState::not_poured && p.state != PartState::fixed; };
+  if (report.energy.gain > request.accept.energy) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
+                  report.energy.part, report.energy.gain, report.energy.time, request.accept.energy);
+    report.reasons.push_back(text);
+  }
+  const auto is_in = [](const ScenePart& p) { return is_there(p.state) && p.state != PartState::fixed; };
   if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
     report.reasons.push_back("nothing was poured: no part found room below the rim");
   }
@@ -183,7 +193,7 @@ DriftReport drift(const Scene& before, const Scene& after, const std::vector<Par
   DriftReport report;
   std::vector<double> moves, turns;
   for (const ScenePart& start : before.parts) {
-    if (start.state == PartState::fixed || start.state == PartState::not_poured || !start.pose.finite()) continue;
+    if (start.state == PartState::fixed || !is_there(start.state) || !start.pose.finite()) continue;
     const auto end =
         std::find_if(after.parts.begin(), after.parts.end(), [&](const ScenePart& p) { return p.id == start.id; });
     if (end == after.parts.end() || !end->pose.finite()) continue;

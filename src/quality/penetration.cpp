@@ -9,14 +9,15 @@
 /// side of the same faces give the same sets and are judged once.
 #include "penetration.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "convex_cell.hpp"
+#include "core/disjoint_sets.hpp"
 #include "crossings.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <numeric>
 
 namespace bin_scenes {
 
@@ -139,24 +140,18 @@ std::vector<Vec3> centers_inside(const OverlapSide& one, const Pose& to_frame, c
     corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  std::vector<std::size_t> parent(corners.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::uint32_t vertex) {
-    auto i = static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), vertex) - corners.begin());
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
+  const auto place = [&](std::uint32_t vertex) {
+    return static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), vertex) - corners.begin());
   };
-  for (const std::size_t t : triangles) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const std::size_t top = std::min({root(a), root(b), root(c)});
-    for (const std::uint32_t v : {a, b, c}) parent[root(v)] = top;
-  }
-  std::map<std::size_t, bool> inside;  // by root
+  DisjointSets sets(corners.size());
+  for (const std::size_t t : triangles)
+    for (const int k : {1, 2}) sets.join(place(mesh.triangles[t][0]), place(mesh.triangles[t][k]));
+  std::map<std::uint32_t, bool> inside;  // by root
   std::vector<Vec3> centers;
   for (const std::size_t t : triangles) {
     const auto [p, q, r] = points_of(mesh, t);
     const Vec3 center = (p + q + r) / 3.0;
-    const auto [verdict, added] = inside.try_emplace(root(mesh.triangles[t][0]), false);
+    const auto [verdict, added] = inside.try_emplace(sets.root(place(mesh.triangles[t][0])), false);
     if (added) verdict->second = other.query.inside(to_other * center);
     if (verdict->second) centers.push_back(to_frame * center);
   }
@@ -189,6 +184,7 @@ Separation depth_within(const OverlapSide& a, const OverlapSide& b, const Pose& 
   });
   Separation best;
   for (const Group& group : order) {
+    stop_if_cancelled();
     const ConvexCell& cell_b = cells_b.cell(group.cell_b);
     const double known = std::max(enough, best.depth);
     if (cell_b.empty() || cells_a.bound(group.cell_a, cell_b) <= known) continue;

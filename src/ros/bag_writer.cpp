@@ -77,6 +77,7 @@ void write_bag(const std::string& path, const Scene& scene, const Request& reque
       bag.write(name(topic::depth), image.depth, Latch::yes);
       bag.write(name(topic::camera_info), image.camera_info, Latch::yes);
       bag.write(name(topic::labels), image.labels, Latch::yes);
+      bag.write(name(topic::validity), image.validity, Latch::yes);
     }
     bag.close();
     if (std::rename(unfinished.c_str(), path.c_str()) != 0) throw rosbag::BagIOException("cannot be renamed");

@@ -1,7 +1,7 @@
 /// A scene as a bag, without a ROS master.
 #pragma once
 
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 #include "topics.hpp"
 
 #include <string>

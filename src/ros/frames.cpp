@@ -32,6 +32,12 @@ std::string part_frame(int id) {
 std::string sensor_frame(const std::string& sensor) {
   return sensor + "_optical_frame";
 }
+std::string projector_frame(const std::string& sensor) {
+  return sensor + "_projector_optical_frame";
+}
+std::string laser_frame(const std::string& sensor) {
+  return sensor + "_laser_frame";
+}
 
 geometry_msgs::Pose pose_message(const Pose& pose) {
   geometry_msgs::Pose message;
@@ -70,6 +76,13 @@ tf2_msgs::TFMessage static_transforms(const Scene& scene, const Frames& frames, 
   for (const Sensor& sensor : scene.sensors) {
     if (!sensor.pose) continue;
     message.transforms.push_back(transform(frames.bin, sensor_frame(sensor.name), *sensor.pose, stamp));
+    const bool projects = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
+    if (projects && sensor.projector.pose) {
+      message.transforms.push_back(transform(frames.bin, projector_frame(sensor.name), *sensor.projector.pose, stamp));
+    }
+    if (sensor.model == SensorModel::laser_line && sensor.laser.pose) {
+      message.transforms.push_back(transform(frames.bin, laser_frame(sensor.name), *sensor.laser.pose, stamp));
+    }
   }
   return message;
 }

@@ -18,7 +18,9 @@ struct Frames {
 };
 
 std::string part_frame(int id);                       ///< "part_0007"
-std::string sensor_frame(const std::string& sensor);  ///< "<name>_optical_frame"
+std::string sensor_frame(const std::string& sensor);     ///< "<name>_optical_frame"
+std::string projector_frame(const std::string& sensor);  ///< "<name>_projector_optical_frame"
+std::string laser_frame(const std::string& sensor);      ///< "<name>_laser_frame"
 
 geometry_msgs::Pose pose_message(const Pose& pose);
 /// The inverse. A quaternion of four zeros, the default of a message, is the identity.

@@ -1,12 +1,16 @@
 #include "image_messages.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
 #include "frames.hpp"
 
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -29,12 +33,12 @@ sensor_msgs::PointField field(const char* name, std::size_t offset, std::uint8_t
 }
 
 template <class Pixel>
-sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const Sensor& sensor, const std::string& encoding,
+sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& image, const std::string& encoding,
                          const std_msgs::Header& header) {
   sensor_msgs::Image message;
   message.header = header;
-  message.width = static_cast<std::uint32_t>(sensor.width);
-  message.height = static_cast<std::uint32_t>(sensor.height);
+  message.width = static_cast<std::uint32_t>(image.width);
+  message.height = static_cast<std::uint32_t>(image.height);
   message.encoding = encoding;
   message.is_bigendian = false;
   message.step = static_cast<std::uint32_t>(message.width * sizeof(Pixel));
@@ -43,14 +47,37 @@ sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const Sensor& sensor,
   return message;
 }
 
+/// Depth as a camera without distortion would have it.
+std::vector<float> rectified(const RangeImage& image) {
+  const Lens taken = lens_of(image.sensor);
+  Lens pinhole = taken;
+  pinhole.distortion = {};
+  std::vector<float> depth(image.depth.size(), std::numeric_limits<float>::quiet_NaN());
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const auto pixel = taken.project(pinhole.ray(column, row));
+      if (!pixel || !taken.inside(*pixel)) continue;
+      const auto x = static_cast<std::size_t>(std::clamp(std::lround(pixel->x()), 0l, image.width - 1l));
+      const auto y = static_cast<std::size_t>(std::clamp(std::lround(pixel->y()), 0l, image.height - 1l));
+      depth[static_cast<std::size_t>(row) * image.width + column] = image.depth[y * image.width + x];
+    }
+  }
+  return depth;
+}
+
+/// Whether pixels of what was measured are pixels of the camera; rows of a laser line's image are profiles.
+bool of_camera(const RangeImage& image) {
+  return image.width == image.sensor.width && image.height == image.sensor.height && image.points.empty();
+}
+
 }  // namespace
 
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header) {
   using Field = sensor_msgs::PointField;
   sensor_msgs::PointCloud2 message;
   message.header = header;
-  message.width = static_cast<std::uint32_t>(image.sensor.width);
-  message.height = static_cast<std::uint32_t>(image.sensor.height);
+  message.width = static_cast<std::uint32_t>(image.width);
+  message.height = static_cast<std::uint32_t>(image.height);
   message.fields = {field("x", offsetof(Point, x), Field::FLOAT32),
                     field("y", offsetof(Point, y), Field::FLOAT32),
                     field("z", offsetof(Point, z), Field::FLOAT32),
@@ -65,10 +92,11 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   message.row_step = message.point_step * message.width;
   message.data.resize(std::size_t(message.row_step) * message.height);
   std::uint8_t* out = message.data.data();
-  for (int row = 0; row < image.sensor.height; ++row) {
-    for (int column = 0; column < image.sensor.width; ++column) {
-      const std::size_t pixel = std::size_t(row) * image.sensor.width + column;
-      const auto p = point_at(image, column, row);
+  const std::vector<std::array<float, 3>> points = points_of(image);
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const std::size_t pixel = std::size_t(row) * image.width + column;
+      const auto& p = points[pixel];
       const auto& n = image.normal[pixel];
       const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
       std::memcpy(out, &point, sizeof point);
@@ -79,11 +107,16 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
 }
 
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(image.depth, image.sensor, sensor_msgs::image_encodings::TYPE_32FC1, header);
+  const bool distorts = of_camera(image) && lens_of(image.sensor).distorts();
+  return plane(distorts ? rectified(image) : image.depth, image, sensor_msgs::image_encodings::TYPE_32FC1, header);
 }
 
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(image.label, image.sensor, sensor_msgs::image_encodings::TYPE_16UC1, header);
+  return plane(image.label, image, sensor_msgs::image_encodings::TYPE_16UC1, header);
+}
+
+sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header) {
+  return plane(image.validity, image, sensor_msgs::image_encodings::MONO8, header);
 }
 
 sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header) {
@@ -96,7 +129,7 @@ sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs
   message.width = static_cast<std::uint32_t>(sensor.width);
   message.height = static_cast<std::uint32_t>(sensor.height);
   message.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  message.D.assign(5, 0.0);
+  message.D.assign(sensor.distortion.begin(), sensor.distortion.end());
   for (std::size_t i = 0; i < 9; ++i) {
     message.K[i] = sensor.k[i];
     message.R[i] = i % 4 == 0 ? 1.0 : 0.0;
@@ -110,7 +143,7 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp) {
   header.stamp = stamp;
   header.frame_id = sensor_frame(image.sensor.name);
   return {cloud_message(image, header), depth_message(image, header), camera_info_message(image.sensor, header),
-          label_message(image, header)};
+          label_message(image, header), validity_message(image, header)};
 }
 
 }  // namespace bin_scenes

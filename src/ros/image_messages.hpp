@@ -1,7 +1,7 @@
-/// Range image -> organised cloud, depth, labels and camera model, all of one stamp and one frame.
+/// Range image -> organised cloud, depth, labels, validity and camera model, all of one stamp and one frame.
 #pragma once
 
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -16,6 +16,7 @@ struct ImageMessages {
   sensor_msgs::Image depth;
   sensor_msgs::CameraInfo camera_info;
   sensor_msgs::Image labels;
+  sensor_msgs::Image validity;
 };
 
 ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp);
@@ -23,11 +24,15 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp);
 /// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity (float32) label (uint32);
 /// NaN where nothing was seen (REP 117), hence not dense.
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header);
-/// 32FC1, metres along the optical axis, NaN where nothing was seen (REP 118).
+/// 32FC1, metres along the optical axis, NaN where nothing is valid (REP 118). Of a lens that distorts, rectified: each
+/// pixel has the depth of the nearest one of the image as taken.
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header);
-/// 16UC1: 0 = background, part id + 1 otherwise.
+/// 16UC1: 0 = background, part id + 1 otherwise; as taken.
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
-/// Ideal pinhole (REP 104): no distortion, R = identity, P = [K | 0]. Throws an input Error unless K has 9 values.
+/// mono8: codes of sensor/validity.hpp; as taken.
+sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
+/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. Throws an input Error unless K
+/// has 9 values.
 sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header);
 
 }  // namespace bin_scenes

@@ -136,10 +136,13 @@ Keys part_keys(const msgs::PartLine& part, const std::string& path) {
 Keys sensor_keys(const msgs::Sensor& sensor, const std::string& path) {
   Keys keys(path);
   keys.text("name", sensor.name);
+  keys.text("model", sensor.model);
+  keys.text("preset", sensor.preset);
   keys.number("width", sensor.width);
   keys.number("height", sensor.height);
   keys.number("fov", sensor.fov);
   if (!sensor.K.empty()) keys.value("k", sensor.K);
+  if (!sensor.D.empty()) keys.value("distortion", sensor.D);
   if (is_set(sensor.pose)) keys.value("pose", values(sensor.pose));
   keys.number("near", sensor.near);
   keys.number("far", sensor.far);

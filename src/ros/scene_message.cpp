@@ -1,5 +1,6 @@
 #include "scene_message.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace bin_scenes {
@@ -12,6 +13,7 @@ namespace msgs = bin_scenes_msgs;
 static_assert(int(PartState::resting) == msgs::ScenePart::RESTING && int(PartState::moving) == msgs::ScenePart::MOVING);
 static_assert(int(PartState::escaped) == msgs::ScenePart::ESCAPED && int(PartState::fixed) == msgs::ScenePart::FIXED);
 static_assert(int(PartState::not_poured) == msgs::ScenePart::NOT_POURED);
+static_assert(int(PartState::removed) == msgs::ScenePart::REMOVED);
 
 geometry_msgs::Vector3 vector_message(const Vec3& v) {
   geometry_msgs::Vector3 message;
@@ -105,6 +107,9 @@ bin_scenes_msgs::Bin bin_message(const Bin& bin) {
 bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
   msgs::Sensor message;
   message.name = sensor.name;
+  message.model = name_of(sensor.model);
+  message.preset = sensor.preset;
+  message.D.assign(sensor.distortion.begin(), sensor.distortion.end());
   message.width = static_cast<std::uint32_t>(sensor.width);
   message.height = static_cast<std::uint32_t>(sensor.height);
   message.fov = sensor.fov;
@@ -118,6 +123,12 @@ bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
 Sensor sensor_from(const bin_scenes_msgs::Sensor& message) {
   Sensor sensor;
   sensor.name = message.name;
+  for (const SensorModel model : {SensorModel::ideal, SensorModel::structured_light, SensorModel::laser_line,
+                                  SensorModel::stereo, SensorModel::time_of_flight}) {
+    if (message.model == name_of(model)) sensor.model = model;
+  }
+  sensor.preset = message.preset;
+  if (message.D.size() == 5) std::copy(message.D.begin(), message.D.end(), sensor.distortion.begin());
   sensor.width = static_cast<int>(message.width);
   sensor.height = static_cast<int>(message.height);
   sensor.fov = message.fov;
@@ -138,6 +149,7 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.device = report.device;
   message.simulated_s = report.simulated_s;
   message.wall_s = report.wall_s;
+  message.finish = report.finish;
   message.steps = report.steps;
   for (const auto& [name, ms] : report.profile.stages_ms) {
     msgs::StageTime stage;
@@ -164,6 +176,9 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.drift.measured = report.drift.measured;
   message.drift.distance = quantiles_message(report.drift);
   message.drift.turn_p95 = report.drift.turn_p95;
+  message.energy.gain = report.energy.gain;
+  message.energy.time = report.energy.time;
+  message.energy.part = report.energy.part;
   message.escaped.assign(report.escaped.begin(), report.escaped.end());
   message.not_poured.assign(report.not_poured.begin(), report.not_poured.end());
   message.state_hash = report.state_hash;
@@ -187,6 +202,7 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.device = message.device;
   report.simulated_s = message.simulated_s;
   report.wall_s = message.wall_s;
+  report.finish = message.finish;
   report.steps = message.steps;
   for (const auto& stage : message.stages) report.profile.stages_ms[stage.stage] = stage.ms;
   for (const auto& counter : message.counters) report.profile.counters[counter.name] = counter.value;
@@ -203,6 +219,9 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.drift.measured = message.drift.measured;
   set(report.drift, message.drift.distance);
   report.drift.turn_p95 = message.drift.turn_p95;
+  report.energy.gain = message.energy.gain;
+  report.energy.time = message.energy.time;
+  report.energy.part = message.energy.part;
   report.escaped.assign(message.escaped.begin(), message.escaped.end());
   report.not_poured.assign(message.not_poured.begin(), message.not_poured.end());
   report.state_hash = message.state_hash;

@@ -1,9 +1,11 @@
 #include "scene_server.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "latched.hpp"
 #include "request_message.hpp"
 
+#include <malloc.h>
 #include <ros/console.h>
 
 #include <new>
@@ -30,15 +32,6 @@ std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
   return all;
-}
-
-/// Seen pixels of a part / pixels it would have alone, for parts that the sensor's view holds at all.
-void set_visible_fractions(Scene& scene, const RangeImage& image) {
-  for (ScenePart& part : scene.parts) {
-    const std::size_t id = static_cast<std::size_t>(part.id);
-    if (id >= image.total.size()) continue;
-    part.visible_fraction[image.sensor.name] = image.total[id] ? double(image.visible[id]) / image.total[id] : 0.0;
-  }
 }
 
 }  // namespace
@@ -72,13 +65,16 @@ SceneServer::SensorTopics::SensorTopics(SceneServer& server, std::size_t index, 
                       index, [](const RangeImage& image,
                                 const std_msgs::Header& header) { return camera_info_message(image.sensor, header); })),
       labels(server.node_, topic::of_sensor(topic::labels, index, sensor), &server.queue_,
-             server.from_image<sensor_msgs::Image>(index, label_message)) {}
+             server.from_image<sensor_msgs::Image>(index, label_message)),
+      validity(server.node_, topic::of_sensor(topic::validity, index, sensor), &server.queue_,
+               server.from_image<sensor_msgs::Image>(index, validity_message)) {}
 
 void SceneServer::SensorTopics::renew() {
   points.renew();
   depth.renew();
   camera_info.renew();
   labels.renew();
+  validity.renew();
 }
 
 SceneServer::SceneServer(const ros::NodeHandle& node, Settings settings) : node_(node), settings_(std::move(settings)) {
@@ -116,7 +112,6 @@ void SceneServer::work() {
   queue_.disable();
   // What owns GL objects dies in the thread that made them.
   sensors_.clear();
-  camera_.reset();
   generator_.reset();
 }
 
@@ -127,6 +122,7 @@ bool SceneServer::generate(GenerateScene::Request& request, GenerateScene::Respo
 
 void SceneServer::make(const bin_scenes_msgs::SceneRequest& message, GenerateScene::Response& response) {
   response.success = false;
+  const CancelScope scope(&stop_);
   try {
     Request request = request_from(message, settings_.paths);
     const std::size_t asked = request.scenes;
@@ -174,6 +170,7 @@ void SceneServer::make(const bin_scenes_msgs::SceneRequest& message, GenerateSce
              report.device.c_str());
   } else {
     ROS_ERROR("%s", response.message.c_str());
+    malloc_trim(0);  // what a large request took goes back: the next one may come in days
   }
 }
 
@@ -234,12 +231,8 @@ void SceneServer::show(Shown shown, bool render_anyway) {
 
 bool SceneServer::render() {
   if (!shown_->images.empty() || shown_->scene.sensors.empty()) return false;
-  if (!camera_) camera_ = std::make_unique<RangeCamera>();
-  Profile& profile = shown_->scene.report.profile;
-  const StageTimer timer(profile, "render");
-  shown_->images = camera_->render(shown_->scene, shown_->request, shown_->parts, shown_->bin_model);
-  profile.count("rendered_images", shown_->images.size());
-  for (const RangeImage& image : shown_->images) set_visible_fractions(shown_->scene, image);
+  const StageTimer timer(shown_->scene.report.profile, "render");
+  shown_->images = rig_.look(shown_->scene, shown_->request, shown_->parts, shown_->bin_model);
   ROS_INFO("rendered %zu images", shown_->images.size());
   return true;
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/sensor/sensor_rig.hpp"
 #include "lazy_topic.hpp"
 #include "settings.hpp"
 #include "topics.hpp"
@@ -54,10 +55,12 @@ class SceneServer {
     LazyTopic<sensor_msgs::PointCloud2> points;
     LazyTopic<sensor_msgs::Image> depth;
     LazyTopic<sensor_msgs::CameraInfo> camera_info;
-    LazyTopic<sensor_msgs::Image> labels;
+    LazyTopic<sensor_msgs::Image> labels, validity;
 
     SensorTopics(SceneServer& server, std::size_t index, const std::string& name);
-    bool wanted() const { return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted(); }
+    bool wanted() const {
+      return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted();
+    }
     void renew();
   };
 
@@ -81,7 +84,7 @@ class SceneServer {
 
   // Of the work thread alone.
   std::unique_ptr<Generator> generator_;
-  std::unique_ptr<RangeCamera> camera_;
+  SensorRig rig_;
   std::unique_ptr<Shown> shown_;
   std::vector<std::unique_ptr<SensorTopics>> sensors_;
   ros::Publisher scene_, markers_, tf_static_;

@@ -16,6 +16,7 @@ constexpr char points[] = "points";
 constexpr char depth[] = "depth/image_rect";
 constexpr char camera_info[] = "depth/camera_info";
 constexpr char labels[] = "labels/image_raw";
+constexpr char validity[] = "validity/image_raw";
 constexpr char tf[] = "/tf";
 constexpr char tf_static[] = "/tf_static";
 

@@ -1,6 +1,7 @@
 #include "bin_scenes/scene/request.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "scene/sensor_check.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -51,6 +52,34 @@ const char* name_of(SolverType type) {
   return "?";
 }
 
+const char* name_of(SensorModel model) {
+  switch (model) {
+    case SensorModel::ideal:
+      return "ideal";
+    case SensorModel::structured_light:
+      return "structured_light";
+    case SensorModel::laser_line:
+      return "laser_line";
+    case SensorModel::stereo:
+      return "stereo";
+    case SensorModel::time_of_flight:
+      return "time_of_flight";
+  }
+  return "?";
+}
+
+const char* name_of(Pour::Finish finish) {
+  switch (finish) {
+    case Pour::Finish::settled:
+      return "settled";
+    case Pour::Finish::pressed:
+      return "pressed";
+    case Pour::Finish::probed:
+      return "probed";
+  }
+  return "?";
+}
+
 std::size_t Request::part_count() const {
   std::size_t n = 0;
   for (const PartLine& line : parts) n += line.count;
@@ -97,7 +126,14 @@ void check_pose(const std::string& key, const Pose& pose) {
   if (pose.position.norm() > 1e4) refuse(key, "lies " + text(pose.position.norm()) + " m away", "positions are in m");
 }
 
+void check_surface(const std::string& key, const Surface& surface) {
+  at_least(key + ".albedo", surface.albedo, 0.0, 1.0, "share of the light that is sent back");
+  at_least(key + ".gloss", surface.gloss, 0.0, 1.0, "share that is mirrored");
+  at_least(key + ".roughness", surface.roughness, 0.0, 1.0, "0.1 is polished, 0.4 machined, 1 matte");
+}
+
 void check_bin(const Bin& bin) {
+  check_surface("bin.surface", bin.surface);
   if (bin.kind == Bin::Kind::box) {
     for (int i = 0; i < 3; ++i) {
       above("bin.inner_size", bin.inner_size[i], 0.0, 1000.0, "inner length, width and height in m");
@@ -121,6 +157,7 @@ void check_part(const std::string& key, const PartLine& line, Pour::Pattern patt
   if (line.mass) above(key + ".mass", *line.mass, 0.0, 1e6, "kg, of one part");
   at_least(key + ".friction", line.friction, 0.0, 10.0, "0 is frictionless, steel on steel about 0.5");
   at_least(key + ".restitution", line.restitution, 0.0, 1.0, "0 does not bounce, 1 loses nothing");
+  check_surface(key + ".surface", line.surface);
   if (line.thickness) above(key + ".thickness", *line.thickness, 0.0, 1.0, "wall thickness in m");
   if (!line.poses.empty() && line.poses.size() != line.count) {
     refuse(key + ".poses",
@@ -197,6 +234,36 @@ void check_solver(const SolverSettings& solver) {
   above("solver.sphere.field_cell", s.field_cell, 0.0, 0.25, "fraction of the part's diagonal");
 }
 
+void check_distortion(const std::string& key, const std::array<double, 5>& distortion) {
+  for (const double d : distortion) at_least(key, d, -100.0, 100.0, "[k1, k2, p1, p2, k3], as CameraInfo has them");
+}
+
+void check_baseline(const std::string& key, double baseline) {
+  if (baseline == 0.0) refuse(key, "is 0: without it there is no triangle to measure with", "0.1 to 0.3 m is usual");
+  at_least(key, baseline, -100.0, 100.0, "m along the camera's x; negative = to its left");
+}
+
+/// What only some models use is checked whatever the model: a mistake in it must not wait for a change of model.
+void check_light(const std::string& key, const Sensor& sensor) {
+  const Projector& projector = sensor.projector;
+  if (projector.pose) check_pose(key + ".projector.pose", *projector.pose);
+  check_baseline(key + ".projector.baseline", projector.baseline);
+  at_least(key + ".projector.width", projector.width, 1, 16384, "pixels");
+  at_least(key + ".projector.height", projector.height, 1, 16384, "pixels");
+  above(key + ".projector.fov", projector.fov, 0.0, 3.1, "horizontal field of view in rad");
+  check_distortion(key + ".projector.distortion", projector.distortion);
+  const Laser& laser = sensor.laser;
+  if (laser.pose) check_pose(key + ".laser.pose", *laser.pose);
+  check_baseline(key + ".laser.baseline", laser.baseline);
+  above(key + ".laser.width_mm", laser.width_mm, 0.0, 100.0, "mm; 0.1 to 0.5 is usual");
+  const Scan& scan = sensor.scan;
+  if (!scan.direction.allFinite() || !(scan.direction.norm() > 0.0)) {
+    refuse(key + ".scan.direction", "is no direction", "for instance [1, 0, 0]");
+  }
+  above(key + ".scan.step", scan.step, 0.0, 10.0, "m between two profiles");
+  at_least(key + ".scan.profiles", scan.profiles, 1, 65536, "rows of the image");
+}
+
 void check_sensor(const std::string& key, const Sensor& sensor) {
   const std::string& name = sensor.name;
   bool plain = !name.empty() && name.size() <= 100;
@@ -213,7 +280,10 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
     if (!good) refuse(key + ".k", "is no matrix of intrinsics", "[fx, 0, cx, 0, fy, cy, 0, 0, 1] in pixels");
     if (k[1] != 0) refuse(key + ".k", "has a skew, which no image is made with", "set its second number to 0");
   }
+  check_distortion(key + ".distortion", sensor.distortion);
   if (sensor.pose) check_pose(key + ".pose", *sensor.pose);
+  check_light(key, sensor);
+  check_sensor_models(key, sensor);
   above(key + ".near", sensor.near, 0.0, infinity, "m");
   above(key + ".far", sensor.far, sensor.near, 1e4, "m, beyond near");
 }
@@ -254,6 +324,7 @@ void check(const Request& request) {
   }
   at_least("accept.penetration", request.accept.penetration, 0.0, 1.0, "fraction of the part's diagonal");
   at_least("accept.gap", request.accept.gap, 0.0, 1.0, "fraction of the part's diagonal");
+  at_least("accept.energy", request.accept.energy, 0.0, infinity, "multiples of mass * gravity * diagonal");
   if (request.seconds) above("seconds", *request.seconds, 0.0, 1e5, "simulated seconds");
   above("memory_budget", request.memory_budget, 0.0, 1e15, "bytes");
 }

@@ -9,6 +9,7 @@ const char* name_of(PartState state) {
     case PartState::escaped: return "escaped";
     case PartState::fixed: return "fixed";
     case PartState::not_poured: return "not_poured";
+    case PartState::removed: return "removed";
   }
   return "?";
 }

@@ -13,8 +13,6 @@ namespace {
 
 using namespace bin_scenes;
 
-constexpr int interrupted = 130;  // what a shell says of a command ended by Ctrl-C
-
 int complain(const std::string& message, int code) {
   std::cerr << "bin_scenes: " << message << std::endl;
   return code;
@@ -33,6 +31,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--trace", o.trace, "CSV file with pose and velocity of each part over simulated time");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
+  app.add_flag("--verify", o.verify,
+               "read scenes that are there already and make those anew whose files have changed (else only sizes count)");
   app.add_flag("--verbose", o.verbose, "stage times and counters of each scene");
 }
 
@@ -53,6 +53,12 @@ int run(int argc, char** argv) {
                           "OBJ file to write the convex hulls to, an object each (m)");
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
 
+  SensorOptions sensor_options;
+  CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
+  sensor_app->add_option("SENSOR", sensor_options.sensor, "name of a preset, or a file of sensor keys")->required();
+  sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over incidence and albedo");
+  sensor_app->add_flag("--json", sensor_options.json, "as JSON");
+
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
   CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
 
@@ -61,10 +67,12 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(std::string(error.what()) + " (see bin_scenes --help)", static_cast<int>(ErrorKind::input));
+    const Error wrong = input_error(error.what(), "", "see bin_scenes --help");  // an argument may hold anything
+    return complain(wrong.what(), static_cast<int>(wrong.kind()));
   }
   if (generate_app->parsed()) return generate(generate_options);
   if (inspect_app->parsed()) return inspect(inspect_options);
+  if (sensor_app->parsed()) return sensor(sensor_options);
   if (doctor_app->parsed()) return doctor();
   if (reference_app->parsed()) std::cout << request_reference();
   return exit_done;
@@ -76,12 +84,13 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", interrupted);
+    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", exit_interrupted);
     return complain(error.what(), static_cast<int>(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain("out of memory (ask for less, or lower memory_budget to be told before)",
                     static_cast<int>(ErrorKind::environment));
   } catch (const std::exception& error) {
-    return complain(std::string("unexpected: ") + error.what(), static_cast<int>(ErrorKind::environment));
+    const Error defect = environment_error(error.what(), "unexpected", "");
+    return complain(defect.what(), static_cast<int>(defect.kind()));
   }
 }

@@ -3,8 +3,10 @@
 ///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>*.png, scene.bag
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
+///     each of these folders: files.json, the size and SHA-256 of every other file in it
 ///
-/// A job is resumable: a folder whose scene.json carries the hash of the request is done and is not made again.
+/// A job is resumable: a folder is done, and is not made again, whose scene.json carries the hash of the request and
+/// whose files all have the sizes that files.json tells.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
@@ -18,12 +20,13 @@ namespace bin_scenes {
 
 class SceneStore {
  public:
-  /// Checks the formats and that `directory` can be written, and makes nothing yet.
-  SceneStore(const std::string& directory, const std::vector<std::string>& formats);
+  /// Checks the formats and that `directory` can be written, removes what killed runs left half-written, and makes
+  /// nothing yet.
+  /// @param verify  what is there counts only if the digests of its files agree too
+  SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify = false);
 
-  bool needs_sensors() const;      ///< some format shows nothing but what a sensor sees
-  bool needs_images() const;       ///< some format holds what sensors see, if there are any
-  bool needs_silhouettes() const;  ///< some format shows each part alone
+  bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
+  bool needs_images() const;   ///< some format holds what sensors see, if there are any
 
   /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
@@ -34,9 +37,11 @@ class SceneStore {
   /// Reasons of a scene that is there, set apart.
   std::vector<std::string> reasons(std::size_t index) const;
 
-  /// All folders of the scene, or none of them where one cannot be written. What an earlier scene of this index left on
-  /// the other side goes.
-  void write(const Generator::Result& result, const Request& request, const Generator& generator);
+  /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its
+  /// images go.
+  void prepare(Generator::Result& result, const Request& request, const Generator& generator) const;
+  /// Gives the folders their names: all of them or none. What an earlier scene of this index left on the other side goes.
+  void commit(const Generator::Result& result, const Request& request, const Generator& generator);
 
  private:
   bool wants(const char* format) const { return formats_.count(format) != 0; }
@@ -47,6 +52,7 @@ class SceneStore {
 
   std::string directory_;
   std::set<std::string> formats_;
+  bool verify_;
   std::set<bool> models_written_;  ///< BOP models of accepted and set-apart scenes
 };
 

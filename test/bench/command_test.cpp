@@ -57,13 +57,13 @@ TEST_F(BenchCommand, SuggestsTheNearestName) {
 }
 
 TEST_F(BenchCommand, ANameThatIsNoneIsToldAndTheRestRuns) {
-  const Outcome outcome = run("--filter preparaton,skipping --quick --rows skip=sleeping --rows solver=sphere");
+  const Outcome outcome = run("--filter preparaton,shape_errors --quick --rows proxy=field");
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("did you mean 'preparation'?"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.out.find("skipping:  sleeping  sphere"), std::string::npos) << outcome.out;
-  const Outcome names = run("--list --filter nosuch,skipping");
+  EXPECT_NE(outcome.out.find("shape_errors:  bolt_hex  field  sphere"), std::string::npos) << outcome.out;
+  const Outcome names = run("--list --filter nosuch,shape_errors");
   EXPECT_EQ(names.code, 2);
-  EXPECT_EQ(names.out.rfind("skipping ", 0), 0u) << names.out;
+  EXPECT_EQ(names.out.rfind("shape_errors ", 0), 0u) << names.out;
 }
 
 TEST_F(BenchCommand, UnwritableFolderIsOneClearMessage) {
@@ -81,8 +81,19 @@ TEST_F(BenchCommand, RowsByAKeyThatIsNoneAreRefusedBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(dir_ / "bench_results"));
 }
 
+TEST_F(BenchCommand, RowsOfAnEarlierRunStayUnlessMeasuredAnew) {
+  put("out/shape_errors.csv",
+      "# benchmark: shape_errors\n# roles: key key key exact\npart,proxy,solver,count\n"
+      "bolt_hex,field,sphere,1\nbolt_hex,an older proxy,ode,7\n");
+  const Outcome outcome = run("--filter shape_errors --quick --rows proxy=field --out out");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string csv = text("out/shape_errors.csv");
+  EXPECT_NE(csv.find("bolt_hex,an older proxy,ode,7"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find("bolt_hex,field,sphere,1,"), std::string::npos) << csv;
+}
+
 TEST_F(BenchCommand, RowsThatNoBenchmarkHasAreAnError) {
-  for (const std::string benchmark : {"goals", "simbenchmark", "skipping"}) {
+  for (const std::string benchmark : {"goals", "simbenchmark", "shape_errors"}) {
     const Outcome outcome = run("--out results --rows solver=nosuch --filter " + benchmark);
     EXPECT_EQ(outcome.code, 2) << benchmark;
     EXPECT_NE(outcome.err.find("no row is like this"), std::string::npos) << outcome.err;

@@ -1,7 +1,7 @@
-/// The referee and the peers against what mechanics says of one box.
+/// The referee and stock Bullet against what mechanics says of one box.
 #include "referee.hpp"
 
-#include "peers/peer.hpp"
+#include "peers/stock_bullet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -108,71 +108,53 @@ TEST(Referee, ReadsThePiecesOfASample) {
   EXPECT_ANY_THROW(read_pieces(pieces_of("no_such_part"), 1e-3));
 }
 
-/// Settled box of every engine that is built in: on the floor, upright, where it was dropped.
-TEST(Peers, ADroppedBoxLiesOnTheFloor) {
+/// Settled on the floor, upright, where it was dropped.
+TEST(StockBullet, ADroppedBoxLiesOnTheFloor) {
   const Box box;
-  for (const std::string& engine : peers_built()) {
-    PeerSettings settings;
-    settings.engine = engine;
-    settings.time_step = 1.0 / 240.0;
-    settings.pieces = {box.pieces};
-    const std::unique_ptr<Solver> solver = make_peer(settings);
-    WorldDef def;
-    def.parts = {box.part};
-    def.bodies.emplace_back();
-    def.bodies[0].mass = 0.1;
-    def.wall_height = 0.2;
-    const WorldId world = solver->add_world(def);
-    BodyState start;
-    start.pose.position = Vec3(0.05, 0.02, 0.01);
-    start.velocity.linear = Vec3(0, 0, -0.1);
-    solver->insert(world, 0, start);
-    EXPECT_DOUBLE_EQ(solver->advance({world}, 1.0), 1.0) << engine;
-    const BodyState end = solver->states(world)[0];
-    const double height = engine == "bullet_stock" ? bullet_stock_margin : 0.0;
-    EXPECT_NEAR(end.pose.position.z(), height, 0.005 * diagonal) << engine;
-    EXPECT_NEAR(end.pose.position.x(), 0.05, 0.02 * diagonal) << engine;
-    EXPECT_LT(end.pose.orientation.angularDistance(Quat::Identity()), 0.02) << engine;
-    EXPECT_LT(end.velocity.linear.norm(), 0.01) << engine;
-  }
+  StockBullet settings;
+  settings.time_step = 1.0 / 240.0;
+  settings.pieces = {box.pieces};
+  const std::unique_ptr<Solver> solver = make_stock_bullet(settings);
+  WorldDef def;
+  def.parts = {box.part};
+  def.bodies.emplace_back();
+  def.bodies[0].mass = 0.1;
+  def.wall_height = 0.2;
+  const WorldId world = solver->add_world(def);
+  BodyState start;
+  start.pose.position = Vec3(0.05, 0.02, 0.01);
+  start.velocity.linear = Vec3(0, 0, -0.1);
+  solver->insert(world, 0, start);
+  EXPECT_DOUBLE_EQ(solver->advance({world}, 1.0), 1.0);
+  const BodyState end = solver->states(world)[0];
+  EXPECT_NEAR(end.pose.position.z(), settings.margin, 0.005 * diagonal);
+  EXPECT_NEAR(end.pose.position.x(), 0.05, 0.02 * diagonal);
+  EXPECT_LT(end.pose.orientation.angularDistance(Quat::Identity()), 0.02);
+  EXPECT_LT(end.velocity.linear.norm(), 0.01);
 }
 
-TEST(Peers, BodiesFallAsGalileiSays) {
+TEST(StockBullet, BodiesFallAsGalileiSays) {
   const Box box;
-  for (const std::string& engine : peers_built()) {
-    PeerSettings settings;
-    settings.engine = engine;
-    settings.time_step = 0.001;
-    settings.pieces = {box.pieces};
-    const std::unique_ptr<Solver> solver = make_peer(settings);
-    WorldDef def;
-    def.parts = {box.part};
-    def.bodies.emplace_back();
-    def.bin.kind = Bin::Kind::none;
-    const WorldId world = solver->add_world(def);
-    BodyState start;
-    start.velocity = {Vec3(0.3, 0, 0), Vec3(0, 0, 2.0)};  // about a principal axis: the centre of mass flies straight
-    solver->insert(world, 0, start);
-    const Vec3 before = start.pose * box.part->mass().center;
-    solver->advance({world}, 0.5);
-    const BodyState end = solver->states(world)[0];
-    const Vec3 way = end.pose * box.part->mass().center - before;
-    EXPECT_NEAR(way.x(), 0.15, 1e-4) << engine;
-    EXPECT_NEAR(way.y(), 0.0, 1e-4) << engine;
-    EXPECT_NEAR(way.z(), -0.5 * 9.81 * 0.25, 0.5 * 9.81 * 0.5 * 0.001 * 1.1) << engine;  // first order in the step
-    EXPECT_NEAR(2.0 * std::atan2(end.pose.orientation.z(), end.pose.orientation.w()), 1.0, 1e-3) << engine;
-  }
-}
-
-TEST(Peers, AnEngineThatIsNotBuiltSaysSo) {
-  PeerSettings settings;
-  settings.engine = "no_such_engine";
-  try {
-    make_peer(settings);
-    FAIL();
-  } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("not built"), std::string::npos);
-  }
+  StockBullet settings;
+  settings.time_step = 0.001;
+  settings.pieces = {box.pieces};
+  const std::unique_ptr<Solver> solver = make_stock_bullet(settings);
+  WorldDef def;
+  def.parts = {box.part};
+  def.bodies.emplace_back();
+  def.bin.kind = Bin::Kind::none;
+  const WorldId world = solver->add_world(def);
+  BodyState start;
+  start.velocity = {Vec3(0.3, 0, 0), Vec3(0, 0, 2.0)};  // about a principal axis: the centre of mass flies straight
+  solver->insert(world, 0, start);
+  const Vec3 before = start.pose * box.part->mass().center;
+  solver->advance({world}, 0.5);
+  const BodyState end = solver->states(world)[0];
+  const Vec3 way = end.pose * box.part->mass().center - before;
+  EXPECT_NEAR(way.x(), 0.15, 1e-4);
+  EXPECT_NEAR(way.y(), 0.0, 1e-4);
+  EXPECT_NEAR(way.z(), -0.5 * 9.81 * 0.25, 0.5 * 9.81 * 0.5 * 0.001 * 1.1);  // first order in the step
+  EXPECT_NEAR(2.0 * std::atan2(end.pose.orientation.z(), end.pose.orientation.w()), 1.0, 1e-3);
 }
 
 }  // namespace

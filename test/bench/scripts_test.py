@@ -140,7 +140,7 @@ at rest: at_rest of scenes | | all
         (self.root / "test/stress").mkdir(parents=True)
         (self.root / "build/bench").mkdir(parents=True)
         for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
-                           ("bench/inspect_all", 0)):
+                           ("test/stress/inspect_all", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
             script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
@@ -157,7 +157,7 @@ at rest: at_rest of scenes | | all
 
 
 class InspectAll(unittest.TestCase):
-    """bench/inspect_all on tools that say what is given."""
+    """test/stress/inspect_all on tools that say what is given."""
 
     def ends(self, report, code=0):
         with tempfile.TemporaryDirectory() as folder:
@@ -167,7 +167,7 @@ class InspectAll(unittest.TestCase):
             tool = root / "tool"
             tool.write_text("#!/bin/sh\ncat <<'END'\n%s\nEND\nexit %d\n" % (report, code))
             tool.chmod(0o755)
-            run = subprocess.run([ROOT / "bench/inspect_all", tool, root / "models"], capture_output=True, text=True)
+            run = subprocess.run([ROOT / "test/stress/inspect_all", tool, root / "models"], capture_output=True, text=True)
             return run.returncode, run.stdout
 
     def test_a_report_of_figures_is_good(self):

@@ -68,11 +68,5 @@ TEST(Table, DamagedFilesNameTheLine) {
   EXPECT_NE(message("").find("no column names"), std::string::npos);
 }
 
-TEST(Table, JsonHoldsNumbersAsNumbers) {
-  const std::string json = to_json(sample());
-  EXPECT_NE(json.find("\"time_s\": 2.0"), std::string::npos) << json;
-  EXPECT_NE(json.find("\"status\": \"not built\""), std::string::npos) << json;
-}
-
 }  // namespace
 }  // namespace bin_scenes::bench

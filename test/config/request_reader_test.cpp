@@ -1,6 +1,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
+#include "bin_scenes/config/sensor_presets.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -59,7 +60,16 @@ solver:
   sphere: {time_step: 0.002, sub_steps: 8, coarse_samples: 64, fine_samples: 500, field_cell: 0.02, device: cpu}
 sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
-  - {name: right, k: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
+  - name: right
+    k: [500, 0, 320, 0, 500, 240, 0, 0, 1]
+    imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
+    structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
+                       mixed: keep, edge_step: 0.002}
+    laser_line: {fan: 0.7, power: 0.4, blur: 0.9, speckle: 0.1, min_signal: 0.03, peak: nearest}
+    stereo: {baseline: 0.2, disparities: 256, window: 9, dots: 0.2, uniqueness: 5, max_difference: 2, min_texture: 2, speckle_size: 50,
+             disparity_noise: 0.1, min_signal: 0.05}
+    time_of_flight: {axial: 0.002, axial_growth: 0.003, axial_distance: 0.5, axial_angle: 0.0002, lateral: 0.7,
+                     lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03}
 accept: {penetration: 0.03, gap: 0.04, escaped: true}
 seconds: 1.5
 drift_check: true
@@ -242,7 +252,7 @@ TEST_F(ConfigTest, WhatIsNoRequestIsSaidSo) {
   expect_refused("- 1\n- 2\n", {"no map"});
   expect_refused("just words\n", {"no map"});
   expect_refused("a: [1, 2\nb: 3\n", {"request.yaml:", "not YAML"});
-  expect_refused(bolts + "---\n" + bolts, {"2 requests"});
+  expect_refused(bolts + "---\n" + bolts, {"behind the end of the request"});
   expect_refused("seed: 1\nseed: 2\n" + bolts, {"request.yaml:2", "'seed' is given twice"});
   expect_refused("seed: 1\n", {"'parts'", "missing or empty"});
   expect_refused("parts:\n  - count: 3\n", {"request.yaml:2", "'parts[0].model' is missing"});
@@ -412,6 +422,64 @@ TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
   std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
   EXPECT_NE(text.find(holes), std::string::npos);
   EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
+}
+
+TEST_F(ConfigTest, ARefusedValueIsToldWithItsLine) {
+  expect_refused(bolts + "    friction: -0.5\n", {"request.yaml:3", "'parts[0].friction'", "at least 0", "is -0.5"});
+  expect_refused(bolts, {"--set parts[0].friction", "is -1"}, {"parts[0].friction=-1"});
+}
+
+class SensorPresets : public ConfigTest {
+ protected:
+  SensorPresets() {
+    put("presets/close_fringes.yaml",
+        "model: structured_light\nwidth: 800\nfov: 0.5\nprojector: {pose: [0.2, 0, 1], fov: 0.6}\n");
+    put("presets/calibrated.yaml", "k: [900, 0, 400, 0, 900, 300, 0, 0, 1]\n");
+    put("presets/wrong.yaml", "model: ideal\nwidht: 3\n");
+    ::setenv("BIN_SCENES_SENSORS", (dir / "presets").c_str(), 1);
+  }
+  ~SensorPresets() override { ::unsetenv("BIN_SCENES_SENSORS"); }
+
+  Sensor sensor(const std::string& keys) {
+    return read("parts: [{model: bolt.stl}]\nsensors: [{" + keys + "}]\n").sensors.at(0);
+  }
+};
+
+TEST_F(SensorPresets, ValuesOfThePresetYieldToThoseOfTheRequest) {
+  const Sensor s = sensor("name: left, preset: close_fringes, width: 640, projector: {width: 912}");
+  EXPECT_EQ(s.name, "left");
+  EXPECT_EQ(s.model, SensorModel::structured_light);
+  EXPECT_EQ(s.preset, "close_fringes");
+  EXPECT_EQ(s.width, 640);
+  EXPECT_EQ(s.height, 480);
+  EXPECT_EQ(s.fov, 0.5);
+  EXPECT_EQ(s.projector.width, 912);
+  EXPECT_EQ(s.projector.fov, 0.6);
+  EXPECT_TRUE(s.projector.pose);
+}
+
+TEST_F(SensorPresets, KeysThatSayTheSameInOtherWordsReplaceEachOther) {
+  EXPECT_FALSE(sensor("preset: calibrated").k.empty());
+  EXPECT_TRUE(sensor("preset: calibrated, fov: 0.4").k.empty());
+  EXPECT_FALSE(sensor("preset: close_fringes, projector: {baseline: 0.1}").projector.pose);
+}
+
+TEST_F(SensorPresets, MistakesAreNamedWhereTheyStand) {
+  const std::string bolts = "parts: [{model: bolt.stl}]\n";
+  expect_refused(bolts + "sensors: [{preset: close_fringe}]\n", {"close_fringes", "request.yaml:2"});
+  expect_refused(bolts + "sensors: [{preset: ../request}]\n", {"no sensor preset"});
+  expect_refused(bolts + "sensors: [{preset: wrong}]\n", {"widht", "width", "wrong.yaml:2"});
+  expect_refused(bolts + "sensors: [{model: laser_lin}]\n", {"did you mean 'laser_line'?"});
+}
+
+TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
+  ::unsetenv("BIN_SCENES_SENSORS");
+  EXPECT_FALSE(sensor_presets().empty());
+  for (const std::string& name : sensor_presets()) {
+    SCOPED_TRACE(name);
+    const Sensor s = sensor("preset: " + name);
+    EXPECT_EQ(s.preset, name);
+  }
 }
 
 }  // namespace

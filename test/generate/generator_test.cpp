@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <thread>
 
 namespace bin_scenes {
 namespace {
@@ -53,6 +56,61 @@ class GeneratorTest : public ::testing::Test {
   std::filesystem::path dir;
   Generator generator;
 };
+
+// Sizes that agree in six decimals.
+TEST_F(GeneratorTest, LinesOfNearlyTheSameScaleHaveTheirOwnSizes) {
+  std::ofstream(dir / "box.stl") << box_stl(40000.0);
+  Request request = boxes(1);
+  request.parts.push_back(request.parts[0]);
+  request.parts[0].scale = 1.0e-6;
+  request.parts[1].scale = 1.4e-6;
+  run(request);
+  const double ratio = generator.parts()[1]->diagonal() / generator.parts()[0]->diagonal();
+  EXPECT_NEAR(ratio, 1.4, 1e-6);
+}
+
+TEST_F(GeneratorTest, AFileThatChangedSinceTheRequestWasReadIsRefused) {
+  Request request = boxes(1);
+  request.parts[0].sha256 = std::string(64, '0');
+  EXPECT_EQ(failure(request), ErrorKind::input);
+}
+
+// A list of their indices alone would take 8 GB.
+TEST_F(GeneratorTest, AThousandMillionScenesTakeNoListAndEndWhenTheCallerSaysSo) {
+  Request request = boxes(1);
+  request.scenes = 1'000'000'000;
+  std::atomic<bool> stop{false};
+  Generator::Options options;
+  options.hooks.cancel = &stop;
+  options.hooks.progress = [&](const Progress& progress) { stop = progress.simulated_s > 0.0; };
+  try {
+    run(request, options);
+    FAIL() << "ended by itself";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+}
+
+TEST_F(GeneratorTest, AFixedFloorMayBeLargerThanTenMetres) {
+  std::ofstream(dir / "floor.stl") << box_stl({14.0, 14.0, 0.5});
+  Request request = boxes(1);
+  request.bin.kind = Bin::Kind::none;
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].poses = {{Vec3(3.0, 2.0, 0.021), Quat::Identity()}};
+  request.parts.push_back(request.parts[0]);
+  PartLine& floor = request.parts[1];
+  floor.path = (dir / "floor.stl").string();
+  floor.poses = {{Vec3(0.0, 0.0, -0.25), Quat::Identity()}};
+  floor.fixed = true;
+  EXPECT_EQ(failure(request), ErrorKind::input) << "may be meant in another unit";
+  floor.unit = Unit::metre;
+  for (const SolverType type : {SolverType::bullet, SolverType::sphere}) {
+    request.solver.type = type;
+    const Scene scene = run(request).at(0).scene;
+    EXPECT_TRUE(scene.report.at_rest) << name_of(type);
+    EXPECT_NEAR(scene.parts[0].pose.position.z(), 0.02, 2e-4) << name_of(type);
+  }
+}
 
 // Thirty plates of a millimetre in a narrow bin. Where soft contacts let them sink by a tenth of that they end in each
 // other.
@@ -211,6 +269,67 @@ TEST_F(GeneratorTest, RendersOnlyWhenSomebodyLooks) {
     EXPECT_GT(part.visible_fraction.at("camera"), 0.0);
     EXPECT_LE(part.visible_fraction.at("camera"), 1.0);
   }
+}
+
+TEST_F(GeneratorTest, ScenesArePreparedBesideThePourAndHandedOverInOrder) {
+  Request request = boxes(2);
+  request.scenes = 6;
+  std::atomic<int> prepared{0};
+  Generator::Options options;
+  options.prepare = [&](Generator::Result& result) {
+    ++prepared;
+    EXPECT_TRUE(result.scene.report.at_rest) << "it has been judged";
+    result.prepared = std::make_shared<std::size_t>(result.scene.index);
+  };
+  const auto caller = std::this_thread::get_id();
+  std::size_t next = 0;
+  generator.generate(request, options, [&](Generator::Result&& result) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_EQ(result.scene.index, next);
+    EXPECT_EQ(*static_cast<std::size_t*>(result.prepared.get()), next++);
+  });
+  EXPECT_EQ(prepared, 6);
+  EXPECT_EQ(next, 6u);
+}
+
+TEST_F(GeneratorTest, WhatCannotBePreparedEndsTheRunAndLeavesEarlierScenes) {
+  Request request = boxes(2);
+  request.scenes = 4;
+  Generator::Options options;
+  options.prepare = [](Generator::Result& result) {
+    if (result.scene.index == 2) throw environment_error("the disk is full", "somewhere", "free space");
+  };
+  std::size_t handed_over = 0;
+  try {
+    generator.generate(request, options, [&](Generator::Result&&) { ++handed_over; });
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::environment);
+  }
+  EXPECT_EQ(handed_over, 2u);
+}
+
+TEST_F(GeneratorTest, ASensorThatCannotSeeIsRefusedBeforeAnythingIsPoured) {
+  Request request = boxes(2);
+  request.sensors.emplace_back();
+  request.sensors[0].pose = Pose{Vec3(0, 0, 1), Quat::Identity()};  // looks up
+  Generator::Options options;
+  bool poured = false;
+  options.hooks.progress = [&](const Progress& progress) { poured |= progress.simulated_s > 0.0; };
+  EXPECT_THROW(run(request, options), Error);
+  EXPECT_FALSE(poured);
+}
+
+TEST_F(GeneratorTest, FixedPartsAreSeenLikeOthers) {
+  Request request = boxes(1);
+  request.parts[0].fixed = true;
+  request.parts[0].poses = {{Vec3(0, 0, 0.05), Quat::Identity()}};
+  request.sensors.emplace_back();
+  request.sensors[0].width = 64;
+  request.sensors[0].height = 48;
+  const auto results = run(request);
+  EXPECT_EQ(results.at(0).scene.parts.at(0).visible_fraction.at("camera"), 1.0);
+  EXPECT_EQ(results[0].images.at(0).label[24 * 64 + 32], 1);
 }
 
 TEST_F(GeneratorTest, DriftIsMeasuredOnlyWhenAskedFor) {

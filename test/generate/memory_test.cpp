@@ -30,6 +30,16 @@ TEST(Memory, GrowsWithPartsPixelsAndSettings) {
   EXPECT_EQ(estimate_memory(request(100), {box, box}), with_model) << "a shared model counts once";
 }
 
+TEST(Memory, ScenesAreSeenAtOnceAsFarAsTheirImagesFit) {
+  Request seen = request(10);
+  seen.sensors.emplace_back();
+  const double one = estimate_memory(seen, {}), images = one - estimate_memory(request(10), {});
+  seen.memory_budget = one;
+  EXPECT_EQ(scenes_seen_at_once(seen, one), 1u);
+  seen.memory_budget = one + 2.5 * images;
+  EXPECT_EQ(scenes_seen_at_once(seen, one), 3u);
+}
+
 /// Bullet keeps contacts by pairs of hulls: a heap of concave parts takes far more than one of boxes.
 TEST(Memory, CountsHulls) {
   const auto grows_by = [](const PartModelPtr& part) {

@@ -55,7 +55,7 @@ Tally sweep(const std::vector<fs::path>& files) {
   Tally tally;
   for (const fs::path& path : files) {
     // In a process of its own, with a bound on its processor time, so that one bad file fails alone.
-    const Contained run = run_contained([&] { return outcome(path); }, 30);
+    const Contained run = run_contained([&] { return outcome(path); }, {30});
     EXPECT_TRUE(run.finished) << path << " " << run.failure;
     EXPECT_FALSE(run.finished && run.output.empty()) << path << ": neither a report nor a clear error";
     tally.closed += run.output == "closed";

@@ -1,3 +1,5 @@
+#include "bin_scenes/core/random.hpp"
+#include "output/mask_png.hpp"
 #include "output/output_fixture.hpp"
 #include "output/read_png.hpp"
 
@@ -108,15 +110,48 @@ TEST_F(Bop, APartThatWasNeverPouredIsLeftOutAndIdsStay) {
 TEST_F(Bop, MasksAreOfTheVisibleAndOfTheWholePart) {
   RangeImage image = small_image();
   write_bop(path("seen"), small_scene(), {bolt, nut}, {image});
-  EXPECT_FALSE(std::filesystem::exists(path("seen/mask"))) << "silhouettes were not asked for";
-  image.silhouette.assign(3, std::vector<bool>(image.label.size()));
-  for (std::size_t i = 0; i < image.total[1]; ++i) image.silhouette[1][3 * i] = true;
+  EXPECT_FALSE(std::filesystem::exists(path("seen/mask"))) << "there were no silhouettes";
+  image.silhouettes.resize(3);
+  Silhouette& alone = image.silhouettes[1];
+  alone.left = 2, alone.top = 1, alone.width = 3, alone.height = 4;
+  for (int row = 0; row < alone.height; ++row) alone.bits.push_back(0b101);
   write_bop(path("all"), small_scene(), {bolt, nut}, {image});
   const Png whole = read_png(path("all/mask/000000_000001.png"));
   const Png visible = read_png(path("all/mask_visib/000000_000001.png"));
   for (std::size_t i = 0; i < image.label.size(); ++i) {
-    EXPECT_EQ(whole.samples[i], i % 3 == 0 && i < 30 ? 255 : 0) << i;
+    const std::size_t x = i % 8, y = i / 8;
+    EXPECT_EQ(whole.samples[i], y >= 1 && y < 5 && (x == 2 || x == 4) ? 255 : 0) << i;
     EXPECT_EQ(visible.samples[i], 0) << i;
+  }
+}
+
+TEST_F(Bop, MasksOfAnySizeReadBackAsTheyWere) {
+  Random random(5, 0, Stream::probe);
+  for (int round = 0; round < 200; ++round) {
+    const int width = 1 + static_cast<int>(random.below(round < 190 ? 40 : 900)),
+              height = 1 + static_cast<int>(random.below(round < 190 ? 30 : 700));
+    MaskBox box;
+    box.left = static_cast<int>(random.below(static_cast<std::uint64_t>(width)));
+    box.top = static_cast<int>(random.below(static_cast<std::uint64_t>(height)));
+    box.width = static_cast<int>(random.below(static_cast<std::uint64_t>(width - box.left + 1)));
+    box.height = static_cast<int>(random.below(static_cast<std::uint64_t>(height - box.top + 1)));
+    const double change = random.uniform();
+    bool in = false;
+    for (int i = 0; i < box.width * box.height; ++i) box.inside.push_back(in ^= random.uniform() < change * change);
+    const Bytes bytes = mask_png(width, height, box);
+    write_bytes(path("mask.png"), bytes);
+    const Png mask = read_png(path("mask.png"));
+    ASSERT_EQ(mask.width, width);
+    ASSERT_EQ(mask.height, height);
+    ASSERT_EQ(mask.depth, 8);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const int column = x - box.left, row = y - box.top;
+        const bool inside = column >= 0 && row >= 0 && column < box.width && row < box.height &&
+                            box.inside[static_cast<std::size_t>(row) * box.width + column];
+        ASSERT_EQ(mask.at(x, y), inside ? 255 : 0) << round << ": " << x << " " << y;
+      }
+    }
   }
 }
 

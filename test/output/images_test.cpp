@@ -6,7 +6,7 @@ namespace {
 
 using Images = OutputTest;
 
-TEST_F(Images, DepthIsInTenthsOfAMillimetreAndZeroWhereNothingWasSeen) {
+TEST_F(Images, DepthIsInCountsOfItsScaleAndZeroWhereNothingIsValid) {
   RangeImage image = small_image();
   image.depth[0] = 7.0f;      // beyond what 16 bits hold
   image.depth[8] = 0.00001f;  // nearer than a step, but seen
@@ -21,6 +21,38 @@ TEST_F(Images, DepthIsInTenthsOfAMillimetreAndZeroWhereNothingWasSeen) {
   EXPECT_EQ(depth.at(3, 0), 8300);
   EXPECT_EQ(depth.at(3, 5), 8305);
   EXPECT_EQ(depth.at(7, 2), 0);
+  image.sensor.depth_scale = 5e-5;
+  write_pngs(dir.string(), image);
+  EXPECT_EQ(read_png(path("left_depth.png")).at(3, 0), 16600);
+}
+
+TEST_F(Images, TruthStandsBesideWhatWasMeasured) {
+  RangeImage image = small_image();
+  write_pngs(dir.string(), image);
+  EXPECT_EQ(text("left_truth_depth.png"), text("left_depth.png")) << "an exact sensor tells the truth";
+  image.truth_depth = image.depth;
+  image.truth_depth[7] = 0.9f;  // what the sensor missed
+  image.truth_label = image.label;
+  image.truth_label[7] = 3;
+  image.label[1] = 0;
+  write_pngs(dir.string(), image);
+  EXPECT_EQ(read_png(path("left_depth.png")).at(7, 0), 0);
+  EXPECT_EQ(read_png(path("left_truth_depth.png")).at(7, 0), 9000);
+  EXPECT_EQ(read_png(path("left_labels.png")).samples, image.truth_label);
+}
+
+TEST_F(Images, ValidityIsItsCodeAndThePictureExplainsIt) {
+  RangeImage image = small_image();
+  image.validity[0] = 8;
+  write_pngs(dir.string(), image);
+  const Png validity = read_png(path("left_validity.png"));
+  EXPECT_EQ(validity.depth, 8);
+  EXPECT_EQ(validity.at(0, 0), 8);
+  EXPECT_EQ(validity.at(1, 0), 0);
+  EXPECT_EQ(validity.at(7, 0), 1);
+  for (const char* picture : {"left_validity_picture.png", "left_depth_picture.png"}) {
+    EXPECT_GT(read_png(path(picture)).width, 8) << "what the colours mean stands to the right of the image";
+  }
 }
 
 TEST_F(Images, LabelsAreThoseOfTheImage) {

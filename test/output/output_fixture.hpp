@@ -44,6 +44,8 @@ inline RangeImage small_image() {
   image.sensor.name = "left";
   image.sensor.width = 8;
   image.sensor.height = 6;
+  image.width = 8;
+  image.height = 6;
   image.sensor.k = {10, 0, 3.5, 0, 10, 2.5, 0, 0, 1};
   Pose pose;
   pose.position = Vec3(0.1, -0.2, 0.9);
@@ -56,6 +58,7 @@ inline RangeImage small_image() {
       image.depth.push_back(seen ? 0.8f + 0.01f * static_cast<float>(x) + 0.0001f * static_cast<float>(y) : nan);
       image.label.push_back(x == 1 || x == 2 ? 1 : x == 5 ? 3 : 0);
       image.normal.push_back(seen ? std::array<float, 3>{0, 0, -1} : std::array<float, 3>{nan, nan, nan});
+      image.validity.push_back(seen ? 0 : 1);
       image.intensity.push_back(seen ? 0.5f + 0.05f * static_cast<float>(x) : nan);
     }
   }

@@ -23,9 +23,9 @@ TEST_F(Pcd, PclReadsBackWhatTheImageHolds) {
   const Pose& pose = *image.sensor.pose;
   EXPECT_LT((origin.head<3>().cast<double>() - pose.position).norm(), 1e-6);
   EXPECT_LT(orientation.cast<double>().angularDistance(pose.orientation), 1e-6);
-  const char* names[] = {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label"};
-  ASSERT_EQ(blob.fields.size(), 8u);
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(blob.fields[i].name, names[i]);
+  const char* names[] = {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label", "validity"};
+  ASSERT_EQ(blob.fields.size(), 9u);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(blob.fields[i].name, names[i]);
 
   const auto value = [&](std::size_t point, int field) {
     float v;
@@ -48,6 +48,7 @@ TEST_F(Pcd, PclReadsBackWhatTheImageHolds) {
       std::uint32_t label;
       std::memcpy(&label, &blob.data[i * blob.point_step + blob.fields[7].offset], 4);
       EXPECT_EQ(label, image.label[i]);
+      EXPECT_EQ(blob.data[i * blob.point_step + blob.fields[8].offset], image.validity[i]);
     }
   }
   EXPECT_EQ(entries(), 1u);

@@ -53,7 +53,7 @@ TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
   EXPECT_EQ(part.at("pose").at("orientation_xyzw").size(), 4u);
   EXPECT_TRUE(part.at("visible_fraction").is_object());
   const auto& report = json.at("report");
-  for (const char* key : {"at_rest", "accepted", "reasons", "solver", "device", "simulated_s", "wall_s", "steps",
+  for (const char* key : {"at_rest", "accepted", "reasons", "solver", "device", "finish", "simulated_s", "wall_s", "steps",
                           "stages_ms", "gap", "escaped", "flags"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }

@@ -1,9 +1,10 @@
 #include "bin_scenes/pour/pour.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/solver/bullet_solver.hpp"
 #include "bin_scenes/pour/rest_watch.hpp"
 #include "bin_scenes/pour/spawn.hpp"
+#include "bin_scenes/solver/bullet_solver.hpp"
+#include "pour/stages.hpp"
 #include "solver/fixture.hpp"
 
 #include <tbb/global_control.h>
@@ -314,12 +315,12 @@ class HoveringSolver : public Solver {
  public:
   struct Habits {
     int jumps = 0;
-    Phase jumps_in = Phase::probe;
+    Stage jumps_in = Stage::probe;
     double jumps_at_s = 0.05, slides_s = 0.0, swings_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
     bool heeds_phases = true;
   };
   explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
-  std::vector<Phase> phases;
+  std::vector<Stage> phases;
   double probed_s = 0.0;  ///< in the last probe
 
   WorldId add_world(const WorldDef& def) override {
@@ -329,9 +330,9 @@ class HoveringSolver : public Solver {
   void remove_world(WorldId) override {}
   void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
   void remove(WorldId, std::size_t) override {}
-  bool set_phase(WorldId, Phase phase) override {
-    phases.push_back(phase);
-    if (phase == Phase::probe) probed_s = 0.0;
+  bool set_phase(WorldId, const Phase& phase) override {
+    phases.push_back(stage_of(phase));
+    if (probes()) probed_s = 0.0;
     pressed_s_ = 0.0;
     jumped_ = false;
     return habits_.heeds_phases;
@@ -339,7 +340,7 @@ class HoveringSolver : public Solver {
   double advance(const std::vector<WorldId>&, double seconds) override {
     if (probes()) probed_s += seconds;
     if (!probes() && times_probed() > 0) pressed_s_ += seconds;
-    const double asked_s = habits_.jumps_in == Phase::probe ? (probes() ? probed_s : 0.0) : pressed_s_;
+    const double asked_s = habits_.jumps_in == Stage::probe ? (probes() ? probed_s : 0.0) : pressed_s_;
     if (jumped_ && asked_s <= habits_.jumps_at_s + habits_.slides_s) states_[0].pose.position.x() += 0.1 * seconds;
     if (!jumped_ && habits_.jumps > 0 && asked_s > 0.0 && asked_s >= habits_.jumps_at_s) {
       states_[0].pose.position.x() += 1e-3;
@@ -366,8 +367,8 @@ class HoveringSolver : public Solver {
   std::string device() const override { return "cpu"; }
 
  private:
-  bool probes() const { return !phases.empty() && phases.back() == Phase::probe; }
-  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
+  bool probes() const { return !phases.empty() && phases.back() == Stage::probe; }
+  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
 
   Habits habits_;
   bool jumped_ = false, swung_ = false;
@@ -377,30 +378,42 @@ class HoveringSolver : public Solver {
 };
 
 struct Probed {
-  std::vector<Phase> phases;
+  std::vector<Stage> phases;
   double last_s;  ///< length of the last probe
 
-  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Phase::probe); }
+  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
 };
-Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25) {
+Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25,
+              Pour::Finish finish = Pour::Finish::probed) {
   HoveringSolver solver(habits);
   Request request = request_of(parts);
+  request.pour.finish = finish;
   request.pour.rest_window = rest_window;
   request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
-  EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+  const Report report = pour(request, {small_box()}, solver, {0})[0].report;
+  EXPECT_TRUE(report.at_rest);
+  EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
   return {solver.phases, solver.probed_s};
+}
+
+TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
+  const auto phases = [](Pour::Finish finish) { return probed({}, 2, 0.25, finish).phases; };
+  const std::vector<Stage> all = phases(Pour::Finish::probed);
+  EXPECT_EQ(phases(Pour::Finish::settled), std::vector<Stage>(all.begin(), all.begin() + 2));
+  EXPECT_EQ(phases(Pour::Finish::pressed), std::vector<Stage>(all.begin(), all.begin() + 3));
 }
 
 TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
   HoveringSolver::Habits habits;
-  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}));
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             prove = Stage::prove;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove}));
   EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
   habits.jumps_at_s = 0.015;
   habits.jumps = 1;
   EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
   habits.jumps_at_s = 0.05;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove}))
       << "it comes to lie in the first, and stands the second";
   habits.jumps = 100;
   EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
@@ -410,27 +423,28 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
 
 TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
   HoveringSolver::Habits habits;
-  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
-  habits.jumps_in = press;
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             prove = Stage::prove;
+  habits.jumps_in = prove;
   habits.jumps_at_s = 1e-3;
   habits.slides_s = 0.05;
   habits.jumps = 2;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press, press, press}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove, prove, prove}))
       << "forces are forgotten anew each time";
   habits.heeds_phases = false;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
-      << "a solver that does not forget is not asked";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle})) << "a solver to which all stages are the same";
 }
 
 TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
-  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             prove = Stage::prove;
   habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, settle, press, probe, press}));
-  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Phase>{pour, settle, press, probe, press}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, prove}));
+  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, prove}))
       << "one of many is waited for";
   habits.swings_s = 1.5;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Phase>{pour, settle, press, probe, probe, press})) << "in time";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove})) << "in time";
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
@@ -442,8 +456,6 @@ TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
   EXPECT_NEAR(probed(habits).last_s, 0.4, 0.03);
   habits.sleeps_at_s = 100.0;
   EXPECT_NEAR(probed(habits).last_s, 1.0, 0.03);
-  habits.heeds_phases = false;
-  EXPECT_EQ(probed(habits).last_s, at_once) << "a solver that does not probe";
 }
 
 TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
@@ -453,13 +465,14 @@ TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
     HoveringSolver solver(habits);
     Request request = request_of(2);
     request.pour.pattern = Pour::Pattern::given;
+    request.pour.finish = Pour::Finish::probed;
     for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
     EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
     return solver.phases;
   };
-  const auto pour = Phase::pour, settle = Phase::settle, probe = Phase::probe, press = Phase::press;
-  EXPECT_EQ(phases_of(0.0), (std::vector<Phase>{pour, press}));
-  EXPECT_EQ(phases_of(0.5), (std::vector<Phase>{pour, press, settle, press, probe, press}));
+  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, prove = Stage::prove;
+  EXPECT_EQ(phases_of(0.0), (std::vector<Stage>{press}));
+  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, prove}));
 }
 
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {

@@ -1,6 +1,7 @@
 /// Whole scenes of the default solver, poured, settled, pressed and probed until they rest: the same bits whatever runs
 /// beside them. Threads of the GL driver and other processes: command_line_test.cpp; passes: sphere_gl/batch_test.cpp.
 #include "bin_scenes/pour/pour.hpp"
+#include "pour/stages.hpp"
 #include "solver/fixture.hpp"
 
 #include <tbb/global_control.h>
@@ -57,18 +58,18 @@ Ends ends_with(int threads, const Request& request, const std::vector<std::size_
   return tbb::task_arena(threads).execute([&] { return ends_of(request, indices); });
 }
 
-/// Hands calls on, and counts the phases that worlds were put into.
+/// Hands calls on, and counts the stages that worlds were put into.
 class Watched : public Solver {
  public:
   explicit Watched(std::unique_ptr<Solver> solver) : solver_(std::move(solver)) {}
-  std::map<Phase, int> phases;
+  std::map<Stage, int> stages;
 
   WorldId add_world(const WorldDef& def) override { return solver_->add_world(def); }
   void remove_world(WorldId id) override { solver_->remove_world(id); }
   void insert(WorldId id, std::size_t body, const BodyState& state) override { solver_->insert(id, body, state); }
   void remove(WorldId id, std::size_t body) override { solver_->remove(id, body); }
-  bool set_phase(WorldId id, Phase phase) override {
-    ++phases[phase];
+  bool set_phase(WorldId id, const Phase& phase) override {
+    ++stages[stage_of(phase)];
     return solver_->set_phase(id, phase);
   }
   double advance(const std::vector<WorldId>& ids, double seconds) override { return solver_->advance(ids, seconds); }
@@ -102,12 +103,12 @@ TEST_P(Repeatability, ASceneIsTheSameAloneAndInAnyBatch) {
   EXPECT_NE(ends_of(other, {0})[0].first, batch[0].first);
 }
 
-TEST_P(Repeatability, ASceneGoesThroughEveryPhase) {
+TEST_P(Repeatability, ASceneGoesThroughEveryStage) {
   const Request request = angles(5, GetParam());
   Watched solver(solver_of(request));
   const Ends watched = ends_of(request, solver, {1});
-  for (const Phase phase : {Phase::pour, Phase::settle, Phase::press, Phase::probe})
-    EXPECT_GT(solver.phases[phase], 0) << static_cast<int>(phase);
+  for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::prove})
+    EXPECT_GT(solver.stages[stage], 0) << row(stage).name;
   EXPECT_EQ(watched, ends_of(request, {1})) << "looked at at once, not while the device works on another";
 }
 

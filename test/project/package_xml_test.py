@@ -17,6 +17,7 @@ DEBIAN = {
     "gtest": ["libgtest-dev"],
     "libepoxy-dev": ["libepoxy-dev", "libegl-dev"],
     "libpcl-all-dev": ["libpcl-dev"],
+    "libopencv-dev": ["libopencv-calib3d-dev"],
     "nlohmann-json-dev": ["nlohmann-json3-dev"],
     "opengl": ["libegl1", "libopengl0", "libgl1-mesa-dri"],
     "tbb": ["libtbb-dev"],
@@ -26,6 +27,7 @@ DEBIAN = {
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
         "glslang-tools",  # rosdep has no key of it; where it is missing its test is skipped
+        "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
         # of the shell: rosrun, rosservice, rostopic and rospack, which come with a ROS that has roslaunch
         "rosbash", "rospack-tools", "python3-rosservice", "python3-rostopic"}
 # Named for users alone: scripts/demo and the tests need no window.

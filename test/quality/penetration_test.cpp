@@ -1,6 +1,7 @@
 #include "bin_scenes/quality/quality.hpp"
 
 #include "part/shapes.hpp"
+#include "quality/clearance.hpp"
 #include "quality/pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@ namespace bin_scenes {
 namespace {
 
 using test::bar;
+using test::clearance;
 using test::ring;
 using test::sphere_mesh;
 

@@ -18,11 +18,14 @@ const ros::Time stamp(12, 34);
 RangeImage some_image() {
   RangeImage image;
   image.sensor = testing::some_sensor("camera", 0.0);
+  image.width = 4;
+  image.height = 3;
   for (int i = 0; i < 12; ++i) {
     image.depth.push_back(0.5f + 0.01f * i);
     image.label.push_back(static_cast<std::uint16_t>(i * 5000));
     image.normal.push_back({0.01f * i, 0.02f * i, -1.0f});
     image.intensity.push_back(0.05f * i);
+    image.validity.push_back(static_cast<std::uint8_t>(i % 9));
   }
   image.depth[6] = nan;
   image.label[6] = 0;
@@ -109,11 +112,14 @@ TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
   ASSERT_EQ(messages.labels.data.size(), 24u);
   EXPECT_EQ(std::memcmp(messages.depth.data.data(), image.depth.data(), 48), 0);
   EXPECT_EQ(std::memcmp(messages.labels.data.data(), image.label.data(), 24), 0);
+  EXPECT_EQ(messages.validity.encoding, "mono8");
+  EXPECT_EQ(messages.validity.data, image.validity);
 }
 
 TEST(ImageMessages, OneStampOneFrame) {
   const auto m = image_messages(some_image(), stamp);
-  for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header}) {
+  for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header,
+                                           &m.validity.header}) {
     EXPECT_EQ(header->stamp, stamp);
     EXPECT_EQ(header->frame_id, "camera_optical_frame");
   }

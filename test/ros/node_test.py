@@ -48,7 +48,7 @@ sensors:
 MODELS = ["bracket_l.stl", "gear_spur.stl"]
 TOPICS = {
     "scene": Scene, "markers": MarkerArray, "points": PointCloud2, "depth/image_rect": Image,
-    "depth/camera_info": CameraInfo, "labels/image_raw": Image,
+    "depth/camera_info": CameraInfo, "labels/image_raw": Image, "validity/image_raw": Image,
 }
 TOLERANCE = 0.3e-3  # m: points on their part's mesh
 
@@ -124,7 +124,7 @@ class NodeTest(unittest.TestCase):
         scene, topics = self.scene_on_topics()
         topics["scene"].header.seq = scene.header.seq  # counted by the publisher
         self.assertEqual(topics["scene"], scene)
-        self.assertEqual(counter(scene, "rendered_images"), 1)
+        self.assertEqual(counter(scene, "views"), 1)
         self.assertEqual([p.id for p in scene.parts], list(range(5)))
         self.check_frames(scene, topics["points"])
         self.check_images(scene, topics)
@@ -219,12 +219,12 @@ class NodeTest(unittest.TestCase):
 
     def test_images_are_made_only_when_somebody_looks(self):
         scene = self.scene()
-        self.assertEqual(counter(scene, "rendered_images"), 0)
+        self.assertEqual(counter(scene, "views"), 0)
         self.assertTrue(all(math.isnan(p.visible_fraction[0]) for p in scene.parts))
         late = Listener({"points": PointCloud2, "scene": Scene})
         try:
             late.wait(scene.header.stamp, ["points", "scene"])
-            self.wait_until(lambda: counter(late.seen["scene"], "rendered_images") == 1)
+            self.wait_until(lambda: counter(late.seen["scene"], "views") == 1)
             sent_again = late.seen["scene"]
         finally:
             late.close()
@@ -232,7 +232,7 @@ class NodeTest(unittest.TestCase):
         self.assertEqual([p.pose for p in sent_again.parts], [p.pose for p in scene.parts])
         self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in sent_again.parts))
         asked = self.scene(render=True)
-        self.assertEqual(counter(asked, "rendered_images"), 1)
+        self.assertEqual(counter(asked, "views"), 1)
         self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in asked.parts))
 
     def test_a_late_subscriber_never_sees_an_older_scene(self):
@@ -253,7 +253,7 @@ class NodeTest(unittest.TestCase):
         listener = Listener({**TOPICS, **names})
         try:
             topics = listener.wait(scene.header.stamp, {**TOPICS, **names})
-            self.wait_until(lambda: counter(listener.seen["scene"], "rendered_images") == 2)
+            self.wait_until(lambda: counter(listener.seen["scene"], "views") == 2)
         finally:
             listener.close()
         for name in names:

@@ -75,6 +75,7 @@ TEST(SceneMessage, ReportComesBackWhole) {
   EXPECT_EQ(a.device, b.device);
   EXPECT_EQ(a.simulated_s, b.simulated_s);
   EXPECT_EQ(a.wall_s, b.wall_s);
+  EXPECT_EQ(a.finish, b.finish);
   EXPECT_EQ(a.steps, b.steps);
   EXPECT_EQ(a.profile.stages_ms, b.profile.stages_ms);
   EXPECT_EQ(a.profile.counters, b.profile.counters);

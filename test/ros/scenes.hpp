@@ -32,6 +32,7 @@ inline Report full_report() {
   r.device = "llvmpipe";
   r.simulated_s = 1.25;
   r.wall_s = 2.5;
+  r.finish = "pressed";
   r.steps = 300;
   r.profile.stages_ms = {{"pour", 12.5}, {"settle", 40.0}};
   r.profile.counters = {{"contacts", 1234567890123ull}, {"skipped_pairs", 7}};

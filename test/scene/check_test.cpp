@@ -108,6 +108,24 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].k = {1, 2, 3}; }), "sensors[0].k");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].k = {0, 0, 1, 0, 1, 1, 0, 0, 1}; }), "sensors[0].k");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].far = 0.01; }), "sensors[0].far");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.read_noise = -1; }), "sensors[0].imager.read_noise");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.bits = 17; }), "sensors[0].imager.bits");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].structured_light.steps = 2; }), "sensors[0].structured_light.steps");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].laser_line.speckle = na_n; }), "sensors[0].laser_line.speckle");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.baseline = 0; }), "sensors[0].stereo.baseline");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.disparities = 100; }), "sensors[0].stereo.disparities");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.window = 8; }), "sensors[0].stereo.window");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].time_of_flight.axial = -0.1; }), "sensors[0].time_of_flight.axial");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].distortion[2] = NAN; }), "sensors[0].distortion");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].projector.baseline = 0.0; }), "sensors[0].projector.baseline");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].projector.fov = -1.0; }), "sensors[0].projector.fov");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].projector.width = 0; }), "sensors[0].projector.width");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].laser.baseline = 0.0; }), "sensors[0].laser.baseline");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].laser.width_mm = 0.0; }), "sensors[0].laser.width_mm");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].scan.direction = Vec3::Zero(); }), "sensors[0].scan.direction");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].scan.step = -0.1; }), "sensors[0].scan.step");
+  EXPECT_EQ(refused([](Request& r) { r.parts[0].surface.albedo = 1.5; }), "parts[0].surface.albedo");
+  EXPECT_EQ(refused([](Request& r) { r.bin.surface.gloss = -0.1; }), "bin.surface.gloss");
   EXPECT_EQ(refused([](Request& r) { r.accept.penetration = -1; }), "accept.penetration");
   EXPECT_EQ(refused([](Request& r) { r.accept.gap = std::nan(""); }), "accept.gap");
   EXPECT_EQ(refused([](Request& r) { r.solver.bullet.hull_volume_error = 0; }), "solver.bullet.hull_volume_error");
@@ -115,9 +133,25 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
   EXPECT_EQ(refused([](Request& r) { r.memory_budget = 0.0; }), "memory_budget");
 }
 
-TEST_F(ConfigTest, ARefusedValueIsToldWithItsLine) {
-  expect_refused(bolts + "    friction: -0.5\n", {"request.yaml:3", "'parts[0].friction'", "at least 0", "is -0.5"});
-  expect_refused(bolts, {"--set parts[0].friction", "is -1"}, {"parts[0].friction=-1"});
+TEST(Check, PatternsMustTellAllOfTheProjectorsColumnsApart) {
+  const auto with = [](int bits, SensorModel model) {
+    return refused([&](Request& r) {
+      r.sensors[0].model = model;
+      r.sensors[0].projector.width = 1280;  // 80 fringes of 16 columns
+      r.sensors[0].structured_light.gray_bits = bits;
+    });
+  };
+  EXPECT_EQ(with(8, SensorModel::structured_light), "");
+  EXPECT_EQ(with(7, SensorModel::structured_light), "sensors[0].structured_light.gray_bits");
+  EXPECT_EQ(with(7, SensorModel::ideal), "");
+}
+
+TEST(Check, AStereoCameraIsRectified) {
+  EXPECT_EQ(refused([](Request& r) {
+              r.sensors[0].model = SensorModel::stereo;
+              r.sensors[0].distortion[0] = 0.1;
+            }),
+            "sensors[0].distortion");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// them over time steps. SI units; what is relative says so.
 #pragma once
 
+#include "pour/settling.hpp"
 #include "solver/lab.hpp"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ inline Slide slide(Lab lab) {
 
 /// Way in one second of a flat box with mu = 0.5 on a slope, m. A tilted gravity stands for it; `heading` is the
 /// direction down it, which must not matter.
-inline double slip(Lab lab, double angle, double heading, Phase phase = Phase::pour) {
+inline double slip(Lab lab, double angle, double heading, Phase phase = phases::pour) {
   lab.def().gravity =
       g * Vec3(std::sin(angle) * std::cos(heading), std::sin(angle) * std::sin(heading), -std::cos(angle));
   const auto body = lab.place(box({0.05, 0.05, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(0.5));
@@ -227,7 +228,7 @@ inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const V
   const auto start = [&](int i) { return Vec3(0, 0, (i + 0.5) * edge); };
   const Quat turned(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
   for (int i = 0; i < 10; ++i) lab.place(brick, start(i), turned, material(0.5));
-  lab.begin(Phase::press);  // as every scene ends
+  lab.begin(phases::press);  // as every scene ends
   lab.simulate(seconds);
   double most = 0.0;
   for (int i = 0; i < 10; ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
+#include "pour/settling.hpp"
 
 #include <cmath>
 #include <map>
@@ -128,7 +129,7 @@ class Lab {
     begun_ = true;
   }
   void simulate(double seconds) {
-    if (!begun_) begin(Phase::pour);
+    if (!begun_) begin(phases::pour);
     const std::uint64_t before = solver_->steps(world_);
     const double done = solver_->advance({world_}, seconds);
     time_ += done;

@@ -1,8 +1,12 @@
+#include "pour/settling.hpp"
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
+
+#include <algorithm>
+#include <map>
 
 namespace bin_scenes::testing {
 
@@ -38,7 +42,7 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
     Lab lab(make_sphere_solver(settings));
     const PartModelPtr part = box(Vec3(0.04, 0.03, 0.02));
     for (const double height : {0.1, 0.2}) lab.place(part, Vec3(0, 0, height));
-    lab.begin(Phase::pour);
+    lab.begin(phases::pour);
     return lab.solver().flags(0);
   };
   EXPECT_TRUE(flags(0.01).empty());
@@ -48,34 +52,88 @@ TEST(SphereFlags, AFieldCoarserThanAskedForIsTold) {
   EXPECT_NE(found[0].remedy.find("set solver.sphere.field_cell to 0.00"), std::string::npos) << found[0].remedy;
 }
 
+// What benchmarks take away (bench/ablation.cpp) reaches the passes, and taking nothing away is the solver as it is.
+struct Tumbled {
+  std::vector<BodyState> states;
+  std::map<std::string, std::uint64_t> counters;
+
+  explicit Tumbled(const sphere::Variant& variant) {
+    Lab lab(make_sphere_solver({}, variant));
+    const PartModelPtr part = box(Vec3(0.05, 0.04, 0.03));
+    for (int i = 0; i < 4; ++i)
+      lab.place(part, Vec3(0.004 * i, 0, 0.04 + 0.06 * i),
+                Quat(Eigen::AngleAxisd(0.3 + i, Vec3(1, 2, 3).normalized())));
+    lab.simulate(0.5);
+    states = lab.states();
+    counters = lab.solver().profile().counters;
+  }
+  bool operator==(const Tumbled& other) const {
+    return std::equal(states.begin(), states.end(), other.states.begin(), [](const BodyState& a, const BodyState& b) {
+      return a.pose.position == b.pose.position && a.pose.orientation.coeffs() == b.pose.orientation.coeffs();
+    });
+  }
+};
+
+TEST(SphereVariant, TakesAwayWhatItNames) {
+  const Tumbled all{sphere::Variant{}};
+  EXPECT_TRUE(all == Tumbled{sphere::Variant{}});
+  EXPECT_GT(all.counters.at("pairs_recycled"), 0u);
+  EXPECT_LT(all.counters.at("nodes_tested"), all.counters.at("nodes_possible"));
+
+  sphere::Variant anew, unculled;
+  anew.settings.recycle = anew.settings.coarse_recycle = 0;
+  EXPECT_EQ(Tumbled(anew).counters.at("pairs_recycled"), 0u);
+  unculled.change = [](sphere::Shape& shape) {
+    for (sphere::Samples* samples : {&shape.coarse, &shape.fine})
+      for (auto* balls : {&samples->groups, &samples->clusters})
+        for (sphere::Ball& ball : *balls) ball.radius = 1e3f;
+  };
+  const Tumbled every(unculled);
+  EXPECT_EQ(every.counters.at("nodes_tested"), every.counters.at("nodes_possible"));
+  EXPECT_TRUE(every == all) << "bounds change no contact";
+
+  for (bool sphere::Settings::*mechanism :
+       {&sphere::Settings::warm_start, &sphere::Settings::speculation, &sphere::Settings::half_way_poses,
+        &sphere::Settings::relaxation, &sphere::Settings::gyroscopic}) {
+    sphere::Variant without;
+    without.settings.*mechanism = false;
+    EXPECT_FALSE(Tumbled(without) == all);
+  }
+  sphere::Variant upright;
+  upright.settings.oriented_boxes = false;
+  const Tumbled more(upright);
+  EXPECT_GT(more.counters.at("pairs"), all.counters.at("pairs"));
+  EXPECT_TRUE(more == all) << "pairs whose boxes are apart have no contacts";
+}
+
 // On a slope of 0.475 a box stands with friction 0.5 and slides with nine tenths of it.
 TEST(SphereProbe, WhatHoldsByLessThanATenthSlides) {
   const sphere::Settings settings;
   const double angle = std::atan(0.475), slips = settings.probe_slip, braked_s = 1.0 - slips;
-  EXPECT_LT(slip(Lab(sphere_default.make()), angle, 0.3, Phase::press), 1e-5);
-  const double icy = g * std::sin(angle), braked = icy - settings.probe_grip * 0.5 * g * std::cos(angle);
+  EXPECT_LT(slip(Lab(sphere_default.make()), angle, 0.3, phases::press), 1e-5);
+  const double icy = g * std::sin(angle), braked = icy - phases::probe.friction * 0.5 * g * std::cos(angle);
   const double expected = icy * slips * (0.5 * slips + braked_s) + 0.5 * braked * braked_s * braked_s;
-  EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, Phase::probe) / expected, 1.0, 5e-3);
+  EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, phases::probe) / expected, 1.0, 5e-3);
 }
 
-// What moved when probed settles with the friction that it has to hold with.
-TEST(SphereProbe, LeavesLessFrictionAndCanBeRepeated) {
+TEST(SpherePhases, ForgottenForcesAreFoundByMoreSweeps) {
   sphere::World world;
-  EXPECT_TRUE(sphere::take_phase(world, Phase::press));
-  EXPECT_EQ(world.grip, 1.0f);
+  EXPECT_TRUE(sphere::take_phase(world, phases::press));
+  EXPECT_FALSE(sphere::take_phase(world, phases::press)) << "nothing changes";
+  EXPECT_FALSE(world.forgets);
+  world.cold_steps = 0;
   for (int k = 0; k < 2; ++k) {
-    EXPECT_TRUE(sphere::take_phase(world, Phase::probe));
+    EXPECT_TRUE(sphere::take_phase(world, phases::probe)) << "forces are forgotten each time";
     EXPECT_TRUE(world.forgets);
-    EXPECT_EQ(world.stiffness, sphere::Stiffness::rigid);
     EXPECT_EQ(world.cold_steps, world.settings.cold_steps);
-    EXPECT_EQ(world.grip, world.settings.probe_grip);
+    EXPECT_EQ(world.grip, static_cast<float>(phases::probe.friction));
+    EXPECT_TRUE(sphere::take_phase(world, phases::prove));
+    EXPECT_TRUE(world.forgets);
+    EXPECT_EQ(world.cold_steps, world.settings.pressed_cold_steps);
     world.cold_steps = 0;
-    for (const Phase phase : {Phase::settle, Phase::press}) {
-      EXPECT_TRUE(sphere::take_phase(world, phase));
-      EXPECT_FALSE(world.forgets);
-      EXPECT_EQ(world.cold_steps, 0);
-      EXPECT_EQ(world.grip, world.settings.probe_grip);
-    }
+    EXPECT_TRUE(sphere::take_phase(world, phases::settle));
+    EXPECT_FALSE(world.forgets);
+    EXPECT_EQ(world.cold_steps, 0);
   }
 }
 
@@ -131,7 +189,7 @@ TEST(SphereSwing, OfAWheelOnItsFaceBesideAWallIsLost) {
     const double radius = 0.03, width = 0.012, up = radius * std::cos(M_PI / 24.0);
     const std::size_t body = lab.place(wheel(24, radius, width), Vec3(0.2 - 0.5 * width - gap, 0, up));
     lab.start(body).velocity = {Vec3(0, -0.6 * up, 0), Vec3(0.6, 0, 0)};
-    lab.begin(Phase::settle);
+    lab.begin(phases::settle);
     lab.simulate(4.0);
     EXPECT_TRUE(lab.solver().asleep(lab.world())[body]) << gap;
   }

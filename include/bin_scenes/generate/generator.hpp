@@ -1,16 +1,16 @@
 /// The main job, from request to judged scenes and their images. Tool, node and benchmark all call this.
 #pragma once
 
+#include "bin_scenes/pour/heap.hpp"
 #include "bin_scenes/quality/quality.hpp"
-#include "bin_scenes/sensor/range_camera.hpp"
-#include "bin_scenes/pour/pour.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 
 #include <functional>
 #include <memory>
 
 namespace bin_scenes {
 
-/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, the camera.
+/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, search trees for rays.
 /// One thread at a time (the GL context belongs to the thread that made it).
 class Generator {
  public:
@@ -20,16 +20,25 @@ class Generator {
   struct Result {
     Scene scene;
     std::vector<RangeImage> images;  ///< only if asked for
+    std::shared_ptr<void> prepared;  ///< what Options::prepare leaves for the one who gets the scene
   };
   struct Options {
-    bool render = true;        ///< false: no sensor image is made (nobody looks)
-    bool silhouettes = false;  ///< of every part in every image, as if it were alone
+    bool render = true;  ///< false: no sensor image is made (nobody looks)
+    /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
+    /// poured: the place for what takes long, such as writing files. It may take the images away.
+    std::function<void(Result&)> prepare;
     RunHooks hooks;
   };
 
   /// Loads, prepares, pours, judges and renders request.scenes scenes from request.first on, and hands each over as
-  /// soon as it is done (in order of index). Throws Error; scenes handed over before stay valid.
+  /// soon as it is done (in order of index, in the calling thread). Throws Error; scenes handed over before stay valid.
   void generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done);
+
+  /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
+  /// It may outlive the generator.
+  Heap heap(const Request& request, const RunHooks& hooks = {});
+  /// What generate() hands over, of a heap as it is now: judged and rendered, as its own request asks.
+  Result result(const Heap& heap, const Options& options);
 
   /// Models of the last request, by part line.
   const std::vector<PartModelPtr>& parts() const;
@@ -41,7 +50,9 @@ class Generator {
 };
 
 /// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget. Without
-/// parts (not loaded yet) only what follows from the counts and settings of the request.
+/// parts (not loaded yet) only what follows from the counts and settings of the request. Images count for one scene.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
+/// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.
+std::size_t scenes_seen_at_once(const Request& request, double estimate);
 
 }  // namespace bin_scenes

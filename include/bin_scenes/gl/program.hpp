@@ -28,8 +28,6 @@ class Program {
   /// `file` below the shader directory, e.g. "thesis/detect.comp". Throws an environment Error with the compiler's
   /// message, file and line.
   static Program compute(const std::string& file, const Defines& defines = {});
-  static Program graphics(const std::string& vertex_file, const std::string& fragment_file,
-                          const Defines& defines = {});
   ~Program();
   Program(Program&& other) noexcept;
   Program& operator=(Program&& other) noexcept;
@@ -38,7 +36,6 @@ class Program {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, float value) const;
-  void set(const char* uniform, const float (&matrix)[16]) const;  ///< column-major 4x4
 
   const std::string& name() const { return name_; }  ///< file name without directory and extension
   unsigned id() const { return id_; }

@@ -2,9 +2,10 @@
 /// A full disk or an unwritable directory is an environment Error.
 #pragma once
 
+#include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/scene.hpp"
-#include "bin_scenes/sensor/range_camera.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
 
 #include <functional>
 #include <string>
@@ -15,25 +16,29 @@ namespace bin_scenes {
 /// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null, and so is the pose of a
 /// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of a
 /// request on one class of device.
-std::string scene_json(const Scene& scene, const Request& request);
+/// `images` add a block `truth` to each sensor: per part its visible fraction, boxes and counts of pixels.
+/// @param parts  parts[line] are the models; only with images
+std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images = {},
+                       const std::vector<PartModelPtr>& parts = {});
 /// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
 Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
 
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label,
-/// where label is 0 for background and bin, id + 1 for a part. Written by PCL: pcd_supported() is false, and this an
-/// environment Error, in a build without it.
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity,
+/// where label is 0 for background and bin, id + 1 for a part, and validity a code of sensor/validity.hpp. Written by
+/// PCL: pcd_supported() is false, and this an environment Error, in a build without it.
 void write_pcd(const std::string& path, const RangeImage& image);
 bool pcd_supported();
 
-/// <sensor>_depth.png, 16 bit, 0.1 mm, 0 = nothing seen, 65535 = 6.5535 m or more; <sensor>_labels.png, 16 bit,
-/// id + 1; <sensor>.png, a shaded picture to look at.
+/// 16 bit: <sensor>_depth.png and <sensor>_truth_depth.png, counts of Sensor::depth_scale, 0 = not valid, 65535 = that
+/// many or more; <sensor>_labels.png, id + 1, true. 8 bit: <sensor>_validity.png. To look at: <sensor>.png, shaded;
+/// <sensor>_depth_picture.png with a bar in metres; <sensor>_validity_picture.png with a legend.
 void write_pngs(const std::string& directory, const RangeImage& image);
 
 /// One scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md): a camera
 /// is an image of the scene; lengths in mm; depth/, gray/, mask/, mask_visib/, scene_gt.json, scene_gt_info.json,
-/// scene_camera.json. mask/ needs the images' silhouettes. `parts[line]` are the models.
+/// scene_camera.json. Depth in counts of depth_scale. `parts[line]` are the models.
 ///
 /// BOP numbers masks by the entry's place in scene_gt, we by the part's id. An entry carries its `id`, and stands at that
 /// place wherever it can: only where parts were never poured, the last ones take the places that are left free, and
@@ -55,21 +60,5 @@ using BagWriter =
 void register_bag_writer(BagWriter writer);
 /// Empty without ROS.
 const BagWriter& bag_writer();
-
-/// A file or directory that only appears under its name once it is whole: work on path(), then commit().
-/// Destroyed without commit(), it leaves nothing behind. commit() replaces what stood there.
-class Temporary {
- public:
-  explicit Temporary(const std::string& target);
-  ~Temporary();
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-
-  const std::string& path() const { return path_; }
-  void commit();
-
- private:
-  std::string target_, path_;
-};
 
 }  // namespace bin_scenes

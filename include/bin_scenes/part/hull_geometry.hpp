@@ -11,7 +11,14 @@ namespace bin_scenes {
 /// shrinks a little: the vertex furthest outside is added until the count is reached.
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices);
 
-/// The half-spaces of a closed convex mesh: normal . p <= offset inside.
+/// Half-space normal . x <= offset; the normal points out of the solid.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();
+  double offset = 0.0;
+  double above(const Vec3& x) const { return normal.dot(x) - offset; }
+};
+
+/// The half-spaces of a closed convex mesh.
 class HullPlanes {
  public:
   explicit HullPlanes(const Mesh& hull);
@@ -25,10 +32,6 @@ class HullPlanes {
   double to_box(const Vec3& p) const { return (bounds_.lower - p).cwiseMax(p - bounds_.upper).maxCoeff(); }
 
  private:
-  struct Plane {
-    Vec3 normal;
-    double offset;
-  };
   std::vector<Plane> planes_;
   Aabb bounds_;
 };

@@ -24,9 +24,6 @@ Penetration penetration(const MeshQuery& a, const Pose& pose_a, const MeshQuery&
 /// open one is a sheet, solid on the side away from the part.
 Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& bin, const MeshQuery* bin_mesh);
 
-/// Shortest distance between two placed meshes (0 if they touch or overlap), up to `limit`.
-double clearance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, double limit);
-
 /// How far a can move along `direction` (unit, bin frame) before it touches b, up to `limit`. 0 where their surfaces
 /// cut each other along the way already.
 double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, const Vec3& direction,
@@ -41,7 +38,8 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 /// already holds it only if the shortest way out of it leads up, or if it is in the way from the nearest place where the
 /// two do not overlap. Parts with nothing at all below them are left out, and so is everything without gravity.
 /// Accepted, unless a pair or a part and the bin overlap by more than accept.penetration, a part at rest could fall by
-/// more than accept.gap, parts escaped (and accept.escaped is not set), none of the parts that should have been poured
+/// more than accept.gap, a part gained more energy from nowhere than accept.energy (report.energy, which pour fills in),
+/// parts escaped (and accept.escaped is not set), none of the parts that should have been poured
 /// was, or the scene is not at rest (and no exact time was asked for).
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
            const PartModelPtr& bin_model = nullptr);

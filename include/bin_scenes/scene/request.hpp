@@ -3,7 +3,9 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/sensor_models.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +16,13 @@ namespace bin_scenes {
 enum class Unit { metre, centimetre, millimetre, inch };
 double metres_per(Unit unit);
 const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
+
+/// What light does on a part or the bin. Drives intensity, noise, drop-out and saturation of sensors, nothing else.
+struct Surface {
+  double albedo = 0.5;     ///< share of the light sent back, 0..1; dark parts are noisier and drop out
+  double gloss = 0.0;      ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
+  double roughness = 0.4;  ///< width of the mirrored lobe, 0..1; smaller = narrower and brighter highlights
+};
 
 /// The bin. Its origin is the middle of the floor's top, z up.
 struct Bin {
@@ -27,16 +36,19 @@ struct Bin {
   Vec3 inner_size = Vec3(0.40, 0.30, 0.20);  ///< box: inner length x, width y, height z (m)
   double wall_thickness = 0.005;             ///< box: of walls and floor (m); seen by cameras, never by the physics
   std::string mesh;                          ///< mesh: path
+  std::string mesh_sha256;                   ///< mesh: of the file's bytes as the reader saw them; empty: not known
   std::optional<Unit> unit;                  ///< mesh: unit of the file
   Pose pose;                                 ///< mesh: file frame in the bin frame
   double friction = 0.5;                     ///< pair coefficient = sqrt(part * bin)
   double restitution = 0.0;                  ///< pair coefficient = the larger of the two
+  Surface surface;
 };
 
 /// One line of `parts`: `count` copies of one model.
 struct PartLine {
   std::string model;           ///< path as written by the user
   std::string path;            ///< resolved absolute path; filled by the reader
+  std::string sha256;          ///< of the file's bytes as the reader saw them; empty: not known
   std::optional<Unit> unit;    ///< none: metres, unless the size is implausible for the bin (an error)
   double scale = 1.0;          ///< multiplies the model after the unit
   std::size_t count = 1;
@@ -48,6 +60,7 @@ struct PartLine {
   std::vector<Pose> poses;          ///< given start poses of the model frame in the bin frame; size = count or empty
   std::vector<Twist> velocities;    ///< given start velocities; empty = at rest
   bool fixed = false;               ///< an obstacle: stays at its given pose
+  Surface surface;
 };
 
 struct Pour {
@@ -57,6 +70,13 @@ struct Pour {
     given  ///< poses come with the parts or from an earlier scene
   };
   Pattern pattern = Pattern::rain;
+  /// How much is done before a scene counts as finished. Each includes those before it and costs more time.
+  enum class Finish {
+    settled,  ///< on soft contacts: parts overlap by up to 0.1 % of their diagonal
+    pressed,  ///< stiff contacts take the overlap out
+    probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
+  };
+  Finish finish = Finish::probed;
   double drop_height = 0.02;     ///< rain: free way of a part's lowest point to the heap below it (m); higher = harder impacts
   double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
   std::string scene;             ///< given: path of a scene.json to go on from
@@ -65,6 +85,8 @@ struct Pour {
   double rest_move = 1e-3;       ///< largest displacement over the window / part diagonal that counts as rest
   double rest_turn = 1e-2;       ///< largest turn over the window (rad) that counts as rest
 };
+
+const char* name_of(Pour::Finish finish);
 
 enum class SolverType { automatic, sphere, bullet };
 const char* name_of(SolverType type);
@@ -115,26 +137,85 @@ struct SphereSettings {
 
 struct SolverSettings {
   SolverType type = SolverType::automatic;
-  enum class Preset { standard, thesis } preset = Preset::standard;  ///< which sphere solver
+  enum class Preset {
+    standard,  ///< every scene meets the goals of accuracy
+    quick,     ///< the default sphere solver with settings that err by up to 1 % of a part, for a fraction of the time
+    thesis     ///< the thesis's sphere solver
+  } preset = Preset::standard;
   BulletSettings bullet;
   ThesisSettings thesis;
   SphereSettings sphere;
 };
 
-/// A range camera. Frame: optical (x right, y down, z forward).
+/// What a sensor makes of what it sees; sensor/ has one file each.
+enum class SensorModel {
+  ideal,             ///< exact depth at pixel centres
+  structured_light,  ///< a camera and a projector of fringes
+  laser_line,        ///< a sheet of light, moved over the bin
+  stereo,            ///< two cameras, and a projector of dots
+  time_of_flight
+};
+const char* name_of(SensorModel model);
+
+/// structured_light and stereo: how deep the simulation goes.
+enum class Fidelity {
+  analytic,  ///< depth with the noise and the gaps that the device's formulas predict; fast
+  decoded    ///< the images themselves are made and evaluated as a device does; errors come out by themselves
+};
+
+/// Source of patterns: of fringes for structured_light, of dots for stereo.
+struct Projector {
+  std::optional<Pose> pose;  ///< optical frame in the bin frame; none: from baseline
+  double baseline = 0.2;     ///< m along the camera's x, turned towards the middle of the bin; longer = less noise and
+                             ///< wider shadows
+  int width = 1280, height = 800;       ///< pixels
+  double fov = 0.7;                     ///< horizontal field of view (rad)
+  std::array<double, 5> distortion{};   ///< plumb_bob k1 k2 p1 p2 k3
+};
+
+/// laser_line: a sheet of light, the y-z plane of its frame, along z.
+struct Laser {
+  std::optional<Pose> pose;  ///< in the bin frame; none: from baseline
+  double baseline = 0.2;     ///< m along the camera's x, turned towards the middle of the bin
+  double width_mm = 0.3;     ///< of the line on the surface (mm, between the points of 1/e^2); wider = more speckle noise
+};
+
+/// laser_line: how camera and laser move over the bin together; their poses are those at the middle of the way.
+struct Scan {
+  Vec3 direction = Vec3::UnitX();  ///< bin frame, any length
+  double step = 0.0005;            ///< m between profiles
+  int profiles = 1000;             ///< rows of the image
+};
+
+/// A range sensor. Frame: optical (x right, y down, z forward).
 struct Sensor {
   std::string name = "camera";
+  SensorModel model = SensorModel::ideal;
+  std::string preset;           ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
   double fov = 0.75;            ///< horizontal field of view (rad); sets the intrinsics unless K is given
   std::vector<double> k;        ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
+  std::array<double, 5> distortion{};  ///< plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole
   std::optional<Pose> pose;     ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
   double near = 0.05, far = 10.0;  ///< m; nothing is seen outside
+  Fidelity fidelity = Fidelity::analytic;
+  Projector projector;          ///< structured_light, stereo
+  Laser laser;                  ///< laser_line
+  Scan scan;                    ///< laser_line
+  ImagerSettings imager;        ///< structured_light, laser_line, stereo: the camera's chip
+  StructuredLightSettings structured_light;
+  LaserLineSettings laser_line;
+  StereoSettings stereo;
+  TimeOfFlightSettings time_of_flight;
+  bool noise = true;            ///< false: every random effect is off; geometry (shadow, field of view) stays
+  double depth_scale = 1e-4;    ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };
 
 /// When a scene counts as accepted; the report names what failed.
 struct Acceptance {
   double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
   double gap = 0.005;         ///< largest free way of a part at rest along gravity / its diagonal
+  double energy = 2.0;        ///< largest gain of energy from nowhere between two looks, in m g d of the part
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };
 

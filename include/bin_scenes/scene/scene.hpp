@@ -11,14 +11,18 @@
 
 namespace bin_scenes {
 
-enum class PartState { resting, moving, escaped, fixed, not_poured };
+enum class PartState { resting, moving, escaped, fixed, not_poured, removed };
 const char* name_of(PartState state);
+/// Whether it is in the scene at all: what was never poured or has been taken out has no pose and is in no image.
+inline bool is_there(PartState state) {
+  return state != PartState::not_poured && state != PartState::removed;
+}
 
 struct ScenePart {
   int id = 0;             ///< stable across every output
   std::size_t line = 0;   ///< index into Request::parts
   std::string model;      ///< as the user wrote it
-  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured
+  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured or removed
   Twist velocity;         ///< of the centre of mass, when the simulation ended
   PartState state = PartState::moving;
   std::map<std::string, double> visible_fraction;  ///< by sensor name

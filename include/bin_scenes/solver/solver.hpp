@@ -3,13 +3,14 @@
 ///
 ///     add_world ─► insert bodies ─► advance ─► states ─► ... ─► remove_world
 ///
-/// A world knows bodies, walls, gravity; pouring, rest and acceptance are the business of solver/pour.
+/// A world knows bodies, walls, gravity; pouring and rest are the business of pour/.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/report.hpp"
 #include "bin_scenes/scene/request.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,12 +44,27 @@ struct WorldDef {
 
 using WorldId = std::size_t;
 
-/// Pouring tolerates coarse shapes; settling must be exact. Once everything lies still, contacts are pressed out as
-/// stiff as they can be, for what overlaps then would overlap for good. Then the heap is probed: each time it begins
-/// without forces, as under the next engine, and for a moment without friction; contacts press nothing apart, and
-/// friction holds a little less from now on. What is near its limit goes now, and not there. Pressed again, or after a
-/// probe, it begins without forces as well: as when this solver itself goes on from its poses.
-enum class Phase { pour, settle, press, probe };
+/// How contacts give way. Soft ones take the energy out of rocking and leave overlap under load; stiff ones press it
+/// out; rigid ones give way to nothing and press next to nothing apart.
+enum class Stiffness : std::uint32_t { soft, stiff, rigid };
+
+/// What a solver is told of a stage of settling; pour/settling.hpp has the stages.
+struct Phase {
+  /// How bodies fall asleep, once they stayed where they are, and wake.
+  enum class Sleep : std::uint32_t {
+    by_island,  ///< all that press on each other together, so that what carried a part knows when it goes
+    by_part,    ///< each alone, unless what presses on it moved lately: what creeps keeps only its neighbours awake
+    by_touch    ///< each alone; what moves wakes whatever it touches
+  };
+  bool fine_samples = false;  ///< exact shapes; coarse ones do while everything moves
+  Stiffness stiffness = Stiffness::soft;
+  double friction = 1.0;  ///< share of friction that holds
+  /// Contacts begin without the forces of the last step; rigid ones for a moment without friction as well.
+  bool forgets = false;
+  Sleep sleep = Sleep::by_island;
+  bool begins_asleep =
+      false;  ///< all bodies sleep as it begins, at no velocity; false: all are awake if it is a change
+};
 
 class Solver {
  public:
@@ -60,10 +76,10 @@ class Solver {
 
   /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
-  /// Takes a body out and wakes what it touched.
+  /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.
   virtual void remove(WorldId world, std::size_t body) = 0;
-  /// A hint; returns false if the solver ignores it.
-  virtual bool set_phase(WorldId world, Phase phase) = 0;
+  /// Returns false if contacts are the same to this solver in all phases.
+  virtual bool set_phase(WorldId world, const Phase& phase) = 0;
 
   /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one
   /// that is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.

@@ -33,7 +33,7 @@ class ThesisSolver : public Solver {
 
   void insert(WorldId world, std::size_t body, const BodyState& state) override;
   void remove(WorldId world, std::size_t body) override;
-  bool set_phase(WorldId world, Phase phase) override;  ///< one set of shapes serves both
+  bool set_phase(WorldId world, const Phase& phase) override;  ///< one set of shapes serves both
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override;
 

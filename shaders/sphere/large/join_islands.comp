@@ -1,7 +1,7 @@
 // Islands of a large world, an invocation a pair: those that press join their islands, lock-free, the higher root under
 // the lower one (after Jaiganesh, Burtscher 2018, "A high-performance connected components implementation for GPUs").
-// A root is the lowest body of its island, whoever came first. In a probe nobody is joined: the restless keep whoever
-// presses on them awake. Twin: kept_awake() of update_sleep().
+// A root is the lowest body of its island, whoever came first. By part or by touch nobody is joined: the restless keep
+// whoever presses on them awake, or what moves on wakes whatever has contacts with it. Twin: kept_awake() of update_sleep().
 #include "shared/sphere_large.h"
 #include "shared/dispatch.h"
 
@@ -27,10 +27,14 @@ void main() {
   SphereWorld world = worlds[large_world];
   if (idle() || thread_index() >= progress[large_world].pairs) return;
   SpherePair pair = pairs[large.list + thread_index()];
-  if (pair.b == SPHERE_GROUND || manifolds[world.pairs.x + pair.slot].state.y == 0u) return;
+  if (pair.b == SPHERE_GROUND) return;
+  uint sleep = progress[large_world].sleep;
+  uvec4 manifold = manifolds[world.pairs.x + pair.slot].state;
+  if ((sleep == SPHERE_SLEEP_BY_TOUCH ? manifold.x : manifold.y) == 0u) return;
   if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) return;
-  if (sleeps_by_part(large_world)) {
-    if (is_restless(pair.a) || is_restless(pair.b))
+  if (sleep != SPHERE_SLEEP_BY_ISLAND) {
+    bool by_touch = sleep == SPHERE_SLEEP_BY_TOUCH;
+    if (by_touch ? went_on(pair.a) || went_on(pair.b) : is_restless(pair.a) || is_restless(pair.b))
       restless_of(pair.a - world.bodies.x) = restless_of(pair.b - world.bodies.x) = 1u;
     return;
   }

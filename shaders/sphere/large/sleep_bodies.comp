@@ -40,7 +40,7 @@ void main() {
   if (idle() || i >= world.bodies.y) return;
   uint body = world.bodies.x + i;
   if (stage == SLEEP_NOTE) {
-    if (moves(body)) note_motion(body, progress[large_world].time_step);
+    if (moves(body)) note_motion(body, large_world);
     label_of(i) = i;
     restless_of(i) = 0u;
   } else if (stage == SLEEP_MARK) {
@@ -48,6 +48,6 @@ void main() {
     atomicMin(label_of(i), root);
     if (is_restless(body)) restless_of(root) = 1u;
   } else {
-    settle(body, world.bodies.x + label_of(i), restless_of(label_of(i)) == 1u, sleeps_by_part(large_world));
+    settle(body, world.bodies.x + label_of(i), restless_of(label_of(i)) == 1u, large_world);
   }
 }

@@ -39,7 +39,11 @@ class BulletSolver : public Solver {
 
   void insert(WorldId world, std::size_t body, const BodyState& state) override { at(world).insert(body, state); }
   void remove(WorldId world, std::size_t body) override { at(world).remove(body); }
-  bool set_phase(WorldId, Phase) override { return false; }  // the same shapes and steps serve both
+  /// The same shapes and contacts serve all phases; only who sleeps is a matter.
+  bool set_phase(WorldId world, const Phase& phase) override {
+    at(world).begin(phase);
+    return false;
+  }
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     StageTimer timer(profile_, "bullet_step");

@@ -1,5 +1,7 @@
 #include "world.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include "convert.hpp"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -28,6 +30,7 @@ constexpr double patch_radius = 1e-3;  ///< of the smallest part, as Settings::p
 constexpr double sleep_speed = 1e-3;   ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;    ///< rad/s, likewise of Pour::rest_turn
 constexpr double sleep_time = 0.5;     ///< s an island must stay below both
+constexpr double going_on = 5e-4;      ///< way or turn times radius at which a body wakes what it touches
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
   return std::sqrt(a->getFriction() * b->getFriction());
@@ -81,6 +84,8 @@ struct World::Body {
   Motion motion;
   std::unique_ptr<btRigidBody> rigid;  ///< none while absent
   BodyState last;                      ///< what an absent body had last
+  bool frozen = false;                 ///< asleep as Bullet cannot have it: alone, in the midst of what moves
+  btTransform woke_at;                 ///< or went on from since
 };
 
 World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSource& shapes)
@@ -196,6 +201,9 @@ void World::insert(std::size_t index, const BodyState& state) {
     body.rigid->setLinearVelocity(to_bt(Vec3(state.velocity.linear * scale_)));
     body.rigid->setAngularVelocity(to_bt(state.velocity.angular));
   }
+  if (!def.fixed) body.rigid->setUserIndex(static_cast<int>(index));
+  body.frozen = false;
+  body.woke_at = info.m_startWorldTransform;
   world_.addRigidBody(body.rigid.get());
   body.last = state;
 }
@@ -206,11 +214,73 @@ void World::remove(std::size_t index) {
   body.last = states()[index];
   for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
-    if (manifold.getBody0() == body.rigid.get()) manifold.getBody1()->activate();
-    if (manifold.getBody1() == body.rigid.get()) manifold.getBody0()->activate();
+    const bool first = manifold.getBody0() == body.rigid.get();
+    if (!first && manifold.getBody1() != body.rigid.get()) continue;
+    const btCollisionObject* other = first ? manifold.getBody1() : manifold.getBody0();
+    other->activate();
+    if (Body* touched = body_of(other); touched && touched->frozen && manifold.getNumContacts() > 0) thaw(*touched);
   }
   world_.removeRigidBody(body.rigid.get());
   body.rigid.reset();
+}
+
+/// Bullet wakes whole islands. Here bodies that sleep in the midst of what moves stand still like walls until something
+/// that touches them goes on.
+void World::begin(const Phase& phase) {
+  const bool wakes = by_touch_ && !phase.begins_asleep;
+  by_touch_ = phase.sleep == Phase::Sleep::by_touch;
+  for (const auto& body : bodies_) {
+    if (!body->rigid || body->def->fixed) continue;
+    if (phase.begins_asleep)
+      freeze(*body);
+    else if (wakes)
+      thaw(*body);
+  }
+}
+
+void World::freeze(Body& body) {
+  body.frozen = true;
+  body.rigid->setLinearVelocity(btVector3(0, 0, 0));
+  body.rigid->setAngularVelocity(btVector3(0, 0, 0));
+  body.rigid->setMassProps(0.0, btVector3(0, 0, 0));
+  body.rigid->forceActivationState(ISLAND_SLEEPING);
+}
+
+void World::thaw(Body& body) {
+  if (body.frozen) {
+    body.rigid->setMassProps(body.def->mass, to_bt(body.motion.inertia));
+    body.rigid->updateInertiaTensor();
+  }
+  body.frozen = false;
+  body.woke_at = body.rigid->getWorldTransform();
+  body.rigid->forceActivationState(ACTIVE_TAG);
+  body.rigid->activate(true);
+}
+
+World::Body* World::body_of(const btCollisionObject* object) const {
+  const int index = object->getUserIndex();
+  return index < 0 ? nullptr : bodies_[static_cast<std::size_t>(index)].get();
+}
+
+/// Of the contacts with which the last step began: what falls away has none any more.
+void World::wake_touched() {
+  std::vector<Body*> woken;
+  const auto went_on = [](const Body& body) {
+    const btTransform& now = body.rigid->getWorldTransform();
+    return now.getOrigin().distance(body.woke_at.getOrigin()) > going_on ||
+           now.getRotation().angleShortestPath(body.woke_at.getRotation()) * body.shape->radius > going_on;
+  };
+  for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+    Body *a = body_of(manifold.getBody0()), *b = body_of(manifold.getBody1());
+    if (!a || !b || a->frozen == b->frozen || manifold.getNumContacts() == 0) continue;
+    if (a->frozen) std::swap(a, b);
+    if (went_on(*a)) woken.push_back(b);
+  }
+  for (const auto& body : bodies_)
+    if (body->rigid && !body->def->fixed && !body->frozen && went_on(*body))
+      body->woke_at = body->rigid->getWorldTransform();
+  for (Body* body : woken) thaw(*body);
 }
 
 int World::cuts(double dt) const {
@@ -246,7 +316,9 @@ void World::step(double seconds) {
   // Cutting a step does not make sub-steps any shorter than they are.
   world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / ContactSolver::sweeps + n - 1) / n);
   for (int k = 0; k < n; ++k) {
+    stop_if_cancelled();
     world_.stepSimulation(seconds / n, 0);
+    if (by_touch_) wake_touched();
     count();
   }
 }

@@ -32,6 +32,7 @@ class World {
 
   void insert(std::size_t body, const BodyState& state);
   void remove(std::size_t body);
+  void begin(const Phase& phase);
   /// Each step is cut so that the fastest part moves a small share of its size at once.
   void advance(const Steps& steps);
 
@@ -50,6 +51,10 @@ class World {
   void add_walls(double wall_height);
   void step(double seconds);
   int cuts(double dt) const;
+  void freeze(Body& body);
+  void thaw(Body& body);
+  Body* body_of(const btCollisionObject* object) const;
+  void wake_touched();
   void count();
   btTransform body_transform(const Body& body, const Pose& pose) const;
 
@@ -68,6 +73,7 @@ class World {
   MeshShape bin_mesh_;
   std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
   std::vector<std::unique_ptr<btRigidBody>> walls_;
+  bool by_touch_ = false;  ///< bodies sleep and wake as Phase::Sleep::by_touch says
   Counters counters_;
 };
 

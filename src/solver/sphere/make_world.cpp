@@ -37,10 +37,11 @@ std::vector<Plane> planes_of(const Bin& bin) {
 }  // namespace
 
 World make_world(const WorldDef& def, const SphereSettings& settings,
-                 const std::function<const Shape&(const PartModelPtr&)>& shape_of) {
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base) {
   World w;
+  w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
-  w.settings.cut_steps = settings.cut_steps;
+  w.settings.cut_steps = base.cut_steps && settings.cut_steps;
   w.gravity = def.gravity.cast<float>();
   w.wall_top = static_cast<float>(def.wall_height);
   w.ground_friction = static_cast<float>(def.bin.friction);
@@ -63,7 +64,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
   w.cold_steps = w.settings.cold_steps;
-  w.cuts = settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
+  w.cuts = w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
   return w;
@@ -93,32 +94,33 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still_q = b.q;
 }
 
-bool take_phase(World& world, Phase phase) {
-  const bool fine = phase != Phase::pour, probed = phase == Phase::probe;
-  const Stiffness stiffness = probed ? Stiffness::rigid : phase == Phase::press ? Stiffness::stiff : Stiffness::soft;
-  const bool pressed_again = phase == Phase::press && world.stiffness != Stiffness::soft;
-  if (fine == world.fine && stiffness == world.stiffness && !probed && !pressed_again) return false;
-  world.fine = fine;
-  world.stiffness = stiffness;
-  world.forgets = probed || pressed_again;
+bool take_phase(World& world, const Phase& phase) {
+  const float grip = world.settings.friction_reserve ? static_cast<float>(phase.friction) : 1.0f;
+  if (phase.fine_samples == world.fine && phase.stiffness == world.stiffness && grip == world.grip &&
+      phase.sleep == world.sleep && !phase.forgets && !phase.begins_asleep)
+    return false;
+  world.fine = phase.fine_samples;
+  world.stiffness = phase.stiffness;
+  world.grip = grip;
+  world.sleep = phase.sleep;
+  world.forgets = phase.forgets;
   world.effort = effort_of(world);
-  if (probed) {
-    world.grip = world.settings.probe_grip;
-    world.cold_steps = world.settings.cold_steps;
-  } else if (pressed_again) {
-    world.cold_steps = world.settings.pressed_cold_steps;
-  }
+  if (phase.forgets)
+    world.cold_steps =
+        phase.stiffness == Stiffness::rigid ? world.settings.cold_steps : world.settings.pressed_cold_steps;
   return true;
 }
 
-void set_phase(World& world, Phase phase) {
+void set_phase(World& world, const Phase& phase) {
   const bool fine = world.fine;
   if (!take_phase(world, phase)) return;
   if (fine != world.fine)
     for (Manifold& m : world.manifolds) m.found = false;  // node numbers mean other points now
   for (Body& b : world.bodies) {
-    b.asleep = false;
-    b.still = 0;
+    if (phase.begins_asleep)
+      put_to_sleep(world.settings, b);
+    else
+      wake(b);
   }
 }
 

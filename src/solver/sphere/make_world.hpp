@@ -9,10 +9,16 @@
 
 namespace bin_scenes::sphere {
 
+/// The solver with a mechanism taken away or changed, which no request can ask for: what benchmarks compare with.
+struct Variant {
+  Settings settings;                   ///< but for what the request says
+  std::function<void(Shape&)> change;  ///< is done to each part's shape
+};
+
 /// All bodies absent. A bin given as a mesh is one more, fixed body behind those of the definition.
 /// `shape_of`: the collision shape of a part; it must outlive the world.
 World make_world(const WorldDef& def, const SphereSettings& settings,
-                 const std::function<const Shape&(const PartModelPtr&)>& shape_of);
+                 const std::function<const Shape&(const PartModelPtr&)>& shape_of, const Settings& base = {});
 
 /// What the user should know of a world: a time step that is too long for its parts is cut; the flags of its shapes.
 std::vector<Flag> flags_of(const World& world);
@@ -20,14 +26,12 @@ std::vector<Flag> flags_of(const World& world);
 /// Puts a body where the state says, awake.
 void place(World& world, std::size_t body, const BodyState& state);
 
-/// Exact samples from Phase::settle on, stiff contacts in Phase::press. Phase::probe has rigid ones, begins without
-/// forces and friction, finds them by the sweeps of a new world, and leaves less friction for good; Phase::press after
-/// it, or again, begins without forces as well. Says whether that is a change; bodies and contacts are left to the
-/// caller.
-bool take_phase(World& world, Phase phase);
+/// Samples, contacts and sleep of a phase. Says whether that is a change, or contacts forget their forces, or bodies
+/// are to sleep; bodies and contacts are left to the caller.
+bool take_phase(World& world, const Phase& phase);
 
-/// The same; a change wakes all bodies.
-void set_phase(World& world, Phase phase);
+/// The same; a change wakes all bodies, or puts them to sleep.
+void set_phase(World& world, const Phase& phase);
 
 /// Pose of the model frame and velocity; NaN position for a body that was never placed.
 BodyState state_of(const World& world, std::size_t body);

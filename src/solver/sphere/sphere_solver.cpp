@@ -1,7 +1,9 @@
 #include "solver/sphere/sphere_solver.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/shapes/shape_cache.hpp"
 #include "solver/step_limit.hpp"
 
 #include <tbb/parallel_for.h>
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace bin_scenes {
 
@@ -64,7 +65,8 @@ void advance_world(World& world, const Steps& steps, double time_step) {
 
 class SphereSolver final : public Solver {
  public:
-  explicit SphereSolver(const SphereSettings& settings) : settings_(settings) {}
+  SphereSolver(const SphereSettings& settings, const Variant& variant)
+      : settings_(settings), base_(variant.settings), shapes_(settings, variant.change) {}
 
   WorldId add_world(const WorldDef& def) override {
     WorldId id = 0;
@@ -74,8 +76,8 @@ class SphereSolver final : public Solver {
     slot = Slot{};
     slot.used = true;
     slot.bodies = def.bodies.size();
-    slot.world =
-        make_world(def, settings_, [this](const PartModelPtr& part) -> const Shape& { return shape_of(part); });
+    slot.world = make_world(
+        def, settings_, [this](const PartModelPtr& part) -> const Shape& { return shapes_.of(part, profile_); }, base_);
     return id;
   }
 
@@ -88,11 +90,11 @@ class SphereSolver final : public Solver {
 
   void remove(WorldId id, std::size_t body) override {
     World& w = slots_[id]->world;
-    wake(w, static_cast<std::uint32_t>(body));
+    for (const std::uint32_t other : touched_by(w, static_cast<std::uint32_t>(body))) wake(w.bodies[other]);
     w.bodies[body].present = false;
   }
 
-  bool set_phase(WorldId id, Phase phase) override {
+  bool set_phase(WorldId id, const Phase& phase) override {
     sphere::set_phase(slots_[id]->world, phase);
     return true;
   }
@@ -100,8 +102,10 @@ class SphereSolver final : public Solver {
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     const Steps steps = steps_in(seconds, settings_.time_step);
     // Worlds share nothing, so that threads cannot change a result.
-    tbb::parallel_for(std::size_t{0}, worlds.size(),
-                      [&](std::size_t i) { advance_world(slots_[worlds[i]]->world, steps, settings_.time_step); });
+    tbb::parallel_for(std::size_t{0}, worlds.size(), [&, flag = cancel_flag()](std::size_t i) {
+      const CancelScope scope(flag);
+      advance_world(slots_[worlds[i]]->world, steps, settings_.time_step);
+    });
     return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 
@@ -134,17 +138,6 @@ class SphereSolver final : public Solver {
   }
 
  private:
-  const Shape& shape_of(const PartModelPtr& part) {
-    auto& entry = shapes_[part.get()];
-    if (!entry.shape) {
-      StageTimer timer(profile_, "shape");
-      entry.part = part;  // keeps the address, and with it the key, alive
-      entry.shape = std::make_unique<Shape>(
-          make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
-    }
-    return *entry.shape;
-  }
-
   /// Stages are of all worlds: on several threads they add up to more than the time that passed.
   static void add(Profile& p, const World& world) {
     const Spent& s = world.spent;
@@ -171,12 +164,9 @@ class SphereSolver final : public Solver {
   }
   void collect(const World& world) { add(profile_, world); }
 
-  struct Entry {
-    PartModelPtr part;
-    std::unique_ptr<Shape> shape;
-  };
   SphereSettings settings_;
-  std::map<const PartModel*, Entry> shapes_;
+  Settings base_;
+  ShapeCache shapes_;
   std::vector<std::unique_ptr<Slot>> slots_;
   Profile profile_;
   mutable Profile shown_;
@@ -185,9 +175,13 @@ class SphereSolver final : public Solver {
 }  // namespace
 
 std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings) {
+  return make_sphere_solver(settings, {});
+}
+
+std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings, const sphere::Variant& variant) {
   if (!(settings.time_step > 0))
     throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
-  return std::make_unique<SphereSolver>(settings);
+  return std::make_unique<SphereSolver>(settings, variant);
 }
 
 }  // namespace bin_scenes

@@ -6,6 +6,11 @@
 
 namespace bin_scenes {
 
+namespace sphere {
+struct Variant;  // make_world.hpp
+}
+
 std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings);
+std::unique_ptr<Solver> make_sphere_solver(const SphereSettings& settings, const sphere::Variant& variant);
 
 }  // namespace bin_scenes

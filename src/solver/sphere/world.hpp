@@ -8,6 +8,7 @@
 /// Poses are of the centre of mass, in single precision, relative to the world's origin.
 #pragma once
 
+#include "bin_scenes/solver/solver.hpp"
 #include "solver/sphere/shapes/shape.hpp"
 
 #include <algorithm>
@@ -25,10 +26,11 @@ struct Softness {
   int refinement;       ///< sub-steps in place of one; overlap under load falls with its square, cost rises with it
 };
 
-/// How contacts give way, from while bodies fly to while a heap is probed.
-enum class Stiffness : std::uint32_t { soft, stiff, rigid };
+using Sleep = Phase::Sleep;
 
 /// Settings as the passes use them (m, s); lengths follow from the smallest part's size d.
+///
+/// What each gives is measured by taking it away (bench/ablation.cpp): most by a number below, the others by a switch.
 struct Settings {
   float time_step = 1.0f / 400;  ///< one collision detection
   bool cut_steps = true;         ///< for small and fast parts
@@ -61,10 +63,22 @@ struct Settings {
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where precision is not wanted yet
   float probe_slip = 2.5e-3f;    ///< s of a probe without friction, in its first step: weight finds its way without;
                                  ///< longer = heaps are shaken, shorter = wedged parts hold that would slip
-  float probe_grip = 0.9f;       ///< share of friction that holds once a heap is probed; lower = heaps lie flatter
   float restitution_speed = 0.05f;  ///< m/s: slower approaches do not bounce
   float rest_window = 0.1f;         ///< s over which a sleeping body must have stayed
   float rest_move = 1e-4f;          ///< d within which it must have stayed
+  float touch_move = 5e-4f;  ///< d: the same where bodies sleep by touch, and way at which they wake others; less
+                             ///< = a pick wakes more of the heap, more = what creeps is frozen
+
+  // Switches of what no number turns off, on in every request.
+  bool warm_start = true;      ///< a step begins with the forces of the last one
+  bool speculation = true;     ///< contacts that may close in a step are found before they do
+  bool soonest_first = true;   ///< of a pair's contacts those about to close go before those farther off
+  bool way_back = true;        ///< samples that are deep inside go back the way they came in
+  bool half_way_poses = true;  ///< contacts are found where bodies are half way through the step
+  bool relaxation = true;      ///< sweeps that take back the velocity which pushing overlap out has left
+  bool friction_reserve = true;  ///< a stage of settling may let a share of friction hold
+  bool gyroscopic = true;      ///< torque of spinning parts whose inertia is not the same about all axes
+  bool oriented_boxes = true;  ///< pairs whose oriented boxes are apart are no pairs
 
   const Softness& softness(Stiffness of) const {
     return of == Stiffness::soft ? soft : of == Stiffness::stiff ? stiff : rigid;
@@ -154,6 +168,7 @@ struct World {
   Vec3f gravity = Vec3f(0, 0, -9.81f);
   bool fine = false;                      ///< exact samples
   Stiffness stiffness = Stiffness::soft;  ///< of contacts
+  Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float grip = 1;                         ///< share of friction that holds
   bool forgets = false;                   ///< the next step begins without the forces of the last one
   int cold_steps = 0;                     ///< yet to come, with Settings::cold_sweeps
@@ -179,31 +194,35 @@ struct World {
   /// Of the next step, over all contacts before bodies move, and after.
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Rigid contacts push slowly: one takes back what that leaves. With none a gear on its teeth rolls for ever.
-  int relaxing_sweeps() const { return stiffness == Stiffness::rigid ? 1 : sweeps(); }
+  int relaxing_sweeps() const {
+    if (!settings.relaxation) return 0;
+    return stiffness == Stiffness::rigid ? 1 : sweeps();
+  }
   float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
   /// Of the next step, in which nothing holds by friction.
   int slip_sub_steps() const {
-    const bool slips = forgets && stiffness == Stiffness::rigid;
+    const bool slips = forgets && stiffness == Stiffness::rigid && settings.probe_slip > 0;
     return slips ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
   }
-  /// While a heap is probed, what is still among neighbours that are sleeps, whoever creeps elsewhere: all were awake
-  /// at first. Before that whole islands sleep or none of them, so that what carried a part knows when it goes.
-  bool sleeps_by_part() const { return stiffness == Stiffness::rigid; }
   /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts are found, and have their levers and
   /// normals, where bodies are then, as in the symplectic Euler method over the sub-steps, which keeps energy: with
   /// those of the start what rolls on an edge is pushed on by the point that it has left.
-  float half_way() const { return 0.5f * (settings.time_step - sub_step()); }
+  float half_way() const { return settings.half_way_poses ? 0.5f * (settings.time_step - sub_step()) : 0; }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };
 
 // The passes, in order of a step, one file of passes/ each.
-void find_pairs(World& world);                ///< candidates, manifolds carried over by key
-void find_contacts(World& world);             ///< samples against fields, reduced, forces matched
-void color_manifolds(World& world);           ///< no two manifolds of a color share a moving body
-void solve(World& world);                     ///< sub-steps, moves the bodies
-void update_sleep(World& world);              ///< what rests sleeps
-void wake(World& world, std::uint32_t body);  ///< and the bodies it rests with
+void find_pairs(World& world);       ///< candidates, manifolds carried over by key
+void find_contacts(World& world);    ///< samples against fields, reduced, forces matched
+void color_manifolds(World& world);  ///< no two manifolds of a color share a moving body
+void solve(World& world);            ///< sub-steps, moves the bodies
+void update_sleep(World& world);     ///< what rests sleeps
+
+/// Bodies with contacts with this one, whether they press or not; fixed ones left out.
+std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body);
+void wake(Body& body);
+void put_to_sleep(const Settings& settings, Body& body);  ///< where it is
 
 /// One time step.
 void step(World& world);

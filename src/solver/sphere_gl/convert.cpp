@@ -62,6 +62,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.recycle = s.recycle;
   out.coarse_recycle = s.coarse_recycle;
   out.rest_move = s.rest_move;
+  out.touch_move = s.touch_move;
   out.restitution_speed = s.restitution_speed;
   out.rest_window = s.rest_window;
   return out;
@@ -72,6 +73,9 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);
   progress.grip = world.grip;
+  static_assert(static_cast<gpu::uint>(sphere::Sleep::by_part) == SPHERE_SLEEP_BY_PART &&
+                static_cast<gpu::uint>(sphere::Sleep::by_touch) == SPHERE_SLEEP_BY_TOUCH);
+  progress.sleep = static_cast<gpu::uint>(world.sleep);
   progress.refinement = static_cast<gpu::uint>(world.refinement());
   progress.effort = static_cast<gpu::uint>(world.sweep_effort());
   progress.forgets = world.forgets ? 1 : 0;

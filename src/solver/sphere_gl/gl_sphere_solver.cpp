@@ -4,6 +4,7 @@
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/shapes/shape_cache.hpp"
 #include "solver/sphere_gl/batch.hpp"
 #include "solver/step_limit.hpp"
 
@@ -28,7 +29,6 @@ struct Resident {
   Batch::Slot slot = 0;
   gpu::SphereProgress progress{};
   std::set<std::size_t> changed;  ///< bodies to upload
-  std::vector<std::uint32_t> island;
   std::uint64_t steps = 0;
 };
 
@@ -50,7 +50,7 @@ Capacity fitting(Capacity capacity) {
 class GlSphereSolver final : public Solver {
  public:
   GlSphereSolver(const SphereSettings& settings, const Capacity& capacity)
-      : settings_(settings), bodies_(capacity.bodies), batch_(fitting(capacity)) {}
+      : settings_(settings), bodies_(capacity.bodies), shapes_(settings), batch_(fitting(capacity)) {}
 
   WorldId add_world(const WorldDef& def) override {
     if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())
@@ -61,9 +61,9 @@ class GlSphereSolver final : public Solver {
     const gl::TrafficCount count(profile_);
     Resident r;
     r.bodies = def.bodies.size();
-    r.world = sphere::make_world(def, settings_,
-                                 [this](const PartModelPtr& part) -> const sphere::Shape& { return shape_of(part); });
-    r.island.assign(r.world.bodies.size(), 0);
+    r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
+      return shapes_.of(part, profile_);
+    });
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));
@@ -85,19 +85,24 @@ class GlSphereSolver final : public Solver {
 
   void remove(WorldId id, std::size_t body) override {
     Resident& r = world(id);
-    for (std::size_t i = 0; i < r.world.bodies.size(); ++i)
-      if (r.island[i] == r.island[body]) wake(r, i);
+    for (const std::uint32_t other : touched(r.world, body)) wake(r, other);
     r.world.bodies[body].present = false;
     r.changed.insert(body);
   }
 
-  bool set_phase(WorldId id, Phase phase) override {
+  bool set_phase(WorldId id, const Phase& phase) override {
     Resident& r = world(id);
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
     tell(r);
-    for (std::size_t i = 0; i < r.world.bodies.size(); ++i) wake(r, i);
+    for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
+      if (phase.begins_asleep)
+        sphere::put_to_sleep(r.world.settings, r.world.bodies[i]);
+      else
+        sphere::wake(r.world.bodies[i]);
+      if (r.world.bodies[i].present) r.changed.insert(i);
+    }
     return true;
   }
 
@@ -186,11 +191,20 @@ class GlSphereSolver final : public Solver {
     tell_phase(r.world, r.progress);
   }
 
+  /// What has contacts with a body: found anew by the passes on the CPU, for which all others sleep.
+  static std::vector<std::uint32_t> touched(sphere::World world, std::size_t body) {
+    for (sphere::Body& b : world.bodies) sphere::put_to_sleep(world.settings, b);
+    sphere::wake(world.bodies[body]);
+    if (world.bodies[body].inverse_mass == 0) world.bodies[body].inverse_mass = 1;
+    sphere::find_pairs(world);
+    sphere::find_contacts(world);
+    return sphere::touched_by(world, static_cast<std::uint32_t>(body));
+  }
+
   static void wake(Resident& r, std::size_t body) {
     sphere::Body& b = r.world.bodies[body];
     if (!b.present) return;
-    b.asleep = false;
-    b.still = 0;
+    sphere::wake(b);
     r.changed.insert(body);
   }
 
@@ -277,29 +291,13 @@ class GlSphereSolver final : public Solver {
       Resident& r = world(id);
       for (std::size_t i = 0; i < r.world.bodies.size(); ++i, ++state) {
         read_state(*state, r.world.bodies[i]);
-        r.island[i] = state->flags.y;
       }
     }
   }
 
-  const sphere::Shape& shape_of(const PartModelPtr& part) {
-    auto& entry = shapes_[part.get()];
-    if (!entry.shape) {
-      StageTimer timer(profile_, "shape");
-      entry.part = part;  // keeps the address, and with it the key, alive
-      entry.shape = std::make_unique<sphere::Shape>(
-          sphere::make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
-    }
-    return *entry.shape;
-  }
-
-  struct Entry {
-    PartModelPtr part;
-    std::unique_ptr<sphere::Shape> shape;
-  };
   SphereSettings settings_;
   std::size_t bodies_;  ///< expected in a world
-  std::map<const PartModel*, Entry> shapes_;
+  sphere::ShapeCache shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
   std::vector<Flight> flights_;

@@ -102,7 +102,7 @@ void ThesisSolver::remove(WorldId id, std::size_t body) {
   world.present[body] = false;
 }
 
-bool ThesisSolver::set_phase(WorldId, Phase) {
+bool ThesisSolver::set_phase(WorldId, const Phase&) {
   return false;
 }
 

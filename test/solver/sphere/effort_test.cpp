@@ -1,5 +1,6 @@
 /// How much work a heap gets, and what it brings.
 #include "boxes.hpp"
+#include "pour/settling.hpp"
 #include "solver/sphere/make_world.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
     World world = world_of_boxes(shape, static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
       world.bodies[i].x = edge * Vec3f(i % a_row, i % a_layer / a_row, i / a_layer + 0.5f);
-    take_phase(world, Phase::press);
+    take_phase(world, phases::press);
     EXPECT_EQ(world.sweeps(), world.effort * world.settings.sweeps);
     return world.effort;
   };
@@ -34,7 +35,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
   World world = world_of_boxes(shape, 32);
   for (int i = 0; i < 32; ++i) world.bodies[i].x = edge * Vec3f(i % 4, i / 4, 0.5f);
   world.bodies[7].x.z() = 50;
-  take_phase(world, Phase::press);
+  take_phase(world, phases::press);
   EXPECT_EQ(world.effort, 1);
   // Layers lie on each other along gravity, and without it not at all.
   World row = world_of_boxes(shape, 19);
@@ -42,7 +43,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
   const auto effort_under = [&](const Vec3f& gravity) {
     row.gravity = gravity;
     row.stiffness = Stiffness::soft;
-    take_phase(row, Phase::press);
+    take_phase(row, phases::press);
     return row.effort;
   };
   EXPECT_EQ(effort_under({0, 0, -9.81f}), 1);
@@ -50,7 +51,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
   EXPECT_EQ(effort_under({0, 0, 0}), 1);
   World two = world_of_boxes(shape, 2);
   two.bodies[1].x.z() = 50;
-  take_phase(two, Phase::press);
+  take_phase(two, phases::press);
   EXPECT_EQ(two.effort, 1);
 }
 
@@ -65,7 +66,7 @@ TEST(Effort, AHeapOfThinPartsGetsMoreWork) {
     world.thinnest = shape.thickness;
     world.whole_step = whole_step;
     for (int i = 0; i < 20; ++i) world.bodies[i].x = size.cwiseProduct(Vec3f(i % 5, 0, i / 5 + 0.5f));
-    take_phase(world, Phase::press);
+    take_phase(world, phases::press);
     return world.effort;
   };
   EXPECT_EQ(effort(0.005f, 0.0025f), 1);
@@ -110,7 +111,7 @@ TEST(Effort, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
     world.settings.layers = layers;
     world.settings.tower = 0;
     world.settings.soft.slop = 0;  // what overlaps by less is held where it is
-    take_phase(world, Phase::settle);
+    take_phase(world, phases::settle);
     EXPECT_EQ(world.effort, effort);
     EXPECT_EQ(world.sub_steps(), effort * world.settings.sub_steps);
     EXPECT_EQ(world.sweeps(), world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps);
@@ -133,7 +134,7 @@ TEST(Effort, WhatLiesUnderHeavierPartsGetsMoreWork) {
     world.settings.sub_steps = 2;
     for (int i = 0; i < 2; ++i) world.bodies[i].x = edge * Vec3f(0, 0, i + 0.5f);
     world.bodies[heavy_above ? 1 : 0].inverse_mass /= ratio;
-    take_phase(world, Phase::settle);
+    take_phase(world, phases::settle);
     return world.effort;
   };
   for (const bool heavy_above : {true, false}) {  // which of them lies below is not known before they do

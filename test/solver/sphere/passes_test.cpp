@@ -216,9 +216,9 @@ TEST(Sleep, AnIslandSleepsAsOneAndATouchWakesIt) {
 TEST(Sleep, InAProbeWhoCreepsKeepsOnlyItsNeighboursAwake) {
   PartModelPtr part;
   const Shape shape = box_shape(part, {0.05, 0.05, 0.05});
-  for (const Stiffness stiffness : {Stiffness::soft, Stiffness::rigid}) {
+  for (const Sleep sleep : {Sleep::by_island, Sleep::by_part}) {
     World world = world_of_boxes(shape, 3);
-    world.stiffness = stiffness;
+    world.sleep = sleep;
     world.planes = {{Vec3f::UnitZ(), 0, false}};
     for (int i = 0; i < 3; ++i) world.bodies[i].x = Vec3f(0, 0, 0.025f + 0.05f * i);
     const auto all_sleep = [&] {
@@ -231,10 +231,48 @@ TEST(Sleep, InAProbeWhoCreepsKeepsOnlyItsNeighboursAwake) {
     update_sleep(world);
     EXPECT_FALSE(world.bodies[2].asleep);
     EXPECT_FALSE(world.bodies[1].asleep);
-    EXPECT_EQ(world.bodies[0].asleep, stiffness == Stiffness::rigid);
+    EXPECT_EQ(world.bodies[0].asleep, sleep == Sleep::by_part);
     for (int k = 0; k < 400 && !all_sleep(); ++k) step(world);
     EXPECT_TRUE(all_sleep());
   }
+}
+
+// What is taken out of a heap at rest wakes what touched it. That wakes others only if it goes.
+TEST(Sleep, ByTouchWhatGoesWakesWhatItTouches) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.05, 0.05, 0.05});
+  World world = world_of_boxes(shape, 5);
+  world.planes = {{Vec3f::UnitZ(), 0, false}};
+  for (int i = 0; i < 5; ++i) world.bodies[i].x = Vec3f(0, 0, 0.025f + 0.05f * i);
+  world.bodies[4].x = Vec3f(0.5f, 0, 0.025f);  // alone
+  for (int k = 0; k < 20; ++k) step(world);
+  world.sleep = Sleep::by_touch;
+  for (Body& b : world.bodies) put_to_sleep(world.settings, b);
+  const auto awake = [&] {
+    std::vector<int> ids;
+    for (int i = 0; i < 5; ++i)
+      if (world.bodies[i].moves()) ids.push_back(i);
+    return ids;
+  };
+  EXPECT_EQ(awake(), std::vector<int>());
+  EXPECT_EQ(touched_by(world, 1), (std::vector<std::uint32_t>{0, 2}));
+  const auto take_out = [&](std::uint32_t body) {
+    for (const std::uint32_t other : touched_by(world, body)) wake(world.bodies[other]);
+    world.bodies[body].present = false;
+  };
+  const Vec3f top = world.bodies[3].x;
+  take_out(1);
+  EXPECT_EQ(awake(), (std::vector<int>{0, 2}));
+  for (int k = 0; k < 2; ++k) step(world);
+  EXPECT_EQ(awake(), (std::vector<int>{0, 2, 3})) << "what it carried";
+  for (int k = 0; k < 200; ++k) step(world);
+  EXPECT_EQ(awake(), std::vector<int>());
+  EXPECT_NEAR(top.z() - world.bodies[3].x.z(), 0.05f, 1e-4f);
+  const Vec3f below = world.bodies[0].x;
+  take_out(3);
+  step(world);
+  EXPECT_EQ(awake(), std::vector<int>{2}) << "it stays, and wakes nobody";
+  EXPECT_EQ(world.bodies[0].x, below);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/gl/traffic.hpp"
 #include "bin_scenes/pour/pour.hpp"
+#include "pour/settling.hpp"
 #include "solver/fixture.hpp"
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
@@ -199,7 +200,7 @@ TEST(SphereGlBatch, PrintsHash) {
   settings.field_cell = 0.01;
   const auto spread = make_gl_sphere_solver(settings);
   const WorldId walls = Walls().add(*spread);
-  spread->set_phase(walls, Phase::press);
+  spread->set_phase(walls, phases::press);
   for (int k = 0; k < 2; ++k) spread->advance({walls}, 0.25);
   print(hash_of(spread->states(walls)));
   const std::vector<bool> asleep = spread->asleep(walls);
@@ -254,7 +255,7 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   std::vector<WorldId> ids;
   for (const int variant : {0, 1, 2}) ids.push_back(Handful(variant).add(*solver));
   solver->advance(ids, 0.2);
-  for (const Phase phase : {Phase::pour, Phase::press, Phase::probe}) {
+  for (const Phase phase : {phases::pour, phases::press, phases::probe}) {
     for (const WorldId id : ids) solver->set_phase(id, phase);
     solver->advance(ids, 0.05);  // bodies that a phase wakes go up, lists grow
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
@@ -272,7 +273,7 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   settings.field_cell = 0.01;
   const auto solver = make_gl_sphere_solver(settings);
   const WorldId id = Walls().add(*solver);
-  solver->set_phase(id, Phase::settle);
+  solver->set_phase(id, phases::settle);
   // Of each sweep those of four colors that are wider than a group, of one more that might be, and of all the rest.
   constexpr unsigned a_sweep = 6;
   // 71 of a step, and of each sub-step velocities, positions, and sweeps: warm start, and what follows it.
@@ -284,9 +285,9 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   EXPECT_EQ(step(), expected(2, 4 + 4)) << "cold";
   solver->advance({id}, 50 * solver->step_size());
   EXPECT_EQ(step(), expected(2, 2 + 2));
-  solver->set_phase(id, Phase::press);
+  solver->set_phase(id, phases::press);
   EXPECT_EQ(step(), expected(8, 2 + 2));
-  solver->set_phase(id, Phase::probe);
+  solver->set_phase(id, phases::probe);
   EXPECT_EQ(step(), expected(8, 4 + 1)) << "cold";
   solver->advance({id}, 50 * solver->step_size());
   EXPECT_EQ(step(), expected(8, 2 + 1));
@@ -321,7 +322,7 @@ TEST(SphereGlBatch, TakingAPartOutWakesWhatItHeldUp) {
   EXPECT_EQ(solver->asleep(id), (std::vector<bool>{false, false, true, true}));
   solver->advance({id}, 0.5);
   EXPECT_NEAR(solver->states(id)[1].pose.position.z(), 0.015, 1e-4);
-  solver->set_phase(id, Phase::settle);
+  solver->set_phase(id, phases::settle);
   solver->advance({id}, solver->step_size());
   EXPECT_EQ(solver->asleep(id)[2], false) << "finer samples must look again";
 }

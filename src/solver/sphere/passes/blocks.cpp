@@ -2,24 +2,14 @@
 
 #include "solver/sphere/passes/counting_sort.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 namespace bin_scenes::sphere {
 
-std::uint32_t Blocks::root(std::uint32_t body) {
-  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-  return body;
-}
-
 void Blocks::join(const World& world) {
-  parent_.resize(world.bodies.size());
-  std::iota(parent_.begin(), parent_.end(), 0u);
+  groups_.reset(world.bodies.size());
   for (const std::uint32_t i : world.order) {
     const Manifold& m = world.manifolds[i];
     if (m.b == ground || !world.bodies[m.a].moves() || !world.bodies[m.b].moves()) continue;
-    const std::uint32_t a = root(m.a), b = root(m.b);
-    parent_[std::max(a, b)] = std::min(a, b);
+    groups_.join(m.a, m.b);
   }
 }
 
@@ -30,12 +20,12 @@ std::uint32_t Blocks::number(const World& world, std::size_t bodies_of_block) {
   if (count <= bodies_of_block) return 1;
   join(world);
   place_.assign(count, 0);  // here: bodies of a group
-  for (std::uint32_t i = 0; i < count; ++i) place_[root(i)] += world.bodies[i].moves();
+  for (std::uint32_t i = 0; i < count; ++i) place_[groups_.root(i)] += world.bodies[i].moves();
   std::uint32_t block = 0;
   std::size_t held = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (root(i) != i) {
-      block_[i] = block_[root(i)];
+    if (groups_.root(i) != i) {
+      block_[i] = block_[groups_.root(i)];
       continue;
     }
     if (held >= bodies_of_block) {
@@ -50,12 +40,11 @@ std::uint32_t Blocks::number(const World& world, std::size_t bodies_of_block) {
 
 void Blocks::make(const World& world, std::size_t bodies_of_block) {
   const std::uint32_t blocks = number(world, bodies_of_block);
-  std::vector<std::uint32_t>& moving = parent_;  // is not needed any more
-  moving.clear();
+  moving_.clear();
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-    if (world.bodies[i].moves()) moving.push_back(i);
+    if (world.bodies[i].moves()) moving_.push_back(i);
   const auto block_of_body = [&](std::uint32_t body) { return block_[body]; };
-  counting_sort(moving, blocks, block_of_body, body_start_, bodies_);
+  counting_sort(moving_, blocks, block_of_body, body_start_, bodies_);
   const auto block_of = [&](std::uint32_t manifold) {
     const Manifold& m = world.manifolds[manifold];
     return block_[world.bodies[m.a].moves() ? m.a : m.b];

@@ -3,6 +3,7 @@
 /// contacts, which the cache holds.
 #pragma once
 
+#include "core/disjoint_sets.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <cstddef>
@@ -44,11 +45,11 @@ class Blocks {
   static Slice slice(const std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& start, std::size_t i) {
     return {list.data() + start[i], list.data() + start[i + 1]};
   }
-  std::uint32_t root(std::uint32_t body);
   void join(const World& world);
   std::uint32_t number(const World& world, std::size_t bodies_of_block);
 
-  std::vector<std::uint32_t> parent_;  ///< of bodies: union-find, the root is the lowest
+  DisjointSets groups_;                ///< of bodies that manifolds join
+  std::vector<std::uint32_t> moving_;  ///< bodies
   std::vector<std::uint32_t> block_;   ///< of bodies
   std::vector<std::uint32_t> place_;
   std::vector<std::uint32_t> bodies_, body_start_, manifolds_, manifold_start_;

@@ -88,8 +88,9 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   const Samples &samples_a = world.samples(body_a), &samples_b = world.samples(body_b);
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
-  test_samples({samples_a, sa.field, samples_b, sb.field, a_to_b, &b_to_a, margin}, counters, out);
-  test_samples({samples_b, sb.field, samples_a, sa.field, b_to_a, nullptr, margin}, counters, out);
+  const bool way_back = world.settings.way_back;
+  test_samples({samples_a, sa.field, samples_b, sb.field, a_to_b, &b_to_a, margin, way_back}, counters, out);
+  test_samples({samples_b, sb.field, samples_a, sa.field, b_to_a, nullptr, margin, way_back}, counters, out);
 }
 
 void candidates_of_ground(const World& world, const Manifold& m, const Placement& a, float margin, Counters& counters,

@@ -105,7 +105,9 @@ BIN_SCENES_WIDE
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
              std::vector<ContactRows>& rows) {
   std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});
-  const float warm = world.forgets ? 0.0f : h;  // s for which the last forces have acted when the sweeps begin
+  const float warm = world.forgets || !world.settings.warm_start
+                         ? 0.0f
+                         : h;  // s for which the last forces have acted when the sweeps begin
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];

@@ -1,5 +1,6 @@
-#include "solver/sphere/passes/candidates.hpp"
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/math.hpp"
+#include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/passes/reduce.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -8,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace bin_scenes::sphere {
@@ -92,7 +94,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;
   } else {
-    const float margin = world.settings.margin * size + way;
+    const float margin = world.settings.margin * size + (world.settings.speculation ? way : 0.0f);
     const Placement there_a(world, a);
     const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
     candidates.clear();
@@ -102,7 +104,9 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
     // What is fast may meet all that is within its way.
-    const float soon = soon_share * size + std::max(0.0f, way - world.settings.margin * size);
+    const float soon = world.settings.soonest_first
+                           ? soon_share * size + std::max(0.0f, way - world.settings.margin * size)
+                           : std::numeric_limits<float>::infinity();
     reduce(candidates, m, size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
@@ -126,9 +130,12 @@ void find_contacts(World& world) {
       tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
         return tbb::parallel_reduce(
             tbb::blocked_range<std::size_t>(0, world.manifolds.size(), pairs_per_task), Counters{},
-            [&](const tbb::blocked_range<std::size_t>& range, Counters counters) {
-              for (std::size_t i = range.begin(); i < range.end(); ++i)
+            [&, flag = cancel_flag()](const tbb::blocked_range<std::size_t>& range, Counters counters) {
+              const CancelScope scope(flag);
+              for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                stop_if_cancelled();
                 find_contacts_of(world, world.manifolds[i], counters);
+              }
               return counters;
             },
             [](Counters a, const Counters& b) { return a += b; });

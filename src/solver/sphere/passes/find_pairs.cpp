@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/counting_sort.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/lanes.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -97,6 +99,7 @@ template <class Meeting>
 BIN_SCENES_WIDE void sweep(const std::vector<Entry>& entries, const std::vector<Bounds>& boxes,
                            const std::vector<EntryLanes>& lanes, const Meeting& meeting) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    stop_if_cancelled();
     const Bounds& p = boxes[entries[i].box];
     for (std::size_t first = (i + 1) / lane_count * lane_count; first < entries.size(); first += lane_count) {
       if (entries[first].strip != entries[i].strip && first > i) break;
@@ -133,9 +136,9 @@ bool near_ground(const World& world, const Bounds& box) {
 
 }  // namespace
 
-/// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor a
-/// sweep meets what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left out,
-/// unless they were in contact already (their manifold waits, untouched, until one of them wakes).
+/// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor
+/// a sweep meets what lies in its strip, not all that lies at the same x. Pairs of bodies that do not move are left
+/// out, unless they were in contact already (their manifold waits, untouched, until one of them wakes).
 void find_pairs(World& world) {
   static thread_local std::vector<Bounds> boxes;
   static thread_local std::vector<Entry> entries;
@@ -168,7 +171,7 @@ void find_pairs(World& world) {
     if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
     const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
     if (!a.moves() && !b.moves()) return;
-    if (boxes_apart(world, a, b, p.margin + r.margin)) return;
+    if (world.settings.oriented_boxes && boxes_apart(world, a, b, p.margin + r.margin)) return;
     found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
   });
   sort_pairs(found, world.bodies.size());
@@ -186,6 +189,7 @@ void find_pairs(World& world) {
     }
   };
   for (const auto& [a, b] : found) {
+    stop_if_cancelled();
     while (old < world.previous.size() &&
            std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
       keep_sleeping(world.previous[old++]);

@@ -148,7 +148,7 @@ class SampleTest {
 
   void offer(const Vec3f& point, Vec3f out, float distance, const Cone& cone, std::uint32_t feature) {
     if (offer_at_edge(point, cone, feature) || press(point, out, distance, cone, feature)) return;
-    if (distance < error_) offer_back(point, distance, cone, feature);
+    if (view_.way_back && distance < error_) offer_back(point, distance, cone, feature);
   }
 
   /// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts

@@ -17,6 +17,7 @@ struct View {
   const Carry& to_field;
   const Carry* to_a;  ///< from the field's frame to that of the pair's first body; null: it is the same
   float margin;       ///< up to which distance (m)
+  bool way_back;      ///< Settings::way_back
 };
 
 /// Bounding spheres first. What touches is added to `out`.

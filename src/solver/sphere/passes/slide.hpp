@@ -19,7 +19,7 @@ void slide(const Samples& samples, const Field& own, const Carry& carry, std::si
            Vec3f& point, Vec3f& gradient, float& distance) {
   constexpr float flat = 0.02f;  // rad: below it the node itself is deep enough
   const Cone& cone = samples.cones[node];
-  if (cone.axis.isZero() || cone.spread < flat || own.ball > 0) return;
+  if (cone.axis.isZero() || cone.spread < flat || own.ball > 0 || samples.face_spacing <= 0) return;
   float way_per_angle = 2.0f * samples.face_spacing / cone.spread;
   Vec3f x = samples.nodes[node], normal = cone.axis;
   for (int i = 0; i < 6; ++i) {

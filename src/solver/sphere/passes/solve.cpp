@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/blocks.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -32,7 +34,8 @@ constexpr int bounce_sweeps = 12;            ///< a face that strikes flat share
 template <class Work>
 void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&, flag = cancel_flag()](const auto& range) {
+      const CancelScope scope(flag);
       for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
     });
   });
@@ -145,7 +148,8 @@ void ContactSolver::accelerate() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
     motion.v += gain;
-    if (vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f) continue;  // 1e-4 rad a sub-step: the term is rounding
+    if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
+      continue;  // 1e-4 rad a sub-step: the term is rounding
     // Double precision: single would let |L| creep by a thousandth in ten thousand sub-steps.
     const Body& b = world_.bodies[bodies_[i]];
     const Mat3 r = b.q.cast<double>().normalized().toRotationMatrix();
@@ -263,7 +267,7 @@ void ContactSolver::look(const Bundle& bundle) {
 /// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
-  if (!push && first) look(bundle);
+  if (first && (!push || !settings_.relaxation)) look(bundle);
   if (push && first) resist_turn(bundle, swept.friction, swept.u);
   return swept;
 }
@@ -378,6 +382,7 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.hold_by_friction(k >= world.slip_sub_steps());
     solver.accelerate();
+    stop_if_cancelled();
     solver.warm_start();
     for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
     solver.move();

@@ -1,7 +1,7 @@
+#include "core/disjoint_sets.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace bin_scenes::sphere {
 
@@ -13,31 +13,17 @@ bool joins(const World& world, const Manifold& m) {
   return std::any_of(m.contacts.begin(), m.contacts.end(), [](const Contact& c) { return c.normal_force > 0; });
 }
 
-/// Bodies joined by pressing contacts: union-find over manifolds.
-class Islands {
- public:
-  explicit Islands(const World& world) : parent_(world.bodies.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    for (const Manifold& m : world.manifolds)
-      if (joins(world, m)) join(m.a, m.b);
-  }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
- private:
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> parent_;
-};
+/// Bodies joined by pressing contacts.
+DisjointSets islands_of(const World& world) {
+  DisjointSets islands(world.bodies.size());
+  for (const Manifold& m : world.manifolds)
+    if (joins(world, m)) islands.join(m.a, m.b);
+  return islands;
+}
 
 void note_motion(const World& world, Body& b) {
   const Shape& s = *world.shapes[b.shape];
-  const float limit = world.settings.rest_move * s.size;
+  const float limit = (world.sleep == Sleep::by_touch ? world.settings.touch_move : world.settings.rest_move) * s.size;
   const float turned = 2.0f * (b.still_q.conjugate() * b.q).vec().norm() * s.radius;
   if ((b.x - b.still_x).norm() > limit || turned > limit) {
     b.still = 0;
@@ -52,21 +38,35 @@ bool restless(const World& world, std::uint32_t body) {
   return world.bodies[body].moves() && world.bodies[body].still < world.settings.rest_window;
 }
 
-/// Whom the restless keep awake: themselves and whoever is joined to them, directly if bodies sleep by part.
+/// Whether it moved on in this step: bodies that are woken by touch have not, unless they go.
+bool went_on(const World& world, std::uint32_t body) {
+  return world.bodies[body].moves() && world.bodies[body].still == 0;
+}
+
+bool touch(const World& world, const Manifold& m) {
+  return m.b != ground && !m.contacts.empty() && world.bodies[m.a].inverse_mass > 0 &&
+         world.bodies[m.b].inverse_mass > 0;
+}
+
+/// Whom the restless keep awake: themselves and whoever is joined to them, directly if bodies sleep by part. By touch
+/// they wake whoever has contacts with them as they go on, pressed or not: what carried a part carries it no more.
 std::vector<char> kept_awake(const World& world) {
   const auto count = static_cast<std::uint32_t>(world.bodies.size());
   std::vector<char> awake(count, 0);
-  if (world.sleeps_by_part()) {
+  if (world.sleep != Sleep::by_island) {
     for (std::uint32_t i = 0; i < count; ++i) awake[i] = restless(world, i);
+    const bool by_part = world.sleep == Sleep::by_part;
     for (const Manifold& m : world.manifolds)
-      if (joins(world, m) && (restless(world, m.a) || restless(world, m.b))) awake[m.a] = awake[m.b] = 1;
+      if (by_part ? joins(world, m) && (restless(world, m.a) || restless(world, m.b))
+                  : touch(world, m) && (went_on(world, m.a) || went_on(world, m.b)))
+        awake[m.a] = awake[m.b] = 1;
     return awake;
   }
-  Islands islands(world);
+  DisjointSets islands = islands_of(world);
   std::vector<char> of_island(count, 0);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (restless(world, i)) of_island[islands.of(i)] = 1;
-  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.of(i)];
+    if (restless(world, i)) of_island[islands.root(i)] = 1;
+  for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.root(i)];
   return awake;
 }
 
@@ -74,7 +74,8 @@ std::vector<char> kept_awake(const World& world) {
 
 /// An island sleeps when all its bodies stayed where they are for the rest window; a moving body that presses on a
 /// sleeping one wakes the whole island. Never a body alone: that would freeze unsupported parts. But for a probe, in
-/// which all have been awake, and stayed, before they sleep one by one; who is woken sleeps again if it stays.
+/// which all have been awake, and stayed, before they sleep one by one; who is woken sleeps again if it stays. What is
+/// woken by touch must stay for the rest window before it sleeps again, but does not wake others meanwhile.
 void update_sleep(World& world) {
   for (Body& b : world.bodies)
     if (b.moves()) note_motion(world, b);
@@ -86,19 +87,32 @@ void update_sleep(World& world) {
       b.v.setZero();
       b.w.setZero();
     }
-    if (awake[i] && b.asleep && !world.sleeps_by_part()) b.still = 0;
+    if (awake[i] && b.asleep && world.sleep == Sleep::by_island) b.still = 0;
+    if (awake[i] && b.asleep && world.sleep == Sleep::by_touch) b.still = world.settings.time_step;
     b.asleep = !awake[i];
   }
 }
 
-void wake(World& world, std::uint32_t body) {
-  Islands islands(world);
-  const std::uint32_t island = islands.of(body);
-  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-    if (islands.of(i) == island) {
-      world.bodies[i].asleep = false;
-      world.bodies[i].still = 0;
-    }
+std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body) {
+  std::vector<std::uint32_t> touched;
+  for (const Manifold& m : world.manifolds)
+    if ((m.a == body || m.b == body) && touch(world, m)) touched.push_back(m.a == body ? m.b : m.a);
+  return touched;
+}
+
+void wake(Body& body) {
+  body.asleep = false;
+  body.still = 0;
+}
+
+void put_to_sleep(const Settings& settings, Body& body) {
+  if (!body.present || body.inverse_mass == 0) return;
+  body.v.setZero();
+  body.w.setZero();
+  body.asleep = true;
+  body.still = settings.rest_window;
+  body.still_x = body.x;
+  body.still_q = body.q;
 }
 
 }  // namespace bin_scenes::sphere

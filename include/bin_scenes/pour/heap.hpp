@@ -1,0 +1,70 @@
+/// A heap that outlives its scene: parts are poured, taken out and added, and it settles again. A scene is a snapshot
+/// of it.
+///
+///     Heap heap(request, parts, solver);
+///     heap.settle();                       // pours
+///     heap.remove({3});                    // a pick
+///     heap.settle();                       // only what part 3 held up moves
+///     Scene scene = heap.scene();
+#pragma once
+
+#include "bin_scenes/pour/pour.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// A part line to add, and its model.
+struct NewParts {
+  PartLine line;
+  PartModelPtr part;
+};
+
+/// One thread at a time, as its solver.
+class Heap {
+ public:
+  /// Scene `index` of the request, not poured yet. `parts`: by part line; `bin_model`: Bin::Kind::mesh only, loaded
+  /// through the cache when not given; `solver_reason`: of make_solver(), for the report.
+  Heap(const Request& request, const std::vector<PartModelPtr>& parts, std::shared_ptr<Solver> solver,
+       std::size_t index = 0, PartModelPtr bin_model = nullptr, std::string solver_reason = "");
+  Heap(Heap&&) noexcept;
+  Heap& operator=(Heap&&) noexcept;
+  ~Heap();
+
+  /// Pours more onto the heap: lines are added to the request, and their parts enter during the next settle(), in which
+  /// all parts may move; those with poses are put there. Returns the ids of the new parts, which follow those that are
+  /// there. An id is a part's for the life of the heap.
+  std::vector<int> add(const std::vector<NewParts>& lines);
+
+  /// Takes parts out (PartState::removed from now on). If the heap was at rest, all others sleep but those that touched
+  /// them: during the next settle() these move, and whom they wake in turn; the poses of all others stay as they are,
+  /// bit for bit, where the solver can let parts sleep (not with preset thesis).
+  /// Throws an input Error, before anything has changed, for an id that is not there.
+  void remove(const std::vector<int>& ids);
+
+  /// Tilts or turns the heap: gravity in the bin frame (m/s2). All parts wake.
+  void set_gravity(const Vec3& gravity);
+
+  /// Simulates until the heap rests, or for Pour::limit, from now on; with Request::seconds for exactly that time.
+  /// Returns whether all parts rest. Throws Error(cancelled) if a hook asks for it; the heap can then be changed,
+  /// looked at, or settled further.
+  bool settle(const RunHooks& hooks = {});
+
+  /// As it is now: ids, poses, states, and of the last settle() simulated_s, wall_s, steps, finish, profile. Quality
+  /// and visibility are not filled in (quality/, sensor/).
+  Scene scene() const;
+
+  const Request& request() const;                  ///< with the lines that were added, and the gravity of now
+  const std::vector<PartModelPtr>& parts() const;  ///< by part line
+  const PartModelPtr& bin_model() const;
+  const std::shared_ptr<Solver>& solver() const;
+  const std::string& solver_reason() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,43 @@
+/// What a range sensor delivers of a scene, and the truth beside it.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/sensor/silhouettes.hpp"
+#include "bin_scenes/sensor/validity.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Row-major images. Optical frame of the sensor's camera; integer coordinates are pixel centres, as in CameraInfo.
+struct RangeImage {
+  Sensor sensor;              ///< with poses and K filled in
+  int width = 0, height = 0;  ///< of what was measured: the camera's, but for laser_line columns and profiles
+
+  // Measured; NaN / 0 where it is not valid.
+  std::vector<float> depth;                  ///< z along the optical axis (m); NaN = invalid
+  std::vector<std::uint16_t> label;          ///< 0 = background or bin, part id + 1 otherwise
+  std::vector<std::array<float, 3>> normal;  ///< true normal of the surface there, towards the camera; NaN = invalid
+  std::vector<float> intensity;              ///< 0..1; of the ideal model the cosine of incidence
+  std::vector<std::uint8_t> validity;        ///< of Validity
+  std::vector<std::array<float, 3>> points;  ///< measured points (m), if they do not lie on the rays of their pixels
+
+  // True, of the camera's own view, sensor.width * sensor.height; empty where it equals what was measured.
+  std::vector<float> truth_depth;
+  std::vector<std::uint16_t> truth_label;
+  std::vector<std::array<float, 3>> truth_normal;
+  const std::vector<float>& seen_depth() const { return truth_depth.empty() ? depth : truth_depth; }
+  const std::vector<std::uint16_t>& seen_label() const { return truth_label.empty() ? label : truth_label; }
+
+  std::vector<std::size_t> visible, total;  ///< true pixels per part id: seen, and seen if it were alone
+  std::vector<Silhouette> silhouettes;      ///< by part id: the pixels of `total`
+};
+
+/// Measured point of a pixel in the optical frame (m); NaN where depth is.
+std::array<float, 3> point_at(const RangeImage& image, int column, int row);
+/// The same for a whole image: what it costs to remove a lens's distortion is spent on all cores.
+std::vector<std::array<float, 3>> points_of(const RangeImage& image);
+
+}  // namespace bin_scenes

@@ -1,0 +1,75 @@
+/// Rays against the true meshes of a scene: what cameras, projectors and lasers of any kind are made from.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/scene.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Bin frame (m). Lengths along a ray are in units of its direction, which needs no unit length: with a direction of
+/// z = 1 in an optical frame they are depths.
+struct Ray {
+  Vec3 origin = Vec3::Zero();
+  Vec3 direction = Vec3::UnitZ();  ///< not finite: hits nothing
+  double near = 0.0, far = 1e9;
+};
+
+struct Hit {
+  double distance;         ///< in units of the direction; NaN: nothing was hit
+  Vec3 normal;             ///< of the face hit, unit, bin frame, towards the ray's origin
+  std::uint16_t label;     ///< 0 of the bin and of nothing, id + 1 of a part
+  std::int32_t line;       ///< index into Request::parts; -1 of the bin and of nothing
+  std::uint32_t triangle;  ///< of the part's or bin's mesh
+};
+
+/// The search trees of models, made once a model and kept while the model lives. Thread-safe.
+class SceneryCache {
+ public:
+  SceneryCache();
+  ~SceneryCache();
+  struct State;
+  State& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+/// Everything of a scene that light meets, placed once, for any number of views and threads. Parts that were not poured
+/// or whose pose is not finite are not there.
+///
+/// Embree finds the triangle in single precision; distance and normal are those of the triangle's plane in double.
+class Scenery {
+ public:
+  /// `parts[line]` are the models; `bin_model` that of a bin given as a mesh. Throws an input Error if a part's id has
+  /// no 16-bit label.
+  Scenery(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+          const PartModelPtr& bin_model, SceneryCache& cache);
+  ~Scenery();
+  Scenery(Scenery&&) noexcept;
+
+  /// First hit of each of `count` rays.
+  void first_hits(const Ray* rays, Hit* hits, std::size_t count) const;
+  /// blocked[i] = 1 if anything lies between `near` and `far` of ray i, else 0.
+  void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
+  /// The same with Scene::parts[part] as if it were alone; all 0 if that part is not there.
+  void blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
+
+  /// Of Scene::parts[part] in the bin frame; empty if the part is not there.
+  struct Placed {
+    const Mesh* mesh = nullptr;
+    Pose pose;
+    int id = -1;
+  };
+  std::size_t part_count() const;
+  Placed part(std::size_t part) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,31 @@
+/// All sensors of a request, on one scene after the other.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/scene.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace bin_scenes {
+
+class SceneryCache;
+
+/// Keeps what is expensive between scenes: the search trees of models, while the models live.
+class SensorRig {
+ public:
+  SensorRig();
+  ~SensorRig();
+  /// One image a sensor of `scene.sensors`, which are resolved(). Sets the parts' visible fractions and counts views
+  /// and silhouettes in the report's profile. For several scenes at once in several threads. The same scene gives the
+  /// same bits each time. Parts that were not poured or whose pose is not finite are not there. `parts[line]` are the
+  /// models.
+  std::vector<RangeImage> look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                               const PartModelPtr& bin_model = nullptr);
+
+ private:
+  std::unique_ptr<SceneryCache> cache_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,56 @@
+/// Scenes on their way from the solver to the caller: judged, seen and made ready by other threads while the next ones
+/// are poured, handed on in order by the thread that pours.
+#pragma once
+
+#include "bin_scenes/generate/generator.hpp"
+
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace bin_scenes {
+
+/// Parts of scenes that may wait to be finished. On one core nobody does it beside the thread that pours: it then does
+/// it itself.
+constexpr std::size_t most_parts_waiting = 100'000;
+
+class Finishing {
+ public:
+  using Result = Generator::Result;
+  /// `finish` runs in any thread and for up to `at_once` scenes at once: their images have to fit into memory together.
+  /// `hand_on` runs in the thread that calls this class.
+  Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on, std::size_t at_once)
+      : finish_(std::move(finish)), hand_on_(std::move(hand_on)), free_(at_once) {}
+  ~Finishing();  ///< waits for scenes that are being finished; they are lost
+  Finishing(const Finishing&) = delete;
+  Finishing& operator=(const Finishing&) = delete;
+
+  void add(std::size_t place, Scene&& scene);  ///< places count from 0, each comes once
+  void hand_on_finished();                     ///< those that are ready and whose turn it is; never waits
+  void wait();                                 ///< for all, and hands them on; throws what `finish` threw
+
+ private:
+  struct Entry {
+    Result result;
+    std::exception_ptr failed;
+    std::atomic<bool> finished{false};
+  };
+
+  std::function<void(Result&)> finish_;
+  std::function<void(Result&&)> hand_on_;
+  std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
+  std::size_t next_ = 0;                                   ///< place whose turn it is
+  std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
+  std::mutex mutex_;
+  std::condition_variable freed_;
+  std::size_t free_;  ///< scenes that may be begun now
+  tbb::task_group tasks_;
+};
+
+}  // namespace bin_scenes

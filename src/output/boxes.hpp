@@ -1,0 +1,29 @@
+/// Bounding boxes of parts in an image, for BOP's files and the truth block of scene.json.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
+#include "output/mask_png.hpp"
+
+#include <array>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Inclusive pixel bounds.
+struct PixelBox {
+  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+  void extend(int x, int y);
+  bool empty() const { return right < left; }
+  std::array<int, 4> xywh() const;  ///< x, y, width, height as BOP writes them; -1 for nothing
+};
+
+/// By part id, of the pixels that truly show it.
+std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts);
+/// Of the whole silhouette, hidden or outside the image included: the projected vertices.
+PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sensor& sensor);
+
+MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box);
+MaskBox whole_mask(const Silhouette& silhouette);
+
+}  // namespace bin_scenes

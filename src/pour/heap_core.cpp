@@ -1,0 +1,400 @@
+#include "pour/heap_core.hpp"
+
+#include "solver/step_limit.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
+constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
+
+}  // namespace
+
+HeapCore::HeapCore(std::shared_ptr<const PourPlan> plan, Solver& solver, std::size_t index)
+    : plan_(std::move(plan)),
+      solver_(solver),
+      index_(index),
+      random_(plan_->request.seed, index, Stream::pour),
+      settling_(plan_->request.pour.finish),
+      rest_(0) {
+  const auto& lines = plan_->request.parts;
+  const bool entering =
+      std::any_of(lines.begin(), lines.end(), [](const PartLine& l) { return l.poses.empty() && l.count > 0; });
+  make_world(entering);
+  const bool enters = enter(0);
+  begin(!enters && all_slow() ? Stage::hold : Stage::pour);
+}
+
+HeapCore::~HeapCore() {
+  solver_.remove_world(id_);
+}
+
+/// A new world with the bodies that are in. While parts enter, walls of a box reach far enough up to hold them.
+void HeapCore::make_world(bool raised_walls) {
+  WorldDef def = plan_->world;
+  walls_raised_ = raised_walls && def.bin.kind == Bin::Kind::box;
+  if (walls_raised_) {
+    def.wall_height = plan_->entry_height;
+    if (plan_->request.pour.pattern == Pour::Pattern::grid)  // one cell of a column each at worst
+      def.wall_height += plan_->request.pour.grid_spacing * 2.0 * plan_->largest_part * def.bodies.size();
+  }
+  id_ = solver_.add_world(def);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
+}
+
+void HeapCore::begin(Stage stage) {
+  settling_.start(stage);
+  tell_stage();
+  start_clock();
+}
+
+void HeapCore::tell_stage() {
+  if (!solver_.set_phase(id_, settling_.told())) settling_.ignore_stages();
+}
+
+void HeapCore::start_clock() {
+  time_ = 0.0;
+  settling_.start_clock();
+  rest_ = RestWatch(states_.size());
+  audit_.emplace(plan_->world);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in) audit_->enter(b, states_[b]);
+  earlier_steps_ = std::uint64_t{0} - solver_.steps(id_);
+  fresh_ = true;
+}
+
+void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
+  states();
+  const std::size_t first = states_.size();
+  audit_.reset();  // it is of the plan that goes
+  plan_ = std::move(plan);
+  solver_.remove_world(id_);
+  make_world(true);
+  enter(first);
+  begin(Stage::pour);
+}
+
+void HeapCore::remove(std::size_t body) {
+  if (settling_.done()) {
+    states();
+    begin(Stage::mend);
+  }
+  if (place_[body] == Place::in) {
+    solver_.remove(id_, body);
+    audit_->leave(body);
+  }
+  waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), body), waiting_.end());
+  place_[body] = Place::removed;
+  states_[body] = {Pose::none(), {}};
+}
+
+void HeapCore::set_gravity(const Vec3& gravity) {
+  states();
+  auto plan = std::make_shared<PourPlan>(*plan_);
+  plan->request.gravity = plan->world.gravity = gravity;
+  audit_.reset();
+  plan_ = std::move(plan);
+  solver_.remove_world(id_);
+  make_world(!waiting_.empty());
+  begin(waiting_.empty() ? Stage::hold : Stage::pour);
+}
+
+void HeapCore::recover() {
+  solver_.remove_world(id_);
+  make_world(walls_raised_);
+  begin(waiting_.empty() ? Stage::settle : Stage::pour);
+}
+
+void HeapCore::insert(std::size_t body, const BodyState& state) {
+  solver_.insert(id_, body, state);
+  if (audit_) audit_->enter(body, state);
+  states_[body] = state;
+  place_[body] = Place::in;
+}
+
+bool HeapCore::enter(std::size_t first) {
+  states_.resize(plan_->world.bodies.size(), {Pose::none(), {}});  // until a part is let in
+  place_.resize(states_.size(), Place::waiting);
+  start_given(first);
+  const bool enters = !waiting_.empty();
+  if (plan_->request.pour.pattern == Pour::Pattern::grid || plan_->world.bin.kind == Bin::Kind::none)
+    start_grid();
+  else
+    start_rain();
+  return enters;
+}
+
+void HeapCore::start_given(std::size_t first) {
+  for (std::size_t b = first; b < states_.size(); ++b) {
+    const PartLine& line = plan_->request.parts[plan_->line_of[b]];
+    if (line.poses.empty()) {
+      waiting_.push_back(b);
+      continue;
+    }
+    BodyState state{line.poses[plan_->copy_of[b]], {}};
+    if (!line.velocities.empty() && !line.fixed) state.velocity = line.velocities[plan_->copy_of[b]];
+    if (!line.fixed && outside(state.pose * part(b).mass().center)) {
+      states_[b] = state;  // the walls would push it further out
+      place_[b] = Place::escaped;
+      continue;
+    }
+    insert(b, state);
+  }
+}
+
+void HeapCore::start_grid() {
+  std::vector<const PartModel*> models;
+  for (const std::size_t b : waiting_) models.push_back(&part(b));
+  if (models.empty()) return;
+  Opening opening = plan_->opening;
+  const Bin::Kind kind = plan_->world.bin.kind;
+  if (kind == Bin::Kind::floor || kind == Bin::Kind::none) opening.upper.z() = opening.lower.z();
+  opening.upper.z() = std::max(opening.upper.z(), top());
+  const std::vector<Pose> poses = grid_poses(models, opening, plan_->request.pour.grid_spacing, random_);
+  for (std::size_t i = 0; i < poses.size(); ++i) insert(waiting_[i], {poses[i], {}});
+  waiting_.clear();
+}
+
+void HeapCore::start_rain() {
+  for (std::size_t i = waiting_.size(); i > 1; --i)  // Fisher-Yates: part lines come mixed
+    std::swap(waiting_[i - 1], waiting_[random_.below(i)]);
+  let_in();
+}
+const std::vector<BodyState>& HeapCore::states() {
+  if (fresh_) return states_;
+  const std::vector<BodyState> now = solver_.states(id_);
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in && now[b].pose.finite()) states_[b] = now[b];
+  fresh_ = true;
+  return states_;
+}
+
+double HeapCore::time_left() const {
+  if (!plan_->request.seconds) return std::numeric_limits<double>::infinity();
+  const double left = *plan_->request.seconds - time_;
+  return steps_in(left, solver_.step_size()).count() > 0 ? left : 0.0;
+}
+
+bool HeapCore::outside(const Vec3& center) const {
+  switch (plan_->world.bin.kind) {
+    case Bin::Kind::none:
+      return false;
+    case Bin::Kind::floor:
+      return center.z() < 0.0;
+    case Bin::Kind::box: {
+      const Vec3 half = 0.5 * plan_->world.bin.inner_size;
+      return std::abs(center.x()) > half.x() || std::abs(center.y()) > half.y() || center.z() < 0.0;
+    }
+    case Bin::Kind::mesh: {
+      const Aabb box = transformed(plan_->world.bin_model->mesh(), plan_->world.bin.pose).bounds();
+      return center.x() < box.lower.x() || center.x() > box.upper.x() || center.y() < box.lower.y() ||
+             center.y() > box.upper.y() || center.z() < box.lower.z();
+    }
+  }
+  return false;
+}
+
+void HeapCore::judge() {
+  const Pour& pour = plan_->request.pour;
+  const std::vector<BodyState> now = solver_.states(id_);
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (!moves(b)) continue;
+    const PartModel& part = this->part(b);
+    const bool finite = now[b].pose.finite();
+    if (finite) states_[b] = now[b];
+    if (!finite || outside(states_[b].pose * part.mass().center)) {
+      solver_.remove(id_, b);
+      place_[b] = Place::escaped;
+      audit_->leave(b);
+      continue;
+    }
+    rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
+               {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
+  }
+  audit_->look(time_, states_);
+  fresh_ = true;
+}
+
+bool HeapCore::slow(std::size_t body) const {
+  const PartModel& part = this->part(body);
+  const double size = part.diagonal(), limit = 0.25 * std::sqrt(plan_->world.gravity.norm() * size);
+  const Twist& v = states_[body].velocity;
+  return v.linear.norm() + 0.5 * size * v.angular.norm() <= limit;
+}
+
+double HeapCore::top() const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (place_[b] != Place::in) continue;
+    for (const Cover::Ball& ball : plan_->covers[plan_->line_of[b]].balls)
+      highest = std::max(highest, (states_[b].pose * ball.center).z() + ball.radius);
+  }
+  return highest;
+}
+
+bool HeapCore::moves(std::size_t body) const {
+  return place_[body] == Place::in && !plan_->world.bodies[body].fixed;
+}
+
+template <class Test>
+std::size_t HeapCore::count_moving(Test test) const {
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < states_.size(); ++b) count += moves(b) && test(b);
+  return count;
+}
+
+std::size_t HeapCore::count() const {
+  return count_moving([](std::size_t) { return true; });
+}
+bool HeapCore::all_rest() const {
+  return count_moving([&](std::size_t b) { return !rest_.resting(b); }) == 0;
+}
+bool HeapCore::all_slow() const {
+  return count_moving([&](std::size_t b) { return !slow(b); }) == 0;
+}
+std::size_t HeapCore::less_still_than(double seconds) const {
+  return count_moving([&](std::size_t b) { return rest_.still(b, time_) < seconds; });
+}
+bool HeapCore::all_asleep() const {
+  const std::vector<bool> asleep = solver_.asleep(id_);
+  return count_moving([&](std::size_t b) { return !asleep[b]; }) == 0;
+}
+
+void HeapCore::let_in() {
+  if (waiting_.empty()) return;
+  std::vector<Rain::Obstacle> obstacles;
+  if (plan_->world.bin_model) obstacles.push_back({&plan_->bin_cover, Pose(), true});
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    if (place_[b] == Place::in)
+      obstacles.push_back({&plan_->covers[plan_->line_of[b]], states_[b].pose, time_ > 0.0 && slow(b)});
+  const Rain rain(plan_->opening, plan_->request.pour.drop_height);
+  int misses = 0;
+  std::vector<std::size_t> still;
+  for (const std::size_t b : waiting_) {
+    std::optional<Pose> pose;
+    const Cover& shape = plan_->covers[plan_->line_of[b]];
+    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, obstacles, random_, tries_per_part);
+    if (!pose) {
+      ++misses;
+      still.push_back(b);
+      continue;
+    }
+    misses = 0;
+    insert(b, {*pose, {}});
+    obstacles.push_back({&shape, *pose, false});
+  }
+  // Nothing moves any more and still nobody finds a place: the bin is full.
+  if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
+    for (const std::size_t b : still) place_[b] = Place::no_room;
+    still.clear();
+  }
+  waiting_ = std::move(still);
+}
+
+/// Back to the rim, once all are in.
+void HeapCore::cut_walls() {
+  walls_raised_ = false;
+  if (top() <= plan_->world.wall_height) return;  // nothing leans on what is taken away
+  earlier_steps_ += solver_.steps(id_);
+  solver_.remove_world(id_);  // first: both at once would hold twice the memory
+  make_world(false);
+  tell_stage();
+}
+
+void HeapCore::look() {
+  judge();
+  let_in();
+  const Stage before = settling_.stage();
+  if (!settling_.look(*this, time_) || settling_.done()) return;
+  tell_stage();
+  if (before != Stage::pour) return;
+  if (walls_raised_) cut_walls();
+  rest_ = RestWatch(states_.size());  // what rested on coarser shapes, or leant on a wall that is gone, may move again
+}
+
+bool HeapCore::over() const {
+  if (plan_->request.seconds) return false;  // time_left() decides
+  return settling_.done() || time_ >= plan_->request.pour.limit;
+}
+
+Progress HeapCore::progress() const {
+  Progress progress;
+  progress.phase = settling_.stage() == Stage::pour ? "pour" : "settle";
+  progress.scene = index_;
+  progress.parts = states_.size();
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    progress.resting += place_[b] == Place::in && (!moves(b) || rest_.resting(b));
+  progress.simulated_s = time_;
+  const double parts = std::max<double>(1.0, static_cast<double>(states_.size()));
+  const double entered = 1.0 - waiting_.size() / parts, still = progress.resting / parts;
+  progress.fraction =
+      plan_->request.seconds ? std::min(1.0, time_ / std::max(1e-9, *plan_->request.seconds)) : 0.5 * (entered + still);
+  return progress;
+}
+
+PartState HeapCore::state_of(std::size_t body) const {
+  switch (place_[body]) {
+    case Place::in:
+      if (plan_->world.bodies[body].fixed) return PartState::fixed;
+      return rest_.resting(body) ? PartState::resting : PartState::moving;
+    case Place::escaped:
+      return PartState::escaped;
+    case Place::removed:
+      return PartState::removed;
+    case Place::waiting:
+    case Place::no_room:
+      break;
+  }
+  return PartState::not_poured;
+}
+
+bool HeapCore::has(int id) const {
+  return id >= 0 && static_cast<std::size_t>(id) < place_.size() && is_there(state_of(static_cast<std::size_t>(id)));
+}
+
+Scene HeapCore::scene() {
+  states();
+  Scene scene;
+  scene.seed = plan_->request.seed;
+  scene.index = index_;
+  scene.sensors = plan_->request.sensors;
+  Report& report = scene.report;
+  report.at_rest = true;
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    ScenePart part;
+    part.id = static_cast<int>(b);
+    part.line = plan_->line_of[b];
+    part.model = plan_->request.parts[part.line].model;
+    part.pose = states_[b].pose;
+    part.velocity = states_[b].velocity;
+    part.state = state_of(b);
+    if (part.state == PartState::moving) report.at_rest = false;
+    if (part.state == PartState::escaped) report.escaped.push_back(part.id);
+    if (part.state == PartState::not_poured) report.not_poured.push_back(part.id);
+    scene.parts.push_back(std::move(part));
+  }
+  report.solver = solver_.name();
+  report.device = solver_.device();
+  report.finish = plan_->request.seconds ? "none" : settling_.finish();
+  report.simulated_s = time_;
+  report.steps = earlier_steps_ + solver_.steps(id_);
+  report.flags = solver_.flags(id_);
+  report.energy = audit_->worst();
+  for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
+  if (!report.not_poured.empty())
+    report.flags.push_back({"not_poured",
+                            std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +
+                                " parts found no room below the rim or no time to enter",
+                            "ask for fewer parts, a larger bin, or more simulated time"});
+  report.state_hash = state_hash(scene.parts);
+  return scene;
+}
+
+}  // namespace bin_scenes

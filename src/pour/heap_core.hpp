@@ -1,0 +1,105 @@
+/// One heap between its changes and its rest: which parts are in, which wait, which rest, which are gone. The caller
+/// advances the solver (settle_heaps.hpp), so that many heaps of one solver can be stepped together.
+#pragma once
+
+#include "pour/energy_audit.hpp"
+#include "pour/pour_plan.hpp"
+#include "pour/settling.hpp"
+
+#include "bin_scenes/pour/pour.hpp"
+#include "bin_scenes/pour/rest_watch.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace bin_scenes {
+
+class HeapCore final : private HeapView {
+ public:
+  HeapCore(std::shared_ptr<const PourPlan> plan, Solver& solver, std::size_t index);
+  ~HeapCore() override;
+  HeapCore(const HeapCore&) = delete;
+  HeapCore& operator=(const HeapCore&) = delete;
+
+  // Changes, between two settles.
+  /// Goes on with a plan that has more part lines than before at its end: their parts enter.
+  void extend(std::shared_ptr<const PourPlan> plan);
+  void remove(std::size_t body);
+  void set_gravity(const Vec3& gravity);
+  /// After a step that was broken off: a new world with the states of the last look, which settles anew.
+  void recover();
+
+  // A settle.
+  /// Starts the clock; what was under way before goes on.
+  void start_clock();
+  std::size_t index() const { return index_; }
+  WorldId id() const { return id_; }
+  Solver& solver() const { return solver_; }
+  double time() const { return time_; }  ///< s since the clock was started
+  const std::vector<BodyState>& states();
+  /// s until the request's set time; infinity without one.
+  double time_left() const;
+  void advanced(double seconds) { time_ += seconds, fresh_ = false; }
+  /// Judges rest and escape, lets parts in, moves on through the stages. Call on whole slices.
+  void look();
+  void judge();  ///< only judges, at the end of a set time
+  bool over() const;
+  Progress progress() const;
+
+  bool has(int id) const;  ///< poured and not taken out
+  bool settled() const { return settling_.done(); }
+  bool at_rest() const { return all_in() && all_rest(); }
+  Scene scene();
+  const PourPlan& plan() const { return *plan_; }
+
+ private:
+  enum class Place { waiting, in, escaped, no_room, removed };
+
+  void make_world(bool raised_walls);
+  void begin(Stage stage);
+  void tell_stage();
+  void insert(std::size_t body, const BodyState& state);
+  /// Puts parts from body `first` on where they start; returns whether some of them enter from above.
+  bool enter(std::size_t first);
+  void start_given(std::size_t first);
+  void start_grid();
+  void start_rain();
+  void let_in();
+  void cut_walls();
+  PartState state_of(std::size_t body) const;
+  bool outside(const Vec3& center) const;
+  bool slow(std::size_t body) const;
+  double top() const;
+  bool moves(std::size_t body) const;  ///< it is in and not fixed
+  template <class Test>
+  std::size_t count_moving(Test test) const;
+  const PartModel& part(std::size_t body) const { return *plan_->world.parts[plan_->line_of[body]]; }
+
+  // HeapView
+  bool all_in() const override { return waiting_.empty(); }
+  bool all_slow() const override;
+  bool all_rest() const override;
+  bool all_asleep() const override;
+  std::size_t count() const override;
+  std::size_t less_still_than(double seconds) const override;
+  double rest_window() const override { return plan_->request.pour.rest_window; }
+
+  std::shared_ptr<const PourPlan> plan_;
+  Solver& solver_;
+  std::size_t index_;
+  WorldId id_ = 0;
+  Random random_;
+  Settling settling_;
+  double time_ = 0.0;
+  std::uint64_t earlier_steps_ =
+      0;  ///< of worlds left behind since the clock was started, less those before in this one
+  bool fresh_ = false, walls_raised_ = false;
+  std::vector<BodyState> states_;
+  std::vector<Place> place_;
+  std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first
+  RestWatch rest_;
+  std::optional<EnergyAudit> audit_;  ///< of this settle
+};
+
+}  // namespace bin_scenes

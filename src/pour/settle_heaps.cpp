@@ -1,0 +1,173 @@
+#include "pour/settle_heaps.hpp"
+
+#include "solver/step_limit.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two looks at a heap
+
+struct Running {
+  std::size_t number;
+  HeapCore* heap;
+};
+
+/// Heaps that are simulated and looked at together. Of two groups one is looked at while the device works on the
+/// other.
+struct Group {
+  std::vector<Running> running;
+  std::uint64_t left = 0;       ///< steps to the end of the slice
+  std::uint64_t clock = 0;      ///< steps of the heap that is traced
+  bool begun = false;           ///< a piece of the slice
+  std::uint64_t under_way = 0;  ///< its steps
+  double seconds = 0.0;         ///< simulated by them
+  std::vector<WorldId> ids() const {
+    std::vector<WorldId> all;
+    for (const Running& r : running) all.push_back(r.heap->id());
+    return all;
+  }
+};
+
+class Run {
+ public:
+  Run(Solver& solver, const HeapSource& source, const RunHooks& hooks)
+      : solver_(solver),
+        source_(source),
+        hooks_(hooks),
+        step_(solver.step_size()),
+        slice_(static_cast<std::uint64_t>(std::max(1.0, std::round(slice_seconds / step_)))),
+        tracing_(hooks.trace && hooks.trace_rate > 0.0) {
+    // Trace samples count from each heap's own start, so a traced heap runs by itself. It makes no other difference.
+    const std::size_t at_once = tracing_ ? 1 : std::max<std::size_t>(1, solver.worlds_at_once());
+    groups_.resize(solver.works_aside() && at_once > 1 ? 2 : 1);
+    group_size_ = at_once / groups_.size();
+  }
+
+  void all() {
+    for (Group& group : groups_) fill(group);
+    while (over_ < source_.count) {
+      for (Group& group : groups_) {
+        if (hooks_.cancel && hooks_.cancel->load()) cancel();
+        if (group.begun) end_slice(group);
+        group.begun = !group.running.empty();
+        if (group.begun) begin_piece(group);
+      }
+    }
+  }
+
+ private:
+  void fill(Group& group) {
+    if (group.running.empty()) group.clock = 0;
+    while (group.running.size() < group_size_ && next_ < source_.count) {
+      group.running.push_back({next_, &source_.next(next_)});
+      ++next_;
+      if (tracing_) sample(*group.running.back().heap);
+    }
+    group.left = slice_;
+  }
+
+  /// A slice, in pieces that also end where a trace sample or a heap's set time is due.
+  void begin_piece(Group& group) {
+    std::uint64_t steps = group.left;
+    if (tracing_) steps = std::min(steps, next_sample(group.clock) - group.clock);
+    double seconds = static_cast<double>(steps) * step_;
+    for (const Running& r : group.running) seconds = std::min(seconds, r.heap->time_left());
+    group.under_way = steps_in(seconds, step_).count();
+    if (group.under_way > 0) group.seconds = solver_.begin(group.ids(), seconds);
+  }
+
+  void end_piece(Group& group) {
+    if (group.under_way == 0) return;
+    solver_.finish(group.ids());
+    for (Running& r : group.running) r.heap->advanced(group.seconds);
+    const bool due = tracing_ && group.clock + group.under_way == next_sample(group.clock);
+    group.clock += group.under_way;
+    group.left -= group.under_way;
+    if (due)
+      for (Running& r : group.running) sample(*r.heap);
+  }
+
+  void end_slice(Group& group) {
+    end_piece(group);
+    leave_if(group, [](HeapCore& heap) {
+      if (heap.time_left() > 0.0) return false;
+      heap.judge();
+      return true;
+    });
+    if (group.left == 0) {
+      for (Running& r : group.running) r.heap->look();
+      tell(group);
+      leave_if(group, [](HeapCore& heap) { return heap.over(); });
+    }
+    if (group.left == 0 || group.running.empty()) fill(group);
+  }
+
+  template <class Over>
+  void leave_if(Group& group, Over over) {
+    const auto leaves = [&](Running& r) {
+      if (!over(*r.heap)) return false;
+      if (tracing_ && r.heap->time() > last_sample_) sample(*r.heap);
+      ++over_;
+      source_.over(r.number);
+      return true;
+    };
+    group.running.erase(std::remove_if(group.running.begin(), group.running.end(), leaves), group.running.end());
+  }
+
+  void tell(const Group& looked_at) {
+    if (!hooks_.progress) return;
+    double sum = static_cast<double>(over_);
+    for (const Group& group : groups_)
+      for (const Running& r : group.running) sum += r.heap->progress().fraction;
+    fraction_ = std::max(fraction_, sum / static_cast<double>(source_.count));
+    for (const Running& r : looked_at.running) {
+      Progress progress = r.heap->progress();
+      progress.fraction = fraction_;
+      hooks_.progress(progress);
+    }
+  }
+
+  void sample(HeapCore& heap) {
+    last_sample_ = heap.time();
+    hooks_.trace(heap.index(), last_sample_, heap.states());
+  }
+  /// Step at whose end the next sample of a trace is due: the one nearest to a multiple of 1 / rate.
+  std::uint64_t next_sample(std::uint64_t now) const {
+    const double rate = hooks_.trace_rate;
+    const double number = std::floor((static_cast<double>(now) + 0.5) * step_ * rate) + 1.0;
+    return std::max(now + 1, static_cast<std::uint64_t>(std::llround(number / (rate * step_))));
+  }
+
+  /// What the device works on is finished first: a world under way takes no change.
+  [[noreturn]] void cancel() {
+    for (Group& group : groups_)
+      if (group.begun) end_piece(group);
+    throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
+  }
+
+  Solver& solver_;
+  const HeapSource& source_;
+  const RunHooks& hooks_;
+  double step_;          ///< s
+  std::uint64_t slice_;  ///< steps
+  bool tracing_;
+  std::size_t group_size_ = 1;
+  std::vector<Group> groups_;
+  std::size_t next_ = 0, over_ = 0;
+  double fraction_ = 0.0;
+  double last_sample_ = 0.0;  ///< s
+};
+
+}  // namespace
+
+void settle_heaps(Solver& solver, const HeapSource& source, const RunHooks& hooks) {
+  Run(solver, source, hooks).all();
+}
+
+}  // namespace bin_scenes

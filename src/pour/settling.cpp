@@ -1,0 +1,123 @@
+#include "pour/settling.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+using Finish = Pour::Finish;
+
+constexpr double calm_share = 0.4;        ///< of the rest window: parts still for so long are calm
+constexpr double jolt = 0.02;             ///< s from the start of a proof until its forces are found; parts budge then
+constexpr double creep = 1.0;             ///< s of a probe in which what tips slowly shows; all asleep is proof as well
+constexpr double patience = 2.0;          ///< s of a proof or mend: rigid and stiff contacts damp rocking poorly
+constexpr int most_proofs = 12;           ///< a heap that still moves in the last one is left as it came to lie
+constexpr double tolerated_share = 0.02;  ///< of the parts may move in a proof, less ...
+constexpr double tolerated_less = 2.0;    ///< ... so many: max(0, n / 50 - 2), 1 of 150
+
+}  // namespace
+
+/// A look at the heap.
+struct Settling::Seen {
+  const HeapView& heap;
+  double calm_s;      ///< s: time after which parts that stayed are calm
+  double in_stage;    ///< s
+  double last_stage;  ///< s: the same at the last look
+  int proofs;
+
+  bool all_in() const { return heap.all_in() && heap.all_slow(); }
+  bool rest() const { return heap.all_in() && heap.all_rest(); }
+  bool calm() const { return heap.less_still_than(calm_s) == 0; }
+  bool fast() const { return !heap.all_slow(); }
+  /// More than a heap that stands may have. What moved has not been asked whether it stands now.
+  bool too_many(std::size_t parts) const {
+    return parts > std::max(0.0, tolerated_share * static_cast<double>(heap.count()) - tolerated_less);
+  }
+  bool moved() const { return calm() && too_many(heap.less_still_than(in_stage - jolt)) && proofs < most_proofs; }
+  bool stood() const { return calm() && heap.all_rest(); }
+  bool rocks() const { return !calm() && (fast() || (in_stage > patience && too_many(heap.less_still_than(calm_s)))); }
+  /// Once, when it could be calm: a start that was not at rest.
+  bool stirs() const { return in_stage >= calm_s && last_stage < calm_s && heap.less_still_than(0.5 * calm_s) > 0; }
+};
+
+struct Settling::Transition {
+  Stage from;
+  Finish least, most;  ///< asked for
+  bool (*when)(const Seen&);
+  Stage to;
+};
+
+/// The first that applies is taken, one a look.
+const Settling::Transition Settling::transitions[] = {
+    // clang-format off
+    // from           asked for                            when                                            to
+    {Stage::pour,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.all_in(); },       Stage::settle},
+    {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::settle, Finish::pressed, Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::press},
+    {Stage::press,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::probe},
+    {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.fast(); },         Stage::settle},
+    {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::probe},
+    {Stage::probe,  Finish::probed,  Finish::probed,
+     [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::prove},
+    {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::prove},
+    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.fast(); },         Stage::settle},
+    {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.stirs(); },        Stage::settle},
+    {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::mend,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::mend,   Finish::settled, Finish::probed,
+     [](const Seen& s) { return s.in_stage > patience && !s.calm(); },                                Stage::settle},
+    // clang-format on
+};
+
+void Settling::start(Stage stage) {
+  if (stage != Stage::mend) friction_ = 1.0;
+  proofs_ = 0;
+  enter(stage, 0.0);
+  looked_ = 0.0;
+}
+
+void Settling::enter(Stage stage, double time) {
+  last_ = stage_;
+  stage_ = stage;
+  begun_ = time;
+  if (done()) return;
+  friction_ = std::min(friction_, row(stage_).told.friction);
+  proofs_ += stage == Stage::probe || stage == Stage::prove;
+}
+
+bool Settling::look(const HeapView& heap, double time) {
+  if (done()) return false;
+  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, looked_ - begun_, proofs_};
+  looked_ = time;
+  for (const Transition& t : transitions) {
+    if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
+    enter(t.to, time);
+    return true;
+  }
+  return false;
+}
+
+Phase Settling::told() const {
+  Phase told = row(stage_).told;
+  told.friction = friction_;
+  return told;
+}
+
+const char* Settling::finish() const {
+  if (!done()) return "none";
+  switch (last_) {
+    case Stage::settle:
+      return name_of(Finish::settled);
+    case Stage::prove:
+      return name_of(Finish::probed);
+    default:
+      return name_of(ignored_ ? Finish::settled : Finish::pressed);
+  }
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,108 @@
+/// How a heap settles, as data: what the solver is told in each stage, and what leads from one stage to the next.
+///
+///     pour ─► settle ─► press ─► probe ─► prove ─► done      a stage in which parts get under way again goes back to
+///                └─ settled ┘ pressed ┘     probed ┘         settle; what is given at rest starts in hold, what is
+///                                                           left behind when parts are taken out in mend
+#pragma once
+
+#include "bin_scenes/solver/solver.hpp"
+
+#include <array>
+
+namespace bin_scenes {
+
+enum class Stage { pour, settle, press, probe, prove, hold, mend, done };
+
+struct StageRow {
+  Stage stage;
+  const char* name;
+  Phase told;  ///< what the solver is told
+};
+
+namespace phases {
+
+using Sleep = Phase::Sleep;
+// clang-format off
+//                                 samples | stiffness      | friction | forgets | sleep          | begins asleep
+/// Parts come in. Coarse shapes do while everything moves.
+inline constexpr Phase pour{        false, Stiffness::soft,  1.0,       false,    Sleep::by_island, false};
+/// Exact shapes on soft contacts, which take the energy out of rocking and leave overlap under load.
+inline constexpr Phase settle{      true,  Stiffness::soft,  1.0,       false,    Sleep::by_island, false};
+/// What overlaps would overlap for good: contacts as stiff as they can be press it out.
+inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,    Sleep::by_island, false};
+/// The heap begins without forces, as under the next engine, and for a moment without friction; contacts press nothing
+/// apart, and from now on friction holds a little less. What is near its limit slips or tips now instead of later. Parts
+/// sleep one by one: all were awake, and what still creeps must not keep the others awake.
+inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
+/// Pressed again without remembered forces: as when this solver itself goes on from the poses.
+inline constexpr Phase prove{       true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
+/// A heap given at rest goes on as it was left: softer or coarser contacts would let it sink.
+inline constexpr Phase hold = press;
+/// Parts were taken out: all others sleep, but those that touched them and whom these wake in turn.
+inline constexpr Phase mend{        true,  Stiffness::stiff, 1.0,       false,    Sleep::by_touch,  true};
+// clang-format on
+
+}  // namespace phases
+
+inline constexpr std::array<StageRow, 7> stage_rows{{{Stage::pour, "pour", phases::pour},
+                                                     {Stage::settle, "settle", phases::settle},
+                                                     {Stage::press, "press", phases::press},
+                                                     {Stage::probe, "probe", phases::probe},
+                                                     {Stage::prove, "prove", phases::prove},
+                                                     {Stage::hold, "hold", phases::hold},
+                                                     {Stage::mend, "mend", phases::mend}}};
+
+inline constexpr const StageRow& row(Stage stage) {
+  return stage_rows[static_cast<std::size_t>(stage)];
+}
+
+/// What a transition may ask of a heap. Counts are of parts that are in and not fixed.
+class HeapView {
+ public:
+  virtual ~HeapView() = default;
+  virtual bool all_in() const = 0;      ///< no part waits to enter
+  virtual bool all_slow() const = 0;    ///< none moves as if it fell
+  virtual bool all_rest() const = 0;    ///< for Pour::rest_window
+  virtual bool all_asleep() const = 0;  ///< as the solver says
+  virtual std::size_t count() const = 0;
+  virtual std::size_t less_still_than(double seconds) const = 0;  ///< parts that stayed where they are for less
+  virtual double rest_window() const = 0;                         ///< s
+};
+
+/// One heap's way through the stages, from the start of a settle to its end.
+class Settling {
+ public:
+  explicit Settling(Pour::Finish finish) : finish_(finish) {}
+
+  /// A new settle begins, with its own clock.
+  void start(Stage stage);
+  /// The solver takes no notice of stages: to it they are all the same, so that what is settled is done.
+  void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
+  /// What was under way goes on, on a clock that starts anew.
+  void start_clock() { begun_ = looked_ = 0.0; }
+  /// Looks at the heap at `time` (s since the start) and returns whether the stage has changed, or began anew.
+  bool look(const HeapView& heap, double time);
+
+  Stage stage() const { return stage_; }
+  /// What the solver is to be told of the stage; friction that held less once does so to the end.
+  Phase told() const;
+  bool done() const { return stage_ == Stage::done; }
+  /// How far it has come: "settled", "pressed", "probed", or "none" before it is done.
+  const char* finish() const;
+
+ private:
+  struct Seen;
+  struct Transition;
+  static const Transition transitions[];
+  void enter(Stage stage, double time);
+
+  Pour::Finish finish_;
+  bool ignored_ = false;                            ///< stages, by the solver
+  Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
+  double begun_ = 0.0;                              ///< s: start of the stage
+  double looked_ = 0.0;                             ///< s: the last look
+  int proofs_ = 0;                                  ///< times that probe or prove began
+  double friction_ = 1.0;                           ///< share that holds; what held less once does so to the end
+};
+
+}  // namespace bin_scenes

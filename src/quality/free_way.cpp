@@ -1,0 +1,78 @@
+/// How far a placed mesh may move along a direction before it touches another.
+#include "bin_scenes/quality/quality.hpp"
+#include "crossings.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+/// How far s can move along `way` before it meets t; infinite if it never does. Both are open at their rims, so that
+/// parts sliding along each other do not hold each other.
+double triangle_way(const TrianglePoints& s, const TrianglePoints& t, const Vec3& way) {
+  // Heights of s over t at the corners of their common shadow; where they change sign, the two cut each other.
+  double best = std::numeric_limits<double>::infinity();
+  bool beyond = false;
+  const auto add = [&](double distance) {
+    if (distance < 0.0) {
+      beyond = true;
+    } else {
+      best = std::min(best, distance);
+    }
+  };
+  const auto corners = [&](const TrianglePoints& from, const TrianglePoints& to, const Vec3& along) {
+    const Vec3 normal = (to[1] - to[0]).cross(to[2] - to[0]);
+    const double slope = normal.dot(along);
+    if (slope == 0.0) return;
+    for (const Vec3& x : from) {
+      const double distance = normal.dot(to[0] - x) / slope;
+      const Vec3 hit = x + distance * along;
+      bool over = true;
+      for (int i = 0; i < 3; ++i) over = over && normal.cross(to[(i + 1) % 3] - to[i]).dot(hit - to[i]) > 0.0;
+      if (over) add(distance);
+    }
+  };
+  corners(s, t, way);
+  corners(t, s, -way);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      // s_i + k u + d way = t_j + l v
+      const Vec3 u = s[(i + 1) % 3] - s[i], v = t[(j + 1) % 3] - t[j], r = t[j] - s[i];
+      const Vec3 side = u.cross(v);
+      const double det = side.dot(way);
+      if (std::abs(det) <= 1e-12 * u.norm() * v.norm()) continue;
+      const double k = r.cross(v).dot(way) / det, l = r.cross(u).dot(way) / det;
+      if (k > 0.0 && k < 1.0 && l > 0.0 && l < 1.0) add(side.dot(r) / det);
+    }
+  }
+  return beyond && best < std::numeric_limits<double>::infinity() ? 0.0 : best;
+}
+
+}  // namespace
+
+double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, const Vec3& direction,
+                double limit) {
+  if (a.mesh().empty() || b.mesh().empty()) return limit;
+  // Both in a frame with z against the direction, where a box's shadow is its x and y.
+  const Quat upright = Quat::FromTwoVectors(-direction, Vec3::UnitZ());
+  const auto stand = [&](const Pose& pose) { return Pose{upright * pose.position, upright * pose.orientation}; };
+  const Pose stand_a = stand(pose_a), stand_b = stand(pose_b);
+  const BoxMotion motion_a(stand_a), motion_b(stand_b);
+  const Vec3 down = -Vec3::UnitZ();
+  double best = limit;
+  const auto bound = [&](const Aabb& one, const Aabb& other) {
+    const bool beside = (one.lower - other.upper).cwiseMax(other.lower - one.upper).head<2>().maxCoeff() > 0.0;
+    if (beside || one.upper.z() < other.lower.z()) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, one.lower.z() - other.upper.z());
+  };
+  walk(
+      a, stand_a, b, stand_b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
+      [&] { return best; },
+      [&](const Facet& s, const Facet& t) {
+        if (bound(s.box, t.box) < best) best = std::min(best, triangle_way(s.points, t.points, down));
+      });
+  return best;
+}
+
+}  // namespace bin_scenes

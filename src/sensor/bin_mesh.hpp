@@ -1,0 +1,12 @@
+/// The bin that has no mesh file, as triangles.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+namespace bin_scenes {
+
+/// Floor and walls of a box bin, in the bin frame.
+Mesh box_bin_mesh(const Bin& bin);
+
+}  // namespace bin_scenes

@@ -1,0 +1,69 @@
+#include "sensor/fit.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <limits>
+
+namespace bin_scenes {
+
+namespace {
+
+Vec3 mean_of(const std::vector<Vec3>& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+BallFit fit_ball(const std::vector<Vec3>& points) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  BallFit fit;
+  if (points.size() < 4) return {Vec3::Constant(nan), nan, {}};
+  // First by the linear form |p|^2 = 2 m p + c, then by Gauss-Newton on the distances themselves: the linear one weighs
+  // them by themselves.
+  const Vec3 about = mean_of(points);
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  for (const Vec3& p : points) {
+    const Eigen::Vector4d row((p - about).x(), (p - about).y(), (p - about).z(), 1.0);
+    normal += row * row.transpose();
+    right += row * (p - about).squaredNorm();
+  }
+  const Eigen::Vector4d linear = normal.ldlt().solve(right);
+  Vec3 middle = 0.5 * linear.head<3>();
+  double radius = std::sqrt(linear[3] + middle.squaredNorm());
+  for (int i = 0; i < 10; ++i) {
+    normal.setZero();
+    right.setZero();
+    for (const Vec3& p : points) {
+      const Vec3 way = p - about - middle;
+      const double distance = way.norm();
+      const Eigen::Vector4d row(way.x() / distance, way.y() / distance, way.z() / distance, 1.0);
+      normal += row * row.transpose();
+      right += row * (distance - radius);
+    }
+    const Eigen::Vector4d step = normal.ldlt().solve(right);
+    middle += step.head<3>();
+    radius += step[3];
+    if (step.norm() < 1e-12) break;
+  }
+  fit.middle = about + middle;
+  fit.radius = radius;
+  for (const Vec3& p : points) fit.residuals.push_back((p - fit.middle).norm() - radius);
+  return fit;
+}
+
+PlaneFit fit_plane(const std::vector<Vec3>& points) {
+  PlaneFit fit;
+  if (points.size() < 3) return fit;
+  fit.middle = mean_of(points);
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : points) spread += (p - fit.middle) * (p - fit.middle).transpose();
+  fit.normal = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(0);
+  for (const Vec3& p : points) fit.residuals.push_back(fit.normal.dot(p - fit.middle));
+  return fit;
+}
+
+}  // namespace bin_scenes

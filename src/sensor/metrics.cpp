@@ -1,0 +1,205 @@
+#include "bin_scenes/sensor/metrics.hpp"
+
+#include "bin_scenes/sensor/models.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "sensor/fit.hpp"
+#include "sensor/models/predicted_sigma.hpp"
+#include "sensor/targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double albedo = 0.8;  // of balls and plates, as vendors' targets
+constexpr int repeats = 8;
+
+Vec3 as_vector(const std::array<float, 3>& p) {
+  return {p[0], p[1], p[2]};
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// At the origin, looking along z; what stood beside the camera stays there.
+Sensor at_origin(const Sensor& sensor) {
+  Sensor moved = sensor;
+  Bin nothing;
+  nothing.kind = Bin::Kind::none;
+  if (sensor.pose) {
+    const Pose back = sensor.pose->inverse();
+    if (moved.projector.pose) moved.projector.pose = back * *moved.projector.pose;
+    if (moved.laser.pose) moved.laser.pose = back * *moved.laser.pose;
+    moved.scan.direction = back.orientation * moved.scan.direction;
+  }
+  moved.pose = Pose();
+  return resolved(moved, nothing);
+}
+
+RangeImage shot(const Sensor& sensor, Targets& targets, std::size_t index) {
+  const Scenery scenery = targets.scenery();
+  return measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor,
+                 targets.surfaces(), {0, index, 0});
+}
+
+/// Valid points, optionally of one label.
+std::vector<Vec3> points_with(const RangeImage& image, int label) {
+  std::vector<Vec3> out;
+  const std::vector<std::array<float, 3>> all = points_of(image);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (image.validity[i] == 0 && image.label[i] == label) out.push_back(as_vector(all[i]));
+  }
+  return out;
+}
+
+/// Largest - smallest after the outermost 0.3 % are left out, as VDI/VDE 2634 allows.
+double range_of(std::vector<double> residuals) {
+  if (residuals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(residuals.begin(), residuals.end());
+  const std::size_t out = residuals.size() * 15 / 10000;
+  return residuals[residuals.size() - 1 - out] - residuals[out];
+}
+
+/// Half the width and height of the field at a distance, as far as camera and projector both see.
+Eigen::Vector2d half_field(const Sensor& sensor, double distance) {
+  const Lens lens = lens_of(sensor);
+  return 0.5 * distance * Eigen::Vector2d(lens.width / lens.fx, lens.height / lens.fy);
+}
+
+std::array<Vec3, 7> positions(const Sensor& sensor, const std::array<double, 3>& z, double share) {
+  const Eigen::Vector2d half = share * half_field(sensor, z[1]);
+  return {Vec3(0, 0, z[1]),
+          Vec3(-half.x(), 0, z[1]),
+          Vec3(half.x(), 0, z[1]),
+          Vec3(0, -half.y(), z[1]),
+          Vec3(0, half.y(), z[1]),
+          Vec3(-half.x(), -half.y(), z[0]),
+          Vec3(half.x(), half.y(), z[2])};
+}
+
+void measure_balls(const Sensor& sensor, SensorMetrics& m) {
+  const std::array<Vec3, 7> places = positions(sensor, m.distances, 0.55);
+  Targets targets;
+  const Mesh ball = ball_target(m.ball_radius, 5);
+  for (const Vec3& place : places) targets.add(ball, {place, Quat::Identity()}, {albedo, 0.0, 0.4});
+  const RangeImage image = shot(sensor, targets, 0);
+  std::array<Vec3, 7> middles;
+  for (int i = 0; i < 7; ++i) {
+    const BallFit fit = fit_ball(points_with(image, i + 1));
+    m.probing_form[i] = range_of(fit.residuals);
+    m.probing_size[i] = 2.0 * (fit.radius - m.ball_radius);
+    middles[i] = fit.middle;
+  }
+  for (int a = 0; a < 7; ++a) {
+    for (int b = 0; b < a; ++b) {
+      const double right = (places[a] - places[b]).norm(), error = std::abs((middles[a] - middles[b]).norm() - right);
+      m.sphere_spacing = std::max(m.sphere_spacing, error);
+      m.dimension_trueness = std::max(m.dimension_trueness, error / right);
+    }
+  }
+}
+
+Targets plate(const Vec3& middle, const Quat& turn, double size) {
+  Targets targets;
+  const double thickness = 0.01 * size;
+  targets.add(box_target({size, size, thickness}), {middle + turn * Vec3(0, 0, 0.5 * thickness), turn},
+              {albedo, 0.0, 0.4});
+  return targets;
+}
+
+void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
+  const double size = 4.0 * half_field(sensor, m.distances[2]).maxCoeff();
+  const double tilt = M_PI / 6.0;
+  const std::array<std::pair<double, Quat>, 7> poses = {{
+      {m.distances[1], Quat::Identity()},
+      {m.distances[1], Quat(Eigen::AngleAxisd(-tilt, Vec3::UnitY()))},
+      {m.distances[1], Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY()))},
+      {m.distances[1], Quat(Eigen::AngleAxisd(-tilt, Vec3::UnitX()))},
+      {m.distances[1], Quat(Eigen::AngleAxisd(tilt, Vec3::UnitX()))},
+      {m.distances[0], Quat::Identity()},
+      {m.distances[2], Quat::Identity()},
+  }};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    Targets targets = plate({0, 0, poses[i].first}, poses[i].second, size);
+    m.flatness[i] = range_of(fit_plane(points_with(shot(sensor, targets, 0), 1)).residuals);
+  }
+}
+
+void measure_noise(const Sensor& sensor, SensorMetrics& m) {
+  const double size = 4.0 * half_field(sensor, m.distances[1]).maxCoeff();
+  Targets targets = plate({0, 0, m.distances[1]}, Quat::Identity(), size);
+  std::vector<std::vector<std::array<float, 3>>> images;
+  RangeImage image;
+  for (int k = 0; k < repeats; ++k) {
+    image = shot(sensor, targets, static_cast<std::size_t>(k));
+    images.push_back(points_of(image));
+  }
+  for (const std::uint8_t v : image.validity) m.valid_points += v == 0;
+
+  std::vector<double> of_point, along;
+  for (std::size_t i = 0; i < images[0].size(); ++i) {
+    Vec3 sum = Vec3::Zero(), square = Vec3::Zero();
+    for (const auto& points : images) {
+      sum += as_vector(points[i]);
+      square += as_vector(points[i]).cwiseAbs2();
+    }
+    const Vec3 variance = (square - sum.cwiseAbs2() / repeats) / (repeats - 1);
+    if (!variance.allFinite()) continue;
+    of_point.push_back(std::sqrt(std::max(variance.sum(), 0.0)));
+    along.push_back(std::sqrt(std::max(variance.z(), 0.0)));
+  }
+  m.point_precision = median(of_point);
+  m.temporal_noise = median(along);
+
+  constexpr int tile = 15;
+  std::vector<double> local;
+  std::vector<Vec3> middles;
+  for (int y = 0; y + tile <= image.height; y += tile) {
+    for (int x = 0; x + tile <= image.width; x += tile) {
+      std::vector<Vec3> points;
+      for (int k = 0; k < tile * tile; ++k) {
+        const std::size_t i = static_cast<std::size_t>(y + k / tile) * image.width + x + k % tile;
+        if (image.validity[i] == 0) points.push_back(as_vector(images.back()[i]));
+      }
+      if (points.size() < tile * tile / 2) continue;
+      const PlaneFit fit = fit_plane(points);
+      double sum = 0.0;
+      for (const double r : fit.residuals) sum += r * r;
+      local.push_back(std::sqrt(sum / static_cast<double>(fit.residuals.size())));
+      middles.push_back(fit.middle);
+    }
+  }
+  m.local_planarity = median(local);
+  if (middles.size() > 3) m.global_planarity = range_of(fit_plane(middles).residuals);
+}
+
+}  // namespace
+
+SensorMetrics measure_sensor(const Sensor& given) {
+  const Sensor sensor = at_origin(given);
+  SensorMetrics m;
+  const double middle = std::sqrt(sensor.near * sensor.far);
+  m.distances = {std::max(0.8 * middle, 1.02 * sensor.near), middle, std::min(1.2 * middle, 0.98 * sensor.far)};
+  const Eigen::Vector2d half = half_field(sensor, middle);
+  m.ball_radius = 0.2 * half.minCoeff();
+  for (const double z : m.distances) {
+    for (const double degrees : {0.0, 30.0, 50.0, 70.0}) {
+      for (const double a : {0.05, 0.2, 0.5, 0.9}) {
+        const double incidence = degrees * M_PI / 180.0;
+        m.predicted.push_back({z, incidence, a, predicted_sigma(sensor, z, incidence, a)});
+      }
+    }
+  }
+  measure_balls(sensor, m);
+  measure_flatness(sensor, m);
+  measure_noise(sensor, m);
+  return m;
+}
+
+}  // namespace bin_scenes

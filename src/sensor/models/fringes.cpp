@@ -1,0 +1,155 @@
+#include "sensor/models/fringes.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr int samples = 16;     // of the table in a column: linear between them errs by 1e-4 of the amplitude
+constexpr int margin = 8;       // columns that the pattern goes on beyond the projector's edges, for the blur
+constexpr double levels = 255;  // a projector shows 8 bits
+
+int bits_for(double halves) {
+  int bits = 1;
+  while (std::ldexp(1.0, bits) < halves) ++bits;
+  return bits;
+}
+
+/// Share of a normal distribution below x.
+double below(double x) {
+  return 0.5 * std::erfc(-x * M_SQRT1_2);
+}
+
+}  // namespace
+
+Fringes::Fringes(const StructuredLightSettings& s, int width)
+    : steps_(s.steps), width_(width), period_(s.period), black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
+  const int needed = bits_for(2.0 * std::ceil(width / period_));
+  bits_ = s.gray_bits ? s.gray_bits : needed;
+  if (bits_ < needed) {
+    throw input_error(std::to_string(bits_) + " Gray-code images tell " +
+                          std::to_string(static_cast<int>(std::ldexp(1.0, bits_ - 1))) +
+                          " fringes apart, the projector has " +
+                          std::to_string(static_cast<int>(std::ceil(width / period_))),
+                      "structured_light.gray_bits",
+                      "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
+  }
+  const double q = s.defocus / period_, box = M_PI / period_;
+  amplitude_ = 0.5 * (1.0 - black_) * std::exp(-2.0 * M_PI * M_PI * q * q) * std::sin(box) / box;
+  for (int n = 0; n < steps_; ++n) {
+    sine_.push_back(static_cast<float>(std::sin(2.0 * M_PI * n / steps_)));
+    cosine_.push_back(static_cast<float>(std::cos(2.0 * M_PI * n / steps_)));
+  }
+
+  const int columns = width + 2 * margin, count = images();
+  std::vector<float> shown(static_cast<std::size_t>(columns) * count);
+  for (int j = 0; j < columns; ++j) {
+    float* const out = &shown[static_cast<std::size_t>(j) * count];
+    const double x = j - margin + 0.5;  // the middle of the projector's pixel, from the edge of its image
+    const auto light = [&](double value) {
+      const double level = std::round(levels * std::pow(value, s.gamma)) / levels;
+      return static_cast<float>(black_ + (1.0 - black_) * level);
+    };
+    for (int n = 0; n < steps_; ++n) {
+      out[n] = light(0.5 + 0.5 * std::cos(2.0 * M_PI * (x / period_ - static_cast<double>(n) / steps_)));
+    }
+    const int half = std::clamp(static_cast<int>(std::floor(2.0 * x / period_)), 0, (1 << bits_) - 1);
+    const int gray = half ^ (half >> 1);
+    for (int b = 0; b < bits_; ++b) out[steps_ + b] = light((gray >> (bits_ - 1 - b)) & 1);
+  }
+
+  // Each of the projector's pixels is a box; the lens blurs it to a difference of two error functions.
+  const double sigma = std::max(s.defocus, 1e-3);
+  const int reach = std::min(margin - 1, static_cast<int>(std::ceil(4.0 * sigma + 0.5)));
+  table_.assign(static_cast<std::size_t>(samples * (width + 1) + 2) * count, 0.0f);
+  std::vector<double> sum(count);
+  for (int i = 0; i <= samples * (width + 1) + 1; ++i) {
+    const double column = static_cast<double>(i) / samples - 0.5;
+    const int middle = static_cast<int>(std::lround(column));
+    std::fill(sum.begin(), sum.end(), 0.0);
+    double total = 0.0;
+    for (int j = middle - reach; j <= middle + reach; ++j) {
+      const double share = below((j + 0.5 - column) / sigma) - below((j - 0.5 - column) / sigma);
+      const float* const in = &shown[static_cast<std::size_t>(std::clamp(j + margin, 0, columns - 1)) * count];
+      for (int n = 0; n < count; ++n) sum[n] += share * in[n];
+      total += share;
+    }
+    for (int n = 0; n < count; ++n) {
+      table_[static_cast<std::size_t>(i) * count + n] = static_cast<float>(sum[n] / total);
+    }
+  }
+}
+
+void Fringes::add_light(double column, double weight, float* images) const {
+  const int count = this->images();
+  const double at = std::clamp((column + 0.5) * samples, 0.0, static_cast<double>(samples) * (width_ + 1));
+  const auto i = static_cast<std::size_t>(at);
+  const auto part = static_cast<float>(at - static_cast<double>(i)), w = static_cast<float>(weight);
+  const float* const a = &table_[i * count];
+  const float* const b = a + count;
+  for (int n = 0; n < count; ++n) images[n] += w * (a[n] + part * (b[n] - a[n]));
+}
+
+Fringes::Reading Fringes::read(const float* images) const {
+  double s = 0.0, c = 0.0, mean = 0.0;
+  for (int n = 0; n < steps_; ++n) {
+    s += images[n] * sine_[n];
+    c += images[n] * cosine_[n];
+    mean += images[n];
+  }
+  mean /= steps_;
+  double phase = std::atan2(s, c) / (2.0 * M_PI);  // in periods, from here on
+  if (phase < 0.0) phase += 1.0;
+
+  const double modulation = 2.0 / steps_ * std::sqrt(s * s + c * c);
+  int half = 0, bit = 0;
+  unsigned unsure = 0;  // bits that are neither dark nor bright, by their weight
+  for (int b = 0; b < bits_; ++b) {
+    const double over = images[steps_ + b] - mean;
+    unsure = 2 * unsure + (std::abs(over) > 0.25 * modulation ? 0u : 1u);
+    bit ^= over > 0.0 ? 1 : 0;  // Gray to binary: each bit is the parity of those before it
+    half = 2 * half + bit;
+  }
+  // Where halves change their number is never near the quarter that is read: at phase 0 the halves on both sides
+  // round to the same period, at phase 1/2 the period's own bits do not change.
+  const int own = half / 2, rounded = (half + 1) / 2;
+  int number = own;
+  if (phase < 0.25) {
+    number = rounded;
+  } else if (phase > 0.75) {
+    number = rounded - 1;
+  }
+  // The half that begins nearest: of a Gray code one bit changes there, and only that may be grey.
+  const int edge = 2 * number + static_cast<int>(std::lround(2.0 * phase));
+  const unsigned changing = static_cast<unsigned>(edge & -edge);
+  const bool near_edge = std::abs(2.0 * phase - std::round(2.0 * phase)) < 0.25;
+  const bool sense = std::abs(number - own) <= 1 && (unsure & ~(near_edge ? changing : 0u)) == 0;
+  double column = (number + phase) * period_ - 0.5;
+  if (!sense || column < -0.5 - 1.0 || column > width_ - 0.5 + 1.0) column = std::numeric_limits<double>::quiet_NaN();
+  return {column, modulation};
+}
+
+double Fringes::seen_through(double columns) const {
+  return std::cos(std::min(0.5 * M_PI * columns / period_, 0.5 * M_PI));
+}
+
+double Fringes::brightest(double column) const {
+  const double turns = (column + 0.5) / period_ * steps_;
+  return std::cos(2.0 * M_PI / steps_ * (turns - std::round(turns)));
+}
+
+double Fringes::column_sigma(double image_sigma, double modulation) const {
+  return period_ / (2.0 * M_PI) * amplitude_sigma(image_sigma) / modulation;
+}
+
+double Fringes::amplitude_sigma(double image_sigma) const {
+  return std::sqrt(2.0 / steps_) * image_sigma;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,48 @@
+/// The images of a fringe projector: `steps` cosines, each shifted by an equal share of a period, then the bits of a
+/// Gray code that counts half periods. The last bit counts halves so that a period is never read off where its number
+/// changes (complementary Gray code: Zhang et al. 2012, "Phase unwrapping using complementary Gray code").
+#pragma once
+
+#include "bin_scenes/scene/sensor_models.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+class Fringes {
+ public:
+  /// @param width  columns of the projector. Throws an input Error if the Gray code has too few bits for them.
+  Fringes(const StructuredLightSettings& settings, int width);
+
+  int images() const { return steps_ + bits_; }
+  /// Adds weight * light (0 dark, 1 the projector's white) of every image at a column, blurred by pixel and lens.
+  void add_light(double column, double weight, float* images) const;
+
+  struct Reading {
+    double column;      ///< of the projector; NaN if the code makes no sense
+    double modulation;  ///< amplitude of the fringe, in the images' unit
+  };
+  /// What a device reads from one pixel of every image.
+  Reading read(const float* images) const;
+
+  // The same without images, for a white of 1: mean and amplitude of the fringe.
+  double mean() const { return 0.5 * (1.0 + black_); }
+  double amplitude() const { return amplitude_; }
+  /// By which factor a footprint of this many columns weakens the amplitude, seen through two samples half of it apart.
+  double seen_through(double columns) const;
+  /// Largest value of cos over the images at this column: what saturates first.
+  double brightest(double column) const;
+  /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the
+  /// phase's.
+  double column_sigma(double image_sigma, double modulation) const;
+  /// The same for the amplitude read.
+  double amplitude_sigma(double image_sigma) const;
+
+ private:
+  int steps_, bits_, width_;
+  double period_, black_, amplitude_;
+  std::vector<float> table_;  ///< [sample of a column][image]
+  std::vector<float> sine_, cosine_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,99 @@
+#include "sensor/models/from_sensor.hpp"
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "sensor/models/time_of_flight.hpp"
+
+#include <limits>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+Random random_of(const Draw& draw) {
+  return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
+}
+
+void add_truth(RangeImage& image, const View& view) {
+  image.truth_depth.assign(view.depth.begin(), view.depth.end());
+  image.truth_label = view.label;
+  image.truth_normal = view.normal;
+}
+
+RangeImage image_of(const View& view, const Measurement& measured) {
+  RangeImage image;
+  image.width = view.lens.width;
+  image.height = view.lens.height;
+  const std::size_t pixels = view.depth.size();
+  image.depth.assign(measured.depth.begin(), measured.depth.end());
+  image.intensity = measured.intensity;
+  image.label.assign(pixels, 0);
+  image.normal.assign(pixels, {nan, nan, nan});
+  for (std::size_t i = 0; i < pixels; ++i) {
+    image.validity.push_back(static_cast<std::uint8_t>(measured.validity[i]));
+    if (measured.validity[i] != Validity::valid) continue;
+    image.label[i] = view.label[i];
+    image.normal[i] = view.normal[i];
+  }
+  add_truth(image, view);
+  return image;
+}
+
+}  // namespace
+
+StructuredLight::Setup structured_light_setup(const Sensor& s) {
+  return {lens_of(s.projector), *s.projector.pose, s.structured_light, s.imager, s.noise, s.near, s.far};
+}
+
+Stereo::Setup stereo_setup(const Sensor& s) {
+  return {lens_of(s.projector), *s.projector.pose, s.stereo, s.imager, s.noise, s.near, s.far};
+}
+
+LaserLine::Setup laser_line_setup(const Sensor& s) {
+  const Vec3 way = s.scan.step * s.scan.direction.normalized();
+  return {lens_of(s), *s.pose, *s.laser.pose, 1e-3 * s.laser.width_mm, way, s.scan.profiles, s.laser_line, s.imager,
+          s.noise,    s.near,  s.far};
+}
+
+RangeImage measure_structured_light(const Scenery& scenery, const View& view, const Sensor& sensor,
+                                    const Surfaces& surfaces, const Draw& draw) {
+  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
+  const Random random = random_of(draw);
+  return image_of(view, sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+}
+
+RangeImage measure_stereo(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+                          const Draw& draw) {
+  const Stereo model(scenery, view, surfaces, stereo_setup(sensor));
+  const Random random = random_of(draw);
+  return image_of(view, sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+}
+
+RangeImage measure_time_of_flight(const Scenery& scenery, const View& view, const Sensor& sensor,
+                                  const Surfaces& surfaces, const Draw& draw) {
+  return image_of(view, time_of_flight(scenery, view, surfaces, sensor.time_of_flight, sensor.noise, sensor.near,
+                                       sensor.far, random_of(draw)));
+}
+
+RangeImage measure_laser_line(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+                              const Draw& draw) {
+  Profiles profiles = LaserLine(scenery, surfaces, laser_line_setup(sensor)).scanned(random_of(draw));
+  RangeImage image;
+  image.width = profiles.width;
+  image.height = profiles.height;
+  for (std::size_t i = 0; i < profiles.points.size(); ++i) {
+    const bool valid = profiles.validity[i] == Validity::valid;
+    image.validity.push_back(static_cast<std::uint8_t>(profiles.validity[i]));
+    image.depth.push_back(profiles.points[i][2]);
+    image.label.push_back(valid ? profiles.label[i] : std::uint16_t{0});
+    image.normal.push_back(valid ? profiles.normals[i] : std::array<float, 3>{nan, nan, nan});
+  }
+  image.intensity = std::move(profiles.intensity);
+  image.points = std::move(profiles.points);
+  add_truth(image, view);
+  return image;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,84 @@
+#include "sensor/models/illumination.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye) {
+  const double in = normal.dot(to_light), out = normal.dot(to_eye);
+  if (!(in > 0.0 && out > 0.0)) return 0.0;
+  const double matte = diffuse_share(surface) * in;
+  if (surface.gloss <= 0.0) return matte;
+  const double alpha = std::max(surface.roughness * surface.roughness, 1e-3), a2 = alpha * alpha;
+  const double half = normal.dot((to_light + to_eye).normalized());
+  const double bend = half * half * (a2 - 1.0) + 1.0;
+  const double facets = a2 / (M_PI * bend * bend);
+  const double visible =
+      0.5 / (in * std::sqrt(out * out * (1.0 - a2) + a2) + out * std::sqrt(in * in * (1.0 - a2) + a2));
+  return matte + M_PI * surface.albedo * surface.gloss * facets * visible * in;
+}
+
+SeenPoint seen_point(const View& view, std::size_t pixel) {
+  const double z = view.depth[pixel];
+  if (std::isnan(z)) return {};
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  const Vec3 ray = view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+  const auto& n = view.normal[pixel];
+  return {view.pose * (z * ray), view.pose.orientation * Vec3(n[0], n[1], n[2]), view.line[pixel], true};
+}
+
+Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
+  constexpr double gap = 1e-5;  // m
+  const Vec3 start = surface + gap * normal;
+  return {start, point - start, 0.0, 1.0};
+}
+
+void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
+           const SeenPoint* points, Lit* lit, std::size_t count) {
+  const Mat3 turn = pose.orientation.toRotationMatrix().transpose();
+  std::vector<Ray> rays;
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SeenPoint& p = points[i];
+    lit[i] = {};
+    if (!p.hit) continue;
+    lit[i].code = Validity::outside;
+    const auto pixel = projector.project(turn * (p.position - pose.position));
+    if (!pixel) continue;
+    lit[i].column = pixel->x();
+    lit[i].row = pixel->y();
+    lit[i].distance = (pose.position - p.position).norm();
+    if (!projector.inside(*pixel)) continue;
+    lit[i].code = Validity::shadow;
+    if (!(p.normal.dot(pose.position - p.position) > 0.0)) continue;  // the camera sees the other side
+    rays.push_back(ray_between(p.position, p.normal, pose.position));
+    asked.push_back(i);
+  }
+  std::vector<std::uint8_t> blocked(rays.size());
+  scenery.blocked(rays.data(), blocked.data(), rays.size());
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (blocked[k]) continue;
+    const SeenPoint& p = points[asked[k]];
+    Lit& l = lit[asked[k]];
+    l.code = Validity::valid;
+    l.reflected = reflected(surfaces.of(p.line), p.normal, (pose.position - p.position) / l.distance,
+                            (eye - p.position).normalized());
+  }
+}
+
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light) {
+  if (imager.reference_distance > 0.0) return imager.exposure * imager.reference_distance * imager.reference_distance;
+  const double light_z = (view.pose.inverse() * light).z();
+  std::vector<double> losses;  // distance^2 / cosine
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    if (lit[i].code != Validity::valid) continue;
+    losses.push_back(std::pow(lit[i].distance, 3) / std::max(std::abs(view.depth[i] - light_z), 1e-6));
+  }
+  if (losses.empty()) return imager.exposure;
+  const auto middle = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);
+  std::nth_element(losses.begin(), middle, losses.end());
+  return imager.exposure * *middle;
+}
+
+}  // namespace bin_scenes

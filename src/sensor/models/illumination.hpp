@@ -1,0 +1,50 @@
+/// What the light of a projector or laser does to a surface: how much of it a camera sees, and where none falls.
+#pragma once
+
+#include "bin_scenes/sensor/models.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Light that a surface sends to an eye, over that which a white matte surface sends that faces the light: a matte
+/// share and a lobe of microfacets (Walter et al. 2007, "Microfacet models for refraction", GGX). All directions are
+/// unit and point away from the surface. 0 where one of them lies behind it.
+double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye);
+/// The share of light from everywhere that a surface sends back: what ambient light makes of it.
+inline double diffuse_share(const Surface& surface) {
+  return (1.0 - surface.gloss) * surface.albedo;
+}
+
+/// A point of the scene, bin frame.
+struct SeenPoint {
+  Vec3 position, normal;  ///< the normal turned towards the eye
+  std::int32_t line = -1;
+  bool hit = false;
+};
+
+SeenPoint seen_point(const View& view, std::size_t pixel);
+
+struct Lit {
+  Validity code = Validity::nothing;  ///< valid, nothing, shadow or outside
+  double column = 0.0, row = 0.0;     ///< of the projector, where the point lies in its field
+  double distance = 0.0;              ///< m, from the light
+  double reflected = 0.0;             ///< as above; 0 unless the code is valid
+};
+
+/// Light of a projector at points seen from an eye. Shadows are those of the true meshes.
+void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
+           const SeenPoint* points, Lit* lit, std::size_t count);
+
+/// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a
+/// surface shade itself.
+Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
+
+/// Signal of a white = gain * reflected / distance^2. An automatic exposure gives a white matte surface that is
+/// parallel to the image the exposure's signal, at the median distance of what is lit: noise then grows with the square
+/// of the range, as triangulation says, not with the loss of light as well.
+/// @param light  where it stands, bin frame
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light);
+
+}  // namespace bin_scenes

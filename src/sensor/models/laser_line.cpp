@@ -1,0 +1,282 @@
+#include "sensor/models/laser_line.hpp"
+
+#include "core/in_parallel.hpp"
+#include "sensor/models/line_peak.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double edge =
+    1e-3;  // m: two neighbours of the fan that lie further off each other's plane are no one surface
+
+/// Depth step between two hits of neighbouring rays, as the plane of either says.
+bool one_surface(const Hit& a, const Vec3& along_a, const Hit& b, const Vec3& along_b) {
+  if (std::isnan(a.distance) || std::isnan(b.distance) || a.label != b.label) return false;
+  const double b_on_a = a.distance * a.normal.dot(along_a) / a.normal.dot(along_b);
+  const double a_on_b = b.distance * b.normal.dot(along_b) / b.normal.dot(along_a);
+  return std::abs(b_on_a - b.distance) < edge || std::abs(a_on_b - a.distance) < edge;
+}
+
+}  // namespace
+
+struct LaserLine::Lines {
+  struct Line {
+    int sample;
+    double across, depth, signal;  ///< pixel, m along the optical axis, share of the full well
+    Vec3 point, normal;            ///< bin frame
+    std::uint16_t label;
+    bool visible;
+  };
+  std::vector<Line> lines;      ///< by sample
+  std::vector<Validity> codes;  ///< by sample: why there is none
+};
+
+LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup)
+    : scenery_(scenery), surfaces_(surfaces), setup_(setup), imager_(setup.imager, setup.noise) {
+  sheet_ = setup_.laser_pose.orientation * Vec3::UnitX();
+  const Vec3 seen = setup_.camera_pose.orientation.conjugate() * sheet_;
+  upright_ = std::abs(seen.x()) >= std::abs(seen.y());
+  samples_ = upright_ ? setup_.camera.height : setup_.camera.width;
+  // Three rays of the fan for two samples of the camera, if it stands as far away as the laser.
+  const double half = std::tan(0.5 * setup_.settings.fan);
+  const int rays =
+      std::max(2, static_cast<int>(std::ceil(3.0 * half * (upright_ ? setup_.camera.fy : setup_.camera.fx))));
+  for (int i = 0; i < rays; ++i) {
+    directions_.push_back(setup_.laser_pose.orientation * Vec3(0.0, half * (2.0 * i / (rays - 1) - 1.0), 1.0));
+  }
+  reference_ = setup_.imager.reference_distance;
+  if (!(reference_ > 0.0)) {
+    std::vector<double> distances{1.0};
+    for (const Hit& hit : fan(setup_.laser_pose.position)) {
+      if (!std::isnan(hit.distance)) distances.push_back(hit.distance);
+    }
+    if (distances.size() > 1) distances.erase(distances.begin());
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    reference_ = *middle;
+  }
+}
+
+std::vector<Hit> LaserLine::fan(const Vec3& origin) const {
+  std::vector<Ray> rays(directions_.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = {origin, directions_[i], 1e-3, 2.0 * setup_.far};
+  std::vector<Hit> hits(rays.size());
+  scenery_.first_hits(rays.data(), hits.data(), rays.size());
+  return hits;
+}
+
+/// Standard deviation of a line in the image, pixels.
+double LaserLine::sigma_at(double depth) const {
+  const double focal = upright_ ? setup_.camera.fx : setup_.camera.fy;
+  return std::hypot(setup_.settings.blur, 0.25 * setup_.line_width * focal / depth);
+}
+
+void LaserLine::find_lines(const Vec3& offset, Lines& out) const {
+  const Vec3 laser = setup_.laser_pose.position + offset, eye = setup_.camera_pose.position + offset;
+  const Mat3 to_camera = setup_.camera_pose.orientation.toRotationMatrix().transpose();
+  const std::vector<Hit> hits = fan(laser);
+  const auto pixel_of = [&](const Vec3& point) { return setup_.camera.project(to_camera * (point - eye)); };
+  const auto sample_of = [&](const Hit& hit, const Vec3& direction) -> std::optional<double> {
+    if (std::isnan(hit.distance)) return std::nullopt;
+    const auto pixel = pixel_of(laser + hit.distance * direction);
+    return pixel ? std::optional<double>(along(*pixel)) : std::nullopt;
+  };
+  out.lines.clear();
+  out.codes.assign(static_cast<std::size_t>(samples_), Validity::outside);
+  const auto fill = [&](double a, double b, Validity code) {
+    const int first = std::max(0, static_cast<int>(std::ceil(std::min(a, b))));
+    const int last = std::min(samples_ - 1, static_cast<int>(std::floor(std::max(a, b))));
+    for (int s = first; s <= last; ++s) out.codes[static_cast<std::size_t>(s)] = code;
+  };
+
+  const Vec3 fan_way = to_camera * (directions_.back() - directions_.front());
+  const bool rising = (upright_ ? fan_way.y() : fan_way.x()) > 0.0;  // samples, from the first ray to the last
+  const double first_side = rising ? 0.0 : samples_, last_side = rising ? samples_ : 0.0;
+  std::optional<double> before;  // sample of the last hit
+  std::size_t at = 0;            // and its number
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::optional<double> here = sample_of(hits[i], directions_[i]);
+    if (!here) continue;
+    if (!before) {
+      if (i > 0) fill(*here, first_side, Validity::nothing);
+    } else if (at + 1 < i) {
+      fill(*before, *here, Validity::nothing);  // rays between them met nothing
+    } else if (!one_surface(hits[at], directions_[at], hits[i], directions_[i])) {
+      fill(*before, *here, Validity::shadow);
+    } else {
+      const int first = std::max(0, static_cast<int>(std::ceil(std::min(*before, *here))));
+      const int last = std::min(samples_ - 1, static_cast<int>(std::floor(std::max(*before, *here))));
+      for (int s = first; s <= last; ++s) {
+        // The ray between the two that falls on this sample, by secants: exact on a plane, whatever the lens does.
+        double share = (s - *before) / (*here - *before);
+        const Hit& hit = hits[share < 0.5 ? at : i];
+        const double plane = hit.distance * hit.normal.dot(directions_[share < 0.5 ? at : i]);
+        Vec3 point = Vec3::Zero();
+        std::optional<Eigen::Vector2d> pixel;
+        for (int k = 0; k < 4; ++k) {
+          const Vec3 direction = (1.0 - share) * directions_[at] + share * directions_[i];
+          point = laser + plane / hit.normal.dot(direction) * direction;
+          pixel = pixel_of(point);
+          if (!pixel) break;
+          const double off = s - along(*pixel);
+          if (std::abs(off) < 1e-9) break;
+          share += off / (*here - *before);
+        }
+        if (!pixel) continue;
+        const double limit = (upright_ ? setup_.camera.width : setup_.camera.height) - 0.5;
+        if (across(*pixel) < -0.5 || across(*pixel) > limit) continue;
+        // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
+        const double distance = (laser - point).norm();
+        const double light =
+            reflected(surfaces_.of(hit.line), hit.normal, (laser - point) / distance, (eye - point).normalized());
+        out.lines.push_back({s, across(*pixel), (to_camera * (point - eye)).z(),
+                             setup_.settings.power * light * reference_ / distance, point, hit.normal, hit.label,
+                             light > 0.0});
+        out.codes[static_cast<std::size_t>(s)] = Validity::shadow;  // unless the camera sees it
+      }
+    }
+    before = here;
+    at = i;
+  }
+  if (!before) fill(0.0, samples_, Validity::nothing);
+  if (before && at + 1 < hits.size()) fill(*before, last_side, Validity::nothing);
+
+  std::vector<Ray> rays(out.lines.size());
+  std::vector<std::uint8_t> hidden(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = ray_between(out.lines[i].point, out.lines[i].normal, eye);
+  scenery_.blocked(rays.data(), hidden.data(), rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Lines::Line& line = out.lines[i];
+    line.visible = line.visible && !hidden[i] && line.depth >= setup_.near && line.depth <= setup_.far;
+  }
+  std::stable_sort(out.lines.begin(), out.lines.end(),
+                   [](const Lines::Line& a, const Lines::Line& b) { return a.sample < b.sample; });
+}
+
+void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, Profiles& out,
+                           std::size_t profile) const {
+  const Vec3 eye = setup_.camera_pose.position + offset, laser = setup_.laser_pose.position + offset;
+  const Pose back = setup_.camera_pose.inverse();
+  const std::size_t row = profile * static_cast<std::size_t>(samples_);
+  std::copy(seen.codes.begin(), seen.codes.end(), out.validity.begin() + static_cast<std::ptrdiff_t>(row));
+  const auto as_floats = [](const Vec3& v) {
+    return std::array<float, 3>{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  };
+  std::vector<float> window;
+  for (auto first = seen.lines.begin(); first != seen.lines.end();) {
+    const auto last = std::find_if(first, seen.lines.end(), [&](const auto& l) { return l.sample != first->sample; });
+    const std::size_t pixel = row + static_cast<std::size_t>(first->sample);
+    double best = -1.0;
+    for (auto line = first; line != last; ++line) {
+      if (!line->visible) continue;
+      // A window of the image around this line, with the light of all of them.
+      const double sigma = sigma_at(line->depth);
+      const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+      const int begin = static_cast<int>(std::lround(line->across)) - reach;
+      window.assign(static_cast<std::size_t>(2 * reach + 1), 0.0f);
+      for (auto other = first; other != last; ++other) {
+        if (!other->visible) continue;
+        const double width = sigma_at(other->depth);
+        for (std::size_t i = 0; i < window.size(); ++i) {
+          const double x = (begin + static_cast<double>(i) - other->across) / width;
+          window[i] += static_cast<float>(other->signal * std::exp(-0.5 * x * x));
+        }
+      }
+      if (setup_.noise && setup_.settings.speckle > 0.0) {
+        for (float& w : window) w *= static_cast<float>(std::max(0.0, 1.0 + setup_.settings.speckle * draw.normal()));
+      }
+      imager_.expose(window.data(), window.size(), draw);
+      const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
+      if (!peak) {
+        if (best < 0.0) out.validity[pixel] = Validity::dark;
+        continue;
+      }
+      const double rank = setup_.settings.peak == LaserLineSettings::Peak::strongest ? peak->height : 1.0 / line->depth;
+      if (rank <= best) continue;
+      best = rank;
+      const double b = begin + peak->row;
+      const Vec3 ray = upright_ ? setup_.camera.ray(b, line->sample) : setup_.camera.ray(line->sample, b);
+      const Vec3 direction = setup_.camera_pose.orientation * ray;
+      const double z = sheet_.dot(laser - eye) / sheet_.dot(direction);
+      out.intensity[pixel] = static_cast<float>(peak->height);
+      out.label[pixel] = line->label;
+      out.normals[pixel] = as_floats(back.orientation * line->normal);
+      out.points[pixel] = as_floats(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+      if (imager_.saturated(peak->height)) {
+        out.validity[pixel] = Validity::saturated;
+      } else if (!(z >= setup_.near && z <= setup_.far)) {
+        out.validity[pixel] = Validity::decoding;
+      } else {
+        out.validity[pixel] = Validity::valid;
+        out.points[pixel] = as_floats(back * (eye + z * direction));
+      }
+    }
+    first = last;
+  }
+}
+
+double LaserLine::depth_sigma() const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr int draws = 4000;  // know a standard deviation within 1 %
+  Lines lines;
+  find_lines(Vec3::Zero(), lines);
+  for (const Lines::Line& line : lines.lines) {
+    if (line.sample != samples_ / 2 || !line.visible || line.signal < setup_.settings.min_signal) continue;
+    const double sigma = sigma_at(line.depth);
+    const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+    Random draw(0, 0, Stream::probe);
+    std::vector<float> window(static_cast<std::size_t>(2 * reach + 1));
+    double square = 0.0;
+    int found = 0;
+    for (int k = 0; k < draws; ++k) {
+      const double across = reach + (k + 0.5) / draws - 0.5;
+      for (std::size_t i = 0; i < window.size(); ++i) {
+        const double x = (static_cast<double>(i) - across) / sigma;
+        const double speckle = setup_.noise ? std::max(0.0, 1.0 + setup_.settings.speckle * draw.normal()) : 1.0;
+        window[i] = static_cast<float>(line.signal * std::exp(-0.5 * x * x) * speckle);
+      }
+      imager_.expose(window.data(), window.size(), draw);
+      const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
+      if (!peak) continue;
+      square += (peak->row - across) * (peak->row - across);
+      ++found;
+    }
+    if (found < draws / 2) return nan;
+    const double row = std::sqrt(square / found);
+    const auto depth = [&](double across) {
+      const Vec3 ray = upright_ ? setup_.camera.ray(across, line.sample) : setup_.camera.ray(line.sample, across);
+      return sheet_.dot(setup_.laser_pose.position - setup_.camera_pose.position) /
+             sheet_.dot(setup_.camera_pose.orientation * ray);
+    };
+    return row * 0.5 * std::abs(depth(line.across + 1.0) - depth(line.across - 1.0));
+  }
+  return nan;
+}
+
+Profiles LaserLine::scanned(const Random& random) const {
+  Profiles out;
+  out.width = samples_;
+  out.height = setup_.profiles;
+  const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  out.validity.assign(pixels, Validity::nothing);
+  out.points.assign(pixels, {nan, nan, nan});
+  out.normals = out.points;
+  out.label.assign(pixels, 0);
+  out.intensity.assign(pixels, 0.0f);
+  in_parallel(static_cast<std::size_t>(out.height), [&](std::size_t profile) {
+    const Vec3 offset = (static_cast<double>(profile) - 0.5 * (out.height - 1)) * setup_.scan;
+    Lines lines;
+    find_lines(offset, lines);
+    read_lines(offset, lines, random.of_piece(profile), out, profile);
+  });
+  return out;
+}
+
+}  // namespace bin_scenes

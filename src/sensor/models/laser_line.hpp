@@ -1,0 +1,67 @@
+/// A sheet of light and a camera, moved over the bin together. Each step gives a profile, a row of the image.
+///
+/// The line lies across the image's rows or its columns, whichever the sheet's normal is nearer to. Along it the camera
+/// has one sample a row (or column); in each the device seeks the line's peak between columns (or rows), and the ray of
+/// the peak meets the sheet in the point measured.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "sensor/models/illumination.hpp"
+#include "sensor/models/imager.hpp"
+
+#include <array>
+#include <vector>
+
+namespace bin_scenes {
+
+struct Profiles {
+  int width = 0, height = 0;                  ///< samples of a profile, profiles
+  std::vector<Validity> validity;             ///< row-major, as all that follow
+  std::vector<std::array<float, 3>> points;   ///< m, in the frame of the camera's given pose; NaN where not valid
+  std::vector<std::array<float, 3>> normals;  ///< true, same frame
+  std::vector<std::uint16_t> label;           ///< true, of the line that was found
+  std::vector<float> intensity;               ///< signal of the peak
+};
+
+class LaserLine {
+ public:
+  struct Setup {
+    Lens camera;
+    Pose camera_pose, laser_pose;  ///< in the bin frame, at the middle of the scan; the sheet is the laser's y-z plane
+    double line_width = 3e-4;      ///< m, between the points of 1/e^2
+    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, way from a profile to the next, bin frame
+    int profiles = 1000;
+    LaserLineSettings settings;
+    ImagerSettings imager;
+    bool noise = true;
+    double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+  };
+  LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup);
+
+  Profiles scanned(const Random& random) const;
+  /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two
+  /// rows: drawn, as the peak's is no formula. NaN where there is no line.
+  double depth_sigma() const;
+
+ private:
+  struct Lines;  ///< what a profile's camera could see
+
+  double along(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.y() : pixel.x(); }
+  double across(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.x() : pixel.y(); }
+  std::vector<Hit> fan(const Vec3& origin) const;
+  void find_lines(const Vec3& offset, Lines& lines) const;
+  void read_lines(const Vec3& offset, const Lines& lines, Random draw, Profiles& out, std::size_t profile) const;
+  double sigma_at(double depth) const;
+
+  const Scenery& scenery_;
+  const Surfaces& surfaces_;
+  Setup setup_;
+  Imager imager_;
+  bool upright_;  ///< the line runs along the image's columns: a sample is a row
+  int samples_;
+  std::vector<Vec3> directions_;  ///< of the fan, bin frame
+  Vec3 sheet_;                    ///< normal, bin frame
+  double reference_ = 1.0;        ///< m from the laser
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,24 @@
+/// What a model makes of a scene.
+#pragma once
+
+#include "bin_scenes/sensor/validity.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Row-major, as the image of the sensor.
+struct Measurement {
+  std::vector<double> depth;  ///< m; NaN where the code is not valid
+  std::vector<Validity> validity;
+  std::vector<float> intensity;  ///< mean signal / full well, at most 1
+
+  explicit Measurement(std::size_t pixels)
+      : depth(pixels, std::numeric_limits<double>::quiet_NaN()),
+        validity(pixels, Validity::nothing),
+        intensity(pixels, 0.0f) {}
+};
+
+}  // namespace bin_scenes

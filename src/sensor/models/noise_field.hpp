@@ -1,0 +1,15 @@
+/// Normally distributed numbers over an image whose neighbours resemble each other, as errors of a matcher do that
+/// looks at windows: two windows that overlap share their pixels' noise.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// @param window  pixel: the autocorrelation is a Gaussian as wide as that of a box of this many pixels
+/// @return        width * height numbers, row-major, mean 0, standard deviation 1
+std::vector<float> correlated_noise(int width, int height, double window, const Random& random);
+
+}  // namespace bin_scenes

@@ -1,0 +1,196 @@
+#include "sensor/models/stereo.hpp"
+
+#include "core/in_parallel.hpp"
+#include "sensor/models/noise_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+/// Bilinear between the projector's pixels.
+double sampled(const std::vector<float>& pattern, const Lens& projector, double column, double row) {
+  const double x = std::clamp(column, 0.0, projector.width - 1.0), y = std::clamp(row, 0.0, projector.height - 1.0);
+  const int i = std::min(static_cast<int>(x), projector.width - 2),
+            j = std::min(static_cast<int>(y), projector.height - 2);
+  const double u = x - i, v = y - j;
+  const float* const at = &pattern[static_cast<std::size_t>(j) * projector.width + i];
+  const float* const below = at + projector.width;
+  return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * below[0] + u * below[1]);
+}
+
+}  // namespace
+
+std::vector<float> dot_pattern(int width, int height, double dots, double ratio) {
+  std::vector<float> pattern(static_cast<std::size_t>(width) * height);
+  Random random(0, 0, Stream::sensor);  // made once in the factory: the same for every scene
+  for (float& p : pattern) p = random.uniform() < dots ? 1.0f : 0.0f;
+  // The projector's pixel, and the camera's with its lens: sharper dots would be aliased.
+  const double sigma = std::hypot(0.5, 0.6 * ratio);
+  const int reach = static_cast<int>(std::ceil(3.0 * sigma));
+  std::vector<float> kernel(2 * reach + 1);
+  float sum = 0.0f;
+  for (int k = -reach; k <= reach; ++k)
+    sum += kernel[k + reach] = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)));
+  std::vector<float> rows(pattern.size());
+  const auto blur = [&](const std::vector<float>& in, std::vector<float>& out, int step, int count, int other) {
+    in_parallel(static_cast<std::size_t>(height), [&](std::size_t y) {
+      for (int x = 0; x < width; ++x) {
+        const int at = other == 0 ? x : static_cast<int>(y);
+        float value = 0.0f;
+        for (int k = -reach; k <= reach; ++k) {
+          const int to = std::clamp(at + k, 0, count - 1) - at;
+          value += kernel[k + reach] / sum * in[y * width + x + static_cast<std::ptrdiff_t>(to) * step];
+        }
+        out[y * width + x] = value;
+      }
+    });
+  };
+  blur(pattern, rows, 1, width, 0);
+  blur(rows, pattern, width, height, 1);
+  const float brightest = *std::max_element(pattern.begin(), pattern.end());
+  if (brightest > 0.0f) {
+    for (float& p : pattern) p /= brightest;
+  }
+  return pattern;
+}
+
+Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
+    : scenery_(scenery),
+      view_(view),
+      surfaces_(surfaces),
+      setup_(setup),
+      imager_(setup.imager, setup.noise),
+      second_(view.pose * Pose{Vec3(setup.settings.baseline, 0.0, 0.0), Quat::Identity()}),
+      lit_(lit(view)) {
+  gain_ = gain_of(setup_.imager, lit_, view_, setup_.projector_pose.position);
+}
+
+std::vector<Lit> Stereo::lit(const View& view) const {
+  std::vector<Lit> all(view.depth.size());
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+    std::vector<SeenPoint> points(width);
+    for (std::size_t x = 0; x < width; ++x) points[x] = seen_point(view, row * width + x);
+    light(scenery_, setup_.projector, setup_.projector_pose, view.pose.position, surfaces_, points.data(),
+          &all[row * width], width);
+  });
+  return all;
+}
+
+/// Ambient light and the dots.
+std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit) const {
+  const double ratio = setup_.projector.fx / view.lens.fx;
+  const bool dots = setup_.settings.dots > 0.0;
+  const std::vector<float> pattern =
+      dots ? dot_pattern(setup_.projector.width, setup_.projector.height, setup_.settings.dots, ratio)
+           : std::vector<float>();
+  std::vector<float> out(lit.size(), 0.0f);
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+      if (lit[i].code == Validity::nothing) continue;
+      double signal = setup_.imager.ambient * diffuse_share(surfaces_.of(view.line[i]));
+      if (lit[i].code == Validity::valid) {
+        signal += white(lit[i]) * (dots ? sampled(pattern, setup_.projector, lit[i].column, lit[i].row) : 1.0);
+      }
+      out[i] = static_cast<float>(signal);
+    }
+  });
+  return out;
+}
+
+std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>& lit, const Random& random) const {
+  std::vector<float> values = signals(view, lit);
+  std::vector<std::uint8_t> bytes(values.size());
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+    Random draw = random.of_piece(row);
+    imager_.expose(&values[row * width], width, draw);
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+      bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * values[i]));
+    }
+  });
+  return bytes;
+}
+
+Stereo::Pair Stereo::images(const Random& random) const {
+  const View second = look(scenery_, view_.lens, second_, setup_.near, setup_.far);
+  return {image(view_, lit_, random.of_piece(1)), image(second, lit(second), random.of_piece(2))};
+}
+
+Measurement Stereo::decoded(const Random& random) const {
+  Measurement out(view_.depth.size());
+  const Pair pair = images(random);
+  const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
+  const std::vector<float> disparity = match(pair, view_.lens.width, view_.lens.height, setup_.settings, least);
+  for (std::size_t i = 0; i < disparity.size(); ++i) {
+    out.intensity[i] = static_cast<float>(pair.first[i]) / 255.0f;
+    const double z = of_disparity(disparity[i]);
+    const bool good = z >= setup_.near && z <= setup_.far;
+    out.validity[i] = good                                ? Validity::valid
+                      : lit_[i].code == Validity::nothing ? Validity::nothing
+                                                          : Validity::unmatched;
+    if (good) out.depth[i] = z;
+  }
+  return out;
+}
+
+/// The matcher errs with the ratio of noise to texture.
+double Stereo::disparity_sigma(double signal) const {
+  return setup_.settings.disparity_noise * std::sqrt(imager_.variance(signal) / imager_.variance(1.0)) / signal;
+}
+
+double Stereo::depth_sigma(std::size_t pixel) const {
+  if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
+  const double z = view_.depth[pixel], step = 1.0 / 16.0;
+  const double sigma = std::hypot(disparity_sigma(white(lit_[pixel])), step / std::sqrt(12.0));
+  return sigma * z * z / of_disparity(1.0);
+}
+
+Measurement Stereo::analytic(const Random& random) const {
+  Measurement out(view_.depth.size());
+  const auto width = static_cast<std::size_t>(view_.lens.width);
+  const StereoSettings& s = setup_.settings;
+  std::vector<float> field;
+  if (setup_.noise) field = correlated_noise(view_.lens.width, view_.lens.height, s.window, random);
+  in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
+    std::vector<Ray> rays(width);
+    std::vector<std::uint8_t> hidden(width);
+    for (std::size_t x = 0; x < width; ++x) {
+      const SeenPoint point = seen_point(view_, row * width + x);
+      if (point.hit)
+        rays[x] = ray_between(point.position, point.normal, second_.position);
+      else
+        rays[x].direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+    scenery_.blocked(rays.data(), hidden.data(), width);
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t i = row * width + x;
+      out.validity[i] = lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
+      const double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
+      out.intensity[i] = static_cast<float>(std::min(signal, 1.0));
+      const double truth = of_disparity(view_.depth[i]);
+      const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
+      if (hidden[x] || !in_second || signal < s.min_signal) continue;
+      if (imager_.saturated(signal)) {
+        out.validity[i] = Validity::saturated;
+        continue;
+      }
+      double disparity = truth;
+      if (setup_.noise) {
+        // The matcher tells sixteenths.
+        disparity = std::round(16.0 * (truth + disparity_sigma(signal) * field[i])) / 16.0;
+      }
+      const double z = of_disparity(disparity);
+      if (!(z >= setup_.near && z <= setup_.far)) continue;
+      out.validity[i] = Validity::valid;
+      out.depth[i] = z;
+    }
+  });
+  return out;
+}
+
+}  // namespace bin_scenes

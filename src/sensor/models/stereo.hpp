@@ -1,0 +1,67 @@
+/// Two cameras side by side and a projector of dots. `decoded` renders both images and matches them; `analytic` errs as
+/// such a matcher does: by a disparity whose noise is the same over a window.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/view.hpp"
+#include "sensor/models/illumination.hpp"
+#include "sensor/models/imager.hpp"
+#include "sensor/models/measurement.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+class Stereo {
+ public:
+  struct Setup {
+    Lens projector;
+    Pose projector_pose;  ///< optical frame in the bin frame
+    StereoSettings settings;
+    ImagerSettings imager;
+    bool noise = true;
+    double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+  };
+  /// @param view  of the first camera, whose images are rectified: no distortion
+  Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup);
+
+  Measurement analytic(const Random& random) const;
+  Measurement decoded(const Random& random) const;
+
+  /// Standard deviation of the depth of a pixel (m), by the analytic form's formula; NaN where no light falls.
+  double depth_sigma(std::size_t pixel) const;
+  /// Disparity (pixel) of a depth (m), and back.
+  double of_disparity(double value) const { return view_.lens.fx * setup_.settings.baseline / value; }
+
+  /// The two images, each as 8 bit: what the matcher is given.
+  struct Pair {
+    std::vector<std::uint8_t> first, second;
+  };
+  Pair images(const Random& random) const;
+
+ private:
+  std::vector<Lit> lit(const View& view) const;
+  std::vector<float> signals(const View& view, const std::vector<Lit>& lit) const;
+  std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const Random& random) const;
+  double disparity_sigma(double signal) const;
+  double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
+
+  const Scenery& scenery_;
+  const View& view_;
+  const Surfaces& surfaces_;
+  Setup setup_;
+  Imager imager_;
+  Pose second_;  ///< camera, optical frame in the bin frame
+  std::vector<Lit> lit_;
+  double gain_ = 0.0;
+};
+
+/// Disparities (pixel) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in OpenCV); NaN
+/// unmatched.
+std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
+                         int least_disparity);
+
+/// Dots of a projector, blurred as a camera sees them whose pixels are `ratio` of the projector's: row-major, 0 to 1.
+std::vector<float> dot_pattern(int width, int height, double dots, double ratio);
+
+}  // namespace bin_scenes

@@ -1,0 +1,76 @@
+#include "sensor/models/stereo.hpp"
+
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+/// 8-bit image with a dark rim on the left. Without it the matcher leaves out every pixel whose disparity could reach
+/// beyond the second image, whether it does or not.
+cv::Mat with_rim(const std::vector<std::uint8_t>& bytes, int width, int height, int rim) {
+  cv::Mat image(height, width + rim, CV_8UC1, cv::Scalar(0));
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(y) * width, width, image.ptr<std::uint8_t>(y) + rim);
+  }
+  return image;
+}
+
+/// Whether the window around each pixel varies by at least that standard deviation, by sums over rows and columns.
+std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height, int window, double least) {
+  const int wide = width + 1, reach = window / 2;
+  std::vector<double> sum(static_cast<std::size_t>(wide) * (height + 1), 0.0), square = sum;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y + 1) * wide + x + 1;
+      const double v = image[static_cast<std::size_t>(y) * width + x];
+      sum[at] = v + sum[at - 1] + sum[at - wide] - sum[at - wide - 1];
+      square[at] = v * v + square[at - 1] + square[at - wide] - square[at - wide - 1];
+    }
+  }
+  std::vector<char> good(image.size());
+  for (int y = 0; y < height; ++y) {
+    const int top = std::max(0, y - reach), bottom = std::min(height, y + reach + 1);
+    for (int x = 0; x < width; ++x) {
+      const int left = std::max(0, x - reach), right = std::min(width, x + reach + 1);
+      const auto total = [&](const std::vector<double>& s) {
+        const auto at = [&](int column, int row) { return s[static_cast<std::size_t>(row) * wide + column]; };
+        return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
+      };
+      const double n = static_cast<double>(right - left) * (bottom - top), mean = total(sum) / n;
+      good[static_cast<std::size_t>(y) * width + x] = total(square) / n - mean * mean >= least * least;
+    }
+  }
+  return good;
+}
+
+}  // namespace
+
+std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& s,
+                         int least_disparity) {
+  // Penalties for a change of disparity by one and by more, as OpenCV's documentation advises for one channel.
+  const int area = s.window * s.window, rim = least_disparity + s.disparities;
+  const cv::Ptr<cv::StereoSGBM> matcher = cv::StereoSGBM::create(
+      least_disparity, s.disparities, s.window, 8 * area, 32 * area, static_cast<int>(std::lround(s.max_difference)),
+      31, s.uniqueness, s.speckle_size, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
+  cv::Mat found;
+  matcher->compute(with_rim(images.first, width, height, rim), with_rim(images.second, width, height, rim), found);
+  const std::vector<char> good = textured(images.first, width, height, s.window, s.min_texture);
+  std::vector<float> disparities(images.first.size());
+  for (int y = 0; y < height; ++y) {
+    const short* const in = found.ptr<short>(y) + rim;
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      // Sixteenths of a pixel; what would lie in the rim of the second image was not seen.
+      const float disparity = static_cast<float>(in[x]) / 16.0f;
+      const bool seen = in[x] > 0 && in[x] >= 16 * least_disparity && disparity <= static_cast<float>(x);
+      disparities[i] = seen && good[i] ? disparity : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return disparities;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,302 @@
+#include "bin_scenes/sensor/scenery.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "sensor/bin_mesh.hpp"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+
+/// One instruction set for every processor: the same bits everywhere. Embree's own setting `threads` stays unset, as
+/// it limits the threads of the whole process.
+RTCDevice device() {
+  static const RTCDevice shared = rtcNewDevice("isa=sse4.2");
+  if (!shared) throw environment_error("Embree gives no device", "sensors", "use a processor with SSE 4.2");
+  return shared;
+}
+
+/// On one thread: how many there are must not decide how a tree is built, and the order of triangles in it decides
+/// between two that are hit at the same place.
+void commit(RTCScene scene) {
+  tbb::task_arena alone(1);
+  alone.execute([&] { rtcCommitScene(scene); });
+}
+
+void set_transform(RTCGeometry instance, const Pose& pose) {
+  const Mat3 turn = pose.orientation.toRotationMatrix();
+  float columns[12];
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 3; ++r) columns[3 * c + r] = static_cast<float>(c < 3 ? turn(r, c) : pose.position[r]);
+  }
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+}
+
+/// Rays go to Embree in fours, the width of the instruction set: neighbours share most of the way through the tree.
+constexpr int lanes = 4;
+
+bool usable(const Ray& ray) {
+  return ray.direction.allFinite() && ray.origin.allFinite() && ray.far >= ray.near;
+}
+
+/// Fills one lane; says whether it holds a ray.
+int set_lane(RTCRay4& packet, int lane, const Ray& ray) {
+  packet.org_x[lane] = static_cast<float>(ray.origin.x());
+  packet.org_y[lane] = static_cast<float>(ray.origin.y());
+  packet.org_z[lane] = static_cast<float>(ray.origin.z());
+  packet.dir_x[lane] = static_cast<float>(ray.direction.x());
+  packet.dir_y[lane] = static_cast<float>(ray.direction.y());
+  packet.dir_z[lane] = static_cast<float>(ray.direction.z());
+  packet.tnear[lane] = static_cast<float>(ray.near);
+  packet.tfar[lane] = static_cast<float>(ray.far);
+  packet.time[lane] = 0.0f;
+  packet.mask[lane] = ~0u;
+  packet.id[lane] = packet.flags[lane] = 0;
+  return usable(ray) ? -1 : 0;
+}
+
+RTCIntersectContext context_of_neighbours() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+/// blocked[i] for rays that `ray_of(i)` gives.
+template <class RayOf>
+void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::size_t count) {
+  RTCIntersectContext context = context_of_neighbours();
+  for (std::size_t first = 0; first < count; first += lanes) {
+    RTCRay4 packet;
+    int valid[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::size_t i = first + static_cast<std::size_t>(lane);
+      valid[lane] = set_lane(packet, lane, ray_of(i < count ? i : first));
+      if (i >= count) valid[lane] = 0;
+    }
+    rtcOccluded4(valid, scene, &context, &packet);
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::size_t i = first + static_cast<std::size_t>(lane);
+      if (i < count) blocked[i] = valid[lane] && packet.tfar[lane] < 0.0f;
+    }
+  }
+}
+
+/// A mesh and its search tree.
+struct MeshTree {
+  PartModelPtr owner;  // none: `own` is the mesh
+  Mesh own;
+  RTCScene embree = nullptr;
+
+  const Mesh& mesh() const { return owner ? owner->mesh() : own; }
+
+  MeshTree(PartModelPtr model, Mesh alone) : owner(std::move(model)), own(std::move(alone)) {
+    embree = rtcNewScene(device());
+    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+    const Mesh& m = mesh();
+    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                3 * sizeof(float), m.vertices.size()));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), m.triangles.size()));
+    if (!corners || !indices) {
+      throw environment_error("no memory for the triangles of a mesh", "sensors", "free memory, or use coarser meshes");
+    }
+    for (const Vec3& v : m.vertices) {
+      for (int k = 0; k < 3; ++k) *corners++ = static_cast<float>(v[k]);
+    }
+    for (const Triangle& t : m.triangles) indices = std::copy(t.begin(), t.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree, geometry);
+    rtcReleaseGeometry(geometry);
+    commit(embree);
+  }
+  ~MeshTree() { rtcReleaseScene(embree); }
+  MeshTree(const MeshTree&) = delete;
+  MeshTree& operator=(const MeshTree&) = delete;
+};
+using MeshTreePtr = std::shared_ptr<const MeshTree>;
+
+}  // namespace
+
+struct SceneryCache::State {
+  struct Entry {
+    std::weak_ptr<const PartModel> model;  // tells a new model at an old address from the one whose tree this is
+    MeshTreePtr tree;
+  };
+  std::mutex mutex;
+  std::map<const PartModel*, Entry> entries;
+
+  /// The tree must not keep its model alive in here: it aliases the mesh, and the placed scene holds the model.
+  MeshTreePtr tree_of(const PartModelPtr& model) {
+    std::lock_guard<std::mutex> lock(mutex);
+    for (auto it = entries.begin(); it != entries.end();) {
+      it = it->second.model.expired() ? entries.erase(it) : std::next(it);
+    }
+    Entry& entry = entries[model.get()];
+    if (!entry.tree) {
+      const PartModelPtr borrowed(PartModelPtr(), model.get());
+      entry = {model, std::make_shared<MeshTree>(borrowed, Mesh())};
+    }
+    return entry.tree;
+  }
+};
+
+SceneryCache::SceneryCache() : state_(std::make_unique<State>()) {}
+SceneryCache::~SceneryCache() = default;
+
+struct Scenery::State {
+  struct Body {
+    MeshTreePtr tree;
+    PartModelPtr model;
+    Pose pose;
+    std::uint16_t label = 0;
+    std::int32_t line = -1;
+    int id = -1;
+    Mat3 turn = Mat3::Identity();  // of the pose
+  };
+  RTCScene scene = nullptr;
+  std::vector<Body> bodies;           // by Embree's number of the instance
+  std::vector<std::int64_t> of_part;  // index into bodies by index into Scene::parts; -1: not there
+  bool floor = false;                 // endless, z = 0
+
+  ~State() {
+    if (scene) rtcReleaseScene(scene);
+  }
+
+  void add(MeshTreePtr tree, PartModelPtr model, const Pose& pose, std::uint16_t label, std::int32_t line, int id) {
+    const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, tree->embree);
+    set_transform(instance, pose);
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(bodies.size()));
+    rtcReleaseGeometry(instance);
+    bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, pose.orientation.toRotationMatrix()});
+  }
+
+  bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
+  static double floor_distance(const Ray& ray) { return -ray.origin.z() / ray.direction.z(); }  // 0 / 0 is no number
+  static bool within(const Ray& ray, double distance) { return distance >= ray.near && distance <= ray.far; }
+  Hit hit_of(const Ray& ray, const RTCRayHit4& packet, int lane) const;
+};
+
+Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                 const PartModelPtr& bin_model, SceneryCache& cache)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.scene = rtcNewScene(device());
+  rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
+  s.floor = request.bin.kind == Bin::Kind::floor;
+  if (request.bin.kind == Bin::Kind::mesh && bin_model) {
+    s.add(cache.state().tree_of(bin_model), bin_model, request.bin.pose, 0, -1, -1);
+  } else if (request.bin.kind == Bin::Kind::box) {
+    s.add(std::make_shared<MeshTree>(nullptr, box_bin_mesh(request.bin)), nullptr, Pose(), 0, -1, -1);
+  }
+  for (const ScenePart& part : scene.parts) {
+    s.of_part.push_back(-1);
+    if (!is_there(part.state) || !part.pose.finite()) continue;
+    if (part.id < 0 || part.id >= 65535) {
+      throw input_error("part " + std::to_string(part.id) + " has no 16-bit label", "sensors",
+                        "show at most 65,535 parts in one scene");
+    }
+    s.of_part.back() = static_cast<std::int64_t>(s.bodies.size());
+    const PartModelPtr& model = parts[part.line];
+    s.add(cache.state().tree_of(model), model, part.pose, static_cast<std::uint16_t>(part.id + 1),
+          static_cast<std::int32_t>(part.line), part.id);
+  }
+  commit(s.scene);
+}
+
+Scenery::~Scenery() = default;
+Scenery::Scenery(Scenery&&) noexcept = default;
+
+/// Distance and normal of what Embree names, from the triangle's plane.
+Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit4& packet, int lane) const {
+  Hit hit;
+  const Body& body = bodies[packet.hit.instID[0][lane]];
+  const Mesh& mesh = body.tree->mesh();
+  hit.triangle = packet.hit.primID[lane];
+  const Triangle& corners = mesh.triangles[hit.triangle];
+  const Vec3& a = mesh.vertices[corners[0]];
+  const Vec3 normal = body.turn * (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a);
+  const double rise = normal.dot(ray.direction);
+  hit.distance = normal.dot(body.turn * a + body.pose.position - ray.origin) / rise;
+  // Of a triangle seen edge on, the plane says nothing; what single precision found does.
+  const double single = packet.ray.tfar[lane];
+  if (!(std::abs(hit.distance - single) <= 1e-4 * single)) hit.distance = single;
+  hit.normal = normal * ((rise > 0.0 ? -1.0 : 1.0) / normal.norm());
+  hit.label = body.label;
+  hit.line = body.line;
+  return hit;
+}
+
+void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  RTCIntersectContext context = context_of_neighbours();
+  for (std::size_t first = 0; first < count; first += lanes) {
+    RTCRayHit4 packet;
+    int valid[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::size_t i = first + static_cast<std::size_t>(lane);
+      valid[lane] = set_lane(packet.ray, lane, rays[i < count ? i : first]);
+      packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+      if (i >= count) {
+        valid[lane] = 0;
+        continue;
+      }
+      hits[i] = {nan, Vec3::Constant(nan), 0, -1, 0};
+      if (!state_->hits_floor(rays[i])) continue;
+      hits[i].distance = State::floor_distance(rays[i]);
+      hits[i].normal = rays[i].direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());
+      packet.ray.tfar[lane] = static_cast<float>(hits[i].distance);
+    }
+    rtcIntersect4(valid, state_->scene, &context, &packet);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!valid[lane] || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+      const std::size_t i = first + static_cast<std::size_t>(lane);
+      hits[i] = state_->hit_of(rays[i], packet, lane);
+    }
+  }
+}
+
+void Scenery::blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count) const {
+  occluded(
+      state_->scene, [&](std::size_t i) { return rays[i]; }, blocked, count);
+  for (std::size_t i = 0; state_->floor && i < count; ++i) blocked[i] |= state_->hits_floor(rays[i]);
+}
+
+void Scenery::blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocked, std::size_t count) const {
+  const std::int64_t index = state_->of_part.at(part);
+  if (index < 0) {
+    std::fill(blocked, blocked + count, std::uint8_t{0});
+    return;
+  }
+  const State::Body& body = state_->bodies[static_cast<std::size_t>(index)];
+  const Mat3 back = body.turn.transpose();
+  const auto in_part = [&](std::size_t i) {
+    const Ray& ray = rays[i];
+    return Ray{back * (ray.origin - body.pose.position), back * ray.direction, ray.near, ray.far};
+  };
+  occluded(body.tree->embree, in_part, blocked, count);
+}
+
+std::size_t Scenery::part_count() const {
+  return state_->of_part.size();
+}
+
+Scenery::Placed Scenery::part(std::size_t part) const {
+  const std::int64_t index = state_->of_part.at(part);
+  if (index < 0) return {};
+  const State::Body& body = state_->bodies[static_cast<std::size_t>(index)];
+  return {&body.tree->mesh(), body.pose, body.id};
+}
+
+}  // namespace bin_scenes

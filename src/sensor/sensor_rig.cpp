@@ -1,0 +1,60 @@
+#include "bin_scenes/sensor/sensor_rig.hpp"
+
+#include "bin_scenes/sensor/models.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+/// How much of each part is seen, and would be if it were alone.
+void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>&& alone) {
+  int largest = -1;
+  for (const ScenePart& part : scene.parts) largest = std::max(largest, part.id);
+  const auto ids = static_cast<std::size_t>(largest + 1);
+  image.visible.assign(ids, 0);
+  image.total.assign(ids, 0);
+  image.silhouettes.resize(ids);
+  for (const std::uint16_t label : image.seen_label()) {
+    if (label) ++image.visible[label - 1u];
+  }
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const auto id = static_cast<std::size_t>(scene.parts[i].id);
+    image.total[id] = alone[i].count;
+    image.silhouettes[id] = std::move(alone[i]);
+  }
+}
+
+}  // namespace
+
+SensorRig::SensorRig() : cache_(std::make_unique<SceneryCache>()) {}
+SensorRig::~SensorRig() = default;
+
+std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                                        const PartModelPtr& bin_model) {
+  const Scenery scenery(scene, request, parts, bin_model, *cache_);
+  const Surfaces surfaces = surfaces_of(request);
+  std::vector<RangeImage> images;
+  for (const Sensor& sensor : scene.sensors) {
+    View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+    std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
+    const Draw draw{scene.seed, scene.index, images.size()};
+    images.push_back(measure(scenery, std::move(view), sensor, surfaces, draw));
+    RangeImage& image = images.back();
+    count_pixels(image, scene, std::move(alone));
+    scene.report.profile.count("views");
+    std::size_t there = 0;
+    for (std::size_t i = 0; i < scenery.part_count(); ++i) there += scenery.part(i).mesh != nullptr;
+    scene.report.profile.count("silhouettes", there);
+    for (ScenePart& part : scene.parts) {
+      const auto id = static_cast<std::size_t>(part.id);
+      const double all = static_cast<double>(image.total[id]);
+      part.visible_fraction[sensor.name] = all > 0.0 ? static_cast<double>(image.visible[id]) / all : 0.0;
+    }
+  }
+  return images;
+}
+
+}  // namespace bin_scenes

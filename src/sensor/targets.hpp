@@ -1,0 +1,34 @@
+/// Bodies of known shape to measure a sensor by: plates, steps and balls, placed in an otherwise empty world.
+#pragma once
+
+#include "bin_scenes/sensor/scenery.hpp"
+#include "sensor/models/illumination.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace bin_scenes {
+
+/// A box around the origin.
+Mesh box_target(const Vec3& size);
+/// A ball around the origin: an icosahedron divided `level` times, 20 * 4^level triangles, whose mean radius over the
+/// surface is `radius`; at level 6 facets leave it by 4e-5 of the radius.
+Mesh ball_target(double radius, int level = 6);
+
+class Targets {
+ public:
+  /// @param pose  of the mesh in the world, which is the bin frame of sensors
+  void add(const Mesh& mesh, const Pose& pose, const Surface& surface = {});
+  Scenery scenery();
+  const Surfaces& surfaces() const { return surfaces_; }
+  const Request& request() const { return request_; }
+
+ private:
+  Request request_;
+  Scene scene_;
+  std::vector<PartModelPtr> models_;
+  std::unique_ptr<SceneryCache> cache_ = std::make_unique<SceneryCache>();  // so that targets can be moved
+  Surfaces surfaces_;
+};
+
+}  // namespace bin_scenes

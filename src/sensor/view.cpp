@@ -1,0 +1,38 @@
+#include "bin_scenes/sensor/view.hpp"
+
+#include "core/in_parallel.hpp"
+
+namespace bin_scenes {
+
+View look(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+  View view;
+  view.lens = lens;
+  view.pose = pose;
+  const auto width = static_cast<std::size_t>(lens.width), height = static_cast<std::size_t>(lens.height);
+  view.depth.resize(width * height);
+  view.label.resize(width * height);
+  view.normal.resize(width * height);
+  view.line.resize(width * height);
+  const Mat3 turn = pose.orientation.toRotationMatrix();
+  in_parallel(height, [&](std::size_t row) {
+    std::vector<Ray> rays(width);
+    std::vector<Hit> hits(width);
+    for (std::size_t column = 0; column < width; ++column) {
+      const Vec3 direction = lens.ray(static_cast<double>(column), static_cast<double>(row));
+      rays[column] = {pose.position, turn * direction, near, far};
+    }
+    scenery.first_hits(rays.data(), hits.data(), width);
+    for (std::size_t column = 0; column < width; ++column) {
+      const std::size_t i = row * width + column;
+      const Hit& hit = hits[column];
+      const Vec3 normal = turn.transpose() * hit.normal;
+      view.depth[i] = hit.distance;
+      view.label[i] = hit.label;
+      view.normal[i] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())};
+      view.line[i] = hit.line;
+    }
+  });
+  return view;
+}
+
+}  // namespace bin_scenes

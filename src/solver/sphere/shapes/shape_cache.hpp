@@ -1,0 +1,44 @@
+/// The shapes of the parts that a solver has met.
+#pragma once
+
+#include "bin_scenes/core/profile.hpp"
+#include "bin_scenes/scene/request.hpp"
+#include "solver/sphere/shapes/shape.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace bin_scenes::sphere {
+
+class ShapeCache {
+ public:
+  /// @param change  is done to each shape once it is made; none: nothing
+  explicit ShapeCache(const SphereSettings& settings, std::function<void(Shape&)> change = {})
+      : settings_(settings), change_(std::move(change)) {}
+
+  /// Made on first use, as stage "shape" of the profile; stays where it is for the cache's life.
+  const Shape& of(const PartModelPtr& part, Profile& profile) {
+    Entry& entry = entries_[part.get()];
+    if (!entry.shape) {
+      StageTimer timer(profile, "shape");
+      entry.part = part;  // keeps the address, and with it the key, alive
+      entry.shape = std::make_unique<Shape>(
+          make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
+      if (change_) change_(*entry.shape);
+    }
+    return *entry.shape;
+  }
+
+ private:
+  struct Entry {
+    PartModelPtr part;
+    std::unique_ptr<Shape> shape;
+  };
+  SphereSettings settings_;
+  std::function<void(Shape&)> change_;
+  std::map<const PartModel*, Entry> entries_;
+};
+
+}  // namespace bin_scenes::sphere

@@ -1,0 +1,180 @@
+/// A heap that outlives its scene: parts are taken out and added, gravity turns, and it settles again.
+#include "bin_scenes/pour/heap.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "solver/fixture.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace bin_scenes::testing {
+
+namespace {
+
+const PartModelPtr& cube() {
+  static const PartModelPtr part = PartModel::from_mesh(box_mesh({0.02, 0.02, 0.02}), "cube");
+  return part;
+}
+const PartModelPtr& angle() {
+  static const PartModelPtr part = PartModel::from_mesh(
+      merged(box_mesh({0.06, 0.02, 0.02}), box_mesh({0.02, 0.04, 0.02}, {0.02, 0.03, 0})), "angle");
+  return part;
+}
+
+PartLine line_of(const PartModelPtr& part, std::size_t count) {
+  PartLine line;
+  line.model = part->path();
+  line.count = count;
+  return line;
+}
+
+struct Kind {
+  const char* name;
+  SolverType type;
+  SphereSettings::Device device;
+};
+
+Heap heap_of(const Kind& kind, const PartModelPtr& part, std::size_t count, const std::vector<Pose>& poses = {}) {
+  Request request;
+  request.seed = 3;
+  request.solver.type = kind.type;
+  request.solver.sphere.device = kind.device;
+  request.bin.inner_size = Vec3(0.30, 0.30, 0.12);
+  request.pour.finish = Pour::Finish::pressed;
+  request.parts = {line_of(part, count)};
+  request.parts[0].poses = poses;
+  if (!poses.empty()) request.pour.pattern = Pour::Pattern::given;
+  std::string reason;
+  return Heap(request, {part}, make_solver(request, {part}, reason));
+}
+
+/// Cubes on each other, at the given places.
+std::vector<Pose> towers(const std::vector<double>& places, int height) {
+  std::vector<Pose> poses;
+  for (const double x : places)
+    for (int level = 0; level < height; ++level) poses.push_back({Vec3(x, 0, 0.01 + 0.02 * level), Quat::Identity()});
+  return poses;
+}
+
+bool same_bits(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+double height(const Scene& scene, int id) {
+  return scene.parts.at(static_cast<std::size_t>(id)).pose.position.z();
+}
+
+class HeapTest : public ::testing::TestWithParam<Kind> {};
+using Device = SphereSettings::Device;
+INSTANTIATE_TEST_SUITE_P(Solvers, HeapTest,
+                         ::testing::Values(Kind{"sphere", SolverType::sphere, Device::cpu},
+                                           Kind{"sphere_gl", SolverType::sphere, Device::gpu},
+                                           Kind{"bullet", SolverType::bullet, Device::automatic}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(HeapTest, APickMovesWhatThePartCarriedAndNothingElse) {
+  Heap heap = heap_of(GetParam(), cube(), 6, towers({-0.05, 0.05}, 3));
+  ASSERT_TRUE(heap.settle());
+  const Scene before = heap.scene();
+  heap.remove({0});
+  ASSERT_TRUE(heap.settle());
+  const Scene after = heap.scene();
+  EXPECT_TRUE(after.report.at_rest);
+  EXPECT_EQ(after.parts[0].state, PartState::removed);
+  EXPECT_FALSE(after.parts[0].pose.finite());
+  for (const int id : {1, 2}) EXPECT_NEAR(height(after, id), height(before, id) - 0.02, 2e-4) << id;
+  for (const int id : {3, 4, 5}) EXPECT_TRUE(same_bits(after.parts[id].pose, before.parts[id].pose)) << id;
+  EXPECT_LT(after.report.simulated_s, 2.0) << "the clock of this settle";
+}
+
+TEST_P(HeapTest, OfAPouredHeapMostPartsKeepTheirPosesInAPick) {
+  Heap heap = heap_of(GetParam(), angle(), 12);
+  ASSERT_TRUE(heap.settle());
+  const Scene before = heap.scene();
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    if (before.parts[i].pose.position.z() > before.parts[top].pose.position.z()) top = i;
+  heap.remove({static_cast<int>(top)});
+  ASSERT_TRUE(heap.settle());
+  const Scene after = heap.scene();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < 12; ++i) kept += same_bits(after.parts[i].pose, before.parts[i].pose);
+  EXPECT_GE(kept, 6u);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(after.parts[i].id, static_cast<int>(i));
+}
+
+TEST_P(HeapTest, IdsLastAsPartsAreTakenOutAndAdded) {
+  Heap heap = heap_of(GetParam(), cube(), 4);
+  ASSERT_TRUE(heap.settle());
+  heap.remove({1, 2});
+  EXPECT_EQ(heap.add({{line_of(angle(), 2), angle()}}), (std::vector<int>{4, 5}));
+  ASSERT_TRUE(heap.settle());
+  const Scene scene = heap.scene();
+  ASSERT_EQ(scene.parts.size(), 6u);
+  for (int id = 0; id < 6; ++id) {
+    const ScenePart& part = scene.parts[static_cast<std::size_t>(id)];
+    EXPECT_EQ(part.id, id);
+    EXPECT_EQ(part.state, id == 1 || id == 2 ? PartState::removed : PartState::resting) << id;
+    EXPECT_EQ(part.model, id < 4 ? "cube" : "angle");
+  }
+  EXPECT_EQ(heap.request().part_count(), 6u);
+  EXPECT_EQ(heap.add({{line_of(cube(), 1), cube()}}), std::vector<int>{6});
+  for (const int id : {1, 7, -1}) EXPECT_THROW(heap.remove({0, id}), Error) << id;
+  ASSERT_TRUE(heap.settle());
+  EXPECT_EQ(heap.scene().parts[0].state, PartState::resting) << "an error changes nothing";
+}
+
+TEST_P(HeapTest, WhatIsAddedComesToLieOnTheHeap) {
+  Heap heap = heap_of(GetParam(), angle(), 4);
+  ASSERT_TRUE(heap.settle());
+  heap.add({{line_of(angle(), 4), angle()}});
+  ASSERT_TRUE(heap.settle());
+  const Scene scene = heap.scene();
+  EXPECT_TRUE(scene.report.at_rest);
+  EXPECT_TRUE(scene.report.escaped.empty());
+  EXPECT_TRUE(scene.report.not_poured.empty());
+  for (const ScenePart& part : scene.parts) EXPECT_GT(part.pose.position.z(), 0.005) << part.id;
+}
+
+TEST_P(HeapTest, PartsSlideWhenGravityTilts) {
+  Heap heap = heap_of(GetParam(), cube(), 2, towers({-0.02, 0.02}, 1));
+  ASSERT_TRUE(heap.settle());
+  const auto x_after = [&](double angle) {
+    heap.set_gravity(9.81 * Vec3(std::sin(angle), 0, -std::cos(angle)));
+    EXPECT_TRUE(heap.settle());
+    return heap.scene().parts[1].pose.position.x();
+  };
+  EXPECT_NEAR(x_after(0.3), 0.02, 1e-3) << "friction holds up to 0.46";
+  EXPECT_NEAR(x_after(0.6), 0.14, 1e-3) << "at the wall";
+}
+
+TEST_P(HeapTest, ACancelledSettleLeavesAHeapThatSettles) {
+  Heap heap = heap_of(GetParam(), cube(), 3);
+  std::atomic<bool> cancel{false};
+  RunHooks hooks;
+  hooks.cancel = &cancel;
+  hooks.progress = [&](const Progress& progress) { cancel = progress.simulated_s > 0.05; };
+  EXPECT_THROW(heap.settle(hooks), Error);
+  EXPECT_FALSE(heap.scene().report.at_rest);
+  heap.remove({0});
+  EXPECT_TRUE(heap.settle());
+  const Scene scene = heap.scene();
+  EXPECT_EQ(scene.parts[0].state, PartState::removed);
+  for (const int id : {1, 2}) EXPECT_EQ(scene.parts[id].state, PartState::resting) << id;
+  EXPECT_TRUE(heap.settle());
+  EXPECT_TRUE(same_bits(heap.scene().parts[1].pose, scene.parts[1].pose)) << "what rests is left alone";
+}
+
+TEST_P(HeapTest, IsEmptiedPartByPart) {
+  Heap heap = heap_of(GetParam(), cube(), 5);
+  ASSERT_TRUE(heap.settle());
+  for (int id = 0; id < 5; ++id) {
+    heap.remove({id});
+    ASSERT_TRUE(heap.settle()) << id;
+    const Scene scene = heap.scene();
+    for (int other = id + 1; other < 5; ++other) EXPECT_EQ(scene.parts[other].state, PartState::resting) << other;
+  }
+}
+
+}  // namespace
+}  // namespace bin_scenes::testing

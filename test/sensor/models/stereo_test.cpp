@@ -1,0 +1,187 @@
+#include "sensor/models/stereo.hpp"
+#include "sensor/targets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bin_scenes {
+namespace {
+
+struct Device {
+  Lens camera = Lens::from_fov(320, 240, 0.7);
+  Stereo::Setup setup;
+
+  Device() {
+    setup.settings.baseline = 0.1;
+    setup.settings.disparities = 64;
+    setup.projector = Lens::from_fov(800, 600, 0.9);
+    setup.projector_pose.position = Vec3(0.05, 0.0, 0.0);
+    setup.near = 0.5;
+    setup.far = 5.0;
+  }
+};
+
+struct Shot {
+  View view;
+  Measurement measured;
+  std::vector<double> sigma;
+};
+
+Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
+  const Scenery scenery = targets.scenery();
+  Shot shot{look(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
+  const Stereo model(scenery, shot.view, targets.surfaces(), device.setup);
+  const Random random(seed, 0, Stream::noise);
+  shot.measured = decoded ? model.decoded(random) : model.analytic(random);
+  for (std::size_t i = 0; i < shot.view.depth.size(); ++i) shot.sigma.push_back(model.depth_sigma(i));
+  return shot;
+}
+
+void add_plate(Targets& targets, double z, double tilt = 0.0) {
+  const Quat turn(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
+  targets.add(box_target({6.0, 6.0, 0.02}), {Vec3(0, 0, z) + turn * Vec3(0, 0, 0.01), turn}, {0.6, 0.0, 0.4});
+}
+
+/// Error of the disparity, NaN where there is none.
+std::vector<double> disparity_errors(const Shot& shot, const Device& device) {
+  std::vector<double> errors;
+  const double scale = device.camera.fx * device.setup.settings.baseline;
+  for (std::size_t i = 0; i < shot.view.depth.size(); ++i) {
+    errors.push_back(scale / shot.measured.depth[i] - scale / shot.view.depth[i]);
+  }
+  return errors;
+}
+
+double correlation(const std::vector<double>& errors, int width, int lag) {
+  double product = 0.0, square = 0.0;
+  std::size_t pairs = 0, n = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!(std::abs(errors[i]) < 1.0)) continue;
+    square += errors[i] * errors[i];
+    ++n;
+    if (static_cast<int>(i) % width + lag >= width || !(std::abs(errors[i + lag]) < 1.0)) continue;
+    product += errors[i] * errors[i + lag];
+    ++pairs;
+  }
+  return product / static_cast<double>(pairs) / (square / static_cast<double>(n));
+}
+
+TEST(Stereo, MatchesAPlateWithinAFractionOfAPixel) {
+  Targets targets;
+  add_plate(targets, 1.0);
+  const Device device;
+  const Shot shot = shoot(targets, device, true);
+  std::vector<double> errors;
+  for (const double e : disparity_errors(shot, device)) {
+    if (!std::isnan(e)) errors.push_back(std::abs(e));
+  }
+  ASSERT_GT(static_cast<double>(errors.size()) / static_cast<double>(shot.view.depth.size()), 0.7);
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.3);  // the matcher prefers whole pixels
+  EXPECT_LT(errors[errors.size() * 99 / 100], 1.0);
+}
+
+TEST(Stereo, WithoutDotsAPlainPlateIsNotMatched) {
+  Targets targets;
+  add_plate(targets, 1.0);
+  Device device;
+  const auto matched_right = [&] {
+    const std::vector<double> errors = disparity_errors(shoot(targets, device, true), device);
+    return std::count_if(errors.begin(), errors.end(), [](double e) { return std::abs(e) < 1.0; });
+  };
+  const auto with_dots = matched_right();
+  device.setup.settings.dots = 0.0;
+  EXPECT_LT(matched_right(), with_dots / 3);
+}
+
+/// What a row's errors have in common is the matcher's liking for whole pixels: without it.
+void remove_means_of_rows(std::vector<double>& errors, int width) {
+  for (std::size_t row = 0; row < errors.size(); row += static_cast<std::size_t>(width)) {
+    double sum = 0.0;
+    int n = 0;
+    for (int x = 0; x < width; ++x) {
+      const double e = errors[row + static_cast<std::size_t>(x)];
+      if (std::abs(e) < 1.0) sum += e, ++n;
+    }
+    for (int x = 0; x < width; ++x) errors[row + static_cast<std::size_t>(x)] -= sum / std::max(n, 1);
+  }
+}
+
+TEST(Stereo, ErrorsOfNeighboursResembleEachOtherOverTheWindow) {
+  Targets targets;
+  add_plate(targets, 1.0, 0.3);
+  Device device;
+  for (const bool decoded : {true, false}) {
+    for (const int window : {5, 11}) {
+      device.setup.settings.window = window;
+      std::vector<double> errors = disparity_errors(shoot(targets, device, decoded), device);
+      remove_means_of_rows(errors, device.camera.width);
+      const double near = correlation(errors, device.camera.width, 1);
+      const double half = correlation(errors, device.camera.width, window / 2);
+      const double beyond = correlation(errors, device.camera.width, 3 * window);
+      EXPECT_GT(near, 0.3) << decoded << window;  // white noise has 0 +- 0.004
+      EXPECT_GT(near, half) << decoded << window;
+      EXPECT_GT(half, beyond) << decoded << window;
+      EXPECT_LT(std::abs(beyond), 0.15) << decoded << window;
+    }
+  }
+}
+
+TEST(Stereo, AnalyticNoiseIsAsPredicted) {
+  for (const double z : {0.7, 1.0, 2.0}) {
+    Targets targets;
+    add_plate(targets, z);
+    Device device;
+    double sum = 0.0;
+    std::size_t n = 0;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const Shot shot = shoot(targets, device, false, seed);
+      for (std::size_t i = 0; i < shot.sigma.size(); ++i) {
+        if (shot.measured.validity[i] != Validity::valid) continue;
+        sum += std::pow((shot.measured.depth[i] - shot.view.depth[i]) / shot.sigma[i], 2);
+        ++n;
+      }
+    }
+    ASSERT_GT(n, 100000u);
+    EXPECT_NEAR(std::sqrt(sum / static_cast<double>(n)), 1.0, 0.04) << z;  // as many independent samples as windows
+  }
+}
+
+TEST(Stereo, WhatTheSecondCameraDoesNotSeeIsUnmatched) {
+  Targets targets;
+  add_plate(targets, 1.5);
+  targets.add(box_target({0.2, 0.3, 0.02}), {Vec3(0, 0, 1.0), Quat::Identity()}, {0.6, 0.0, 0.4});
+  const Device device;
+  const Shot shot = shoot(targets, device, false);
+  // To the left of the near plate, as wide as the difference of the disparities.
+  const double front = 0.99, back = 1.5;
+  const double expected = device.camera.fx * device.setup.settings.baseline * (1.0 / front - 1.0 / back);
+  const int edge = static_cast<int>(std::lround(0.5 * (device.camera.width - 1) - 0.1 / front * device.camera.fx));
+  for (int y = 100; y < 140; ++y) {
+    int hidden = 0;
+    for (int x = edge - 40; x < edge; ++x) {
+      hidden += shot.measured.validity[static_cast<std::size_t>(y) * device.camera.width + x] == Validity::unmatched;
+    }
+    ASSERT_NEAR(hidden, expected, 1.5);
+  }
+}
+
+TEST(Stereo, SameSeedSameBits) {
+  Targets targets;
+  add_plate(targets, 1.0);
+  const auto images = [&](std::uint64_t seed) {
+    const Scenery scenery = targets.scenery();
+    const Device device;
+    const View view = look(scenery, device.camera, Pose(), 0.05, 10.0);
+    return Stereo(scenery, view, targets.surfaces(), device.setup).images(Random(seed, 0, Stream::noise));
+  };
+  EXPECT_EQ(images(3).first, images(3).first);
+  EXPECT_EQ(images(3).second, images(3).second);
+  EXPECT_NE(images(3).first, images(4).first);
+}
+
+}  // namespace
+}  // namespace bin_scenes

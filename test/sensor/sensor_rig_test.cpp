@@ -1,0 +1,277 @@
+#include "bin_scenes/sensor/sensor_rig.hpp"
+
+#include "bin_scenes/sensor/resolve.hpp"
+#include "sensor/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace bin_scenes {
+namespace {
+
+using test::box_mesh;
+
+using test::at;
+using test::turned;
+
+/// A camera at the origin of the bin frame's own axes: optical frame = bin frame, looking along z.
+struct Stage : test::Stage {
+  Stage() {
+    Sensor sensor;
+    sensor.width = 320;
+    sensor.height = 240;
+    sensor.pose = Pose();
+    request.sensors = {sensor};
+  }
+  RangeImage look() {
+    scene.sensors = {resolved(request.sensors[0], request.bin)};
+    return SensorRig().look(scene, request, models).front();
+  }
+};
+
+Vec3 ray(const RangeImage& image, std::size_t i) {
+  const std::vector<double>& k = image.sensor.k;
+  const int column = static_cast<int>(i % image.sensor.width), row = static_cast<int>(i / image.sensor.width);
+  return {(column - k[2]) / k[0], (row - k[5]) / k[4], 1.0};
+}
+
+TEST(SensorRig, PlaneStraightAheadAndTilted) {
+  for (const double tilt : {0.0, 0.4, 1.1}) {
+    Stage stage;
+    const Quat turn = turned(tilt, Vec3(1, 2, 0));
+    stage.place(stage.model(box_mesh({8, 8, 0.1}, {0, 0, 0.05})), at(0, 0, 1, turn));
+    const RangeImage image = stage.look();
+    const Vec3 normal = turn * Vec3::UnitZ();
+    for (std::size_t i = 0; i < image.depth.size(); ++i) {
+      const double expected = normal.z() / normal.dot(ray(image, i));
+      if (!(expected > image.sensor.near && expected < 2.5)) continue;  // the plane's rim lies beyond
+      ASSERT_NEAR(image.depth[i] / expected, 1.0, 1e-5) << i;
+      ASSERT_EQ(image.label[i], 1);
+      ASSERT_NEAR(image.normal[i][2], -normal.z(), 1e-5) << "towards the camera";
+      ASSERT_NEAR(image.intensity[i], normal.dot(ray(image, i).normalized()), 1e-5);
+    }
+  }
+}
+
+TEST(SensorRig, SphereWithinItsFacets) {
+  Stage stage;
+  stage.place(stage.model(test::sphere_mesh(0.2, 5)), at(0.05, -0.03, 1.0));
+  const RangeImage image = stage.look();
+  const Vec3 center(0.05, -0.03, 1.0);
+  int seen = 0;
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    const Vec3 r = ray(image, i);
+    const double b = r.dot(center), d = b * b - r.squaredNorm() * (center.squaredNorm() - 0.04);
+    if (d < -1e-3) {
+      ASSERT_TRUE(std::isnan(image.depth[i])) << "nothing is seen beside the sphere";
+    }
+    if (d < 0.02) continue;  // glancing rays
+    ASSERT_NEAR(image.depth[i], (b - std::sqrt(d)) / r.squaredNorm(), 5e-4) << i;
+    ++seen;
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(SensorRig, PixelsOfABoxAreItsProjectedArea) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.2, 0.1, 0.1}, {0, 0, 0.05}));
+  stage.place(box, at(0, 0, 1));
+  const RangeImage image = stage.look();
+  const double f = image.sensor.k[0];
+  EXPECT_NEAR(static_cast<double>(image.visible[0]), 0.2 * f * 0.1 * f, 0.3 * f + 4.0);  // half the outline
+  EXPECT_EQ(image.visible[0], image.total[0]);
+}
+
+TEST(SensorRig, SilhouettesAreOfEachPartAlone) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.2, 0.1, 0.1}));
+  stage.place(box, at(0, 0, 1));
+  stage.place(box, at(0.05, 0.02, 1.3));  // partly behind the first
+  stage.place(box, at(0, 0, 2));
+  stage.scene.parts[2].state = PartState::not_poured;
+  const RangeImage image = stage.look();
+  ASSERT_EQ(image.silhouettes.size(), 3u);
+  EXPECT_EQ(image.silhouettes[2].count, 0u);
+  EXPECT_EQ(stage.scene.report.profile.counters["views"], 1u);
+  EXPECT_EQ(stage.scene.report.profile.counters["silhouettes"], 2u) << "none of what is not there";
+  ASSERT_LT(image.visible[1], image.total[1]);
+  stage.scene.parts[0].state = PartState::not_poured;  // the second alone
+  const RangeImage alone = stage.look();
+  std::size_t covered = 0;
+  for (int row = 0; row < 240; ++row) {
+    for (int column = 0; column < 320; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * 320 + column;
+      ASSERT_EQ(image.silhouettes[1].at(column, row), alone.label[i] == 2);
+      ASSERT_TRUE(image.silhouettes[0].at(column, row) || image.label[i] != 1) << "what is seen belongs to it";
+      covered += image.silhouettes[1].at(column, row);
+    }
+  }
+  EXPECT_EQ(covered, image.total[1]);
+  EXPECT_EQ(covered, alone.visible[1]);
+}
+
+TEST(SensorRig, ManyEqualPartsKeepTheirOwnLabels) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.02, 0.02, 0.02}));
+  for (int i = 0; i < 300; ++i) stage.place(box, at(-0.3013 + 0.03 * (i % 20), -0.2007 + 0.03 * (i / 20), 1.0));
+  const RangeImage image = stage.look();
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = stage.scene.parts[i].pose.position;
+    const int column = static_cast<int>(std::lround(image.sensor.k[0] * p.x() / 0.99 + image.sensor.k[2]));
+    const int row = static_cast<int>(std::lround(image.sensor.k[4] * p.y() / 0.99 + image.sensor.k[5]));
+    EXPECT_EQ(image.label[row * 320 + column], i + 1);
+    EXPECT_LE(image.total[i] - image.visible[i], 1u) << "but for a ray that runs along an edge";
+  }
+}
+
+TEST(SensorRig, HalfCoveredBox) {
+  Stage stage;
+  stage.request.sensors[0].k = {400, 0, 159.5, 0, 400, 119.5, 0, 0, 1};
+  const std::size_t box = stage.model(box_mesh({0.2, 0.2, 0.1}, {0, 0, 0.05}));
+  stage.place(box, at(0, 0, 1));
+  stage.place(stage.model(box_mesh({0.5, 0.5, 0.01})), at(0.25, 0, 0.5));  // all of x > 0
+  const RangeImage image = stage.look();
+  EXPECT_EQ(image.total[0], 80u * 80u);
+  EXPECT_EQ(image.visible[0], 40u * 80u);
+  EXPECT_EQ(image.visible[1], image.total[1]);
+}
+
+TEST(SensorRig, ConcavePartsCountEachPixelOnce) {
+  Stage stage;
+  stage.place(stage.model(test::torus_mesh(0.2, 0.05, 48, 24)), at(0, 0, 1, turned(1.2, Vec3(1, 0.3, 0))));
+  const RangeImage image = stage.look();
+  EXPECT_GT(image.visible[0], 500u);
+  EXPECT_EQ(image.visible[0], image.total[0]);
+}
+
+TEST(SensorRig, BinHasDepthButNoLabel) {
+  Stage stage;
+  stage.request.bin = Bin();
+  stage.request.sensors[0].pose.reset();
+  const RangeImage image = stage.look();
+  const double eye = image.sensor.pose->position.z();
+  const std::size_t middle = 120 * 320 + 160;
+  EXPECT_NEAR(image.depth[middle], eye, 1e-5 * eye);
+  EXPECT_EQ(image.label[middle], 0);
+  std::size_t rim = 0;
+  for (const float z : image.depth) rim += std::abs(z - (eye - 0.2)) < 1e-5;
+  EXPECT_GT(rim, 500u) << "tops of the walls";
+  stage.request.bin.kind = Bin::Kind::floor;
+  const RangeImage floor = stage.look();
+  const double above = floor.sensor.pose->position.z();
+  for (const float z : floor.depth) ASSERT_NEAR(z, above, 1e-5 * above);
+}
+
+TEST(SensorRig, NothingOutsideNearAndFar) {
+  Stage stage;
+  stage.request.sensors[0].near = 0.5;
+  stage.request.sensors[0].far = 2.0;
+  const std::size_t box = stage.model(box_mesh({4, 4, 0.01}));
+  stage.place(box, at(0, 0, 0.3));
+  stage.place(box, at(0, 0, 2.3));
+  const RangeImage image = stage.look();
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
+    ASSERT_TRUE(std::isnan(image.depth[i]));
+    ASSERT_EQ(image.label[i], 0);
+  }
+  EXPECT_EQ(image.total[0], 0u);
+}
+
+TEST(SensorRig, CloudLiesOnTheTrueSurface) {
+  Stage stage;
+  const Mesh torus = test::torus_mesh(0.2, 0.05, 48, 24);
+  const Pose pose = at(0.05, 0.02, 1.0, turned(0.7, Vec3(1, 1, 0)));
+  stage.place(stage.model(torus), pose);
+  const RangeImage image = stage.look();
+  const MeshQuery query(torus);
+  int seen = 0;
+  for (int row = 0; row < 240; ++row) {
+    for (int column = 0; column < 320; ++column) {
+      if (!image.label[row * 320 + column]) continue;
+      const auto [x, y, z] = point_at(image, column, row);
+      ASSERT_LT(query.nearest(pose.inverse() * Vec3(x, y, z)).distance, 1e-5) << column << " " << row;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(SensorRig, TwiceIsTheSameBitForBit) {
+  Stage stage;
+  stage.request.bin = Bin();
+  stage.request.sensors[0].pose.reset();
+  const std::size_t torus = stage.model(test::torus_mesh(0.04, 0.01, 48, 24));
+  for (int i = 0; i < 20; ++i) {
+    stage.place(torus, at(0.005 * i, -0.003 * i, 0.01 * i, turned(i, Vec3(1, i, 2))));
+  }
+  const RangeImage once = stage.look(), again = stage.look();
+  EXPECT_EQ(0, std::memcmp(once.depth.data(), again.depth.data(), once.depth.size() * sizeof(float)));
+  EXPECT_EQ(once.label, again.label);
+  EXPECT_EQ(once.total, again.total);
+}
+
+TEST(SensorRig, AnEmptyBinIsSeenWithoutParts) {
+  Stage stage;
+  stage.request.bin = Bin();
+  stage.request.sensors[0].pose.reset();
+  const RangeImage image = stage.look();
+  EXPECT_TRUE(image.visible.empty());
+  EXPECT_TRUE(image.silhouettes.empty());
+  const double eye = image.sensor.pose->position.z();
+  EXPECT_NEAR(image.depth[120 * 320 + 160], eye, 1e-5);
+  EXPECT_EQ(image.validity[120 * 320 + 160], 0);
+}
+
+TEST(SensorRig, SilhouettesBeyondTheImageAndAroundTheCameraAreCut) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.4, 0.4, 0.1}));
+  stage.place(box, at(0.5, 0, 1));                             // half outside the image
+  stage.place(box, at(3, 0, 1));                               // outside
+  stage.place(box, at(0, 0, -1));                              // behind
+  stage.place(stage.model(box_mesh({4, 4, 4})), at(0, 0, 0));  // the camera stands in it
+  const RangeImage image = stage.look();
+  EXPECT_GT(image.total[0], 1000u);
+  EXPECT_EQ(image.total[1], 0u);
+  EXPECT_EQ(image.total[2], 0u);
+  EXPECT_EQ(image.total[3], 320u * 240u);
+  EXPECT_EQ(stage.scene.parts[2].visible_fraction["camera"], 0.0);
+}
+
+TEST(SensorRig, VisibleFractionIsThatOfARayCast) {
+  Stage stage;
+  Lens lens = Lens::from_fov(160, 120, 0.7);
+  Sensor& sensor = stage.request.sensors[0];
+  sensor.width = 160, sensor.height = 120, sensor.fov = 0.7;
+  const std::size_t lines[] = {stage.model(box_mesh({0.06, 0.2, 0.03})),
+                               stage.model(test::torus_mesh(0.08, 0.03, 16, 8))};
+  Random random(3, 0, Stream::probe);
+  for (int i = 0; i < 8; ++i) {
+    stage.place(lines[i % 2], {Vec3(random.uniform(-0.12, 0.12), random.uniform(-0.1, 0.1), random.uniform(0.7, 0.9)),
+                               random.orientation()});
+  }
+  for (const bool distorted : {false, true}) {
+    if (distorted) lens.distortion = sensor.distortion = {-0.25, 0.1, 0.002, -0.001, 0.0};
+    const RangeImage image = stage.look();
+    const test::BruteCast brute(stage);
+    for (int id = 0; id < 8; ++id) {
+      double seen = 0.0, alone = 0.0;
+      for (int row = 0; row < 120; ++row) {
+        for (int column = 0; column < 160; ++column) {
+          const Vec3 ray = lens.ray(column, row);
+          if (std::isnan(brute.hit(Vec3::Zero(), ray, 0.05, 10.0, id + 1).distance)) continue;
+          ++alone;
+          seen += brute.hit(Vec3::Zero(), ray, 0.05, 10.0).label == id + 1;
+        }
+      }
+      ASSERT_GT(alone, 100.0);
+      EXPECT_NEAR(stage.scene.parts[static_cast<std::size_t>(id)].visible_fraction["camera"], seen / alone, 0.005)
+          << id;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bin_scenes
