@@ -14,7 +14,8 @@ enum class ErrorKind {
   cancelled = 4,    ///< the caller asked to stop
 };
 
-/// One clear message: what is wrong, where it is (file, key, line), and how to mend it.
+/// One clear message: what is wrong, where it is (file, key, line), and how to mend it. what() is one printable line
+/// below 1 kB, whatever a file put into it; problem(), where() and remedy() are as they were given.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& what, const std::string& where, const std::string& remedy);
