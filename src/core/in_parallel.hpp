@@ -1,6 +1,8 @@
 /// Work that falls into pieces, on all cores.
 #pragma once
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -9,10 +11,18 @@
 namespace bin_scenes {
 
 /// work(i) for every i below the count, in any order. Other tasks stay out of this thread meanwhile: it may hold the
-/// lock of a part, for which they might wait.
+/// lock of a part, for which they might wait. Throws Error(cancelled) between two pieces once this thread's work is no
+/// longer wanted.
 template <class Work>
 void in_parallel(std::size_t count, const Work& work) {
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  const std::atomic<bool>* flag = cancel_flag();
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const CancelScope scope(flag);
+      stop_if_cancelled();
+      work(i);
+    });
+  });
 }
 
 }  // namespace bin_scenes

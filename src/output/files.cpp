@@ -6,41 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 namespace bin_scenes {
-
-namespace fs = std::filesystem;
-
-Temporary::Temporary(const std::string& target) : target_(fs::path(target).lexically_normal().string()) {
-  const fs::path path(target_);
-  path_ = (path.parent_path() / ("." + path.filename().string() + ".tmp-" + std::to_string(::getpid()))).string();
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-Temporary::~Temporary() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
-}
-
-void Temporary::commit() {
-  // A directory cannot be renamed over one that holds files: the old one steps aside first.
-  std::error_code error;
-  const std::string old = path_ + "-old";
-  const bool replaces = fs::is_directory(target_, error);
-  if (replaces) fs::rename(target_, old, error);
-  if (!error || !replaces) fs::rename(path_, target_, error);
-  if (error) {
-    std::error_code ignored;
-    if (replaces) fs::rename(old, target_, ignored);
-    throw environment_error("cannot be put in place: " + error.message(), target_, "check permissions and free space");
-  }
-  if (replaces) fs::remove_all(old, error);
-  path_.clear();
-}
 
 void write_bytes(const std::string& path, const void* data, std::size_t size) {
   const auto fail = [&](const char* what) {

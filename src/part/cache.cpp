@@ -1,5 +1,7 @@
 #include "bin_scenes/part/cache.hpp"
 
+#include "bin_scenes/core/temporary.hpp"
+
 #include <fcntl.h>
 #include <pwd.h>
 #include <sys/mman.h>
@@ -10,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -77,7 +80,7 @@ std::optional<CachedBytes> Cache::read(const std::string& kind, const std::strin
   const std::string folder = directory();
   if (folder.empty()) return std::nullopt;
   const std::string name = file_name(kind, key);
-  const int descriptor = open((fs::path(folder) / name).c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open((fs::path(folder) / name).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return std::nullopt;
   struct stat status;
   const bool whole = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
@@ -107,24 +110,19 @@ void Cache::write(const std::string& kind, const std::string& key, const Bytes& 
 
   const std::string name = file_name(kind, key);
   const std::string target = (fs::path(folder) / name).string();
-  // A name of its own for each writer; rename makes the file appear whole or not at all.
-  std::string temporary = target + ".XXXXXX";
-  const int descriptor = mkstemp(temporary.data());
-  if (descriptor < 0) return;
-  close(descriptor);
-
+  // Each writer works under a name of its own; a cache that loses power may lose what it holds, so nothing waits for it.
+  static std::once_flag once;
+  std::call_once(once, [&] { remove_leftovers(folder); });
+  Temporary file(target);
   Header header;
   header.size = bytes.size();
   digest_of(name, bytes.data(), bytes.size()).copy(header.digest, sizeof header.digest);
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(&header), sizeof header);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (file) {
-    fs::rename(temporary, target, failed);
-    if (!failed) return;
-  }
-  fs::remove(temporary, failed);
+  std::ofstream out(file.path(), std::ios::binary);
+  out.write(reinterpret_cast<const char*>(&header), sizeof header);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) return;
+  fs::rename(file.path(), target, failed);
 }
 
 }  // namespace bin_scenes

@@ -2,6 +2,7 @@
 /// A full disk or an unwritable directory is an environment Error.
 #pragma once
 
+#include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_camera.hpp"
@@ -55,21 +56,5 @@ using BagWriter =
 void register_bag_writer(BagWriter writer);
 /// Empty without ROS.
 const BagWriter& bag_writer();
-
-/// A file or directory that only appears under its name once it is whole: work on path(), then commit().
-/// Destroyed without commit(), it leaves nothing behind. commit() replaces what stood there.
-class Temporary {
- public:
-  explicit Temporary(const std::string& target);
-  ~Temporary();
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-
-  const std::string& path() const { return path_; }
-  void commit();
-
- private:
-  std::string target_, path_;
-};
 
 }  // namespace bin_scenes

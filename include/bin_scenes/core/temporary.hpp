@@ -1,0 +1,35 @@
+/// Files and directories that appear whole or not at all, survive a loss of power once they have appeared, and leave
+/// nothing behind that nobody removes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace bin_scenes {
+
+/// A file or directory that only appears under its name once it is whole: work on path(), then commit().
+/// Destroyed without commit(), it leaves nothing behind. commit() replaces what stood there.
+///
+/// Until then it is hidden beside its target as .NAME.tmp-PID-NUMBER@HOST, so that processes of several hosts can share
+/// a directory. What a killed process left is removed by remove_leftovers().
+class Temporary {
+ public:
+  explicit Temporary(const std::string& target);
+  ~Temporary();
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const std::string& path() const { return path_; }
+  /// Contents are on the disk before the name changes, and the name before this returns; what lies in a directory that is
+  /// itself temporary gets there with it. Throws an environment Error.
+  void commit();
+
+ private:
+  std::string target_, path_;
+};
+
+/// Removes temporaries in `directory` whose writer ran on this host and runs no more. Those of other hosts are not
+/// touched: nobody can tell here whether they are still written. Returns how many.
+std::size_t remove_leftovers(const std::string& directory);
+
+}  // namespace bin_scenes

@@ -1,0 +1,34 @@
+/// Regular files read whole or hashed. Never waits for another process: a pipe, a device or a folder is refused at once.
+/// Both throw an input Error that names the path, and Error(cancelled) once this thread's work is no longer wanted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace bin_scenes {
+
+/// @param most  bytes; a larger file is refused before it is read.
+std::string read_file(const std::string& path, std::size_t most = SIZE_MAX);
+/// Of its bytes, as 64 lower-case hex digits. Holds none of them in memory.
+std::string sha256_of_file(const std::string& path);
+
+/// A file that is open and regular.
+class RegularFile {
+ public:
+  explicit RegularFile(const std::string& path);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  /// The next bytes into `to`, at most `size`; 0 at the end.
+  std::size_t read(char* to, std::size_t size);
+  std::size_t size() const { return size_; }  ///< bytes, when it was opened
+
+ private:
+  std::string path_;
+  int descriptor_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace bin_scenes
