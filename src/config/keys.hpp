@@ -231,6 +231,10 @@ void visit(Visitor& v, Acceptance& accept) {
            "largest way that a part at rest could fall before it touches what is below / its diagonal; farther: the "
            "scene is set apart"},
           accept.gap);
+  v.field({"energy", "",
+           "largest energy that a part gained from nowhere between two looks (1/60 s) / (its mass * gravity * its "
+           "diagonal); more: contacts threw it about, and the scene is set apart"},
+          accept.energy);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
 }
 

@@ -5,12 +5,12 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
+#include "config/yaml_text.hpp"
+#include "core/read_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 
 namespace bin_scenes {
@@ -18,13 +18,6 @@ namespace bin_scenes {
 namespace config {
 
 namespace {
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw input_error("cannot be read", path, "name a file that is there and readable");
-  return bytes;
-}
 
 /// parts[0].count or parts.0.count -> parts, 0, count.
 std::vector<std::string> split(const std::string& path) {
@@ -60,9 +53,9 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
   const std::vector<std::string> words = split(text.substr(0, equals));
   YAML::Node value;
   try {
-    value = YAML::Load(text.substr(equals + 1));
-  } catch (const YAML::Exception& error) {
-    throw input_error("the value is not YAML: " + error.msg, where, "quote it, or mend its brackets");
+    value = load_yaml(text.substr(equals + 1), where);
+  } catch (const Error& error) {
+    throw input_error("the value is " + error.problem(), where, "quote it, or mend its brackets");
   }
   YAML::Node node;
   node.reset(root);  // operator= would write into the tree instead of moving along it
@@ -87,21 +80,11 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
 }
 
 YAML::Node parse(const std::string& text, const std::string& file) {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(text);
-  } catch (const YAML::Exception& error) {
-    throw input_error("not YAML: " + error.msg, file + ":" + std::to_string(error.mark.line + 1),
-                      "mind indentation, brackets and colons");
-  }
-  if (documents.empty() || documents[0].IsNull()) {
+  const YAML::Node document = load_yaml(text, file);
+  if (document.IsNull()) {
     throw input_error("the request is empty", file, "it needs at least `parts`; see docs/request.md");
   }
-  if (documents.size() > 1) {
-    throw input_error("the file holds " + std::to_string(documents.size()) + " requests", file,
-                      "keep one YAML document a file");
-  }
-  return documents[0];
+  return document;
 }
 
 using Where = std::function<std::string(const std::string& path)>;
@@ -110,7 +93,7 @@ using Where = std::function<std::string(const std::string& path)>;
 /// A scene that does not tell them has only the name of the file.
 bool is_model_of(const PartLine& line, const Scene& scene, std::size_t index) {
   if (index < scene.model_sha256.size() && !scene.model_sha256[index].empty()) {
-    return scene.model_sha256[index] == sha256_hex(bytes_of(line.path));
+    return scene.model_sha256[index] == line.sha256;
   }
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename(); };
   return std::all_of(scene.parts.begin(), scene.parts.end(),
@@ -167,8 +150,12 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
     const std::string key = "parts[" + std::to_string(i) + "].model";
     if (line.model.empty()) throw input_error("'" + key + "' is missing", where(key), "name a mesh file");
     line.path = resolve_file(line.model, base, rules, where(key));
+    line.sha256 = sha256_of_file(line.path);
   }
-  if (!request.bin.mesh.empty()) request.bin.mesh = resolve_file(request.bin.mesh, base, rules, where("bin.mesh"));
+  if (!request.bin.mesh.empty()) {
+    request.bin.mesh = resolve_file(request.bin.mesh, base, rules, where("bin.mesh"));
+    request.bin.mesh_sha256 = sha256_of_file(request.bin.mesh);
+  }
   if (!request.pour.scene.empty()) {
     if (request.pour.pattern != Pour::Pattern::given) {
       throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");
@@ -214,7 +201,7 @@ Request read_request(const std::string& path, const std::vector<Override>& overr
   if (!std::filesystem::is_regular_file(absolute, error)) {
     throw input_error("the request is not a file", path, "name a YAML file");
   }
-  return config::read(config::bytes_of(path), path, absolute.parent_path().string(), overrides, rules);
+  return config::read(read_file(path, config::longest_text), path, absolute.parent_path().string(), overrides, rules);
 }
 
 Request read_request_text(const std::string& yaml, const std::string& base_directory,
@@ -228,11 +215,11 @@ std::string request_hash(const Request& request) {
   content.first = 0;
   std::string text;
   if (!content.bin.mesh.empty()) {  // where a file lies does not matter, what is in it does
-    text += sha256_hex(config::bytes_of(content.bin.mesh)) + "\n";
+    text += content.bin.mesh_sha256 + "\n";
     content.bin.mesh = "mesh";
   }
   for (const PartLine& line : content.parts) {
-    if (!line.path.empty()) text += sha256_hex(config::bytes_of(line.path)) + "\n";
+    if (!line.path.empty()) text += line.sha256 + "\n";
   }
   return sha256_hex(write_request(content) + text);
 }

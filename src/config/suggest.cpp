@@ -24,6 +24,9 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   // A word of which every letter would have to change is no mistyped one.
   std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {
+    // No distance is below the difference in length: a word of megabytes costs nothing.
+    const std::size_t longer = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (longer >= best_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best = candidate;

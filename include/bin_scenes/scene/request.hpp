@@ -27,6 +27,7 @@ struct Bin {
   Vec3 inner_size = Vec3(0.40, 0.30, 0.20);  ///< box: inner length x, width y, height z (m)
   double wall_thickness = 0.005;             ///< box: of walls and floor (m); seen by cameras, never by the physics
   std::string mesh;                          ///< mesh: path
+  std::string mesh_sha256;                   ///< mesh: of the file's bytes as the reader saw them; empty: not known
   std::optional<Unit> unit;                  ///< mesh: unit of the file
   Pose pose;                                 ///< mesh: file frame in the bin frame
   double friction = 0.5;                     ///< pair coefficient = sqrt(part * bin)
@@ -37,6 +38,7 @@ struct Bin {
 struct PartLine {
   std::string model;           ///< path as written by the user
   std::string path;            ///< resolved absolute path; filled by the reader
+  std::string sha256;          ///< of the file's bytes as the reader saw them; empty: not known
   std::optional<Unit> unit;    ///< none: metres, unless the size is implausible for the bin (an error)
   double scale = 1.0;          ///< multiplies the model after the unit
   std::size_t count = 1;
@@ -134,6 +136,7 @@ struct Sensor {
 struct Acceptance {
   double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
   double gap = 0.005;         ///< largest free way of a part at rest along gravity / its diagonal
+  double energy = 2.0;        ///< largest gain of energy from nowhere between two looks, in m g d of the part
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };
 
