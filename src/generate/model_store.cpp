@@ -1,21 +1,40 @@
 #include "generate/model_store.hpp"
 
+#include "bin_scenes/core/error.hpp"
+
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 namespace bin_scenes {
 
 namespace {
 
-/// Everything the loaded model depends on; time and size of the file stand for its contents, so that an edited file
-/// is read again. (The disk cache below goes by the contents themselves.)
-std::string key_of(const std::string& path, const LoadOptions& options) {
-  std::error_code ignored;
-  std::string key = path + "|" + (options.unit ? name_of(*options.unit) : "-") + "|" + std::to_string(options.scale) +
-                    "|" + (options.thickness ? std::to_string(*options.thickness) : "-") +
+/// Every bit of a number counts: sizes that differ by less than a printed digit are different parts.
+std::string text_of(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", number);
+  return text;
+}
+
+/// Everything the loaded model depends on. Where the request does not tell the digest of the file, its time and size
+/// stand for its contents, so that an edited file is read again. (The disk cache below goes by the contents themselves.)
+std::string key_of(const std::string& path, const std::string& sha256, const LoadOptions& options) {
+  std::string key = path + "|" + (options.unit ? name_of(*options.unit) : "-") + "|" + text_of(options.scale) + "|" +
+                    (options.thickness ? text_of(*options.thickness) : "-") +
                     (options.require_closed ? "|closed|" : "|open|");
+  if (!sha256.empty()) return key + sha256;
+  std::error_code ignored;
   key += std::to_string(std::filesystem::file_size(path, ignored)) + "|";
   return key + std::to_string(std::filesystem::last_write_time(path, ignored).time_since_epoch().count());
+}
+
+PartModelPtr load_checked(const std::string& path, const std::string& sha256, const LoadOptions& options) {
+  PartModelPtr model = PartModel::load(path, options);
+  if (!sha256.empty() && model->load_report().content_sha256 != sha256) {
+    throw input_error("the file has changed since the request was read", path, "ask again");
+  }
+  return model;
 }
 
 void check_sizes(const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin) {
@@ -27,6 +46,7 @@ void check_sizes(const Request& request, const std::vector<PartModelPtr>& parts,
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PartLine& line = request.parts[i];
+    if (line.fixed && line.unit) continue;  // a floor or a machine bed may well be larger than the bin
     check_plausible_size(parts[i]->mesh(), request.bin, line.path, line.unit, bin ? &bin->mesh() : nullptr);
   }
 }
@@ -35,12 +55,12 @@ void check_sizes(const Request& request, const std::vector<PartModelPtr>& parts,
 
 void ModelStore::load(const Request& request) {
   std::map<std::string, PartModelPtr> used;
-  const auto get = [&](const std::string& path, const LoadOptions& options) {
-    const std::string key = key_of(path, options);
+  const auto get = [&](const std::string& path, const std::string& sha256, const LoadOptions& options) {
+    const std::string key = key_of(path, sha256, options);
     PartModelPtr& model = used[key];
     if (!model) {
       const auto known = models_.find(key);
-      model = known != models_.end() ? known->second : PartModel::load(path, options);
+      model = known != models_.end() ? known->second : load_checked(path, sha256, options);
     }
     return model;
   };
@@ -50,7 +70,7 @@ void ModelStore::load(const Request& request) {
     LoadOptions options;
     options.unit = request.bin.unit;
     options.require_closed = false;
-    bin = get(request.bin.mesh, options);
+    bin = get(request.bin.mesh, request.bin.mesh_sha256, options);
   }
   std::vector<PartModelPtr> parts;
   for (const PartLine& line : request.parts) {
@@ -58,7 +78,7 @@ void ModelStore::load(const Request& request) {
     options.unit = line.unit;
     options.scale = line.scale;
     options.thickness = line.thickness;
-    parts.push_back(get(line.path, options));
+    parts.push_back(get(line.path, line.sha256, options));
   }
   check_sizes(request, parts, bin);
   models_ = std::move(used);

@@ -2,6 +2,7 @@
 /// message instead of the process. Seen with assimp 5.2.5: a damaged COLLADA file crashed it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -13,8 +14,14 @@ struct Contained {
   std::string failure;  ///< if not finished: "crashed (Segmentation fault)", "did not finish within 60 s"
 };
 
-/// `work` must not throw and must need nothing but memory and files: no other thread of the parent lives on in the
-/// child. Throws an environment Error if no process can be started.
-Contained run_contained(const std::function<std::string()>& work, unsigned cpu_seconds);
+struct ContainedLimits {
+  unsigned cpu_seconds = 60;            ///< processor time, so that a busy machine does not change what can be read
+  std::size_t bytes = std::size_t{4} << 30;  ///< memory beside what the parent has
+};
+
+/// `work` must not throw anything but std::bad_alloc and must need nothing but memory and files: no other thread of the
+/// parent lives on in the child. The child ends with the thread that waits for it, and at once when the work of that
+/// thread is no longer wanted: Error(cancelled). Throws an environment Error if no process can be started.
+Contained run_contained(const std::function<std::string()>& work, const ContainedLimits& limits);
 
 }  // namespace bin_scenes

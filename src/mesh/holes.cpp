@@ -1,5 +1,6 @@
 #include "holes.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 #include "shells.hpp"
 
@@ -63,6 +64,7 @@ void fill_with_least_area(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
   std::vector<std::uint32_t> apex(n * n, 0);
   const auto at = [&](std::size_t i) { return mesh.vertices[loop[i]]; };
   for (std::size_t span = 2; span < n; ++span) {
+    stop_if_cancelled();
     for (std::size_t i = 0; i + span < n; ++i) {
       const std::size_t k = i + span;
       double best = std::numeric_limits<double>::infinity();

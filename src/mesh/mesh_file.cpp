@@ -5,6 +5,7 @@
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "collada.hpp"
 #include "contained.hpp"
+#include "core/read_file.hpp"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -15,10 +16,8 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
@@ -31,7 +30,8 @@ namespace {
 constexpr std::size_t max_triangles = 20'000'000;  // 2 GB in memory
 const char* const formats = "give an STL, OBJ, PLY, DAE or OFF file";
 
-std::string read_bytes(const std::string& path) {
+/// Refuses what cannot be a model before any of it is read.
+void check_file(const std::string& path) {
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) {
@@ -47,12 +47,6 @@ std::string read_bytes(const std::string& path) {
                           std::to_string(max_model_file_size >> 20) + " MiB that are read",
                       path, "reduce the mesh; a part of a pile needs at most some 100,000 triangles");
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (failed || !file || !file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw input_error(std::string("cannot be read: ") + std::strerror(errno), path, "check the file's permissions");
-  }
-  return bytes;
 }
 
 bool starts_with(const std::string& bytes, const std::string& text) {
@@ -140,6 +134,11 @@ void check_promised_counts(const std::string& bytes, const std::string& format, 
     return;
   } else if (format == "PLY") {
     std::string line;
+    const std::string header = bytes.substr(0, 65536);
+    if (header.find("\nend_header") == std::string::npos && header.find("\rend_header") == std::string::npos) {
+      throw input_error("the file is cut off or damaged: its header has no end in its first 64 KiB", path,
+                        "copy or export it again");  // assimp searches it for minutes
+    }
     while (std::getline(text, line) && !starts_with(line, "end_header")) {
       std::istringstream words(line);
       std::string keyword, name;
@@ -244,6 +243,8 @@ Import import_here(const std::string& bytes, const std::string& format) {
     result.meshes = scene->mNumMeshes;
     // assimp puts the unit into the root transform of a COLLADA scene, in single precision; it is applied later here.
     append(result, *scene, format == "DAE");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     result.complaint = error.what();
   }
@@ -258,6 +259,15 @@ template <class T>
 void take(const std::string& from, std::size_t& offset, T* to, std::size_t count) {
   std::memcpy(static_cast<void*>(to), from.data() + offset, count * sizeof(T));
   offset += count * sizeof(T);
+}
+
+/// What a file may cost: ten times what assimp takes for the dearest format, an XML of many short numbers.
+ContainedLimits limits_of(std::size_t bytes) {
+  const double megabytes = 1e-6 * static_cast<double>(bytes);
+  ContainedLimits limits;
+  limits.cpu_seconds = static_cast<unsigned>(std::min(2.0 + 2.0 * megabytes, 120.0));
+  limits.bytes = static_cast<std::size_t>(256e6 + 200.0 * static_cast<double>(bytes));
+  return limits;
 }
 
 /// assimp in a process of its own; the result comes back through a pipe.
@@ -279,7 +289,7 @@ Import import_contained(const std::string& bytes, const std::string& format) {
         put(output, import.mesh.triangles.data(), counts[2]);
         return output;
       },
-      60);
+      limits_of(bytes.size()));
   Import import;
   if (!child.finished) {
     import.complaint = "assimp " + child.failure;
@@ -303,12 +313,19 @@ Import import_contained(const std::string& bytes, const std::string& format) {
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::string& path) {
-  std::string bytes = read_bytes(path);
+ModelFile read_model_file(const std::string& path) {
+  check_file(path);
+  ModelFile file{path, read_file(path), {}};
+  file.sha256 = sha256_hex(file.bytes);
+  return file;
+}
+
+MeshFile parse_mesh_file(const ModelFile& model) {
+  const std::string& path = model.path;
   MeshFile file;
-  file.content_sha256 = sha256_hex(bytes.data(), bytes.size());
-  if (std::optional<std::string> text = utf8_from_utf16(bytes)) {
-    bytes = std::move(*text);
+  const std::optional<std::string> text = utf8_from_utf16(model.bytes);
+  const std::string& bytes = text ? *text : model.bytes;
+  if (text) {
     file.flags.push_back({"file_mended", "the file is UTF-16 text and was read as UTF-8", "save it as UTF-8"});
   }
 

@@ -2,7 +2,7 @@
 /// axes, nothing welded or repaired. The only place that sees assimp.
 #pragma once
 
-#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/scene/report.hpp"
 
 #include <optional>
@@ -17,11 +17,9 @@ struct MeshFile {
   std::size_t meshes = 0;
   std::optional<double> metres_per_unit;  ///< where the file states it
   std::vector<Flag> flags;                ///< what had to be mended in memory, what was left out
-  std::string content_sha256;
 };
 
-/// Throws an input Error with path, cause and remedy: missing, a folder, unreadable, empty, too large, unknown format,
-/// refused by assimp (with what is wrong in it where that can be told), nothing but points or lines.
-MeshFile read_mesh_file(const std::string& path);
+/// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where that can be told), nothing but points or lines.
+MeshFile parse_mesh_file(const ModelFile& file);
 
 }  // namespace bin_scenes

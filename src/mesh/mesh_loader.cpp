@@ -1,5 +1,6 @@
 #include "bin_scenes/mesh/mesh_loader.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "mesh_file.hpp"
 #include "mesh_repair.hpp"
@@ -79,15 +80,12 @@ class Repair {
       : mesh_(loaded.mesh), report_(loaded.report), options_(options), where_(where), diagonal_(diagonal) {}
 
   void run() {
-    weld();
-    remove_duplicates();
-    remove_slivers();
-    agree_winding();
-    close_holes();
-    if (options_.thickness) thicken();
-    turn_outward();
-    unite();
-    judge();
+    for (void (Repair::*step)() : {&Repair::weld, &Repair::remove_duplicates, &Repair::remove_slivers,
+                                   &Repair::agree_winding, &Repair::close_holes, &Repair::thicken,
+                                   &Repair::turn_outward, &Repair::unite, &Repair::judge}) {
+      stop_if_cancelled();
+      (this->*step)();
+    }
   }
 
  private:
@@ -204,6 +202,7 @@ class Repair {
   }
 
   void thicken() {
+    if (!options_.thickness) return;
     if (*options_.thickness > diagonal_) {
       throw input_error("the thickness of " + number(*options_.thickness) + " m is more than the part is large, " +
                             number(diagonal_) + " m",
@@ -295,7 +294,13 @@ LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string&
 
 LoadedMesh load_mesh(const std::string& path, const LoadOptions& options) {
   check_options(options, path);
-  MeshFile file = read_mesh_file(path);
+  return load_mesh(read_model_file(path), options);
+}
+
+LoadedMesh load_mesh(const ModelFile& model, const LoadOptions& options) {
+  const std::string& path = model.path;
+  check_options(options, path);
+  MeshFile file = parse_mesh_file(model);
   const double own_unit = file.metres_per_unit.value_or(1.0);
   const double metres = options.unit ? metres_per(*options.unit) : own_unit;
   for (Vec3& v : file.mesh.vertices) v *= metres * options.scale;
@@ -304,7 +309,7 @@ LoadedMesh load_mesh(const std::string& path, const LoadOptions& options) {
   LoadReport& report = loaded.report;
   report.format = file.format;
   report.meshes = file.meshes;
-  report.content_sha256 = file.content_sha256;
+  report.content_sha256 = model.sha256;
   report.metres_per_unit = metres;
   report.file_metres_per_unit = own_unit;
   for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch}) {

@@ -1,5 +1,6 @@
 #include "t_junctions.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
     std::vector<char> split(mesh.triangles.size(), 0);
     std::size_t inserted_now = 0;
     for (const EdgeUse& edge : open) {
+      stop_if_cancelled();
       if (split[edge.triangle]) continue;
       const Triangle t = mesh.triangles[edge.triangle];
       const std::uint32_t a = t[edge.corner], b = t[(edge.corner + 1) % 3], c = t[(edge.corner + 2) % 3];

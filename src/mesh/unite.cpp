@@ -1,5 +1,6 @@
 #include "unite.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 #include "shells.hpp"
 #include "t_junctions.hpp"
@@ -102,6 +103,7 @@ class Union {
     Mesh result;
     double work = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      stop_if_cancelled();
       for (const Polygon& piece : pieces(t)) {
         if (piece.size() < 3) continue;
         work += static_cast<double>(others_to_ask(triangle_boxes_[t], labels_.of_triangle[t]));
@@ -126,6 +128,7 @@ class Union {
     });
     others_.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
+      stop_if_cancelled();
       const std::uint32_t a = order[i];
       for (std::size_t j = i + 1; j < order.size(); ++j) {
         const std::uint32_t b = order[j];

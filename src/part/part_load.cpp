@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
-#include <optional>
-#include <vector>
 
 namespace bin_scenes {
 namespace {
@@ -27,26 +23,9 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// Of a file's contents; nothing if it is none that load_mesh would read.
-std::optional<std::string> digest_of(const std::string& path) {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed)) return std::nullopt;
-  if (std::filesystem::file_size(path, failed) > max_model_file_size || failed) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> piece(std::size_t{1} << 18);
-  Sha256 digest;
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
-    digest.add(piece.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (!file.eof()) return std::nullopt;
-  return digest.hex();
-}
-
-/// Everything the loaded mesh depends on; empty if the file cannot be read (load_mesh then says why).
-std::string load_key(const std::string& path, const std::string& extension, const LoadOptions& o) {
-  const std::optional<std::string> digest = digest_of(path);
-  if (!digest) return {};
-  return *digest + " " + extension + " " + (o.unit ? name_of(*o.unit) : "own") + " " + key_text(o.scale) +
+/// Everything the loaded mesh depends on.
+std::string load_key(const ModelFile& file, const std::string& extension, const LoadOptions& o) {
+  return file.sha256 + " " + extension + " " + (o.unit ? name_of(*o.unit) : "own") + " " + key_text(o.scale) +
          key_text(o.weld) + key_text(o.max_hole) + (o.thickness ? key_text(*o.thickness) : "solid ") +
          (o.require_closed ? "closed" : "open");
 }
@@ -54,19 +33,20 @@ std::string load_key(const std::string& path, const std::string& extension, cons
 }  // namespace
 
 std::shared_ptr<const PartModel> PartModel::load(const std::string& path, const LoadOptions& options) {
+  const ModelFile file = read_model_file(path);
   const std::string extension = extension_of(path);
-  const std::string key = self_contained(extension) ? load_key(path, extension, options) : std::string();
-  if (key.empty()) {
+  if (!self_contained(extension)) {
     ++PartWorkCounter::built;
-    return make(load_mesh(path, options), path);
+    return make(load_mesh(file, options), path);
   }
+  const std::string key = load_key(file, extension, options);
   // Two lines of a request that name the same file share its proxies as long as anyone holds the part.
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<const PartModel>> loaded;
   const std::lock_guard<std::mutex> lock(mutex);
   std::weak_ptr<const PartModel>& known = loaded[path + "\n" + key];
   if (const auto part = known.lock()) return part;
-  const auto part = make(cached<LoadedMesh>("mesh", key, [&] { return load_mesh(path, options); }), path);
+  const auto part = make(cached<LoadedMesh>("mesh", key, [&] { return load_mesh(file, options); }), path);
   known = part;
   return part;
 }

@@ -131,6 +131,25 @@ bool has_flag(const LoadReport& report, const std::string& code) {
   return false;
 }
 
+// assimp 5.2.5 searches such a file for minutes.
+TEST_F(MeshLoader, APlyCutBeforeTheEndOfItsHeaderIsRefusedAtOnce) {
+  std::string cut = ply(box_mesh({1, 2, 3}));
+  cut.resize(cut.find("end_header"));
+  EXPECT_CONTAINS(load_error(file("cut.ply", cut)), "cut off or damaged");
+  EXPECT_CONTAINS(load_error(file("long.ply", "ply\nformat ascii 1.0\n" + std::string(500'000, 'c'))), "cut off");
+}
+
+// Whoever writes to the file meanwhile: digest and mesh are of the same bytes.
+TEST_F(MeshLoader, AFileThatIsReadIsReadOnce) {
+  const std::string path = file("part.stl", stl_binary(box_mesh({1, 2, 3})));
+  const ModelFile model = read_model_file(path);
+  file("part.stl", stl_binary(box_mesh({7, 8, 9})));
+  const LoadedMesh loaded = load_mesh(model);
+  EXPECT_NEAR(loaded.mesh.bounds().size().x(), 1.0, 1e-6);
+  EXPECT_EQ(loaded.report.content_sha256, model.sha256);
+  EXPECT_NE(load_mesh(path).report.content_sha256, model.sha256);
+}
+
 TEST_F(MeshLoader, EveryFormatGivesTheSamePart) {
   const Mesh part = l_mesh(0.5);
   const std::pair<std::string, std::string> files[] = {{"a.stl", stl_ascii(part)},

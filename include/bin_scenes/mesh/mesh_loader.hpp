@@ -26,6 +26,13 @@ struct LoadOptions {
   bool require_closed = true;        ///< false: report openness instead of throwing (inspect, bins)
 };
 
+/// A model file, read once: what its digest says is what becomes of it, whoever writes to the file meanwhile.
+struct ModelFile {
+  std::string path;
+  std::string bytes;
+  std::string sha256;  ///< of the bytes
+};
+
 /// What was found in the file and what was done about it.
 struct LoadReport {
   std::string format;
@@ -54,7 +61,10 @@ struct LoadedMesh {
 /// Where assimp refuses a DAE, it is read once more without images, materials and animations: flag "file_mended".
 /// Closed shells that overlap are united: flag "shells_united". Where that fails ("shells_overlap"), what they share counts
 /// twice in volume and mass, and only their union is inside (winding number, part/mesh_query.hpp).
+LoadedMesh load_mesh(const ModelFile& file, const LoadOptions& options = {});
 LoadedMesh load_mesh(const std::string& path, const LoadOptions& options = {});
+/// Throws an input Error: missing, a folder, no regular file, unreadable, empty, above max_model_file_size.
+ModelFile read_model_file(const std::string& path);
 
 /// The same checks and repairs on a mesh that is in memory already (metres).
 LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string& where);
