@@ -1,5 +1,6 @@
 #include "bin_scenes/part/convex_hulls.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
@@ -29,6 +30,9 @@ constexpr int tries = 4;
 constexpr int spare = 3;
 // Patches of HACD to merge from.
 constexpr int patches = 64;
+constexpr int all_vertices = std::numeric_limits<int>::max();
+constexpr int most_more = 8;            // times as many vertices as asked for may a convex part get
+constexpr double convex_enough = 1e-3;  // of its volume may be missing from its hull
 
 /// A piece of the part on its way to a hull.
 struct Piece {
@@ -119,6 +123,7 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
   for (;;) {
     std::vector<std::pair<std::size_t, std::size_t>> pairs, unknown;
     for (std::size_t a = 0; a < n; ++a) {
+      stop_if_cancelled();
       for (std::size_t b = a + 1; b < n; ++b) {
         if (!alive[a] || !alive[b]) continue;
         if (count > all_pairs && !pieces[a].bounds.overlaps(pieces[b].bounds, touch)) continue;
@@ -185,6 +190,12 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     throw input_error("all vertices lie in one plane", "convex_hulls", "give a closed mesh with a volume");
   }
   judge({whole}, nullptr);
+  // Cutting a convex part helps nothing: a round one needs more vertices instead.
+  if (!best.met && mass_properties(convex_hull(mesh.vertices, all_vertices)).volume < (1 + convex_enough) * volume) {
+    for (int more = 2; more <= most_more && !best.met; more *= 2) {
+      judge({convex_hull(mesh.vertices, more * options.max_vertices)}, nullptr);
+    }
+  }
   if (!best.met && options.max_hulls > 1) {
     const double diagonal = mesh.bounds().diagonal();
     const Protrusion protrusion(query);

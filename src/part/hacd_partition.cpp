@@ -2,6 +2,7 @@
 
 #include "shells.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 
 #include <HACD/hacdHACD.h>
@@ -151,6 +152,10 @@ std::vector<long> run_hacd(const Mesh& mesh, int count) {
   hacd.SetAddFacesPoints(true);
   hacd.SetAddExtraDistPoints(true);
   hacd.SetAddNeighboursDistPoints(true);
+  hacd.SetCallBack([](const char*, double, double, std::size_t) {
+    stop_if_cancelled();
+    return true;
+  });
   if (!hacd.Compute() || hacd.GetPartition() == nullptr) return {};
   return {hacd.GetPartition(), hacd.GetPartition() + triangles.size()};
 }

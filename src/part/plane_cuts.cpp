@@ -2,6 +2,7 @@
 
 #include "core/in_parallel.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -146,6 +147,7 @@ class Cutter {
 
   void run(double limit, int max_pieces) {
     while (static_cast<int>(pieces_.size()) < max_pieces) {
+      stop_if_cancelled();
       const auto worst = std::max_element(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
         return (a.final ? -1.0 : a.protrusion) < (b.final ? -1.0 : b.protrusion);
       });

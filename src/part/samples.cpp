@@ -2,6 +2,7 @@
 
 #include "shells.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/features.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
@@ -206,6 +207,7 @@ void add_farthest(std::vector<SurfaceSample>& samples, const std::vector<Surface
   const std::size_t first_face = samples.size();
   double farthest = spacing;
   while (samples.size() < count && !heap.empty()) {
+    stop_if_cancelled();
     const auto [key, minus_index] = heap.top();
     heap.pop();
     const std::size_t i = static_cast<std::size_t>(-minus_index);

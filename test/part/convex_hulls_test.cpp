@@ -54,6 +54,15 @@ TEST(ConvexHulls, ConvexPartIsOneHullWithoutError) {
   }
 }
 
+// 64 vertices leave a ball by more than 1 % of its diagonal; cut into pieces it would take most of a minute.
+TEST(ConvexHulls, ABallOfManyFacetsIsOneHullOfMoreVertices) {
+  const ConvexHulls hulls = convex_hulls(sphere_mesh(0.02, 6));
+  EXPECT_TRUE(hulls.met);
+  ASSERT_EQ(hulls.hulls.size(), 1u);
+  EXPECT_LT(hulls.surface_error, 0.01);
+  EXPECT_LE(hulls.hulls[0].vertices.size(), 512u);
+}
+
 TEST(ConvexHulls, LIsExactlyTwoHulls) {
   const ConvexHulls hulls = convex_hulls(l_mesh(1.0));
   EXPECT_TRUE(hulls.met) << hulls.surface_error;

@@ -13,7 +13,7 @@ struct HullOptions {
   double max_error = 0.01;         ///< largest surface error / diagonal
   double max_volume_error = 0.05;  ///< by how much all hulls together may be too large / volume
   int max_hulls = 64;
-  int max_vertices = 64;  ///< per hull
+  int max_vertices = 64;  ///< per hull; a convex part that they do not fit gets up to eight times as many
 };
 
 struct ConvexHulls {
