@@ -20,7 +20,7 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs)
 
 add_message_files(FILES
-  Bin.msg Counter.msg Drift.msg ErrorCode.msg Flag.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
+  Bin.msg Counter.msg Drift.msg Energy.msg ErrorCode.msg Flag.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
   ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg)
 add_service_files(FILES GenerateScene.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)

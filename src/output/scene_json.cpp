@@ -100,6 +100,7 @@ Json json_of(const Report& report) {
     json["drift"] = json_of(static_cast<const Quantiles&>(report.drift));
     json["drift"]["turn_p95"] = report.drift.turn_p95;
   }
+  json["energy"] = {{"gain", report.energy.gain}, {"time", report.energy.time}, {"part", report.energy.part}};
   json["escaped"] = report.escaped;
   json["not_poured"] = report.not_poured;
   char hash[17];  // as text: many readers of JSON keep only 53 bits of a number

@@ -3,7 +3,7 @@
 #include "pour/pour_world.hpp"
 #include "solver/step_limit.hpp"
 
-#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/cancel.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -89,8 +89,9 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
 }
 
 void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
           const std::function<void(std::size_t, Scene&&)>& poured) {
+  const CancelScope scope(hooks.cancel);
   const PourPlan plan(request, parts, std::move(bin_model));
   const double step = solver.step_size();
   const auto slice = static_cast<std::uint64_t>(std::max(1.0, std::round(slice_seconds / step)));
@@ -117,7 +118,7 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
       scene.report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - r.begin).count();
       r.world.reset();
       ++done;
-      if (indices.size() == 1) scene.report.profile.merge(solver.profile().since(before));  // worlds share its counters
+      if (scenes.count == 1) scene.report.profile.merge(solver.profile().since(before));  // worlds share its counters
       poured(r.place, std::move(scene));
       return true;
     };
@@ -125,10 +126,10 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
   };
   const auto fill = [&](Group& group) {
     if (group.running.empty()) group.clock = 0;
-    while (group.running.size() < group_size && next < indices.size()) {
+    while (group.running.size() < group_size && next < scenes.count) {
       group.running.push_back({next, nullptr, std::chrono::steady_clock::now()});
       Running& r = group.running.back();
-      r.world = std::make_unique<PourWorld>(plan, solver, indices[next++]);
+      r.world = std::make_unique<PourWorld>(plan, solver, scenes.index(next++));
       if (tracing) sample(r);
     }
     group.left = slice;
@@ -164,7 +165,7 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
     double sum = static_cast<double>(done);
     for (const Group& group : groups)
       for (const Running& r : group.running) sum += r.world->progress().fraction;
-    fraction = std::max(fraction, sum / static_cast<double>(indices.size()));
+    fraction = std::max(fraction, sum / static_cast<double>(scenes.count));
     for (const Running& r : looked_at.running) {
       Progress progress = r.world->progress();
       progress.fraction = fraction;
@@ -173,9 +174,9 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
   };
 
   for (Group& group : groups) fill(group);
-  while (done < indices.size()) {
+  while (done < scenes.count) {
     for (Group& group : groups) {
-      if (hooks.cancel && hooks.cancel->load()) throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
+      stop_if_cancelled();
       if (group.begun) {
         end_piece(group);
         if (group.left == 0) {
@@ -194,7 +195,8 @@ void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver
 std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
                         const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
   std::vector<Scene> scenes(indices.size());
-  pour(request, parts, solver, indices, hooks, std::move(bin_model),
+  const SceneList list{indices.size(), [&](std::size_t place) { return indices[place]; }};
+  pour(request, parts, solver, list, hooks, std::move(bin_model),
        [&](std::size_t place, Scene&& scene) { scenes[place] = std::move(scene); });
   return scenes;
 }

@@ -1,6 +1,7 @@
 #include "pour/pour_world.hpp"
 #include "solver/step_limit.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ PourWorld::PourWorld(const PourPlan& plan, Solver& solver, std::size_t index)
       random_(plan.request.seed, index, Stream::pour),
       states_(plan.world.bodies.size()),
       place_(plan.world.bodies.size(), Place::waiting),
-      rest_(plan.world.bodies.size()) {
+      rest_(plan.world.bodies.size()),
+      audit_(plan.world) {
   for (BodyState& state : states_) state.pose = Pose::none();  // until a part is let in
 
   WorldDef def = plan.world;
@@ -61,6 +63,7 @@ PourWorld::~PourWorld() {
 
 void PourWorld::insert(std::size_t body, const BodyState& state) {
   solver_.insert(id_, body, state);
+  audit_.enter(body, state);
   states_[body] = state;
   place_[body] = Place::in;
 }
@@ -152,6 +155,7 @@ void PourWorld::judge() {
     rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
                {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
+  audit_.look(time_, states_);
   fresh_ = true;
 }
 
@@ -224,6 +228,7 @@ void PourWorld::let_in() {
   int misses = 0;
   std::vector<std::size_t> still;
   for (const std::size_t b : waiting_) {
+    stop_if_cancelled();
     std::optional<Pose> pose;
     const Cover& shape = plan_.covers[plan_.line_of[b]];
     if (misses < misses_per_look)
@@ -367,6 +372,8 @@ Scene PourWorld::scene() {
   report.simulated_s = time_;
   report.steps = earlier_steps_ + solver_.steps(id_);
   report.flags = solver_.flags(id_);
+  report.energy = audit_.worst();
+  for (Flag& flag : audit_.flags()) report.flags.push_back(std::move(flag));
   if (!report.not_poured.empty())
     report.flags.push_back({"not_poured",
                             std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +

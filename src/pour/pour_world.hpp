@@ -1,6 +1,7 @@
 /// One scene while it is poured: which parts are in, which wait, which rest, which escaped.
 #pragma once
 
+#include "pour/energy_audit.hpp"
 #include "pour/pour_plan.hpp"
 
 #include "bin_scenes/pour/pour.hpp"
@@ -76,6 +77,7 @@ class PourWorld {
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first
   RestWatch rest_;
+  EnergyAudit audit_;
 };
 
 }  // namespace bin_scenes

@@ -1,4 +1,6 @@
 #include "core/in_parallel.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "gap.hpp"
 
 #include <algorithm>
@@ -35,6 +37,7 @@ std::vector<Overlapping> near_pairs(const std::vector<Placed>& placed) {
   const auto fixed = [&](std::size_t i) { return placed[i].part->state == PartState::fixed; };
   std::vector<Overlapping> pairs;
   for (std::size_t s = 0; s < order.size(); ++s) {
+    stop_if_cancelled();
     const Placed& one = placed[order[s]];
     for (std::size_t t = s + 1; t < order.size() && placed[order[t]].box.lower.x() <= one.box.upper.x(); ++t) {
       if (!one.box.overlaps(placed[order[t]].box) || (fixed(order[s]) && fixed(order[t]))) continue;
@@ -162,6 +165,13 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
   if (worst_gap.value > request.accept.gap) {
     report.reasons.push_back("part " + std::to_string(worst_gap.what) + " could fall by " + percent(worst_gap.value) +
                              " of its size, which is above accept.gap " + percent(request.accept.gap));
+  }
+  if (report.energy.gain > request.accept.energy) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
+                  report.energy.part, report.energy.gain, report.energy.time, request.accept.energy);
+    report.reasons.push_back(text);
   }
   const auto is_in = [](const ScenePart& p) { return p.state != PartState::not_poured && p.state != PartState::fixed; };
   if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {

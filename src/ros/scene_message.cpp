@@ -164,6 +164,9 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.drift.measured = report.drift.measured;
   message.drift.distance = quantiles_message(report.drift);
   message.drift.turn_p95 = report.drift.turn_p95;
+  message.energy.gain = report.energy.gain;
+  message.energy.time = report.energy.time;
+  message.energy.part = report.energy.part;
   message.escaped.assign(report.escaped.begin(), report.escaped.end());
   message.not_poured.assign(report.not_poured.begin(), report.not_poured.end());
   message.state_hash = report.state_hash;
@@ -203,6 +206,9 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.drift.measured = message.drift.measured;
   set(report.drift, message.drift.distance);
   report.drift.turn_p95 = message.drift.turn_p95;
+  report.energy.gain = message.energy.gain;
+  report.energy.time = message.energy.time;
+  report.energy.part = message.energy.part;
   report.escaped.assign(message.escaped.begin(), message.escaped.end());
   report.not_poured.assign(message.not_poured.begin(), message.not_poured.end());
   report.state_hash = message.state_hash;

@@ -32,9 +32,15 @@ struct RunHooks {
 /// `bin_model`: Bin::Kind::mesh only; loaded through the cache when not given.
 WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model = nullptr);
 
-/// Pours scene `index` of the request for each of the given indices, Solver::worlds_at_once() of them at a time (a
+/// Scenes to pour, by place: a rule instead of a list, since a request may ask for a thousand million.
+struct SceneList {
+  std::size_t count = 0;
+  std::function<std::size_t(std::size_t place)> index;
+};
+
+/// Pours scene `index` of the request for each of the given scenes, Solver::worlds_at_once() of them at a time (a
 /// world that is done leaves and the next index takes its place), and hands each to `poured` as soon as it rests, with
-/// its place in `indices`, from the calling thread: poses, states, at_rest, escaped, not_poured, simulated_s, steps,
+/// its place in the list, from the calling thread: poses, states, at_rest, escaped, not_poured, simulated_s, steps,
 /// flags and state_hash filled in. Quality and visibility are not (quality/, sensor/). A scene depends on (request,
 /// seed, index) alone, not on what runs beside it.
 ///
@@ -49,7 +55,7 @@ WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
 void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model,
+          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
           const std::function<void(std::size_t place, Scene&& scene)>& poured);
 
 /// The same, with all scenes at the end, in order of `indices`.

@@ -41,7 +41,8 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 /// already holds it only if the shortest way out of it leads up, or if it is in the way from the nearest place where the
 /// two do not overlap. Parts with nothing at all below them are left out, and so is everything without gravity.
 /// Accepted, unless a pair or a part and the bin overlap by more than accept.penetration, a part at rest could fall by
-/// more than accept.gap, parts escaped (and accept.escaped is not set), none of the parts that should have been poured
+/// more than accept.gap, a part gained more energy from nowhere than accept.energy (report.energy, which pour fills in),
+/// parts escaped (and accept.escaped is not set), none of the parts that should have been poured
 /// was, or the scene is not at rest (and no exact time was asked for).
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
            const PartModelPtr& bin_model = nullptr);

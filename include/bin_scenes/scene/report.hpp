@@ -36,6 +36,13 @@ struct DriftReport : Quantiles {       ///< m, moved centre of mass over 0.5 s o
   double turn_p95 = 0.0;               ///< rad
 };
 
+/// Energy that a part gained and that nothing gave it: a solver whose contacts throw parts about.
+struct EnergyReport {
+  double gain = 0.0;  ///< largest between two looks / (m g d) of the part; m mass, d diagonal of its bounding box
+  double time = 0.0;  ///< s, simulated, of the look that found it
+  int part = -1;      ///< id; -1 if nobody gained anything
+};
+
 struct Report {
   bool at_rest = false;
   bool accepted = false;
@@ -49,6 +56,7 @@ struct Report {
   PenetrationReport penetration;
   Quantiles gap;                       ///< free way of the parts at rest along gravity (m)
   DriftReport drift;
+  EnergyReport energy;
   std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite
   std::vector<int> not_poured;         ///< ids that found no room above the heap
   std::uint64_t state_hash = 0;        ///< of all final poses, bit for bit

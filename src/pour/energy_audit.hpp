@@ -1,0 +1,60 @@
+/// Energy that nobody put in: the sign of a solver whose contacts throw parts about.
+///
+/// Contacts and friction only take mechanical energy. Between two looks no group of parts that may have touched can gain
+/// any; a part gains what its neighbours lose. So parts within reach of each other are one group, and of a part's gain
+/// counts what its whole group gained:
+///
+///     gain of part i = min(E_i now - E_i before, sum of the same over its group) / (m_i g d_i)
+///
+/// with E the kinetic and potential energy, m the mass, g gravity, d the diagonal of its bounding box: 1 throws the part
+/// up by its own size. What rounding does to fast parts is allowed for; so is what friction's and rotation's integration
+/// may err by, which is a share of the kinetic energy.
+#pragma once
+
+#include "bin_scenes/scene/report.hpp"
+#include "bin_scenes/solver/solver.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Gain from which a scene carries the flag energy_gained.
+constexpr double flagged_gain = 0.1;
+
+class EnergyAudit {
+ public:
+  explicit EnergyAudit(const WorldDef& world);
+
+  /// A body comes in, or is put elsewhere: with this state it begins anew.
+  void enter(std::size_t body, const BodyState& state);
+  /// Bodies that never came in are left out, whatever their states.
+  void look(double time, const std::vector<BodyState>& states);
+
+  const EnergyReport& worst() const { return worst_; }
+  std::vector<Flag> flags() const;
+
+ private:
+  struct Body {
+    bool in = false, fixed = false;
+    double kinetic = 0.0, potential = 0.0;  ///< J, at the last look
+    Vec3 center = Vec3::Zero();             ///< of mass, at the last look
+    double speed = 0.0;                     ///< m/s
+  };
+  /// Ball in which a body was since the last look.
+  struct Reach {
+    std::size_t body;
+    Vec3 center;
+    double radius, gain;
+  };
+
+  Body body_at(std::size_t body, const BodyState& state) const;
+  std::vector<std::size_t> groups(const std::vector<Reach>& reaches) const;
+
+  const WorldDef& world_;
+  double gravity_;  ///< m/s2; that of the earth where there is none, to have a unit
+  double last_ = 0.0;
+  std::vector<Body> bodies_;
+  EnergyReport worst_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,101 @@
+/// The audit against motions whose energy is known.
+#include "pour/energy_audit.hpp"
+
+#include "box_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+namespace bin_scenes {
+namespace {
+
+constexpr double g = 9.81, edge = 0.04, dt = 1.0 / 60.0;
+const double d = edge * std::sqrt(3.0);
+
+class EnergyAuditTest : public ::testing::Test {
+ protected:
+  EnergyAuditTest() {
+    world.parts = {PartModel::from_mesh(box_mesh(edge), "box")};
+    world.bodies.resize(3);
+    for (BodyDef& body : world.bodies) body.mass = 0.5;
+  }
+
+  static BodyState at(double x, double z, const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero()) {
+    BodyState state;
+    state.pose.position = Vec3(x, 0.0, z);
+    state.velocity = {velocity, spin};
+    return state;
+  }
+  static BodyState away(int n) { return at(10.0 * n, 1.0); }
+
+  /// The report after two states, one look apart.
+  EnergyReport between(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const {
+    EnergyAudit audit(world);
+    for (std::size_t b = 0; b < before.size(); ++b) audit.enter(b, before[b]);
+    audit.look(dt, after);
+    return audit.worst();
+  }
+
+  WorldDef world;
+};
+
+TEST_F(EnergyAuditTest, FreeFallAndRestGainNothing) {
+  const Vec3 fast(1.0, 0.0, -g * dt);
+  const BodyState falling = at(dt, 1.0 - 0.5 * g * dt * dt, fast);
+  const EnergyReport report = between({at(0.0, 1.0, Vec3(1, 0, 0)), away(1), away(2)}, {falling, away(1), away(2)});
+  EXPECT_EQ(report.gain, 0.0);
+  EXPECT_EQ(report.part, -1);
+}
+
+TEST_F(EnergyAuditTest, APartThrownUpGainsItsKineticEnergy) {
+  const double v = std::sqrt(2.0 * g * 5.0 * d);  // as high as five diagonals
+  const EnergyReport report = between({away(0), at(0.0, 1.0), away(2)}, {away(0), at(0.0, 1.0, Vec3(0, 0, v)), away(2)});
+  EXPECT_NEAR(report.gain, 5.0, 0.01);
+  EXPECT_EQ(report.part, 1);
+  EXPECT_NEAR(report.time, dt, 1e-12);
+}
+
+TEST_F(EnergyAuditTest, SpinCounts) {
+  const double inertia = 0.5 * edge * edge / 6.0;
+  const Vec3 spin = Vec3(1, 2, 3).normalized() * std::sqrt(2.0 * 0.5 * g * d * 2.0 / inertia);
+  EXPECT_NEAR(between({at(0.0, 1.0)}, {at(0.0, 1.0, Vec3::Zero(), spin)}).gain, 2.0, 0.01);
+}
+
+TEST_F(EnergyAuditTest, WhatANeighbourGaveIsNoGain) {
+  const double v = 2.0;
+  const EnergyReport report =
+      between({at(0.0, 1.0, Vec3(v, 0, 0)), at(edge, 1.0), away(2)}, {at(0.0, 1.0), at(edge, 1.0, Vec3(v, 0, 0)), away(2)});
+  EXPECT_LT(report.gain, 1e-9);
+}
+
+TEST_F(EnergyAuditTest, WhatAFarPartLosesExplainsNothing) {
+  const double v = std::sqrt(2.0 * g * d);
+  const EnergyReport report =
+      between({at(0.0, 1.0), at(10.0, 1.0, Vec3(2 * v, 0, 0)), away(2)}, {at(0.0, 1.0, Vec3(v, 0, 0)), at(10.0, 1.0), away(2)});
+  EXPECT_NEAR(report.gain, 1.0, 0.01);
+  EXPECT_EQ(report.part, 0);
+}
+
+TEST_F(EnergyAuditTest, FixedPartsAndThoseThatNeverCameInAreLeftOut) {
+  world.bodies[0].fixed = true;
+  EnergyAudit audit(world);
+  audit.enter(0, at(0.0, 1.0));
+  audit.look(dt, {at(0.0, 9.0), at(0.0, 9.0), {Pose::none(), {}}});
+  EXPECT_EQ(audit.worst().part, -1);
+  EXPECT_TRUE(audit.flags().empty());
+}
+
+TEST_F(EnergyAuditTest, EnteringAnewIsNoGainAndAFlagNamesThePart) {
+  EnergyAudit audit(world);
+  audit.enter(0, at(0.0, 1.0));
+  audit.enter(0, at(0.0, 3.0));
+  audit.look(dt, {at(0.0, 3.0), away(1), away(2)});
+  EXPECT_EQ(audit.worst().gain, 0.0);
+  audit.look(2 * dt, {at(0.0, 3.0 + 3.0 * d), away(1), away(2)});
+  EXPECT_NEAR(audit.worst().gain, 3.0, 1e-9);
+  ASSERT_EQ(audit.flags().size(), 1u);
+  EXPECT_EQ(audit.flags()[0].code, "energy_gained");
+  EXPECT_NE(audit.flags()[0].text.find("part 0 gained 3"), std::string::npos) << audit.flags()[0].text;
+}
+
+}  // namespace
+}  // namespace bin_scenes
