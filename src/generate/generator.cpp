@@ -1,11 +1,10 @@
 #include "bin_scenes/generate/generator.hpp"
 
-#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/cancel.hpp"
 #include "generate/judging.hpp"
 #include "generate/model_store.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace bin_scenes {
 
@@ -22,9 +21,7 @@ class Reporter {
   Reporter(const RunHooks& hooks, std::size_t scenes) : hooks_(hooks), scenes_(static_cast<double>(scenes)) {}
 
   void phase(const std::string& name, std::size_t scene, std::size_t parts) {
-    if (hooks_.cancel && hooks_.cancel->load()) {
-      throw Error(ErrorKind::cancelled, "cancelled", "", "");
-    }
+    stop_if_cancelled();
     Progress progress;
     progress.phase = name;
     progress.scene = scene;
@@ -127,6 +124,7 @@ const PartModelPtr& Generator::bin_model() const {
 }
 
 void Generator::generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done) {
+  const CancelScope scope(options.hooks.cancel);
   check(request);
   Reporter reporter(options.hooks, request.scenes);
   Profile loading;
@@ -171,14 +169,13 @@ void Generator::generate(const Request& request, const Options& options, const s
   };
   Judging judging(judge_one, hand_on);
 
-  std::vector<std::size_t> indices(request.scenes);
-  std::iota(indices.begin(), indices.end(), request.first);
+  const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;
   hooks.progress = [&](const Progress& progress) {
     reporter.poured(progress);
     judging.hand_on_judged();
   };
-  pour(request, parts, *solver, indices, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
+  pour(request, parts, *solver, scenes, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
     Report& report = scene.report;
     for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
     report.solver_reason = solver_reason;

@@ -1,13 +1,8 @@
 #include "judging.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 namespace bin_scenes {
-
-namespace {
-
-/// Scenes that may wait for a judge. On one core nobody judges beside the thread that pours: it then does it itself.
-constexpr std::size_t most_waiting = 256;
-
-}  // namespace
 
 Judging::~Judging() {
   tasks_.wait();
@@ -16,17 +11,20 @@ Judging::~Judging() {
 void Judging::add(std::size_t place, Scene&& scene) {
   Entry& entry = *(entries_[place] = std::make_unique<Entry>());
   entry.scene = std::move(scene);
-  ++waiting_;
-  tasks_.run([this, &entry] {
+  const std::size_t parts = entry.scene.parts.size();
+  waiting_ += parts;
+  tasks_.run([this, &entry, parts, flag = cancel_flag()] {
+    const CancelScope scope(flag);
     try {
+      stop_if_cancelled();
       judge_(entry.scene);
     } catch (...) {
       entry.failed = std::current_exception();
     }
     entry.judged = true;
-    --waiting_;
+    waiting_ -= parts;
   });
-  if (waiting_ > most_waiting) tasks_.wait();
+  if (waiting_ > most_parts_waiting) tasks_.wait();
 }
 
 void Judging::hand_on_judged() {

@@ -14,6 +14,10 @@
 
 namespace bin_scenes {
 
+/// Parts of scenes that may wait for a judge. On one core nobody judges beside the thread that pours: it then does it
+/// itself.
+constexpr std::size_t most_parts_waiting = 100'000;
+
 class Judging {
  public:
   /// `judge` runs in any thread and for several scenes at once; `hand_on` in the thread that calls this class.
@@ -38,7 +42,7 @@ class Judging {
   std::function<void(Scene&&)> hand_on_;
   std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
   std::size_t next_ = 0;                                   ///< place whose turn it is
-  std::atomic<std::size_t> waiting_{0};                    ///< scenes not judged yet
+  std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not judged yet
   tbb::task_group tasks_;
 };
 

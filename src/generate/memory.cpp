@@ -1,6 +1,10 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 
+#include "generate/judging.hpp"
+
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +18,7 @@ namespace {
 // that cannot fit, not to count to the last byte.
 constexpr double program_bytes = 60e6;            // the tool with its libraries and threads
 constexpr double device_bytes = 75e6;             // an OpenGL context; of a software device, which lives in this process
+constexpr double per_waiting_part = 500.0;   // of a finished scene that waits for a judge: pose, name, report
 constexpr double per_triangle = 400.0;       // mesh, tree over it, copies on the device
 constexpr double per_body = 2000.0;          // state, definition, history of rest, report
 constexpr double per_sample = 64.0;          // contact sample with its normal
@@ -69,6 +74,11 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
     const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
     bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
   }
+  // The CPU pours as many scenes at once as it has threads, and some that are finished wait for a judge.
+  const double scenes = static_cast<double>(request.scenes), count = static_cast<double>(request.part_count());
+  const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
+  bodies *= std::min(scenes, at_once);
+  bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
   double pixels = 0.0;
   for (const Sensor& sensor : request.sensors) pixels += per_pixel * sensor.width * static_cast<double>(sensor.height);
   double models = 0.0;

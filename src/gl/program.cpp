@@ -1,5 +1,6 @@
 #include "bin_scenes/gl/program.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
@@ -24,6 +25,7 @@ std::string log_of(unsigned id, bool program) {
 }
 
 unsigned compile(unsigned stage, const ShaderSource& source) {
+  stop_if_cancelled();
   const unsigned id = glCreateShader(stage);
   const char* text = source.text.c_str();
   glShaderSource(id, 1, &text, nullptr);

@@ -9,6 +9,7 @@
 /// side of the same faces give the same sets and are judged once.
 #include "penetration.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "convex_cell.hpp"
 #include "crossings.hpp"
@@ -189,6 +190,7 @@ Separation depth_within(const OverlapSide& a, const OverlapSide& b, const Pose& 
   });
   Separation best;
   for (const Group& group : order) {
+    stop_if_cancelled();
     const ConvexCell& cell_b = cells_b.cell(group.cell_b);
     const double known = std::max(enough, best.depth);
     if (cell_b.empty() || cells_a.bound(group.cell_a, cell_b) <= known) continue;

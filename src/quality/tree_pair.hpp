@@ -3,6 +3,8 @@
 
 #include "bin_scenes/part/mesh_query.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <array>
 #include <vector>
 
@@ -73,6 +75,7 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
   };
   std::vector<Entry> stack{{0, 0, bound(na[0].box, nb[0].box)}};
   while (!stack.empty()) {
+    stop_if_cancelled();
     const Entry entry = stack.back();
     stack.pop_back();
     if (!(entry.bound < limit())) continue;

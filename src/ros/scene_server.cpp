@@ -1,9 +1,11 @@
 #include "scene_server.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "latched.hpp"
 #include "request_message.hpp"
 
+#include <malloc.h>
 #include <ros/console.h>
 
 #include <new>
@@ -127,6 +129,7 @@ bool SceneServer::generate(GenerateScene::Request& request, GenerateScene::Respo
 
 void SceneServer::make(const bin_scenes_msgs::SceneRequest& message, GenerateScene::Response& response) {
   response.success = false;
+  const CancelScope scope(&stop_);
   try {
     Request request = request_from(message, settings_.paths);
     const std::size_t asked = request.scenes;
@@ -174,6 +177,7 @@ void SceneServer::make(const bin_scenes_msgs::SceneRequest& message, GenerateSce
              report.device.c_str());
   } else {
     ROS_ERROR("%s", response.message.c_str());
+    malloc_trim(0);  // what a large request took goes back: the next one may come in days
   }
 }
 

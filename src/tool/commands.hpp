@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Beside these, an Error's kind is the exit code: 2 input, 3 environment; 130 after Ctrl-C.
-enum ExitCode { exit_done = 0, exit_set_apart = 1 };
+/// Beside these, an Error's kind is the exit code: 2 input, 3 environment.
+enum ExitCode { exit_done = 0, exit_set_apart = 1, exit_interrupted = 130 };  ///< 130: SIGINT or SIGTERM, as shells say
 
 struct GenerateOptions {
   std::string request, out;
@@ -18,6 +18,7 @@ struct GenerateOptions {
   std::string trace;        ///< CSV file; empty = none
   double trace_rate = 100;  ///< Hz of simulated time
   bool overwrite = false;
+  bool verify = false;      ///< read every file of the scenes that are there
   bool verbose = false;
 };
 int generate(const GenerateOptions& options);

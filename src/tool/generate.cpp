@@ -1,10 +1,12 @@
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/scene_store.hpp"
 #include "tool/trace_file.hpp"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -19,6 +21,22 @@ namespace bin_scenes {
 namespace {
 
 std::atomic<bool> interrupted{false};
+
+/// What does not stop by itself (a driver that compiles, a library that is not ours) ends here: nothing is half-written,
+/// since files appear whole, and the next run removes what is left under hidden names.
+void give_up(int) {
+  constexpr char text[] = "bin_scenes: cancelled; finished scenes are kept\n";
+  static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+  _exit(exit_interrupted);
+}
+
+void stop(int) {
+  constexpr suseconds_t patience_us = 500'000;
+  if (interrupted.exchange(true)) give_up(0);  // asked twice
+  std::signal(SIGALRM, give_up);
+  const itimerval once{{0, 0}, {0, patience_us}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
 
 /// The options that stand for keys of the request.
 std::vector<Override> overrides_of(const GenerateOptions& options) {
@@ -80,8 +98,11 @@ std::string joined(const std::vector<std::string>& reasons) {
 }  // namespace
 
 int generate(const GenerateOptions& options) {
+  std::signal(SIGINT, stop);
+  std::signal(SIGTERM, stop);
+  const CancelScope scope(&interrupted);
   Request request = read_request(options.request, overrides_of(options));
-  SceneStore store(options.out, options.formats);
+  SceneStore store(options.out, options.formats, options.verify);
   if (store.needs_sensors() && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
                       "add `sensors: [{name: camera}]`, or ask for --formats json,bag alone");
@@ -109,8 +130,6 @@ int generate(const GenerateOptions& options) {
     std::fprintf(stderr, "bin_scenes: %zu of %zu scenes are there already and are kept\n", there.size(), scenes);
   }
 
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
   Generator generator;
   ProgressBar bar;
   std::unique_ptr<TraceFile> trace;

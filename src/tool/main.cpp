@@ -13,8 +13,6 @@ namespace {
 
 using namespace bin_scenes;
 
-constexpr int interrupted = 130;  // what a shell says of a command ended by Ctrl-C
-
 int complain(const std::string& message, int code) {
   std::cerr << "bin_scenes: " << message << std::endl;
   return code;
@@ -33,6 +31,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--trace", o.trace, "CSV file with pose and velocity of each part over simulated time");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
+  app.add_flag("--verify", o.verify,
+               "read scenes that are there already and make those anew whose files have changed (else only sizes count)");
   app.add_flag("--verbose", o.verbose, "stage times and counters of each scene");
 }
 
@@ -61,7 +61,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(std::string(error.what()) + " (see bin_scenes --help)", static_cast<int>(ErrorKind::input));
+    const Error wrong = input_error(error.what(), "", "see bin_scenes --help");  // an argument may hold anything
+    return complain(wrong.what(), static_cast<int>(wrong.kind()));
   }
   if (generate_app->parsed()) return generate(generate_options);
   if (inspect_app->parsed()) return inspect(inspect_options);
@@ -76,12 +77,13 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", interrupted);
+    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", exit_interrupted);
     return complain(error.what(), static_cast<int>(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain("out of memory (ask for less, or lower memory_budget to be told before)",
                     static_cast<int>(ErrorKind::environment));
   } catch (const std::exception& error) {
-    return complain(std::string("unexpected: ") + error.what(), static_cast<int>(ErrorKind::environment));
+    const Error defect = environment_error(error.what(), "unexpected", "");
+    return complain(defect.what(), static_cast<int>(defect.kind()));
   }
 }

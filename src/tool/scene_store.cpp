@@ -1,7 +1,9 @@
 #include "tool/scene_store.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "core/read_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +21,8 @@ namespace bin_scenes {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* manifest = "files.json";
 
 std::string six_digits(std::size_t index) {
   char text[24];
@@ -79,6 +83,37 @@ std::optional<nlohmann::json> scene_in(const std::string& folder) {
   return nlohmann::json::parse(file, nullptr, false);
 }
 
+/// Writes down what is in a folder, itself left out.
+void write_manifest(const std::string& folder) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::set<fs::path> paths;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) paths.insert(entry.path());
+  }
+  for (const fs::path& path : paths) {
+    files[path.lexically_relative(folder).string()] = {{"bytes", fs::file_size(path)},
+                                                       {"sha256", sha256_of_file(path.string())}};
+  }
+  write_text((fs::path(folder) / manifest).string(),
+             nlohmann::ordered_json{{"format", "bin_scenes/files/1"}, {"files", files}}.dump(1) + "\n");
+}
+
+/// Whether everything that was written into a folder is there: each file with its size, and with its digest on request.
+/// A folder without the list of its files is of a run that was killed, or of an earlier version.
+bool whole(const fs::path& folder, bool digests) {
+  std::ifstream file(folder / manifest);
+  const nlohmann::json list = nlohmann::json::parse(file, nullptr, false);
+  if (!list.is_object() || !list.contains("files") || !list["files"].is_object()) return false;
+  for (const auto& [name, entry] : list["files"].items()) {
+    std::error_code gone;
+    const fs::path path = folder / name;
+    const std::uintmax_t size = fs::file_size(path, gone);
+    if (gone || !entry.is_object() || entry.value("bytes", std::uintmax_t{0}) != size) return false;
+    if (digests && entry.value("sha256", "") != sha256_of_file(path.string())) return false;
+  }
+  return true;
+}
+
 bool is_of(const Request& request, const nlohmann::json& scene) {
   return scene.is_object() && scene.value("request_sha256", nlohmann::json()) == request.text_sha256;
 }
@@ -107,6 +142,7 @@ class WholeFolders {
     try {
       make_directory(hidden);
       fill(hidden);
+      write_manifest(hidden);
     } catch (const Error& error) {
       std::string where = error.where();
       if (where.rfind(hidden, 0) == 0) where.replace(0, hidden.size(), target.string());
@@ -140,10 +176,13 @@ class WholeFolders {
 
 }  // namespace
 
-SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats)
-    : directory_(directory), formats_(formats.begin(), formats.end()) {
+SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify)
+    : directory_(directory), formats_(formats.begin(), formats.end()), verify_(verify) {
   check_formats(formats_);
   check_writable(directory);
+  for (const bool accepted : {true, false}) {
+    for (const char* below : {"", "bop", "bop/train"}) remove_leftovers((root(accepted) / below).string());
+  }
 }
 
 bool SceneStore::needs_sensors() const {
@@ -174,12 +213,14 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
     return fs::exists(path, ignored);
   };
   const fs::path base(folder);
+  if (!whole(base, verify_)) return false;
   if (wants("bag") && !there(base / "scene.bag")) return false;
   for (const Sensor& sensor : request.sensors) {
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
   }
-  return !wants("bop") || there(bop_folder(index, accepted) / "scene_gt.json");
+  const fs::path bop = bop_folder(index, accepted);
+  return !wants("bop") || (there(bop / "scene_gt.json") && whole(bop, verify_));
 }
 
 std::set<std::size_t> SceneStore::indices(const Request& request) const {
@@ -199,6 +240,7 @@ SceneStore::Found SceneStore::find(std::size_t index, const Request& request) co
     const std::string path = folder(index, accepted);
     const std::optional<nlohmann::json> json = scene_in(path);
     if (!json) continue;
+    if (!json->is_object() && fs::exists(fs::path(path) / manifest)) continue;  // ours, and damaged since
     if (!json->is_object()) {
       throw input_error("scene.json is there already, but it is cut off or damaged", path,
                         "remove this folder, and the scene is made anew");

@@ -3,8 +3,10 @@
 ///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>*.png, scene.bag
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
+///     each of these folders: files.json, the size and SHA-256 of every other file in it
 ///
-/// A job is resumable: a folder whose scene.json carries the hash of the request is done and is not made again.
+/// A job is resumable: a folder is done, and is not made again, whose scene.json carries the hash of the request and
+/// whose files all have the sizes that files.json tells.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
@@ -18,8 +20,10 @@ namespace bin_scenes {
 
 class SceneStore {
  public:
-  /// Checks the formats and that `directory` can be written, and makes nothing yet.
-  SceneStore(const std::string& directory, const std::vector<std::string>& formats);
+  /// Checks the formats and that `directory` can be written, removes what killed runs left half-written, and makes
+  /// nothing yet.
+  /// @param verify  what is there counts only if the digests of its files agree too
+  SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify = false);
 
   bool needs_sensors() const;      ///< some format shows nothing but what a sensor sees
   bool needs_images() const;       ///< some format holds what sensors see, if there are any
@@ -47,6 +51,7 @@ class SceneStore {
 
   std::string directory_;
   std::set<std::string> formats_;
+  bool verify_;
   std::set<bool> models_written_;  ///< BOP models of accepted and set-apart scenes
 };
 

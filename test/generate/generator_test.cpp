@@ -54,6 +54,61 @@ class GeneratorTest : public ::testing::Test {
   Generator generator;
 };
 
+// Sizes that agree in six decimals.
+TEST_F(GeneratorTest, LinesOfNearlyTheSameScaleHaveTheirOwnSizes) {
+  std::ofstream(dir / "box.stl") << box_stl(40000.0);
+  Request request = boxes(1);
+  request.parts.push_back(request.parts[0]);
+  request.parts[0].scale = 1.0e-6;
+  request.parts[1].scale = 1.4e-6;
+  run(request);
+  const double ratio = generator.parts()[1]->diagonal() / generator.parts()[0]->diagonal();
+  EXPECT_NEAR(ratio, 1.4, 1e-6);
+}
+
+TEST_F(GeneratorTest, AFileThatChangedSinceTheRequestWasReadIsRefused) {
+  Request request = boxes(1);
+  request.parts[0].sha256 = std::string(64, '0');
+  EXPECT_EQ(failure(request), ErrorKind::input);
+}
+
+// A list of their indices alone would take 8 GB.
+TEST_F(GeneratorTest, AThousandMillionScenesTakeNoListAndEndWhenTheCallerSaysSo) {
+  Request request = boxes(1);
+  request.scenes = 1'000'000'000;
+  std::atomic<bool> stop{false};
+  Generator::Options options;
+  options.hooks.cancel = &stop;
+  options.hooks.progress = [&](const Progress& progress) { stop = progress.simulated_s > 0.0; };
+  try {
+    run(request, options);
+    FAIL() << "ended by itself";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+}
+
+TEST_F(GeneratorTest, AFixedFloorMayBeLargerThanTenMetres) {
+  std::ofstream(dir / "floor.stl") << box_stl({14.0, 14.0, 0.5});
+  Request request = boxes(1);
+  request.bin.kind = Bin::Kind::none;
+  request.pour.pattern = Pour::Pattern::given;
+  request.parts[0].poses = {{Vec3(3.0, 2.0, 0.021), Quat::Identity()}};
+  request.parts.push_back(request.parts[0]);
+  PartLine& floor = request.parts[1];
+  floor.path = (dir / "floor.stl").string();
+  floor.poses = {{Vec3(0.0, 0.0, -0.25), Quat::Identity()}};
+  floor.fixed = true;
+  EXPECT_EQ(failure(request), ErrorKind::input) << "may be meant in another unit";
+  floor.unit = Unit::metre;
+  for (const SolverType type : {SolverType::bullet, SolverType::sphere}) {
+    request.solver.type = type;
+    const Scene scene = run(request).at(0).scene;
+    EXPECT_TRUE(scene.report.at_rest) << name_of(type);
+    EXPECT_NEAR(scene.parts[0].pose.position.z(), 0.02, 2e-4) << name_of(type);
+  }
+}
+
 // Thirty plates of a millimetre in a narrow bin. Where soft contacts let them sink by a tenth of that they end in each
 // other.
 TEST_F(GeneratorTest, ThinPartsOnEachOtherStayApart) {

@@ -297,10 +297,60 @@ TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
   EXPECT_EQ(json("out/scene_000001/scene.json").at("seed"), 4);
 
   fs::resize_file(dir / "out/scene_000001/scene.json", 200);
+  fs::remove(dir / "out/scene_000001/files.json");
   const Outcome cut = run("generate request.yaml --out out --first 1 --seed 4");
   EXPECT_EQ(cut.code, 2);
   EXPECT_NE(cut.err.find("out/scene_000001: scene.json is there already, but it is cut off"), std::string::npos)
       << cut.err;
+}
+
+TEST_F(CommandLine, AFileThatIsNotWholeIsNoScene) {
+  const std::string job = "generate request.yaml --out out --formats json,png,bop --scenes 2 "
+                          "--set 'sensors=[{name: top, width: 64, height: 48}]'";
+  ASSERT_EQ(run(job).code, 0);
+  const fs::path scene = "out/scene_000000", bop = "out/bop/train/000000";
+  const auto kept = [&](const std::string& more = "") {
+    const Outcome again = run(job + more);
+    EXPECT_EQ(again.code, 0) << again.err;
+    const std::size_t of = again.err.find(" of 2 scenes are there");
+    return of == std::string::npos ? std::string("0") : again.err.substr(of - 1, 1);
+  };
+  EXPECT_EQ(kept(), "2");
+  for (const fs::path& name : {scene / "top_depth.png", scene / "scene.json", bop / "scene_gt.json", bop / "mask"}) {
+    const fs::path file = fs::is_directory(dir / name) ? name / "000000_000000.png" : name;
+    const std::string whole = text(file);
+    fs::resize_file(dir / file, 0);  // as a file system leaves it after a loss of power
+    EXPECT_EQ(kept(), "1") << file;
+    EXPECT_EQ(text(file).size(), whole.size()) << file;
+    EXPECT_EQ(kept(), "2") << file;
+  }
+  fs::remove(dir / scene / "files.json");
+  EXPECT_EQ(kept(), "1") << "of a run that was killed, or of an earlier version";
+
+  // A changed byte has the same size: it is found by those who ask for it.
+  std::string changed = text(scene / "top_depth.png");
+  changed[changed.size() / 2] ^= 1;
+  put((scene / "top_depth.png").string(), changed);
+  EXPECT_EQ(kept(), "2");
+  EXPECT_EQ(kept(" --verify"), "1");
+  EXPECT_EQ(kept(" --verify"), "2");
+}
+
+TEST_F(CommandLine, WhatAKilledRunLeftIsRemovedByTheNext) {
+  ASSERT_EQ(run("generate request.yaml --out out").code, 0);
+  const int status = std::system(("bash -c 'echo $$ > " + (dir / "pid").string() + "'").c_str());
+  ASSERT_EQ(status, 0);
+  std::string pid = text("pid");
+  pid.pop_back();
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  const fs::path mine = dir / "out" / (".scene_000001.tmp-" + pid + "-0@" + host);
+  const fs::path theirs = dir / "out" / (".scene_000001.tmp-" + pid + "-0@elsewhere");
+  fs::create_directories(mine / "half");
+  fs::create_directories(theirs);
+  EXPECT_EQ(run("generate request.yaml --out out").code, 0);
+  EXPECT_FALSE(fs::exists(mine));
+  EXPECT_TRUE(fs::exists(theirs)) << "of another host, which may still write it";
 }
 
 TEST_F(CommandLine, AJobOfAnyLengthStartsAtOnce) {

@@ -1,5 +1,7 @@
 #include "contact_solver.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include "blow_energy.hpp"
 #include "dynamics_world.hpp"
 
@@ -79,6 +81,7 @@ btScalar ContactSolver::solveGroupCacheFriendlyIterations(btCollisionObject**, i
     for (int b = 0; b < m_tmpSolverBodyPool.size(); ++b)
       m_tmpSolverBodyPool[b].m_deltaLinearVelocity += m_tmpSolverBodyPool[b].m_externalForceImpulse / steps;
     warm_start();
+    stop_if_cancelled();
     for (int k = 0; k < sweeps; ++k) sweep(h, k == 0 ? Sweep::first_push : Sweep::push);
     move(h);
     for (int k = 0; k < sweeps; ++k) sweep(h, Sweep::relax);

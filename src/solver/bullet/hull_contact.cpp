@@ -1,5 +1,7 @@
 #include "hull_contact.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -120,6 +122,7 @@ HullContact::~HullContact() {
 
 void HullContact::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                    const btDispatcherInfo&, btManifoldResult* result) {
+  stop_if_cancelled();
   if (!manifold_) {
     manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
     own_manifold_ = true;

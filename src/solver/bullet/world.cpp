@@ -1,5 +1,7 @@
 #include "world.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include "convert.hpp"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -246,6 +248,7 @@ void World::step(double seconds) {
   // Cutting a step does not make sub-steps any shorter than they are.
   world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / ContactSolver::sweeps + n - 1) / n);
   for (int k = 0; k < n; ++k) {
+    stop_if_cancelled();
     world_.stepSimulation(seconds / n, 0);
     count();
   }

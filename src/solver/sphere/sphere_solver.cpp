@@ -1,5 +1,6 @@
 #include "solver/sphere/sphere_solver.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/step_limit.hpp"
@@ -100,8 +101,10 @@ class SphereSolver final : public Solver {
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
     const Steps steps = steps_in(seconds, settings_.time_step);
     // Worlds share nothing, so that threads cannot change a result.
-    tbb::parallel_for(std::size_t{0}, worlds.size(),
-                      [&](std::size_t i) { advance_world(slots_[worlds[i]]->world, steps, settings_.time_step); });
+    tbb::parallel_for(std::size_t{0}, worlds.size(), [&, flag = cancel_flag()](std::size_t i) {
+      const CancelScope scope(flag);
+      advance_world(slots_[worlds[i]]->world, steps, settings_.time_step);
+    });
     return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 

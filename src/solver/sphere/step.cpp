@@ -1,5 +1,7 @@
 #include "solver/sphere/world.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
+
 #include <chrono>
 
 namespace bin_scenes::sphere {
@@ -8,6 +10,7 @@ namespace {
 
 /// A pass, and what it takes added to `ms`.
 void timed(void (*pass)(World&), World& world, double& ms) {
+  stop_if_cancelled();
   const auto begin = std::chrono::steady_clock::now();
   pass(world);
   ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

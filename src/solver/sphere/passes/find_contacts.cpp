@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/candidates.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/math.hpp"
 #include "solver/sphere/passes/reduce.hpp"
 #include "solver/sphere/world.hpp"
@@ -126,9 +128,12 @@ void find_contacts(World& world) {
       tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
         return tbb::parallel_reduce(
             tbb::blocked_range<std::size_t>(0, world.manifolds.size(), pairs_per_task), Counters{},
-            [&](const tbb::blocked_range<std::size_t>& range, Counters counters) {
-              for (std::size_t i = range.begin(); i < range.end(); ++i)
+            [&, flag = cancel_flag()](const tbb::blocked_range<std::size_t>& range, Counters counters) {
+              const CancelScope scope(flag);
+              for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                stop_if_cancelled();
                 find_contacts_of(world, world.manifolds[i], counters);
+              }
               return counters;
             },
             [](Counters a, const Counters& b) { return a += b; });

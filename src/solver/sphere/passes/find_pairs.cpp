@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/counting_sort.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/lanes.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -97,6 +99,7 @@ template <class Meeting>
 BIN_SCENES_WIDE void sweep(const std::vector<Entry>& entries, const std::vector<Bounds>& boxes,
                            const std::vector<EntryLanes>& lanes, const Meeting& meeting) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    stop_if_cancelled();
     const Bounds& p = boxes[entries[i].box];
     for (std::size_t first = (i + 1) / lane_count * lane_count; first < entries.size(); first += lane_count) {
       if (entries[first].strip != entries[i].strip && first > i) break;
@@ -186,6 +189,7 @@ void find_pairs(World& world) {
     }
   };
   for (const auto& [a, b] : found) {
+    stop_if_cancelled();
     while (old < world.previous.size() &&
            std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
       keep_sleeping(world.previous[old++]);

@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/blocks.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -32,7 +34,8 @@ constexpr int bounce_sweeps = 12;            ///< a face that strikes flat share
 template <class Work>
 void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&, flag = cancel_flag()](const auto& range) {
+      const CancelScope scope(flag);
       for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
     });
   });
@@ -378,6 +381,7 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.hold_by_friction(k >= world.slip_sub_steps());
     solver.accelerate();
+    stop_if_cancelled();
     solver.warm_start();
     for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
     solver.move();
