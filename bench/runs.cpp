@@ -30,12 +30,16 @@ Request bin_of(const std::string& part, std::size_t count) {
 void choose_solver(Request& request, const std::string& name) {
   if (name == "bullet") {
     request.solver.type = SolverType::bullet;
+  } else if (name == "sphere/quick") {
+    request.solver.type = SolverType::sphere;
+    apply(SolverSettings::Preset::quick, request);
   } else if (name == "sphere" || name == "sphere/gpu" || name == "sphere/thesis") {
     request.solver.type = SolverType::sphere;
     request.solver.preset = name == "sphere/thesis" ? SolverSettings::Preset::thesis : SolverSettings::Preset::standard;
     if (name == "sphere/gpu") request.solver.sphere.device = SphereSettings::Device::gpu;
   } else {
-    throw input_error("no solver is called '" + name + "'", "benchmark", "sphere, sphere/gpu, sphere/thesis or bullet");
+    throw input_error("no solver is called '" + name + "'", "benchmark",
+                      "sphere, sphere/quick, sphere/gpu, sphere/thesis or bullet");
   }
 }
 

@@ -89,10 +89,16 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
   Request request = bin_of(part, count);
   request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
   warm_up(request);
+  Request fast = request;
+  choose_solver(fast, "sphere/quick");
+  warm_up(fast);
   std::vector<Row> scenes;
   double spent = 0.0;
   for (int seed = 1; seed <= (out.quick() ? 1 : spent < enough ? most_seeds : least_seeds); ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
+    fast.seed = request.seed;
+    const Isolated quick =
+        isolated([&] { return Row().measure("quick_cpu_s", figures_of(pour_timed(fast)).number("cpu_s")); });
     const Isolated ours = isolated([&] {
       choose_solver(request, "sphere");
       const Row figures = figures_of(pour_timed(request));
@@ -112,6 +118,9 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
       for (const std::string of : {"cpu_s", "scene_s"})
         scene.measure((of == "cpu_s" ? "share_of_" : "scene_share_of_") + until,
                       scene.number(of) / scene.number("bullet_" + until + "_" + of));
+    if (quick.good)
+      scene.append(quick.row).measure("quick_share_of_asleep",
+                                      quick.row.number("quick_cpu_s") / scene.number("bullet_asleep_cpu_s"));
     spent += std::max(scene.number("bullet_asleep_cpu_s"), scene.number("bullet_as_long_cpu_s"));
     scenes.push_back(scene);
   }

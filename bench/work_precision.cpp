@@ -35,6 +35,17 @@ std::vector<Setting> settings_of_solvers(bool quick) {
   const SphereSettings sphere;
   const BulletSettings bullet;
   add("sphere", "default", 0, [](SolverSettings&) {});
+  add("sphere/quick", "default", 0, [](SolverSettings&) {});
+  for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed, Pour::Finish::probed}) {
+    if (finish == Pour().finish) continue;  // the default
+    all.push_back({"sphere", "yes", "finish", name_of(finish),
+                   [=](Request& request) {
+                     choose_solver(request, "sphere");
+                     request.pour.finish = finish;
+                   },
+                   std::nullopt});
+    if (quick) break;
+  }
   for (const double factor : {4.0, 2.0, 0.5}) {
     if (quick && factor != 2.0) continue;
     const double dt = factor * sphere.time_step;

@@ -26,7 +26,9 @@ inline Names<SolverType> names(SolverType) {
   return {{"auto", SolverType::automatic}, {"sphere", SolverType::sphere}, {"bullet", SolverType::bullet}};
 }
 inline Names<SolverSettings::Preset> names(SolverSettings::Preset) {
-  return {{"standard", SolverSettings::Preset::standard}, {"thesis", SolverSettings::Preset::thesis}};
+  return {{"standard", SolverSettings::Preset::standard},
+          {"quick", SolverSettings::Preset::quick},
+          {"thesis", SolverSettings::Preset::thesis}};
 }
 
 inline Names<SphereSettings::Device> names(SphereSettings::Device) {
@@ -102,11 +104,13 @@ void visit(Visitor& v, Pour& pour) {
            "rain: parts enter just above the heap as it grows; grid: all at once on a 3-D grid above the bin; given: "
            "poses come with the parts or from scene"},
           pour.pattern);
-  v.field({"finish", "",
-           "how much is done before a scene counts as finished, each step on top of the one before: settled: parts "
-           "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: proved to stand without "
-           "remembered forces and with a tenth less friction, which takes up to twice the time of pressed"},
-          pour.finish);
+  v.field(
+      {"finish", "",
+       "how much is done before a scene counts as finished, each step on top of the one before: settled: parts "
+       "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: proved to stand without "
+       "remembered forces and with a tenth less friction, which takes up to twice the time of pressed. To bullet all "
+       "three are settled"},
+      pour.finish);
   v.field({"drop_height", "m", "rain: free fall of a part above the heap; higher = harder impacts and longer scenes"},
           pour.drop_height);
   v.field({"grid_spacing", "", "grid: cell edge / bounding diameter of the largest part"}, pour.grid_spacing);
@@ -186,10 +190,20 @@ void visit(Visitor& v, SphereSettings& s) {
        "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
        "for measuring long steps"},
       s.cut_steps);
+  v.field(
+      {"step_fall", "",
+       "with cut_steps: way that the smallest part falls from rest in one step at most / its diagonal; more = longer "
+       "steps for small parts, which sink in further"},
+      s.step_fall);
   v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
+  v.field({"recycle", "",
+           "contacts of a pair are reused until it moved so far / diagonal of the smallest part, three times as far "
+           "while pouring; more = faster, contacts are less exact"},
+          s.recycle);
   v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more"}, s.coarse_samples);
   v.field({"fine_samples", "",
-           "surface samples per part while settling; thin parts get more; more = less penetration, linear cost"},
+           "surface samples per part while settling; thin parts get more; more = less penetration, linear cost; 0 = the "
+           "coarse ones"},
           s.fine_samples);
   v.field({"field_cell", "",
            "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube"},
@@ -203,11 +217,14 @@ void visit(Visitor& v, SphereSettings& s) {
 template <class Visitor>
 void visit(Visitor& v, SolverSettings& solver) {
   v.field({"type", "", "auto chooses by device, part and count; the report says why"}, solver.type);
-  v.field({"preset", "", "standard: the default sphere solver; thesis: the method of the thesis, for its tables"},
+  v.field({"preset", "",
+           "standard: the default sphere solver; quick: the same with other defaults for pour.finish, "
+           "pour.drop_height and solver.sphere, several times as fast, parts overlap by up to 1 %; thesis: the "
+           "thesis's method for its tables"},
           solver.preset);
   v.section({"bullet", "", "settings of Bullet"}, solver.bullet);
   v.section({"thesis", "", "settings of the sphere solver's preset thesis"}, solver.thesis);
-  v.section({"sphere", "", "settings of the sphere solver's preset standard"}, solver.sphere);
+  v.section({"sphere", "", "settings of the default sphere solver: presets standard and quick"}, solver.sphere);
 }
 
 template <class Visitor>

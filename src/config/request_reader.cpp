@@ -178,10 +178,18 @@ Request read(const std::string& text, const std::string& file, const std::string
   }
   Source source(file, std::move(origins));
   if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
-  Request request;
-  KeyReader reader(root, "", source);
-  visit(reader, request);
-  reader.finish();
+  const auto read_over = [&](Request request) {
+    KeyReader reader(root, "", source);
+    visit(reader, request);
+    reader.finish();
+    return request;
+  };
+  Request request = read_over(Request());
+  if (request.solver.preset == SolverSettings::Preset::quick) {  // what is not given is the preset's
+    Request quick;
+    apply(SolverSettings::Preset::quick, quick);
+    request = read_over(quick);
+  }
   complete(
       request, base, rules, [&](const std::string& path) { return source.where(path); },
       [&](const std::string& path) { return source.knows(path); });

@@ -20,7 +20,7 @@
 namespace bin_scenes {
 
 /// Gain from which a scene carries the flag energy_gained.
-constexpr double flagged_gain = 0.5;
+constexpr double flagged_gain = 0.1;
 
 class EnergyAudit {
  public:

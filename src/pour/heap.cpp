@@ -62,7 +62,7 @@ bool Heap::settle(const RunHooks& hooks) {
   const auto begin = std::chrono::steady_clock::now();
   const Profile before = state_->solver->profile();
   HeapCore& core = state_->core;
-  if (core.settled()) return true;
+  if (core.settled() && !request().seconds) return true;
   core.start_clock();
   const HeapSource source{1, [&](std::size_t) -> HeapCore& { return core; }, [](std::size_t) {}};
   const CancelScope scope(hooks.cancel);

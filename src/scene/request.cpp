@@ -86,6 +86,21 @@ std::size_t Request::part_count() const {
   return n;
 }
 
+void apply(SolverSettings::Preset preset, Request& request) {
+  request.solver.preset = preset;
+  if (preset != SolverSettings::Preset::quick) return;
+  request.pour.finish = Pour::Finish::settled;
+  request.pour.drop_height = 0.005;
+  SphereSettings& sphere = request.solver.sphere;
+  sphere.time_step = 1.0 / 120.0;
+  sphere.step_fall = 7.5e-3;
+  sphere.sub_steps = 1;
+  sphere.recycle = 5e-3;
+  sphere.coarse_samples = 60;
+  sphere.fine_samples = 0;
+  sphere.field_cell = 0.02;
+}
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -230,7 +245,10 @@ void check_solver(const SolverSettings& solver) {
   above("solver.sphere.time_step", s.time_step, 0.0, 0.1, step);
   at_least("solver.sphere.sub_steps", s.sub_steps, 1, 1000, "solves per time step");
   at_least("solver.sphere.coarse_samples", s.coarse_samples, 8, 1e6, "samples per part");
-  at_least("solver.sphere.fine_samples", s.fine_samples, 8, 1e6, "samples per part");
+  if (s.fine_samples != 0)
+    at_least("solver.sphere.fine_samples", s.fine_samples, 8, 1e6, "samples per part; 0 = the coarse ones");
+  above("solver.sphere.step_fall", s.step_fall, 0.0, 1.0, "fraction of the part's diagonal");
+  above("solver.sphere.recycle", s.recycle, 0.0, 0.1, "fraction of the part's diagonal");
   above("solver.sphere.field_cell", s.field_cell, 0.0, 0.25, "fraction of the part's diagonal");
 }
 

@@ -32,12 +32,12 @@ inline Steps steps_in(double seconds, double step) {
 }
 
 /// Steps into which a time step (s) must be cut for parts whose smallest bounding diagonal is given (m), under gravity
-/// (m/s2), so that what is at rest falls by no more than 0.2 % of that diagonal in one. With longer steps contacts that
-/// a heap hangs on are found too late: parts sink into each other and, at 1/15 s, through the floor.
-inline int step_cuts(double time_step, double gravity, double smallest_diagonal) {
-  constexpr double longest_step = 0.06;  // / sqrt(d / g); its half square is the way fallen from rest / d
+/// (m/s2), so that what is at rest falls by no more than `fall` of that diagonal in one. With longer steps than those
+/// of the default contacts that a heap hangs on are found too late: parts sink into each other and, at 1/15 s, through
+/// the floor.
+inline int step_cuts(double time_step, double gravity, double smallest_diagonal, double fall = 1.8e-3) {
   constexpr double most_cuts = 1000.0;
-  const double longest = longest_step * std::sqrt(smallest_diagonal / std::max(gravity, 1e-9));
+  const double longest = std::sqrt(2.0 * fall * smallest_diagonal / std::max(gravity, 1e-9));
   const double cuts = std::ceil(time_step / longest - 1e-6);
   return cuts > 1.0 ? static_cast<int>(std::min(cuts, most_cuts)) : 1;
 }

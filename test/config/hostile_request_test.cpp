@@ -35,7 +35,7 @@ TEST_F(HostileRequest, PunctuationAtTheEndOfADocumentDoesNotLoop) {
 
 TEST_F(HostileRequest, EveryShortTextOfPunctuationEnds) {
   const std::string signs = ",{}[]:-?&*!|>#% \na'\"";
-  constexpr std::size_t length = 4;
+  constexpr std::size_t length = 3;
   std::size_t count = 1, read_as_a_map = 0;
   for (std::size_t i = 0; i < length; ++i) count *= signs.size();
   for (std::size_t number = 0; number < count; ++number) {
@@ -46,7 +46,7 @@ TEST_F(HostileRequest, EveryShortTextOfPunctuationEnds) {
     } catch (const Error&) {
     }
   }
-  EXPECT_GT(read_as_a_map, 100u);  // "a: a" is one
+  EXPECT_GT(read_as_a_map, 10u);  // "a: a" is one
 }
 
 TEST_F(HostileRequest, ValuesOfMegabytesAreShownByTheirEnds) {

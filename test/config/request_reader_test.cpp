@@ -1,7 +1,7 @@
-#include "bin_scenes/core/sha256.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/config/sensor_presets.hpp"
+#include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -393,6 +393,17 @@ TEST_F(ConfigTest, ModelsAreNotTakenForDirectories) {
   const std::string number = refusal("parts: [{model: 5}]\n");
   EXPECT_EQ(number.find("did you mean"), std::string::npos) << number;
   expect_refused("parts: [{model: bolt.sl}]\n", {"did you mean 'bolt.stl'"});
+}
+
+TEST_F(ConfigTest, APresetSetsWhatIsNotGiven) {
+  const Request quick = read("solver: {preset: quick, sphere: {sub_steps: 3}}\n" + bolts);
+  Request meant = read(bolts);
+  apply(SolverSettings::Preset::quick, meant);
+  EXPECT_NE(write_request(meant), write_request(read(bolts)));
+  meant.solver.sphere.sub_steps = 3;
+  EXPECT_EQ(write_request(quick), write_request(meant)) << "what is given stays";
+  EXPECT_EQ(read(bolts, {"solver.preset=quick", "pour.finish=probed"}).pour.finish, Pour::Finish::probed);
+  EXPECT_EQ(write_request(read(write_request(quick))), write_request(quick)) << "written back, it stands on its own";
 }
 
 TEST_F(ConfigTest, RadiiOfSpheresFall) {

@@ -126,6 +126,28 @@ TEST_F(GeneratorTest, ThinPartsOnEachOtherStayApart) {
   }
 }
 
+TEST_F(GeneratorTest, AHeapIsTheSceneThatIsGeneratedAndGoesOn) {
+  Request request = boxes(6);
+  request.solver.type = SolverType::sphere;
+  request.drift_check = true;
+  request.sensors.emplace_back();
+  const Generator::Result scene = std::move(run(request).at(0));
+  Heap heap = generator.heap(request);
+  ASSERT_TRUE(heap.settle());
+  const Generator::Result same = generator.result(heap, {});
+  EXPECT_EQ(same.scene.report.state_hash, scene.scene.report.state_hash);
+  EXPECT_EQ(same.scene.report.finish, scene.scene.report.finish);
+  EXPECT_TRUE(same.scene.report.accepted);
+  EXPECT_TRUE(same.scene.report.drift.measured);
+  EXPECT_GT(same.images.at(0).visible.at(4), 0u);
+  heap.remove({4});
+  ASSERT_TRUE(heap.settle());
+  const Generator::Result picked = generator.result(heap, {});
+  EXPECT_TRUE(picked.scene.report.accepted);
+  EXPECT_EQ(picked.scene.parts.at(4).state, PartState::removed);
+  EXPECT_EQ(picked.images.at(0).visible.at(4), 0u);
+}
+
 TEST_F(GeneratorTest, DriftIsOfThePartsThatAreThere) {
   Request request = boxes(3);
   request.pour.pattern = Pour::Pattern::given;

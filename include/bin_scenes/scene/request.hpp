@@ -76,7 +76,7 @@ struct Pour {
     pressed,  ///< stiff contacts take the overlap out
     probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
   };
-  Finish finish = Finish::probed;
+  Finish finish = Finish::pressed;
   double drop_height = 0.02;     ///< rain: free way of a part's lowest point to the heap below it (m); higher = harder impacts
   double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
   std::string scene;             ///< given: path of a scene.json to go on from
@@ -126,9 +126,13 @@ struct ThesisSettings {
 struct SphereSettings {
   double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
   bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
+  double step_fall = 1.8e-3;       ///< with cut_steps: way that the smallest part falls from rest in one step at most /
+                                   ///< its diagonal; more = longer steps for small parts, which sink in further
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
+  double recycle = 1e-3;           ///< contacts of a pair are reused until it moved so far / diagonal of the smallest part,
+                                   ///< three times as far while pouring; more = faster, contacts are less exact
   int coarse_samples = 200;        ///< per part while pouring, at least; thin parts get more
-  int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost
+  int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
   double field_cell = 0.004;       ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
   /// Where it runs. automatic: on the CPU, until the GPU form has been measured on a card; gpu: the same passes as GL
   /// compute, many times slower on a software GL.
@@ -237,6 +241,10 @@ struct Request {
 
   std::size_t part_count() const;
 };
+
+/// Sets what a preset stands for, over the whole request; a field set afterwards stays. Preset::standard and thesis
+/// change nothing but themselves.
+void apply(SolverSettings::Preset preset, Request& request);
 
 /// Throws one input Error for the first field that makes no sense (negative count, NaN, friction < 0, ...).
 void check(const Request& request);

@@ -42,6 +42,10 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.settings = base;
   w.settings.sub_steps = settings.sub_steps;
   w.settings.cut_steps = base.cut_steps && settings.cut_steps;
+  if (base.recycle > 0) {
+    w.settings.recycle = static_cast<float>(settings.recycle);
+    w.settings.coarse_recycle = static_cast<float>(3.0 * settings.recycle);
+  }
   w.gravity = def.gravity.cast<float>();
   w.wall_top = static_cast<float>(def.wall_height);
   w.ground_friction = static_cast<float>(def.bin.friction);
@@ -64,7 +68,9 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
   w.cold_steps = w.settings.cold_steps;
-  w.cuts = w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size) : 1;
+  w.cuts = w.settings.cut_steps
+               ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall)
+               : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
   return w;

@@ -60,6 +60,10 @@ BothSamples make_both(const PartModel& part, int coarse, int fine) {
   const int coarse_count = at_least(coarse, coarse_per_patch * patches);
   const int fine_count = at_least(fine, std::max(patches, edge_nodes));
   BothSamples both;
+  if (fine == 0) {
+    both.coarse = both.fine = make_samples(part, folds, coarse_count, coarse_angle, coarse_ridge);
+    return both;
+  }
   std::future<Samples> fine_samples =
       std::async(std::launch::async, [&] { return make_samples(part, folds, fine_count, fine_angle, fine_ridge); });
   both.coarse = make_samples(part, folds, coarse_count, coarse_angle, coarse_ridge);
