@@ -24,21 +24,21 @@ namespace phases {
 using Sleep = Phase::Sleep;
 // clang-format off
 //                                 samples | stiffness      | friction | forgets | sleep          | begins asleep
-/// Parts come in. Coarse shapes do while everything moves.
+/// Parts enter. Coarse samples suffice while everything moves.
 inline constexpr Phase pour{        false, Stiffness::soft,  1.0,       false,    Sleep::by_island, false};
-/// Exact shapes on soft contacts, which take the energy out of rocking and leave overlap under load.
+/// Fine samples and soft contacts, which damp rocking and leave overlap under load.
 inline constexpr Phase settle{      true,  Stiffness::soft,  1.0,       false,    Sleep::by_island, false};
-/// What overlaps would overlap for good: contacts as stiff as they can be press it out.
+/// Stiff contacts remove the overlap that soft ones leave.
 inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,    Sleep::by_island, false};
-/// The heap begins without forces, as under the next engine, and for a moment without friction; contacts press nothing
-/// apart, and from now on friction holds a little less. What is near its limit slips or tips now instead of later. Parts
-/// sleep one by one: all were awake, and what still creeps must not keep the others awake.
+/// The heap starts without remembered forces, as in another engine, and for a moment without friction. Contacts push
+/// nothing apart, and friction is reduced from now on. Parts near their friction limit slip or tip now instead of later.
+/// Parts sleep one by one, so that one that creeps does not keep the others awake.
 inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
-/// Pressed again without remembered forces: as when this solver itself goes on from the poses.
+/// Pressed again without remembered forces, as when this solver continues from the poses.
 inline constexpr Phase prove{       true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
-/// A heap given at rest goes on as it was left: softer or coarser contacts would let it sink.
+/// A heap given at rest continues on stiff contacts: softer or coarser ones would let it sink.
 inline constexpr Phase hold = press;
-/// Parts were taken out: all others sleep, but those that touched them and whom these wake in turn.
+/// Parts were removed: all others sleep, except those that touched them and those that these wake in turn.
 inline constexpr Phase mend{        true,  Stiffness::stiff, 1.0,       false,    Sleep::by_touch,  true};
 // clang-format on
 

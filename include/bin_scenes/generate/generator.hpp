@@ -1,4 +1,4 @@
-/// The main job, from request to judged scenes and their images. Tool, node and benchmark all call this.
+/// The main job: from a request to judged scenes and their images. Tool, node and benchmark call this.
 #pragma once
 
 #include "bin_scenes/pour/heap.hpp"
@@ -19,11 +19,11 @@ class Generator {
 
   struct Result {
     Scene scene;
-    std::vector<RangeImage> images;  ///< only if asked for
+    std::vector<RangeImage> images;  ///< only if requested
     std::shared_ptr<void> prepared;  ///< what Options::prepare leaves for the one who gets the scene
   };
   struct Options {
-    bool render = true;  ///< false: no sensor image is made (nobody looks)
+    bool render = true;  ///< false: no sensor image is made
     /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
     /// poured: the place for what takes long, such as writing files. It may take the images away.
     std::function<void(Result&)> prepare;
@@ -49,8 +49,8 @@ class Generator {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes a request will need, and an input Error with the figure when that is above request.memory_budget. Without
-/// parts (not loaded yet) only what follows from the counts and settings of the request. Images count for one scene.
+/// Estimated bytes of a request; throws an input Error with the figure if it exceeds request.memory_budget. Without
+/// parts (not loaded yet) only counts and settings of the request are used. Images count for one scene.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
 /// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.
 std::size_t scenes_seen_at_once(const Request& request, double estimate);

@@ -1,6 +1,6 @@
 /// Programs from shader files, and the dispatch of compute passes.
 ///
-/// A shader file holds no #version and no group size trickery: the loader puts `#version 450 core` and the defines in
+/// A shader file contains no #version: the loader puts `#version 450 core` and the defines in
 /// front, and replaces `#include "shared/x.h"` (path below the shader directory, each file at most once).
 /// Linked binaries are kept in $XDG_CACHE_HOME/bin_scenes/programs, keyed by driver and source; a file that is
 /// damaged or refused by the driver is compiled anew.
@@ -62,8 +62,8 @@ enum class Barrier {
 };
 void barrier(Barrier kind = Barrier::all);
 
-/// Groups beyond the 65,535 an axis takes are folded into y; the shader undoes it with thread_index() or
-/// group_index() of shared/dispatch.h and checks its own bound. No groups: nothing is called.
+/// An axis takes at most 65,535 groups; more are folded into y. The shader computes its index with thread_index() or
+/// group_index() of shared/dispatch.h and checks its own bound. With no groups nothing is dispatched.
 std::array<unsigned, 2> folded_groups(std::size_t groups);
 void dispatch_groups(const Program& program, std::size_t groups, Barrier after = Barrier::storage);
 /// Enough groups for one invocation per item.

@@ -14,7 +14,7 @@
 
 namespace bin_scenes {
 
-/// Bytes of a model file; larger ones are refused.
+/// Largest model file (bytes).
 constexpr std::uintmax_t max_model_file_size = std::uintmax_t{1} << 30;
 
 struct LoadOptions {
@@ -33,12 +33,12 @@ struct ModelFile {
   std::string sha256;  ///< of the bytes
 };
 
-/// What was found in the file and what was done about it.
+/// Findings in the file, and the repairs.
 struct LoadReport {
   std::string format;
   std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;
   std::size_t welded_vertices = 0, degenerate_removed = 0, duplicate_removed = 0, holes_closed = 0;
-  std::size_t t_junctions_split = 0;  ///< vertices put into long edges that met several short ones
+  std::size_t t_junctions_split = 0;  ///< vertices inserted into long edges that met several short ones
   std::size_t turned = 0;            ///< triangles whose winding disagreed with their neighbours'
   std::size_t open_edges = 0;        ///< left after repair
   std::size_t shells = 0;            ///< connected components
@@ -59,8 +59,8 @@ struct LoadedMesh {
 /// Reads all meshes of a file with their node transforms applied, welds, checks and repairs.
 /// Throws an input Error (missing, unreadable, empty, NaN, zero volume, still open) with path, cause and remedy.
 /// Where assimp refuses a DAE, it is read once more without images, materials and animations: flag "file_mended".
-/// Closed shells that overlap are united: flag "shells_united". Where that fails ("shells_overlap"), what they share counts
-/// twice in volume and mass, and only their union is inside (winding number, part/mesh_query.hpp).
+/// Closed shells that overlap are united: flag "shells_united". If that fails (flag "shells_overlap"), the volume they
+/// share counts twice in volume and mass; inside is their union (winding number, part/mesh_query.hpp).
 LoadedMesh load_mesh(const ModelFile& file, const LoadOptions& options = {});
 LoadedMesh load_mesh(const std::string& path, const LoadOptions& options = {});
 /// Throws an input Error: missing, a folder, no regular file, unreadable, empty, above max_model_file_size.

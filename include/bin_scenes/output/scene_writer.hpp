@@ -1,4 +1,4 @@
-/// Files of a finished scene. Everything is written to a temporary name first and renamed: nothing half-written.
+/// Files of a finished scene. Each is written under a temporary name and renamed, so that no file is ever incomplete.
 /// A full disk or an unwritable directory is an environment Error.
 #pragma once
 
@@ -40,9 +40,9 @@ void write_pngs(const std::string& directory, const RangeImage& image);
 /// is an image of the scene; lengths in mm; depth/, gray/, mask/, mask_visib/, scene_gt.json, scene_gt_info.json,
 /// scene_camera.json. Depth in counts of depth_scale. `parts[line]` are the models.
 ///
-/// BOP numbers masks by the entry's place in scene_gt, we by the part's id. An entry carries its `id`, and stands at that
-/// place wherever it can: only where parts were never poured, the last ones take the places that are left free, and
-/// their masks lie there under both numbers.
+/// BOP numbers masks by the position of the entry in scene_gt; here the number is the part's id. An entry carries its
+/// `id` and stands at that position if possible. If parts were not poured, the last entries take the free positions,
+/// and their masks are stored under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
 /// The folder models of a BOP data set: obj_<obj_id>.ply and models_info.json (mm).

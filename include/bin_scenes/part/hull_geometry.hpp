@@ -1,4 +1,4 @@
-/// One convex hull: from points to a mesh, and questions to it.
+/// One convex hull: from points to a mesh, and distances to it.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// Closed convex mesh over the points, or an empty one where they span no volume. Above `max_vertices` it
-/// shrinks a little: the vertex furthest outside is added until the count is reached.
+/// Closed convex mesh over the points, or an empty one if they span no volume. If more than `max_vertices`
+/// are needed, the hull is slightly too small: the point farthest outside is added until the number is reached.
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices);
 
 /// Half-space normal . x <= offset; the normal points out of the solid.
@@ -25,10 +25,10 @@ class HullPlanes {
 
   /// Largest normal . p - offset: negative inside; outside a lower bound of the distance.
   double outside(const Vec3& p) const;
-  /// Whether that is more than `limit`: mostly the first planes tell.
+  /// Whether distance() exceeds `limit`; usually decided by the first planes.
   bool outside_by_more(const Vec3& p, double limit) const;
   const Aabb& bounds() const { return bounds_; }
-  /// Largest way out of the bounds along an axis: negative inside, outside a lower bound of the distance.
+  /// Largest distance to the bounding box along an axis: negative inside, outside a lower bound of the distance.
   double to_box(const Vec3& p) const { return (bounds_.lower - p).cwiseMax(p - bounds_.upper).maxCoeff(); }
 
  private:
@@ -36,7 +36,7 @@ class HullPlanes {
   Aabb bounds_;
 };
 
-/// How far a point lies outside all of the hulls: 0 inside of one, else a lower bound of the distance.
+/// Distance of a point from the union of the hulls: 0 inside any of them, otherwise a lower bound.
 double distance_to_union(const std::vector<HullPlanes>& hulls, const Vec3& p);
 
 }  // namespace bin_scenes

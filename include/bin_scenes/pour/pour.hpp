@@ -18,7 +18,7 @@ struct Progress {
   double fraction = 0.0;  ///< 0..1, never falls
 };
 
-/// Hooks a caller may set; all optional.
+/// Optional hooks of a caller.
 struct RunHooks {
   std::function<void(const Progress&)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< polled often; throws Error(cancelled)

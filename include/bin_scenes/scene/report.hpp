@@ -1,4 +1,4 @@
-/// What is known about a finished scene, measured on the true meshes (quality/), not on a solver's proxy.
+/// Report of a finished scene, measured on the true meshes (quality/), not on a solver's collision shapes.
 #pragma once
 
 #include "bin_scenes/core/profile.hpp"
@@ -10,11 +10,11 @@
 
 namespace bin_scenes {
 
-/// Something the user should know, with its remedy: a buffer that had to grow, a mesh that was repaired.
+/// A remark for the user, with a remedy: a buffer that was enlarged, a mesh that was repaired.
 struct Flag {
   std::string code;    ///< stable, snake_case: "mesh_repaired", "contact_overflow"
-  std::string text;    ///< what happened, with figures
-  std::string remedy;  ///< setting to raise, or what to do
+  std::string text;    ///< description with figures
+  std::string remedy;  ///< setting to change, or action to take
 };
 
 /// Quantiles over pairs (m).
@@ -31,7 +31,7 @@ struct PenetrationReport : Quantiles {
   int bin_part = -1;                   ///< id of the worst of them; -1 if none
 };
 
-struct DriftReport : Quantiles {       ///< m, moved centre of mass over 0.5 s of a re-run
+struct DriftReport : Quantiles {       ///< m: move of the centre of mass in 0.5 s of a re-run
   bool measured = false;
   double turn_p95 = 0.0;               ///< rad
 };
@@ -55,7 +55,7 @@ struct Report {
   std::uint64_t steps = 0;
   Profile profile;
   PenetrationReport penetration;
-  Quantiles gap;                       ///< free way of the parts at rest along gravity (m)
+  Quantiles gap;                       ///< m: free fall of the parts at rest
   DriftReport drift;
   EnergyReport energy;
   std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite

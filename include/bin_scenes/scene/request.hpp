@@ -1,5 +1,5 @@
-/// What a user asks for: plain data, one field per key of the request file (docs/use/request.md), SI units.
-/// config/ reads it from YAML, ros/ from the message; both fill the same struct and the same check() judges it.
+/// The user's request: plain data, one field per key of the request file (docs/use/request.md), SI units.
+/// config/ reads it from YAML, ros/ from the message; both fill the same struct, and check() tests it.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -28,13 +28,13 @@ struct Surface {
 struct Bin {
   enum class Kind {
     box,    ///< floor and four walls, analytic
-    mesh,   ///< a mesh of its own, with a pose in the bin frame
+    mesh,   ///< a mesh, with a pose in the bin frame
     floor,  ///< endless plane z = 0
-    none    ///< nothing: free flight
+    none    ///< no bin: free flight
   };
   Kind kind = Kind::box;
   Vec3 inner_size = Vec3(0.40, 0.30, 0.20);  ///< box: inner length x, width y, height z (m)
-  double wall_thickness = 0.005;             ///< box: of walls and floor (m); seen by cameras, never by the physics
+  double wall_thickness = 0.005;             ///< box: of walls and floor (m); affects cameras, not the physics
   std::string mesh;                          ///< mesh: path
   std::string mesh_sha256;                   ///< mesh: of the file's bytes as the reader saw them; empty: not known
   std::optional<Unit> unit;                  ///< mesh: unit of the file
@@ -77,11 +77,11 @@ struct Pour {
     probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
   };
   Finish finish = Finish::pressed;
-  double drop_height = 0.02;     ///< rain: free way of a part's lowest point to the heap below it (m); higher = harder impacts
+  double drop_height = 0.02;     ///< m, rain: free fall of a part's lowest point onto the heap; higher = harder impacts
   double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
-  std::string scene;             ///< given: path of a scene.json to go on from
-  double limit = 20.0;           ///< simulated seconds after which a scene that still moves is given up
-  double rest_window = 0.25;     ///< s: nothing may have moved over this window of simulated time
+  std::string scene;             ///< given: path of a scene.json to continue from
+  double limit = 20.0;           ///< s of simulated time after which a scene that still moves ends, not at rest
+  double rest_window = 0.25;     ///< s of simulated time over which no part may move
   double rest_move = 1e-3;       ///< largest displacement over the window / part diagonal that counts as rest
   double rest_turn = 1e-2;       ///< largest turn over the window (rad) that counts as rest
 };
@@ -93,15 +93,15 @@ const char* name_of(SolverType type);
 
 /// Settings of Bullet. Lengths are in part sizes where noted: Bullet simulates a scaled world.
 struct BulletSettings {
-  double time_step = 1.0 / 240.0;  ///< s; larger is faster and lets thin parts interlock
-  bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
-  int iterations = 40;             ///< contact sweeps per step, two a sub-step, and as many that relax; more =
+  double time_step = 1.0 / 240.0;  ///< s; larger = faster, but thin parts interlock
+  bool cut_steps = true;           ///< shorter steps for small or fast parts; false = such parts may pass through others
+  int iterations = 40;             ///< contact sweeps a step, two a sub-step, and as many relaxing sweeps; more =
                                    ///< stiffer piles, linear cost
-  double margin = 0.005;           ///< collision margin / part diagonal, shrunk into the hulls; smaller = slower, exacter
+  double margin = 0.005;           ///< collision margin / part diagonal, inside the hulls; smaller = slower, exacter
   bool sleeping = true;            ///< islands at rest cost nothing
   double hull_error = 0.01;        ///< largest surface error of the convex decomposition / part diagonal
-  double hull_volume_error = 0.05;  ///< by how much the hulls together may be too large / volume
-  int max_hulls = 64;              ///< cap on hulls per part; cost per touching pair grows with its square
+  double hull_volume_error = 0.05;  ///< largest excess volume of all hulls together / volume
+  int max_hulls = 64;              ///< largest number of hulls per part; cost of a touching pair grows with its square
 };
 
 /// The sphere solver as the thesis describes it; preset `thesis`.
@@ -110,7 +110,7 @@ struct ThesisSettings {
   int sub_steps = 1;             ///< whole steps of time_step / sub_steps each
   int iterations = 10;           ///< impulse/velocity passes per step; 5 or 10 in the thesis
   double bias = 0.2;             ///< beta, 0.1 .. 0.3: share of the penetration turned into velocity per step
-  double slop = 0.01;            ///< penetration left alone / sphere radius
+  double slop = 0.01;            ///< penetration that is tolerated / sphere radius
   double rest_velocity = 0.0;    ///< m/s below which restitution is 0; 0 = 2 g dt
   int voxels = 10;               ///< voxels along the part's longest side
   double tightness = 1.0;        ///< voxel pitch / sphere diameter; < 1 = overlapping spheres, smoother surface
@@ -119,19 +119,19 @@ struct ThesisSettings {
   bool modified_normals = true;  ///< face spheres carry the true surface's normal
   int grid_size = 128;           ///< cells per axis of the collision grid
   double cell_size = 1.0;        ///< cell edge / largest sphere diameter, >= 1
-  int contacts_per_sphere = 4;   ///< capacity; grown and reported when it does not do
+  int contacts_per_sphere = 4;   ///< initial capacity; enlarged and reported if necessary
 };
 
 /// The default sphere solver: surface samples of one part against the distance field of the other.
 struct SphereSettings {
-  double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger is faster and lets thin parts interlock
-  bool cut_steps = true;           ///< those too long for small or fast parts; false = such parts sink in, or pass
+  double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger = faster, thin parts interlock
+  bool cut_steps = true;           ///< shorter steps for small or fast parts; false = such parts may pass through others
   double step_fall = 1.8e-3;       ///< with cut_steps: way that the smallest part falls from rest in one step at most /
                                    ///< its diagonal; more = longer steps for small parts, which sink in further
   int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
   double recycle = 1e-3;           ///< contacts of a pair are reused until it moved so far / diagonal of the smallest part,
                                    ///< three times as far while pouring; more = faster, contacts are less exact
-  int coarse_samples = 200;        ///< per part while pouring, at least; thin parts get more
+  int coarse_samples = 200;        ///< per part while pouring; thin parts get more
   int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
   double field_cell = 0.004;       ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
   /// Where it runs. automatic: on the CPU, until the GPU form has been measured on a card; gpu: the same passes as GL
@@ -201,7 +201,7 @@ struct Sensor {
   std::vector<double> k;        ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
   std::array<double, 5> distortion{};  ///< plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole
   std::optional<Pose> pose;     ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
-  double near = 0.05, far = 10.0;  ///< m; nothing is seen outside
+  double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
   Projector projector;          ///< structured_light, stereo
   Laser laser;                  ///< laser_line
@@ -215,10 +215,10 @@ struct Sensor {
   double depth_scale = 1e-4;    ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };
 
-/// When a scene counts as accepted; the report names what failed.
+/// Limits of an accepted scene; the report names those that were exceeded.
 struct Acceptance {
   double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
-  double gap = 0.005;         ///< largest free way of a part at rest along gravity / its diagonal
+  double gap = 0.005;         ///< largest free fall of a part at rest / its diagonal
   double energy = 2.0;        ///< largest gain of energy from nowhere between two looks, in m g d of the part
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };
@@ -235,8 +235,8 @@ struct Request {
   std::vector<Sensor> sensors;
   Acceptance accept;
   std::optional<double> seconds;  ///< simulate exactly this long instead of until rest
-  bool drift_check = false;       ///< run on for 0.5 s and report how far parts move
-  double memory_budget = 4e9;     ///< bytes; a request estimated above it is refused with the figure
+  bool drift_check = false;       ///< continue for 0.5 s and report how far parts move
+  double memory_budget = 4e9;     ///< bytes; a request whose estimate exceeds it is refused, with the figure
   std::string text_sha256;        ///< hash of the request as read; filled by the reader
 
   std::size_t part_count() const;
@@ -246,7 +246,7 @@ struct Request {
 /// change nothing but themselves.
 void apply(SolverSettings::Preset preset, Request& request);
 
-/// Throws one input Error for the first field that makes no sense (negative count, NaN, friction < 0, ...).
+/// Throws one input Error for the first invalid field (negative count, NaN, friction < 0, ...).
 void check(const Request& request);
 
 }  // namespace bin_scenes

@@ -1,5 +1,5 @@
-/// The small interface behind which both solvers stand. The unit of work is a batch of worlds: one scene is a batch
-/// of one, and a world's result does not depend on which other worlds run beside it.
+/// The interface of all solvers. The unit of work is a batch of worlds: one scene is a batch of one, and the result of
+/// a world does not depend on the other worlds of the batch.
 ///
 ///     add_world ─► insert bodies ─► advance ─► states ─► ... ─► remove_world
 ///
@@ -17,7 +17,7 @@
 
 namespace bin_scenes {
 
-/// What never changes about a body.
+/// Constant properties of a body.
 struct BodyDef {
   std::size_t part = 0;      ///< index into WorldDef::parts
   double mass = 1.0;         ///< kg; > 0. Inertia follows from the part's mass properties
@@ -31,7 +31,7 @@ struct BodyState {
   Twist velocity;  ///< of the centre of mass, bin frame
 };
 
-/// What never changes about a world.
+/// Constant properties of a world.
 struct WorldDef {
   std::vector<PartModelPtr> parts;
   std::vector<BodyDef> bodies;
@@ -81,25 +81,25 @@ class Solver {
   /// Returns false if contacts are the same to this solver in all phases.
   virtual bool set_phase(WorldId world, const Phase& phase) = 0;
 
-  /// Simulates the next `seconds` of each listed world: whole steps and, where they do not add up to it, a last one
-  /// that is shorter (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.
+  /// Simulates the next `seconds` of each listed world: whole steps and, if they do not add up to it, a shorter last
+  /// one (steps_in() in solver/step_limit.hpp). Returns the simulated time, which differs by rounding only.
   /// Never depends on wall time.
   virtual double advance(const std::vector<WorldId>& worlds, double seconds) = 0;
-  /// advance() in two halves: begin() may return while a device still works on these worlds; nothing may be asked of
-  /// them, nor may they be changed, before finish() with the same list. Others may be begun and finished meanwhile.
+  /// advance() in two halves: begin() may return while a device still works on these worlds. They must not be read or
+  /// changed before finish() with the same list. Other worlds may be begun and finished in between.
   virtual double begin(const std::vector<WorldId>& worlds, double seconds) { return advance(worlds, seconds); }
   virtual void finish(const std::vector<WorldId>&) {}
-  /// Whether begin() leaves the caller time to look at other worlds.
+  /// Whether begin() returns before the work is done, so that the caller can work on other worlds.
   virtual bool works_aside() const { return false; }
 
   /// States of all bodies in order of WorldDef::bodies; absent ones keep what they had (initially: NaN position).
   virtual std::vector<BodyState> states(WorldId world) const = 0;
-  /// Bodies that the solver itself holds asleep, same order; a hint for progress and counters, not the verdict on rest.
+  /// Bodies asleep in the solver, same order. A hint for progress and counters; rest is decided elsewhere.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
 
-  /// Worlds that are worth simulating side by side; one after the other is as fast beyond that.
+  /// Number of worlds that run faster side by side than one after the other.
   virtual std::size_t worlds_at_once() const { return 1; }
-  virtual double step_size() const = 0;  ///< s of one collision detection
+  virtual double step_size() const = 0;  ///< s: step with one collision detection
   virtual std::uint64_t steps(WorldId world) const = 0;
   virtual const Profile& profile() const = 0;  ///< stage times and counters since construction
   virtual std::vector<Flag> flags(WorldId world) const = 0;
@@ -107,8 +107,8 @@ class Solver {
   virtual std::string device() const = 0;  ///< GL_RENDERER or "cpu"
 };
 
-/// The solver a request asks for. For SolverType::automatic it chooses by device, part and count from measured costs
-/// and appends why to `reason`.
+/// The solver of a request. SolverType::automatic chooses by device, part and count from measured costs; the cause is
+/// appended to `reason`.
 std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts,
                                     std::string& reason);
 

@@ -8,7 +8,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Layers of the heap that a world is made for, once all is in it that finds room: a quarter of a heap is parts.
+/// Layers of the heap when all parts that find room are in; parts fill a quarter of a heap.
 float layers_to_come(const WorldDef& def) {
   const bool mesh = def.bin.kind == Bin::Kind::mesh;
   if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
@@ -24,8 +24,8 @@ float layers_to_come(const WorldDef& def) {
   return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
 }
 
-/// How far values reach: as far as the middle four fifths of them, and on at that rate. One part high above the others
-/// does not make a high heap.
+/// Range of the values, extrapolated from the middle four fifths, so that one part high above the others does not count
+/// as a high heap.
 float reach(std::vector<float>& values) {
   const auto last = static_cast<float>(values.size() - 1);
   const auto tail = static_cast<std::size_t>(0.1f * last + 0.5f);
@@ -34,10 +34,10 @@ float reach(std::vector<float>& values) {
   return within > 0 ? (values[values.size() - 1 - tail] - values[tail]) * last / within : 0;
 }
 
-/// Where the parts that move are, and how large.
+/// Positions and size of the movable parts.
 struct Heap {
-  std::array<std::vector<float>, 3> places;  ///< m; along the axis that gravity is nearest to in the last
-  float edge = 0;                            ///< m, in the mean, of the cube that has a part's diagonal
+  std::array<std::vector<float>, 3> places;  ///< m; the last array is along the axis closest to gravity
+  float edge = 0;                            ///< m: mean edge of a cube with a part's diagonal
 
   explicit Heap(const World& world) {
     int down = 0;
@@ -52,12 +52,12 @@ struct Heap {
   bool empty() const { return places[0].empty(); }
   float count() const { return static_cast<float>(places[0].size()); }
 
-  /// Its height over the edge of the cube that a part has of its volume.
+  /// Height of the heap / edge of the cube that is one part's share of its volume.
   float layers() {
     const Vec3f size = Vec3f(reach(places[0]), reach(places[1]), reach(places[2])) + Vec3f::Constant(edge);
     return std::min(count(), size[2] / std::cbrt(size.prod() / count()));
   }
-  /// All above one another, so that each carries all that are above it: nothing finds another way down.
+  /// All parts stand one on another, so that each carries all parts above it.
   bool is_tower() const {
     const auto within = [&](const std::vector<float>& p) {
       const auto [least, most] = std::minmax_element(p.begin(), p.end());
@@ -67,17 +67,17 @@ struct Heap {
   }
 };
 
-/// Work that keeps soft contacts, springs of the sub-step's frequency, from giving way by more than `share` of a part's
-/// thickness (m) under a load of so many of its own weights: they do by the load over the square of that frequency. A
-/// plate that sank into another by a tenth of its thickness has ways out sideways that are nearer than the way back.
+/// Effort with which soft contacts sag by at most `share` of a part's thickness (m) under a load of `weights` times its
+/// own weight. Soft contacts are springs of the sub-step's frequency; their sag is the load over the square of that
+/// frequency. A plate that has sunk in by a tenth of its thickness has nearer ways out sideways than back.
 float stiff_enough(const World& world, float weights, float thickness, float share) {
   if (!(thickness > 0)) return 0;
   const float h = world.whole_step / static_cast<float>(world.settings.sub_steps * world.settings.soft.refinement);
   return std::sqrt(weights * world.gravity.norm() * h * h / (share * thickness));
 }
 
-/// Work for what heavier parts lie on: the layers above it weigh as parts do in the mean, and one of them may be the
-/// heaviest.
+/// Effort for light parts under heavier ones: the layers above weigh as much as the mean part, or one of them is the
+/// heaviest part.
 float effort_of_weights(const World& world, float layers) {
   float sum = 0, heaviest = 0, most = 0;
   int count = 0;
@@ -96,8 +96,8 @@ float effort_of_weights(const World& world, float layers) {
   return std::min(most, world.settings.most_for_weights);
 }
 
-/// A tower has no width to lean on. What holds it upright falls with the cube of its height (Greenhill 1881), and
-/// stiffness is the square of this work.
+/// A tower buckles under its own weight. The load it can carry falls with the cube of its height (Greenhill 1881), and
+/// stiffness grows with the square of the effort.
 float effort_of_tower(const World& world, const Heap& heap) {
   const float parts = heap.count();
   return std::min(world.settings.tower * parts * std::sqrt(parts), world.settings.most_for_towers);
@@ -116,7 +116,7 @@ int effort_to_come(const World& world, const WorldDef& def) {
 
 int effort_of(const World& world) {
   Heap heap(world);
-  if (heap.empty() || world.gravity.isZero()) return effort_of_layers(world, 0);  // nothing lies on anything
+  if (heap.empty() || world.gravity.isZero()) return effort_of_layers(world, 0);  // no part lies on another
   const float layers = heap.layers();
   const float work = std::max(layers / world.settings.layers, heap.is_tower() ? effort_of_tower(world, heap) : 0);
   return std::max(static_cast<int>(std::ceil(work)), effort_of_layers(world, layers));

@@ -1,4 +1,4 @@
-/// How much work on contacts a heap needs, as times that of a few layers of thick parts of one mass: World::effort.
+/// Factor on the work on contacts that a heap needs, 1 for a few layers of thick parts of equal mass: World::effort.
 #pragma once
 
 #include "solver/sphere/world.hpp"
@@ -7,10 +7,10 @@
 
 namespace bin_scenes::sphere {
 
-/// Of the heap that a world is made for, once all is in it that finds room.
+/// Effort of the heap that this world will become, when all parts that find room are in.
 int effort_to_come(const World& world, const WorldDef& def);
 
-/// Of the heap as it lies.
+/// Effort of the heap as it lies now.
 int effort_of(const World& world);
 
 }  // namespace bin_scenes::sphere
