@@ -3,7 +3,7 @@
 #include "framework/benchmark.hpp"
 #include "goals_met.hpp"
 #include "judged.hpp"
-#include "random_part.hpp"
+#include "made_part.hpp"
 
 #include <cstdio>
 
@@ -36,14 +36,8 @@ void rows(Run& out, const std::string& part, const Request& asked, const std::st
       choose_solver(request, solver);
       finish_as(request, finish);
       warm_up(request);
-      std::vector<Row> scenes;
-      for (int seed = 1; seed <= scenes_each; ++seed) {
-        request.seed = static_cast<std::uint64_t>(seed);
-        scenes.push_back(
-            judged_scene(out.scratch(), request, pieces, std::nullopt, {out.quick() ? 20.0 : 120.0, true}));
-        if (scenes.back().at("scenes").empty()) break;
-      }
-      out.row(Row(key).append(over_all(scenes)));
+      out.row(Row(key).append(over_all(judged_scenes(out.scratch(), request, pieces, {},
+                                                     {out.quick() ? 20.0 : 120.0, scenes_each}, scenes_each))));
     }
 }
 
@@ -56,7 +50,7 @@ void run(Run& out) {
     if (out.quick()) return;
   }
   for (int part = 1; part <= unseen_parts; ++part) {
-    char name[16];
+    char name[32];
     std::snprintf(name, sizeof name, "random_%02d", part);
     const std::string folder = out.scratch() + "/" + name;
     write_random_part(folder, static_cast<std::uint64_t>(part));
