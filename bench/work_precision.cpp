@@ -43,7 +43,7 @@ std::vector<Setting> settings_of_solvers(bool quick) {
                      choose_solver(request, "sphere");
                      request.pour.finish = finish;
                    },
-                   std::nullopt});
+                   {}});
     if (quick) break;
   }
   for (const double factor : {4.0, 2.0, 0.5}) {
