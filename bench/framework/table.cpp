@@ -27,7 +27,7 @@ std::string quoted(const std::string& field) {
   std::string out = "\"";
   for (const char c : field) {
     if (c == '"') out += '"';
-    out += c == '\n' ? ' ' : c;  // one row, one line: gnuplot and awk read these files too
+    out += c == '\n' || c == '\t' ? ' ' : c;  // one row, one line: gnuplot and awk read these files too
   }
   return out + '"';
 }

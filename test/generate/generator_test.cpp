@@ -118,6 +118,7 @@ TEST_F(GeneratorTest, ThinPartsOnEachOtherStayApart) {
   std::ofstream(dir / "box.stl") << box_stl({0.03, 0.02, 0.001});
   Request request = boxes(30);
   request.solver.type = SolverType::sphere;
+  request.pour.finish = Pour::Finish::probed;
   request.bin.inner_size = Vec3(0.05, 0.04, 0.3);
   for (request.seed = 2; request.seed < 5; ++request.seed) {
     const Report report = run(request).at(0).scene.report;

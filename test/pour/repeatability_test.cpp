@@ -104,7 +104,8 @@ TEST_P(Repeatability, ASceneIsTheSameAloneAndInAnyBatch) {
 }
 
 TEST_P(Repeatability, ASceneGoesThroughEveryStage) {
-  const Request request = angles(5, GetParam());
+  Request request = angles(5, GetParam());
+  request.pour.finish = Pour::Finish::probed;
   Watched solver(solver_of(request));
   const Ends watched = ends_of(request, solver, {1});
   for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::prove})

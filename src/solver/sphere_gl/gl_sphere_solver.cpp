@@ -86,6 +86,7 @@ class GlSphereSolver final : public Solver {
   void remove(WorldId id, std::size_t body) override {
     Resident& r = world(id);
     for (const std::uint32_t other : touched(r.world, body)) wake(r, other);
+    wake(r, static_cast<std::uint32_t>(body));
     r.world.bodies[body].present = false;
     r.changed.insert(body);
   }
