@@ -5,6 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -84,7 +87,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) return complain("cancelled; finished scenes are kept", exit_interrupted);
+    if (error.kind() == ErrorKind::cancelled) {
+      std::signal(SIGALRM, SIG_IGN);  // the patience of generate(): it would say so once more
+      _exit(complain("cancelled; finished scenes are kept", exit_interrupted));
+    }
     return complain(error.what(), static_cast<int>(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain("out of memory (ask for less, or lower memory_budget to be told before)",
