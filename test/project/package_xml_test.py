@@ -58,23 +58,23 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "run", "tests", "bench", "ros"})
+                         {"build", "libraries", "pcd", "run", "tests", "bench", "ros", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
 
     def test_what_is_installed_has_a_key(self):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
-        for name in ("build", "libraries", "run", "tests", "ros"):
+        for name in ("build", "libraries", "pcd", "run", "tests", "ros", "ros_tests"):
             for package in self.arrays[name]:
-                known = package in provided or name == "ros" and ros_package(package) in self.keys
+                known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
                 if not known and package not in OURS:
                     missing.append(package)
         self.assertEqual(missing, [], "package.xml lacks keys for them")
 
     def test_every_key_is_installed(self):
-        packages = {p for name in ("libraries", "run", "tests", "ros") for p in self.arrays[name]}
-        ros = {ros_package(p) for p in self.arrays["ros"]}
+        packages = {p for name in ("libraries", "pcd", "run", "tests", "ros", "ros_tests") for p in self.arrays[name]}
+        ros = {ros_package(p) for p in self.arrays["ros"] + self.arrays["ros_tests"]}
         unknown = [k for k in sorted(self.keys - THEIRS)
                    if k not in ros and not packages.issuperset(DEBIAN.get(k, [k]))]
         self.assertEqual(unknown, [], "scripts/install_deps lacks packages for them")
