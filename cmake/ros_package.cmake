@@ -25,7 +25,9 @@ add_message_files(FILES
 add_service_files(FILES GenerateScene.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
-catkin_package(CATKIN_DEPENDS geometry_msgs message_runtime std_msgs)
+# The library (cmake/library.cmake) and the messages; bin_scenes-extras.cmake adds the target bin_scenes::bin_scenes.
+catkin_package(INCLUDE_DIRS include LIBRARIES bin_scenes CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
+  DEPENDS EIGEN3 CFG_EXTRAS bin_scenes-extras.cmake)
 
 # catkin gives its include path and definitions to every target of the project. Only those of src/ros and test/ros take
 # them: a stray include does not compile, and the rest compiles to the same objects with and without ROS.

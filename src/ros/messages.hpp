@@ -2,8 +2,9 @@
 ///
 /// The generator puts them into a namespace named after the package, where bin_scenes::Scene, bin_scenes::Sensor and
 /// others would collide with the library's structs of the same names. Inside this package the generated headers are
-/// therefore read under another namespace. What goes over the wire (type names, MD5 sums) are string literals and does
-/// not change; other packages include the headers as usual.
+/// therefore read under another namespace. A file of another package that uses library and messages includes this
+/// header, installed as bin_scenes/messages.hpp. Type names and MD5 sums are string literals and do not change; files
+/// that use the messages alone include the generated headers as usual.
 #pragma once
 
 // Everything that the generated headers include comes first, so that the renaming touches nothing else.
