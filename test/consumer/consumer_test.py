@@ -51,8 +51,8 @@ def plain(build, compiler, work):
     lines = run(work / "picker" / "picker", prefix / SHARE / "models", env=environment).splitlines()
     poses = [line for line in lines if line.startswith("part ")]
     expect(len(poses) == 50, f"50 poses expected, {len(poses)} found: {lines}")
-    last = re.fullmatch(r"took out part (\d+): (\d+) parts, at rest: (\d), hash ([0-9a-f]{16})", lines[-1])
-    expect(last and last[2] == "49" and last[3] == "1", f"49 parts at rest expected: {lines[-1]}")
+    last = re.fullmatch(r"took out part \d+: at rest 1, (\d+) of 49 parts did not move", lines[-1])
+    expect(last and 10 <= int(last[1]) <= 49, f"a pick leaves what it does not touch: {lines[-1]}")
 
     # The library's results are those of the program, whoever links it.
     request = work / "nuts.yaml"
@@ -69,7 +69,7 @@ def catkin(build, compiler, work):
     command = built("catkin", build / "devel", compiler, work / "depot")
     expect("-ffp-contract" not in command and "EIGEN_FAST_MATH" not in command, f"flags leak: {command}")
     program, = work.glob("depot/devel/lib/depot/depot")
-    expect(run(program).strip() == "50 parts in a bin_scenes/Scene", "the message's type is another")
+    expect(run(program, HERE.parents[1] / "models").strip() == "50 parts in a bin_scenes/Scene", "the message's type is another")
 
 
 def main():

@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
-int main() {
+int main(int, char** argv) {
   const bin_scenes::Request request =
-      bin_scenes::read_request_text("{parts: [{model: nut_hex.stl, unit: mm, count: 50}]}", ".");
+      bin_scenes::read_request_text("{parts: [{model: nut_hex.stl, unit: mm, count: 50}]}", argv[1]);
   bin_scenes_msgs::Scene message;
   message.parts.resize(request.part_count());
   std::printf("%zu parts in a %s\n", message.parts.size(),

@@ -1,5 +1,7 @@
 /// The passes of the sphere solver, each by itself against a closed form or a slow and obvious twin. The narrow phase
 /// and the solve have files of their own.
+#include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "boxes.hpp"
 #include "solver/sphere/make_world.hpp"
@@ -273,6 +275,20 @@ TEST(Sleep, ByTouchWhatGoesWakesWhatItTouches) {
   step(world);
   EXPECT_EQ(awake(), std::vector<int>{2}) << "it stays, and wakes nobody";
   EXPECT_EQ(world.bodies[0].x, below);
+}
+
+/// A pass that the compiler makes in several versions for several machines can be left by an exception in each of them.
+TEST(Passes, ACancelledPassThrowsToItsCaller) {
+  PartModelPtr part;
+  const Shape shape = box_shape(part, {0.06, 0.04, 0.02});
+  const std::atomic<bool> unwanted{true};
+  for (void (*pass)(World&) : {find_pairs, find_contacts, solve}) {
+    World world = world_of_boxes(shape, 20);  // all in one place
+    find_pairs(world);
+    if (pass == solve) color_manifolds(world);
+    const CancelScope scope(&unwanted);
+    EXPECT_THROW(pass(world), Error);
+  }
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ namespace bin_scenes::sphere {
 
 namespace {
 
+constexpr std::size_t entries_between_stops = 16;  ///< each may meet all others: milliseconds with 20,000 in one place
+
 struct Bounds {
   Vec3f lower, upper;
   float margin;
@@ -94,12 +96,13 @@ void fill_lanes(const std::vector<Entry>& entries, const std::vector<Bounds>& bo
   }
 }
 
-/// Entries behind each one, in its strip, whose upright boxes meet its own: `meeting(i, j)`.
+/// Entries behind the i-th one, in its strip, whose upright boxes meet its own, for i in [begin, end): `meeting(i, j)`.
+/// It may not throw: GCC 12 leaves the versions of a BIN_SCENES_WIDE function without handlers of its callers.
 template <class Meeting>
 BIN_SCENES_WIDE void sweep(const std::vector<Entry>& entries, const std::vector<Bounds>& boxes,
-                           const std::vector<EntryLanes>& lanes, const Meeting& meeting) {
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    stop_if_cancelled();
+                           const std::vector<EntryLanes>& lanes, std::size_t begin, std::size_t end,
+                           const Meeting& meeting) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Bounds& p = boxes[entries[i].box];
     for (std::size_t first = (i + 1) / lane_count * lane_count; first < entries.size(); first += lane_count) {
       if (entries[first].strip != entries[i].strip && first > i) break;
@@ -166,14 +169,18 @@ void find_pairs(World& world) {
     return std::tie(a.strip, a.lower_x, a.box) < std::tie(b.strip, b.lower_x, b.box);
   });
   fill_lanes(entries, boxes, lanes);
-  sweep(entries, boxes, lanes, [&](std::size_t i, std::size_t j) {
+  const auto meeting = [&](std::size_t i, std::size_t j) {
     const Bounds &p = boxes[entries[i].box], &r = boxes[entries[j].box];
     if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
     const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
     if (!a.moves() && !b.moves()) return;
     if (world.settings.oriented_boxes && boxes_apart(world, a, b, p.margin + r.margin)) return;
     found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
-  });
+  };
+  for (std::size_t begin = 0; begin < entries.size(); begin += entries_between_stops) {
+    stop_if_cancelled();
+    sweep(entries, boxes, lanes, begin, std::min(begin + entries_between_stops, entries.size()), meeting);
+  }
   sort_pairs(found, world.bodies.size());
 
   // Merge with the manifolds of the last step: forces and recyclable contacts live on under the same key.
