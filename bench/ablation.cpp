@@ -98,10 +98,10 @@ const Mechanism mechanisms[] = {
     {"friction patch", "points resist no turn", [](Variant& v) { v.settings.patch_radius = 0; }},
     {"gyroscopic torque", "none", [](Variant& v) { v.settings.gyroscopic = false; }},
     // Work that follows from the heap.
-    {"work for layers", "the same for any depth", [](Variant& v) { v.settings.layers = infinity; }},
-    {"work for thin parts", "the same for any thickness", [](Variant& v) { v.settings.sag = infinity; }},
-    {"work for weights", "the same under heavy parts", [](Variant& v) { v.settings.weighed_sag = infinity; }},
-    {"work for towers", "the same for towers", [](Variant& v) { v.settings.tower = 0; }},
+    {"work for layers", "the same for any depth", [](Variant& v) { v.settings.default_layers = infinity; }},
+    {"work for thin parts", "the same for any thickness", [](Variant& v) { v.settings.thin_part_sag = infinity; }},
+    {"work for weights", "the same under heavy parts", [](Variant& v) { v.settings.loaded_part_sag = infinity; }},
+    {"work for towers", "the same for towers", [](Variant& v) { v.settings.tower_effort = 0; }},
     // Coming to rest.
     {"sleep", "parts at rest are simulated on", [](Variant& v) { v.settings.rest_window = infinity; }},
     {"slip", "a probe begins with friction", [](Variant& v) { v.settings.probe_slip = 0; }},

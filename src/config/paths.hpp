@@ -1,4 +1,4 @@
-/// From a path as the user wrote it to a file that may be read.
+/// Resolves a path of a request to a file inside the permitted roots.
 #pragma once
 
 #include "bin_scenes/config/request_reader.hpp"

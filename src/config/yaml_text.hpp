@@ -1,4 +1,4 @@
-/// Text to a tree of YAML nodes, whatever the text is: time and memory are bounded by its length.
+/// Parses YAML text. Time and memory are bounded by the length of the text, whatever it contains.
 #pragma once
 
 #include <yaml-cpp/yaml.h>

@@ -1,4 +1,4 @@
-/// Which of a number of things hang together.
+/// Union-find: connected components of numbered items.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Work that falls into pieces, on all cores.
+/// Loops whose iterations run on all cores.
 #pragma once
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,5 +1,5 @@
-/// Scenes on their way from the solver to the caller: judged, seen and made ready by other threads while the next ones
-/// are poured, handed on in order by the thread that pours.
+/// Poured scenes are judged, rendered and encoded by other threads while the next ones are poured. The pouring thread
+/// hands them to the caller in order.
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"

@@ -1,4 +1,4 @@
-/// What assimp does not tell about a COLLADA file, or trips over (assimp 5.2).
+/// Data of COLLADA files that assimp 5.2 does not report, and files that it cannot read.
 #pragma once
 
 #include <optional>

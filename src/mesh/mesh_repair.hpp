@@ -1,4 +1,4 @@
-/// The repairs a loaded mesh goes through, in the order of src/scene/mesh_loader.cpp.
+/// The repairs a loaded mesh goes through, in the order of src/mesh/mesh_loader.cpp.
 /// Lengths in the unit of the mesh. All of them are deterministic: ties go to the lower index.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// From a sheet to a solid.
+/// Turns an open sheet into a solid of a given thickness.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -1,4 +1,4 @@
-/// Solid shells of one part that overlap.
+/// Unites the overlapping solid shells of a part.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

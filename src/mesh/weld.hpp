@@ -1,4 +1,4 @@
-/// Vertices made one, and triangles that then mean nothing taken out.
+/// Merges equal vertices and removes the triangles that thereby become degenerate.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

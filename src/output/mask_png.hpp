@@ -1,4 +1,4 @@
-/// PNG of a mask that is 0 nearly everywhere, without looking at the zeros: a data set of heaps holds hundreds a scene.
+/// Fast PNG writer for masks that are 0 nearly everywhere: a scene of a data set holds hundreds of them.
 #pragma once
 
 #include "output/png.hpp"

@@ -1,4 +1,4 @@
-/// Read from the disk cache, else make and write: the one way every prepared thing of a part takes.
+/// Reads prepared data of a part from the disk cache, or makes and writes it. All prepared data goes through here.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

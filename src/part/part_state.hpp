@@ -1,4 +1,4 @@
-/// What a PartModel holds.
+/// The data of a PartModel.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -22,7 +22,7 @@ struct CutPlane {
 /// made: the corners of a cut solid all lie on its clipped surface, but for those where three cuts meet inside it.
 std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double tolerance);
 
-/// What the cutting needs to know of the solid.
+/// The data of the solid that the cuts need.
 struct SolidMeasure {
   /// How far a convex hull sticks out of the solid (m), and where it does so most.
   std::function<std::pair<double, Vec3>(const Mesh& hull)> protrusion;

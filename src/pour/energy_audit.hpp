@@ -1,8 +1,8 @@
-/// Energy that nobody put in: the sign of a solver whose contacts throw parts about.
+/// Energy audit: detects mechanical energy that contacts created, the sign of an explosion.
 ///
-/// Contacts and friction only take mechanical energy. Between two looks no group of parts that may have touched can gain
-/// any; a part gains what its neighbours lose. So parts within reach of each other are one group, and of a part's gain
-/// counts what its whole group gained:
+/// Contacts and friction can only remove mechanical energy, so a group of parts that may have touched cannot gain any
+/// between two looks; a part gains only what its neighbours lose. Parts within reach of each other form a group, and
+/// the gain of a part is limited to the gain of its group:
 ///
 ///     gain of part i = min(E_i now - E_i before, sum of the same over its group) / (m_i g d_i)
 ///

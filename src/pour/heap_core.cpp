@@ -12,7 +12,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
-constexpr int misses_per_look = 4;  ///< parts without a place in a row after which a look gives up
+constexpr int misses_per_look = 4;  ///< consecutive parts without a place after which a look stops trying
 
 }  // namespace
 
@@ -35,7 +35,7 @@ HeapCore::~HeapCore() {
   solver_.remove_world(id_);
 }
 
-/// A new world with the bodies that are in. While parts enter, walls of a box reach far enough up to hold them.
+/// Makes a world with the bodies that are in the bin. While parts enter, the walls of a box are raised to hold them.
 void HeapCore::make_world(bool raised_walls) {
   WorldDef def = plan_->world;
   walls_raised_ = raised_walls && def.bin.kind == Bin::Kind::box;
@@ -51,12 +51,12 @@ void HeapCore::make_world(bool raised_walls) {
 
 void HeapCore::begin(Stage stage) {
   settling_.start(stage);
-  tell_stage();
+  set_solver_phase();
   start_clock();
 }
 
-void HeapCore::tell_stage() {
-  if (!solver_.set_phase(id_, settling_.told())) settling_.ignore_stages();
+void HeapCore::set_solver_phase() {
+  if (!solver_.set_phase(id_, settling_.phase())) settling_.ignore_stages();
 }
 
 void HeapCore::start_clock() {
@@ -73,7 +73,7 @@ void HeapCore::start_clock() {
 void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
   states();
   const std::size_t first = states_.size();
-  audit_.reset();  // it is of the plan that goes
+  audit_.reset();  // it refers to the old plan
   plan_ = std::move(plan);
   solver_.remove_world(id_);
   make_world(true);
@@ -163,9 +163,9 @@ void HeapCore::start_grid() {
 }
 
 void HeapCore::start_rain() {
-  for (std::size_t i = waiting_.size(); i > 1; --i)  // Fisher-Yates: part lines come mixed
+  for (std::size_t i = waiting_.size(); i > 1; --i)  // Fisher-Yates shuffle: part lines enter mixed
     std::swap(waiting_[i - 1], waiting_[random_.below(i)]);
-  let_in();
+  insert_waiting();
 }
 const std::vector<BodyState>& HeapCore::states() {
   if (fresh_) return states_;
@@ -201,7 +201,7 @@ bool HeapCore::outside(const Vec3& center) const {
   return false;
 }
 
-void HeapCore::judge() {
+void HeapCore::update_rest() {
   const Pour& pour = plan_->request.pour;
   const std::vector<BodyState> now = solver_.states(id_);
   for (std::size_t b = 0; b < states_.size(); ++b) {
@@ -259,7 +259,7 @@ bool HeapCore::all_rest() const {
 bool HeapCore::all_slow() const {
   return count_moving([&](std::size_t b) { return !slow(b); }) == 0;
 }
-std::size_t HeapCore::less_still_than(double seconds) const {
+std::size_t HeapCore::still_for_less_than(double seconds) const {
   return count_moving([&](std::size_t b) { return rest_.still(b, time_) < seconds; });
 }
 bool HeapCore::all_asleep() const {
@@ -267,7 +267,7 @@ bool HeapCore::all_asleep() const {
   return count_moving([&](std::size_t b) { return !asleep[b]; }) == 0;
 }
 
-void HeapCore::let_in() {
+void HeapCore::insert_waiting() {
   if (waiting_.empty()) return;
   std::vector<Rain::Obstacle> obstacles;
   if (plan_->world.bin_model) obstacles.push_back({&plan_->bin_cover, Pose(), true});
@@ -290,7 +290,7 @@ void HeapCore::let_in() {
     insert(b, {*pose, {}});
     obstacles.push_back({&shape, *pose, false});
   }
-  // Nothing moves any more and still nobody finds a place: the bin is full.
+  // All parts rest and none of the waiting ones finds a place: the bin is full.
   if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
     for (const std::size_t b : still) place_[b] = Place::no_room;
     still.clear();
@@ -298,25 +298,25 @@ void HeapCore::let_in() {
   waiting_ = std::move(still);
 }
 
-/// Back to the rim, once all are in.
+/// Cuts the raised walls down to the rim, once all parts are in.
 void HeapCore::cut_walls() {
   walls_raised_ = false;
-  if (top() <= plan_->world.wall_height) return;  // nothing leans on what is taken away
+  if (top() <= plan_->world.wall_height) return;  // no part touches the walls above the rim
   earlier_steps_ += solver_.steps(id_);
   solver_.remove_world(id_);  // first: both at once would hold twice the memory
   make_world(false);
-  tell_stage();
+  set_solver_phase();
 }
 
 void HeapCore::look() {
-  judge();
-  let_in();
+  update_rest();
+  insert_waiting();
   const Stage before = settling_.stage();
   if (!settling_.look(*this, time_) || settling_.done()) return;
-  tell_stage();
+  set_solver_phase();
   if (before != Stage::pour) return;
   if (walls_raised_) cut_walls();
-  rest_ = RestWatch(states_.size());  // what rested on coarser shapes, or leant on a wall that is gone, may move again
+  rest_ = RestWatch(states_.size());  // parts that rested on coarse samples or leant on a cut wall may move again
 }
 
 bool HeapCore::over() const {

@@ -1,5 +1,5 @@
-/// One heap between its changes and its rest: which parts are in, which wait, which rest, which are gone. The caller
-/// advances the solver (settle_heaps.hpp), so that many heaps of one solver can be stepped together.
+/// The state machine of one heap: which parts are in the bin, wait, rest, or are gone. The caller advances the solver
+/// (settle_heaps.hpp), so that many heaps of one solver are stepped together.
 #pragma once
 
 #include "pour/energy_audit.hpp"
@@ -22,16 +22,16 @@ class HeapCore final : private HeapView {
   HeapCore(const HeapCore&) = delete;
   HeapCore& operator=(const HeapCore&) = delete;
 
-  // Changes, between two settles.
-  /// Goes on with a plan that has more part lines than before at its end: their parts enter.
+  // Changes between two settles.
+  /// Replaces the plan by one with more part lines at its end, whose parts enter.
   void extend(std::shared_ptr<const PourPlan> plan);
   void remove(std::size_t body);
   void set_gravity(const Vec3& gravity);
-  /// After a step that was broken off: a new world with the states of the last look, which settles anew.
+  /// After a cancelled step: makes a new world with the states of the last look and settles it again.
   void recover();
 
-  // A settle.
-  /// Starts the clock; what was under way before goes on.
+  // Settling.
+  /// Sets the clock to 0; the current stage goes on.
   void start_clock();
   std::size_t index() const { return index_; }
   WorldId id() const { return id_; }
@@ -41,9 +41,9 @@ class HeapCore final : private HeapView {
   /// s until the request's set time; infinity without one.
   double time_left() const;
   void advanced(double seconds) { time_ += seconds, fresh_ = false; }
-  /// Judges rest and escape, lets parts in, moves on through the stages. Call on whole slices.
+  /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice.
   void look();
-  void judge();  ///< only judges, at the end of a set time
+  void update_rest();  ///< rest and escape alone, at the end of a set time
   bool over() const;
   Progress progress() const;
 
@@ -58,14 +58,14 @@ class HeapCore final : private HeapView {
 
   void make_world(bool raised_walls);
   void begin(Stage stage);
-  void tell_stage();
+  void set_solver_phase();
   void insert(std::size_t body, const BodyState& state);
   /// Puts parts from body `first` on where they start; returns whether some of them enter from above.
   bool enter(std::size_t first);
   void start_given(std::size_t first);
   void start_grid();
   void start_rain();
-  void let_in();
+  void insert_waiting();
   void cut_walls();
   PartState state_of(std::size_t body) const;
   bool outside(const Vec3& center) const;
@@ -82,7 +82,7 @@ class HeapCore final : private HeapView {
   bool all_rest() const override;
   bool all_asleep() const override;
   std::size_t count() const override;
-  std::size_t less_still_than(double seconds) const override;
+  std::size_t still_for_less_than(double seconds) const override;
   double rest_window() const override { return plan_->request.pour.rest_window; }
 
   std::shared_ptr<const PourPlan> plan_;
@@ -93,11 +93,11 @@ class HeapCore final : private HeapView {
   Settling settling_;
   double time_ = 0.0;
   std::uint64_t earlier_steps_ =
-      0;  ///< of worlds left behind since the clock was started, less those before in this one
+      0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
   bool fresh_ = false, walls_raised_ = false;
   std::vector<BodyState> states_;
   std::vector<Place> place_;
-  std::vector<std::size_t> waiting_;  ///< bodies still to come, next one first
+  std::vector<std::size_t> waiting_;  ///< bodies that have not entered, next one first
   RestWatch rest_;
   std::optional<EnergyAudit> audit_;  ///< of this settle
 };

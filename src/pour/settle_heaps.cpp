@@ -97,7 +97,7 @@ class Run {
     end_piece(group);
     leave_if(group, [](HeapCore& heap) {
       if (heap.time_left() > 0.0) return false;
-      heap.judge();
+      heap.update_rest();
       return true;
     });
     if (group.left == 0) {

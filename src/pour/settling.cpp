@@ -8,13 +8,14 @@ namespace {
 
 using Finish = Pour::Finish;
 
-constexpr double calm_share = 0.4;        ///< of the rest window: parts still for so long are calm
-constexpr double jolt = 0.02;             ///< s from the start of a proof until its forces are found; parts budge then
-constexpr double creep = 1.0;             ///< s of a probe in which what tips slowly shows; all asleep is proof as well
-constexpr double patience = 2.0;          ///< s of a proof or mend: rigid and stiff contacts damp rocking poorly
-constexpr int most_proofs = 12;           ///< a heap that still moves in the last one is left as it came to lie
-constexpr double tolerated_share = 0.02;  ///< of the parts may move in a proof, less ...
-constexpr double tolerated_less = 2.0;    ///< ... so many: max(0, n / 50 - 2), 1 of 150
+constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
+constexpr double jolt = 0.02;     ///< s at the start of a proof in which its forces are found and parts shift a little
+constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
+constexpr double patience = 2.0;  ///< s: time-out of a proof or mend, whose stiff contacts damp rocking poorly
+constexpr int most_proofs = 12;   ///< a heap that still moves in the last one is accepted as it lies
+// Parts that may move in a proof: max(0, n / 50 - 2), 1 of 150.
+constexpr double tolerated_share = 0.02;
+constexpr double tolerated_less = 2.0;
 
 }  // namespace
 
@@ -28,17 +29,19 @@ struct Settling::Seen {
 
   bool all_in() const { return heap.all_in() && heap.all_slow(); }
   bool rest() const { return heap.all_in() && heap.all_rest(); }
-  bool calm() const { return heap.less_still_than(calm_s) == 0; }
+  bool calm() const { return heap.still_for_less_than(calm_s) == 0; }
   bool fast() const { return !heap.all_slow(); }
-  /// More than a heap that stands may have. What moved has not been asked whether it stands now.
+  /// More moving parts than tolerated. Those that moved have not been proved where they lie now.
   bool too_many(std::size_t parts) const {
     return parts > std::max(0.0, tolerated_share * static_cast<double>(heap.count()) - tolerated_less);
   }
-  bool moved() const { return calm() && too_many(heap.less_still_than(in_stage - jolt)) && proofs < most_proofs; }
+  bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && proofs < most_proofs; }
   bool stood() const { return calm() && heap.all_rest(); }
-  bool rocks() const { return !calm() && (fast() || (in_stage > patience && too_many(heap.less_still_than(calm_s)))); }
-  /// Once, when it could be calm: a start that was not at rest.
-  bool stirs() const { return in_stage >= calm_s && last_stage < calm_s && heap.less_still_than(0.5 * calm_s) > 0; }
+  bool rocks() const {
+    return !calm() && (fast() || (in_stage > patience && too_many(heap.still_for_less_than(calm_s))));
+  }
+  /// True at one look, the first at which the heap can be calm: a given start was not at rest.
+  bool stirs() const { return in_stage >= calm_s && last_stage < calm_s && heap.still_for_less_than(0.5 * calm_s) > 0; }
 };
 
 struct Settling::Transition {
@@ -48,7 +51,7 @@ struct Settling::Transition {
   Stage to;
 };
 
-/// The first that applies is taken, one a look.
+/// At each look the first transition that applies is taken.
 const Settling::Transition Settling::transitions[] = {
     // clang-format off
     // from           asked for                            when                                            to
@@ -86,7 +89,7 @@ void Settling::enter(Stage stage, double time) {
   stage_ = stage;
   begun_ = time;
   if (done()) return;
-  friction_ = std::min(friction_, row(stage_).told.friction);
+  friction_ = std::min(friction_, row(stage_).phase.friction);
   proofs_ += stage == Stage::probe || stage == Stage::prove;
 }
 
@@ -102,10 +105,10 @@ bool Settling::look(const HeapView& heap, double time) {
   return false;
 }
 
-Phase Settling::told() const {
-  Phase told = row(stage_).told;
-  told.friction = friction_;
-  return told;
+Phase Settling::phase() const {
+  Phase phase = row(stage_).phase;
+  phase.friction = friction_;
+  return phase;
 }
 
 const char* Settling::finish() const {

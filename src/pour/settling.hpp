@@ -1,8 +1,8 @@
-/// How a heap settles, as data: what the solver is told in each stage, and what leads from one stage to the next.
+/// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
 ///     pour ─► settle ─► press ─► probe ─► prove ─► done      a stage in which parts get under way again goes back to
-///                └─ settled ┘ pressed ┘     probed ┘         settle; what is given at rest starts in hold, what is
-///                                                           left behind when parts are taken out in mend
+///                └─ settled ┘ pressed ┘     probed ┘         settle; given poses start in hold, a heap from which
+///                                                           parts were taken out starts in mend
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
@@ -16,7 +16,7 @@ enum class Stage { pour, settle, press, probe, prove, hold, mend, done };
 struct StageRow {
   Stage stage;
   const char* name;
-  Phase told;  ///< what the solver is told
+  Phase phase;  ///< of the solver
 };
 
 namespace phases {
@@ -56,17 +56,17 @@ inline constexpr const StageRow& row(Stage stage) {
   return stage_rows[static_cast<std::size_t>(stage)];
 }
 
-/// What a transition may ask of a heap. Counts are of parts that are in and not fixed.
+/// The state of a heap on which transitions depend. Counts are of parts that are in the bin and not fixed.
 class HeapView {
  public:
   virtual ~HeapView() = default;
   virtual bool all_in() const = 0;      ///< no part waits to enter
-  virtual bool all_slow() const = 0;    ///< none moves as if it fell
-  virtual bool all_rest() const = 0;    ///< for Pour::rest_window
-  virtual bool all_asleep() const = 0;  ///< as the solver says
+  virtual bool all_slow() const = 0;    ///< no part moves as fast as a falling one
+  virtual bool all_rest() const = 0;    ///< all have been still for Pour::rest_window
+  virtual bool all_asleep() const = 0;  ///< in the solver
   virtual std::size_t count() const = 0;
-  virtual std::size_t less_still_than(double seconds) const = 0;  ///< parts that stayed where they are for less
-  virtual double rest_window() const = 0;                         ///< s
+  virtual std::size_t still_for_less_than(double seconds) const = 0;  ///< parts that moved within the last `seconds`
+  virtual double rest_window() const = 0;                             ///< s
 };
 
 /// One heap's way through the stages, from the start of a settle to its end.
@@ -76,16 +76,16 @@ class Settling {
 
   /// A new settle begins, with its own clock.
   void start(Stage stage);
-  /// The solver takes no notice of stages: to it they are all the same, so that what is settled is done.
+  /// For a solver that has no stages: it is done when it has settled.
   void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
-  /// What was under way goes on, on a clock that starts anew.
+  /// The current stage goes on, and its clock starts again at 0.
   void start_clock() { begun_ = looked_ = 0.0; }
-  /// Looks at the heap at `time` (s since the start) and returns whether the stage has changed, or began anew.
+  /// Applies the transitions at `time` (s since the start). Returns whether a stage began, the same one or another.
   bool look(const HeapView& heap, double time);
 
   Stage stage() const { return stage_; }
-  /// What the solver is to be told of the stage; friction that held less once does so to the end.
-  Phase told() const;
+  /// The solver's phase in this stage. Friction that was reduced once stays reduced to the end.
+  Phase phase() const;
   bool done() const { return stage_ == Stage::done; }
   /// How far it has come: "settled", "pressed", "probed", or "none" before it is done.
   const char* finish() const;
@@ -97,12 +97,12 @@ class Settling {
   void enter(Stage stage, double time);
 
   Pour::Finish finish_;
-  bool ignored_ = false;                            ///< stages, by the solver
+  bool ignored_ = false;                            ///< the solver has no stages
   Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
   double begun_ = 0.0;                              ///< s: start of the stage
   double looked_ = 0.0;                             ///< s: the last look
   int proofs_ = 0;                                  ///< times that probe or prove began
-  double friction_ = 1.0;                           ///< share that holds; what held less once does so to the end
+  double friction_ = 1.0;                           ///< share of friction that holds; never rises again
 };
 
 }  // namespace bin_scenes

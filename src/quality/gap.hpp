@@ -1,4 +1,4 @@
-/// How far parts at rest could fall before something holds them.
+/// Distance that a resting part could fall before another surface holds it.
 #pragma once
 
 #include "placed.hpp"

@@ -1,4 +1,4 @@
-/// What RViz shows of a scene.
+/// Markers of a scene for RViz.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

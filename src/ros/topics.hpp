@@ -1,5 +1,5 @@
-/// What is said about one scene, and under which names: the node publishes it, the bag writer writes it, and so a bag
-/// holds what a recording of the node would hold.
+/// The messages of one scene and their topic names. Node and bag writer share them, so that a bag made offline equals a
+/// recording of the node.
 #pragma once
 
 #include "image_messages.hpp"

@@ -1,13 +1,13 @@
-/// Whether work is still wanted. Whoever starts work says how to tell, by a scope; loops that may run for long ask.
-/// Work that is handed to other threads takes the question along (core/in_parallel.hpp).
+/// Cancellation. The caller of a long job opens a CancelScope with a flag; long loops of the job test the flag of their
+/// thread. Jobs that use other threads pass the flag on to them (core/in_parallel.hpp).
 #pragma once
 
 #include <atomic>
 
 namespace bin_scenes {
 
-/// While it lives, the work of this thread is unwanted as soon as `*flag` is true. Scopes nest: an inner one without a
-/// flag leaves the outer one's in force.
+/// While it exists, the work of this thread is cancelled as soon as `*flag` is true. Scopes nest: one without a flag
+/// keeps the flag of the outer scope.
 class CancelScope {
  public:
   explicit CancelScope(const std::atomic<bool>* flag);
@@ -19,12 +19,12 @@ class CancelScope {
   const std::atomic<bool>* outer_;
 };
 
-/// That of the innermost scope of this thread; null: nobody can cancel its work.
+/// The flag of the innermost scope of this thread; null: its work cannot be cancelled.
 const std::atomic<bool>* cancel_flag();
 
-/// Costs about a nanosecond: ask at least a hundred times a second, wherever a loop's length depends on the input.
+/// Costs about a nanosecond. Call it at least 100 times a second in every loop whose length depends on the input.
 bool cancelled();
-/// Throws Error(cancelled). Only where unwinding leaves nothing half-made.
+/// Throws Error(cancelled). Call it only where an exception leaves no half-made data behind.
 void stop_if_cancelled();
 
 }  // namespace bin_scenes

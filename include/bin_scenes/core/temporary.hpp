@@ -1,5 +1,5 @@
-/// Files and directories that appear whole or not at all, survive a loss of power once they have appeared, and leave
-/// nothing behind that nobody removes.
+/// Files and directories that appear complete or not at all. Once they have appeared they survive a loss of power, and
+/// leftovers of killed processes are removed by later ones.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ class Generator {
   /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
   /// It may outlive the generator.
   Heap heap(const Request& request, const RunHooks& hooks = {});
-  /// What generate() hands over, of a heap as it is now: judged and rendered, as its own request asks.
+  /// The result of generate() for the current state of a heap: judged, and rendered as its request asks.
   Result result(const Heap& heap, const Options& options);
 
   /// Models of the last request, by part line.

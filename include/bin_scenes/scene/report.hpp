@@ -40,7 +40,7 @@ struct DriftReport : Quantiles {       ///< m: move of the centre of mass in 0.5
 struct EnergyReport {
   double gain = 0.0;  ///< largest between two looks / (m g d) of the part; m mass, d diagonal of its bounding box
   double time = 0.0;  ///< s, simulated, of the look that found it
-  int part = -1;      ///< id; -1 if nobody gained anything
+  int part = -1;      ///< id; -1 if no part gained energy
 };
 
 struct Report {

@@ -17,7 +17,7 @@ enum class Unit { metre, centimetre, millimetre, inch };
 double metres_per(Unit unit);
 const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
 
-/// What light does on a part or the bin. Drives intensity, noise, drop-out and saturation of sensors, nothing else.
+/// Optical surface of a part or the bin. Affects intensity, noise, drop-out and saturation of sensors, not physics.
 struct Surface {
   double albedo = 0.5;     ///< share of the light sent back, 0..1; dark parts are noisier and drop out
   double gloss = 0.0;      ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
@@ -151,7 +151,7 @@ struct SolverSettings {
   SphereSettings sphere;
 };
 
-/// What a sensor makes of what it sees; sensor/ has one file each.
+/// Measuring principle of a sensor; src/sensor/models has one file each.
 enum class SensorModel {
   ideal,             ///< exact depth at pixel centres
   structured_light,  ///< a camera and a projector of fringes

@@ -4,7 +4,7 @@
 
 namespace bin_scenes {
 
-/// What a device does with a pixel whose footprint crosses a depth edge.
+/// Treatment of a pixel whose footprint crosses a depth edge.
 enum class MixedPixels {
   remove,  ///< invalid, code 6: the device's filter finds it
   keep     ///< delivered: a point that flies between foreground and background
@@ -29,7 +29,7 @@ struct StructuredLightSettings {
   int gray_bits = 0;       ///< Gray-code images; 0 = as many as the projector's width needs, one more than the periods
   double contrast = 0.95;  ///< (white - black) / (white + black) of the projector
   double defocus = 0.7;    ///< standard deviation of the projector's blur, its pixels; 0 = sharp
-  double gamma = 1.0;      ///< decoded: exponent of the projector that nobody calibrated away; 1 = linear
+  double gamma = 1.0;      ///< decoded: exponent of the projector's response that is left after calibration; 1 = linear
   double min_modulation = 0.004;  ///< amplitude / full well below which a pixel has too little signal (code 4)
   MixedPixels mixed = MixedPixels::remove;
   double edge_step = 0.005;  ///< m: depth step inside a pixel's footprint from which on it is a mixed pixel

@@ -1,5 +1,5 @@
-/// What a sensor is worth: figures of the words of VDI/VDE 2634 part 2 and of vendors' data sheets, measured on balls
-/// and plates by the very models that scenes are measured with.
+/// Quality figures of a sensor, as VDI/VDE 2634 part 2 and vendors' data sheets define them, measured on simulated
+/// balls and plates with the sensor models that scenes use.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

@@ -16,7 +16,7 @@ struct Surfaces {
 };
 Surfaces surfaces_of(const Request& request);
 
-/// What random effects depend on, and nothing else.
+/// The key of all random numbers of a sensor in a scene.
 struct Draw {
   std::uint64_t seed = 0;
   std::size_t scene = 0;   ///< index

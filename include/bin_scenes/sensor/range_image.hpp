@@ -1,4 +1,4 @@
-/// What a range sensor delivers of a scene, and the truth beside it.
+/// The image that a range sensor delivers of a scene, with the noise-free truth.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"

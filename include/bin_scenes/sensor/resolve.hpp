@@ -1,4 +1,4 @@
-/// From a sensor as asked for to one with every pose and intrinsic filled in.
+/// Fills in the poses and intrinsics of a sensor that the request leaves out.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// Rays against the true meshes of a scene: what cameras, projectors and lasers of any kind are made from.
+/// Ray casting against the true meshes of a scene, for all cameras, projectors and lasers.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// All sensors of a request, on one scene after the other.
+/// Runs all sensors of a request on one scene after the other.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"

@@ -1,4 +1,4 @@
-/// Why a pixel of a range image is what it is.
+/// Reason codes of the validity image.
 #pragma once
 
 #include <cstdint>

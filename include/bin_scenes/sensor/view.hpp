@@ -1,4 +1,4 @@
-/// What is seen from a pose through a lens, exactly: no noise, no sensor.
+/// Exact depth, part id and normal of each pixel for a pose and a lens, without any sensor effect.
 #pragma once
 
 #include "bin_scenes/sensor/lens.hpp"

@@ -48,7 +48,7 @@ using WorldId = std::size_t;
 /// out; rigid ones give way to nothing and press next to nothing apart.
 enum class Stiffness : std::uint32_t { soft, stiff, rigid };
 
-/// What a solver is told of a stage of settling; pour/settling.hpp has the stages.
+/// The solver's settings in a stage of settling; pour/settling.hpp lists the stages.
 struct Phase {
   /// How bodies fall asleep, once they stayed where they are, and wake.
   enum class Sleep : std::uint32_t {

@@ -22,7 +22,7 @@ class Fringes {
     double column;      ///< of the projector; NaN if the code makes no sense
     double modulation;  ///< amplitude of the fringe, in the images' unit
   };
-  /// What a device reads from one pixel of every image.
+  /// The values that a device reads at one pixel of all images.
   Reading read(const float* images) const;
 
   // The same without images, for a white of 1: mean and amplitude of the fringe.

@@ -1,4 +1,4 @@
-/// What the light of a projector or laser does to a surface: how much of it a camera sees, and where none falls.
+/// Light of a projector or laser on a surface: the share that reaches the camera, and where shadow lies.
 #pragma once
 
 #include "bin_scenes/sensor/models.hpp"

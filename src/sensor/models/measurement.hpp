@@ -1,4 +1,4 @@
-/// What a model makes of a scene.
+/// The interface of all sensor models, and their result.
 #pragma once
 
 #include "bin_scenes/sensor/validity.hpp"

@@ -1,5 +1,5 @@
-/// Normally distributed numbers over an image whose neighbours resemble each other, as errors of a matcher do that
-/// looks at windows: two windows that overlap share their pixels' noise.
+/// Normally distributed noise over an image with correlated neighbours, like the errors of a window matcher:
+/// overlapping windows share the noise of their common pixels.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -1,4 +1,4 @@
-/// Two cameras side by side and a projector of dots. `decoded` renders both images and matches them; `analytic` errs as
+/// Two cameras side by side and a dot projector. `decoded` renders both images and matches them; `analytic` errs as
 /// such a matcher does: by a disparity whose noise is the same over a window.
 #pragma once
 

@@ -8,7 +8,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Layers of the heap when all parts that find room are in; parts fill a quarter of a heap.
+/// Number of layers of the full heap, with the usual assumption that parts fill a quarter of a heap's volume.
 float layers_to_come(const WorldDef& def) {
   const bool mesh = def.bin.kind == Bin::Kind::mesh;
   if (!mesh && def.bin.kind != Bin::Kind::box) return 0;
@@ -24,8 +24,8 @@ float layers_to_come(const WorldDef& def) {
   return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
 }
 
-/// Range of the values, extrapolated from the middle four fifths, so that one part high above the others does not count
-/// as a high heap.
+/// Range of the values, extrapolated from the middle four fifths, so that one part far above the others does not make
+/// the heap high.
 float reach(std::vector<float>& values) {
   const auto last = static_cast<float>(values.size() - 1);
   const auto tail = static_cast<std::size_t>(0.1f * last + 0.5f);
@@ -68,8 +68,8 @@ struct Heap {
 };
 
 /// Effort with which soft contacts sag by at most `share` of a part's thickness (m) under a load of `weights` times its
-/// own weight. Soft contacts are springs of the sub-step's frequency; their sag is the load over the square of that
-/// frequency. A plate that has sunk in by a tenth of its thickness has nearer ways out sideways than back.
+/// own weight. Soft contacts are springs whose frequency is a share of the sub-step rate; their sag is load /
+/// frequency^2. A plate that has sunk in by a tenth of its thickness is pushed out sideways instead of back.
 float stiff_enough(const World& world, float weights, float thickness, float share) {
   if (!(thickness > 0)) return 0;
   const float h = world.whole_step / static_cast<float>(world.settings.sub_steps * world.settings.soft.refinement);
@@ -92,19 +92,19 @@ float effort_of_weights(const World& world, float layers) {
   for (const Body& b : world.bodies)
     if (b.inverse_mass > 0)
       most = std::max(most, stiff_enough(world, load * b.inverse_mass, world.shapes[b.shape]->thickness,
-                                         world.settings.weighed_sag));
-  return std::min(most, world.settings.most_for_weights);
+                                         world.settings.loaded_part_sag));
+  return std::min(most, world.settings.max_load_effort);
 }
 
 /// A tower buckles under its own weight. The load it can carry falls with the cube of its height (Greenhill 1881), and
 /// stiffness grows with the square of the effort.
 float effort_of_tower(const World& world, const Heap& heap) {
   const float parts = heap.count();
-  return std::min(world.settings.tower * parts * std::sqrt(parts), world.settings.most_for_towers);
+  return std::min(world.settings.tower_effort * parts * std::sqrt(parts), world.settings.max_tower_effort);
 }
 
 int effort_of_layers(const World& world, float layers) {
-  const float thin = stiff_enough(world, layers, world.thinnest, world.settings.sag);
+  const float thin = stiff_enough(world, layers, world.thinnest, world.settings.thin_part_sag);
   return std::max(1, static_cast<int>(std::ceil(std::max(thin, effort_of_weights(world, layers)))));
 }
 
@@ -118,7 +118,8 @@ int effort_of(const World& world) {
   Heap heap(world);
   if (heap.empty() || world.gravity.isZero()) return effort_of_layers(world, 0);  // no part lies on another
   const float layers = heap.layers();
-  const float work = std::max(layers / world.settings.layers, heap.is_tower() ? effort_of_tower(world, heap) : 0);
+  const float work =
+      std::max(layers / world.settings.default_layers, heap.is_tower() ? effort_of_tower(world, heap) : 0);
   return std::max(static_cast<int>(std::ceil(work)), effort_of_layers(world, layers));
 }
 

@@ -38,16 +38,15 @@ struct Settings {
   int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
   int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
-  float layers = 4.5f;  ///< layers for which the default work suffices; beyond, work grows linearly (World::effort);
-                        ///< higher = parts deep in a bin never rest, because loads travel about one layer a sweep
-  float sag =
-      0.024f;  ///< sag that the default work allows: layers x gravity x (sub-step)^2 / thickness of the
-               ///< thinnest part; four times the sag gets twice the work; higher = thin parts sink in and stay so
-  float weighed_sag = 0.1f;    ///< the same of each part under its own load; higher = light parts sink through
-  float most_for_weights = 8;  ///< largest factor for it; higher = a heavy part among light ones costs more
-  float tower = 0.16f;         ///< factor on the work of a tower of n parts: tower x n^1.5;
-                               ///< lower = twenty cubes sway and never rest
-  float most_for_towers = 60;  ///< largest factor for it, of about 50 parts; higher = piles of sheets cost more
+  // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
+  float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
+                                 ///< higher = parts deep in a bin never rest: loads travel about one layer a sweep
+  float thin_part_sag = 0.024f;  ///< static sag that the default work allows: layers x gravity x (sub-step)^2 /
+                                 ///< thickness of the thinnest part; higher = thin parts sink into each other
+  float loaded_part_sag = 0.1f;  ///< the same of each part under the load above it; higher = light parts sink in
+  float max_load_effort = 8;     ///< largest effort for that load; higher = a heavy part among light ones costs more
+  float tower_effort = 0.16f;    ///< effort of a tower of n parts / n^1.5; lower = twenty cubes sway and never rest
+  float max_tower_effort = 60;   ///< largest effort of a tower, of about 50 parts; higher = piles of sheets cost more
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< while parts move: damps rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< while the heap is pressed: leaves no overlap
   /// While the heap is probed: no compliance; 1/160 of the overlap is removed in a sub-step. Stiff contacts press
@@ -57,8 +56,8 @@ struct Settings {
                                ///< 0 = a part held at two points swings forever; higher = wheels stop
   float push_speed = 4.0f;  ///< d per second: largest speed that removes overlap, / refinement; higher = parts pop out
   float margin = 4e-3f;     ///< d: contacts are kept up to this distance plus the path of one step
-  float press_margin = 2e-3f;  ///< d: contacts without force beyond this distance plus that path are left out of the
-                               ///< solve; smaller = parts pushed there overlap before the contact acts
+  float press_margin = 2e-3f;    ///< d: contacts without force beyond this distance plus that path are left out of the
+                                 ///< solve; smaller = parts pushed there overlap before the contact acts
   float recycle = 1e-3f;         ///< d: contacts of a pair are reused until it has moved this far
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
   float probe_slip =

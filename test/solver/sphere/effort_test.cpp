@@ -108,8 +108,8 @@ TEST(Effort, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
     World world = world_of_boxes(shape, count);
     for (int i = 0; i < count; ++i) world.bodies[i].x = edge * Vec3f(0, 0, i + 0.5f);
     world.planes = {{Vec3f::UnitZ(), 0, false}};
-    world.settings.layers = layers;
-    world.settings.tower = 0;
+    world.settings.default_layers = layers;
+    world.settings.tower_effort = 0;
     world.settings.soft.slop = 0;  // what overlaps by less is held where it is
     take_phase(world, phases::settle);
     EXPECT_EQ(world.effort, effort);

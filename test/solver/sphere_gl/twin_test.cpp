@@ -324,7 +324,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     const bool full = GetParam().name == "FullGroup", by_one = full || GetParam().name == "SoftwareGroup";
     const bool many =
         phase.stiffness != Stiffness::stiff && !by_one;  // more is beyond what llvmpipe can do: software_group_bodies
-    world.settings.layers = many ? 1 : 100;
+    world.settings.default_layers = many ? 1 : 100;
     for (const Phase& each : told) sphere::take_phase(world, each);
     EXPECT_EQ(world.forgets, phase.forgets);
     EXPECT_EQ(world.effort > 1, many);

@@ -1,4 +1,4 @@
-/// Nodes of curved faces.
+/// Nodes of curved faces slide along the face to the point nearest to the other part.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"

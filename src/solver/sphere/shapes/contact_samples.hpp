@@ -1,5 +1,5 @@
-/// What of a part's surface is tested against other parts' distance fields. In the body frame: origin at the centre of
-/// mass, model axes.
+/// The surface samples of a part that are tested against other parts' distance fields. In the body frame: origin at the
+/// centre of mass, model axes.
 ///
 ///   nodes   points on the surface: corners, points along sharp convex edges, points of curved or flat faces
 ///   edges   straight pieces between two nodes of a sharp edge: where two parts cross edge on edge the deepest point

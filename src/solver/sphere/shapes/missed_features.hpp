@@ -1,4 +1,4 @@
-/// What sticks out between the nodes of a draft, so that no node would feel what touches it.
+/// Features between the nodes of a draft that stick out, so that no node would detect a contact there.
 #pragma once
 
 #include "solver/sphere/shapes/sample_draft.hpp"
