@@ -1,6 +1,6 @@
 /// What each mechanism of the default solver gives: the same scenes with all of them, and with each one taken away.
-/// Time is CPU time from request to poses; a scene's errors are its report's, and the drift of its parts under the
-/// referee, or where that takes minutes, under the solver with all of its mechanisms, from rest and without forces.
+/// Time is CPU time from request to poses. Errors are those of the scene's report; drift is that of its parts under the
+/// solver with all of its mechanisms, from rest and without remembered forces.
 #include "framework/benchmark.hpp"
 #include "judged.hpp"
 #include "solver/sphere/make_world.hpp"
@@ -107,21 +107,17 @@ const Mechanism mechanisms[] = {
     {"slip", "a probe begins with friction", [](Variant& v) { v.settings.probe_slip = 0; }},
     {"grip", "all of friction holds in a probe", [](Variant& v) { v.settings.friction_reserve = false; }}};
 
-struct Heap {
-  const char* part;
-  bool referee;
-};
 constexpr std::size_t parts = 60;
-constexpr Heap heaps[] = {{"channel_u", true}, {"bolt_hex", true}, {"ring_24", false}};
+constexpr const char* heaps[] = {"channel_u", "bolt_hex", "ring_24"};
 
 Row key(const Mechanism& mechanism, const std::string& part) {
   return Row().key("without", mechanism.name).key("part", part).info("instead", mechanism.instead);
 }
 
-Row scenes_row(Run& out, const Mechanism& mechanism, const Heap& heap) {
-  Request request = bin_of(heap.part, out.quick() ? 8 : parts);
+Row scenes_row(Run& out, const Mechanism& mechanism, const std::string& part) {
+  Request request = bin_of(part, out.quick() ? 8 : parts);
   choose_solver(request, "sphere");
-  request.drift_check = !heap.referee;
+  request.drift_check = true;
   warm_up(request);
   Variant variant;
   mechanism.take_away(variant);
@@ -129,14 +125,12 @@ Row scenes_row(Run& out, const Mechanism& mechanism, const Heap& heap) {
     return make_sphere_solver(request.solver.sphere, variant);
   };
   const int count = out.quick() ? 1 : &mechanism == mechanisms ? seeds_of_all : seeds;
-  const std::vector<Row> scenes =
-      judged_scenes(out.scratch(), request, Run::pieces(heap.part), make, {120.0, heap.referee ? count : 0}, count);
+  const std::vector<Row> scenes = judged_scenes(out.scratch(), request, Run::pieces(part), make, {120.0, 0}, count);
   if (scenes.back().at("scenes").empty()) return scenes.back();
   Row row = joined(scenes);
-  if (!heap.referee)
-    for (const char* figure : {"drift_p95_rel", "drift_max_rel", "turn_p95_deg"})
-      row.measure(figure, row.number(std::string("own_") + figure));
-  return row.info("drift_by", heap.referee ? "referee" : "solver");
+  for (const char* figure : {"drift_p95_rel", "drift_max_rel", "turn_p95_deg"})
+    row.measure(figure, row.number(std::string("own_") + figure));
+  return row;
 }
 
 /// The row of that name and part, as it was measured here or earlier.
@@ -150,8 +144,8 @@ Row measured(const Run& out, const Mechanism& mechanism, const std::string& part
 Row all_parts(const Run& out, const Mechanism& mechanism) {
   Row all;
   double log_ratio = 0.0, scenes = 0.0, at_rest = 0.0;
-  for (const Heap& heap : heaps) {
-    const Row row = measured(out, mechanism, heap.part);
+  for (const char* part : heaps) {
+    const Row row = measured(out, mechanism, part);
     log_ratio += std::log(row.number("cpu_ratio")) / std::size(heaps);
     scenes += row.number("scenes");
     at_rest += row.number("at_rest");
@@ -166,11 +160,11 @@ Row all_parts(const Run& out, const Mechanism& mechanism) {
 void run(Run& out) {
   for (const Mechanism& mechanism : mechanisms) {
     bool any = false;
-    for (const Heap& heap : heaps) {
-      if (!out.wanted(key(mechanism, heap.part))) continue;
+    for (const char* part : heaps) {
+      if (!out.wanted(key(mechanism, part))) continue;
       any = true;
-      Row row = key(mechanism, heap.part).append(scenes_row(out, mechanism, heap));
-      const double with_all = (&mechanism == mechanisms ? row : measured(out, *mechanisms, heap.part)).number("cpu_s");
+      Row row = key(mechanism, part).append(scenes_row(out, mechanism, part));
+      const double with_all = (&mechanism == mechanisms ? row : measured(out, *mechanisms, part)).number("cpu_s");
       out.row(row.measure("cpu_ratio", row.number("cpu_s") / with_all));
     }
     if (any && out.wanted(key(mechanism, "all"))) out.row(key(mechanism, "all").append(all_parts(out, mechanism)));

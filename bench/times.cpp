@@ -97,8 +97,10 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
   for (int seed = 1; seed <= (out.quick() ? 1 : spent < enough ? most_seeds : least_seeds); ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
     fast.seed = request.seed;
-    const Isolated quick =
-        isolated([&] { return Row().measure("quick_cpu_s", figures_of(pour_timed(fast)).number("cpu_s")); });
+    const Isolated quick = isolated([&] {
+      const Row figures = figures_of(pour_timed(fast));
+      return Row().measure("quick_cpu_s", figures.number("cpu_s")).measure("quick_scene_s", figures.number("scene_s"));
+    });
     const Isolated ours = isolated([&] {
       choose_solver(request, "sphere");
       const Row figures = figures_of(pour_timed(request));
@@ -119,8 +121,10 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
         scene.measure((of == "cpu_s" ? "share_of_" : "scene_share_of_") + until,
                       scene.number(of) / scene.number("bullet_" + until + "_" + of));
     if (quick.good)
-      scene.append(quick.row).measure("quick_share_of_asleep",
-                                      quick.row.number("quick_cpu_s") / scene.number("bullet_asleep_cpu_s"));
+      scene.append(quick.row)
+          .measure("quick_share_of_asleep", quick.row.number("quick_cpu_s") / scene.number("bullet_asleep_cpu_s"))
+          .measure("quick_scene_share_of_asleep",
+                   quick.row.number("quick_scene_s") / scene.number("bullet_asleep_scene_s"));
     spent += std::max(scene.number("bullet_asleep_cpu_s"), scene.number("bullet_as_long_cpu_s"));
     scenes.push_back(scene);
   }

@@ -16,14 +16,14 @@ constexpr int first_length[length_codes] = {3,  4,  5,  6,  7,  8,  9,  10, 11, 
 constexpr int extra_bits[length_codes] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
                                           2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
 
-struct Code {
+struct HuffmanCode {
   std::uint32_t bits = 0;
   int length = 0;
 };
 
 /// Codes of given lengths, bits reversed as they are written (RFC 1951, 3.2.2).
-std::vector<Code> canonical(const std::vector<int>& lengths) {
-  std::vector<Code> codes(lengths.size());
+std::vector<HuffmanCode> canonical(const std::vector<int>& lengths) {
+  std::vector<HuffmanCode> codes(lengths.size());
   std::uint32_t next = 0;
   for (int length = 1; length <= 15; ++length) {
     for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol) {
@@ -45,7 +45,7 @@ class BitWriter {
     pending_ |= static_cast<std::uint64_t>(bits) << filled_;
     for (filled_ += count; filled_ >= 8; filled_ -= 8, pending_ >>= 8) bytes_.push_back(pending_ & 0xff);
   }
-  void put(const Code& code) { put(code.bits, code.length); }
+  void put(const HuffmanCode& code) { put(code.bits, code.length); }
   void finish() {
     if (filled_ > 0) bytes_.push_back(pending_ & 0xff);
   }
@@ -100,7 +100,7 @@ class RunStream {
     std::vector<int> lengths(19, 0);
     lengths[7] = 1;
     lengths[1] = lengths[3] = lengths[6] = lengths[18] = 3;
-    const std::vector<Code> codes = canonical(lengths);
+    const std::vector<HuffmanCode> codes = canonical(lengths);
     const std::vector<int> symbols = symbol_lengths();
     out_.put(static_cast<std::uint32_t>(symbols.size()) - 257u, 5);
     out_.put(0, 5);  // one distance
@@ -146,7 +146,7 @@ class RunStream {
 
   Bytes& bytes_;
   BitWriter out_;
-  const std::vector<Code> codes_;
+  const std::vector<HuffmanCode> codes_;
   std::uint8_t value_ = 0;
   std::size_t count_ = 0;
   std::uint64_t a_ = 1, b_ = 0;

@@ -9,7 +9,7 @@ namespace {
 
 using Colour = Eigen::Array3d;
 
-constexpr double ink = 0.35;           ///< brightness left on the line between two parts
+constexpr double outline = 0.35;           ///< brightness left on the line between two parts
 constexpr double hollow_color = 0.65;  ///< how much of its light a hollow may lose
 constexpr int neighbourhood = 10;      ///< pixels around one that tell whether it lies in a hollow
 
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
       }
       const bool right = x + 1 < width && image.label[i + 1] != image.label[i];
       const bool down = y + 1 < height && image.label[i + width] != image.label[i];
-      if (right || down) colour *= ink;
+      if (right || down) colour *= outline;
       for (int c = 0; c < 3; ++c) {
         rgb.push_back(static_cast<std::uint8_t>(255.0 * std::clamp(colour[c], 0.0, 1.0) + 0.5));
       }

@@ -7,7 +7,7 @@ namespace bin_scenes::sphere_gl {
 
 namespace {
 
-gl::Program pass(const char* name, const gl::Defines& defines = {}) {
+gl::Program spread_pass(const char* name, const gl::Defines& defines = {}) {
   return gl::Program::compute(std::string("sphere/large/") + name + ".comp", defines);
 }
 
@@ -22,19 +22,19 @@ std::size_t buckets_for(std::size_t bodies) {
 
 LargePasses::LargePasses(const Capacity& capacity)
     : rounds_(static_cast<unsigned>(std::min<std::size_t>(capacity.rounds, SPHERE_MOST_ROUNDS))),
-      cut_step_(pass("cut_step")),
-      find_boxes_(pass("find_boxes")),
-      sort_bodies_(pass("sort_bodies")),
-      list_pairs_(pass("list_pairs")),
-      adopt_pairs_(pass("adopt_pairs")),
-      end_pairs_(pass("end_pairs")),
-      color_pairs_(pass("color_pairs")),
-      order_colors_(pass("order_colors")),
-      solve_bodies_(pass("solve_bodies")),
-      solve_manifolds_(pass("solve_manifolds")),
-      solve_rest_(pass("solve_manifolds", {{"REST", ""}})),
-      join_islands_(pass("join_islands")),
-      sleep_bodies_(pass("sleep_bodies")) {}
+      cut_step_(spread_pass("cut_step")),
+      find_boxes_(spread_pass("find_boxes")),
+      sort_bodies_(spread_pass("sort_bodies")),
+      list_pairs_(spread_pass("list_pairs")),
+      adopt_pairs_(spread_pass("adopt_pairs")),
+      end_pairs_(spread_pass("end_pairs")),
+      color_pairs_(spread_pass("color_pairs")),
+      order_colors_(spread_pass("order_colors")),
+      solve_bodies_(spread_pass("solve_bodies")),
+      solve_manifolds_(spread_pass("solve_manifolds")),
+      solve_rest_(spread_pass("solve_manifolds", {{"REST", ""}})),
+      join_islands_(spread_pass("join_islands")),
+      sleep_bodies_(spread_pass("sleep_bodies")) {}
 
 void LargePasses::make_room(std::size_t bodies) {
   large_.grow(1);

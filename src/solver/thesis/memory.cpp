@@ -7,9 +7,6 @@ namespace bin_scenes::thesis {
 
 namespace {
 
-gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
-}
 gpu::uint word(std::size_t n) {
   return static_cast<gpu::uint>(n);
 }

@@ -8,9 +8,6 @@ namespace bin_scenes::thesis {
 
 namespace {
 
-gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
-}
 Vec3 vec3(const gpu::vec4& v) {
   return Vec3(v.x, v.y, v.z);
 }

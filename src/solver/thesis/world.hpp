@@ -12,6 +12,10 @@
 
 namespace bin_scenes::thesis {
 
+inline gpu::vec4 vec4(const Vec3& v, double w = 0.0) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
+}
+
 /// A part as spheres about its centre of mass, in its principal axes.
 struct Shape {
   std::vector<Sphere> spheres;
