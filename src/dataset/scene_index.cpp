@@ -122,7 +122,8 @@ IndexCounts SceneIndex::counts() const {
 std::map<std::string, double> SceneIndex::stages_ms() const {
   std::map<std::string, double> sums;
   for (const auto& row : rows("select stages_ms from heaps")) {
-    for (const auto& [stage, ms] : nlohmann::json::parse(row[0]).items()) sums[stage] += ms.get<double>();
+    const nlohmann::json stages = nlohmann::json::parse(row[0]);
+    for (const auto& [stage, ms] : stages.items()) sums[stage] += ms.get<double>();
   }
   return sums;
 }

@@ -46,7 +46,7 @@ class Report(DataSetTest):
         done, _ = self.make_report()
         dom = self.browse("--dump-dom").stdout
         self.assertIn('data-ready="yes"', dom, "the page's script did not reach its end")
-        self.assertEqual(len(re.findall(r'<svg', dom)), 6)
+        self.assertEqual(len(re.findall(r'<svg viewBox="0 0 330', dom)), 6)
         self.assertGreater(len(re.findall(r"<figcaption>scene \d+", dom)), 2)
         self.assertIn("attempt 0", dom)
         if "no 3-D view" not in done.stderr:

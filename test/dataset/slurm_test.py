@@ -64,8 +64,8 @@ class Cluster:
         self.wait_for(lambda: self.ask("sinfo", "-h", "-o", "%T").strip() in ("idle", "mixed"), "slurmctld and slurmd")
 
     def start(self, *words):
-        log = open(self.folder / (words[0] + ".out"), "wb")
-        self.daemons.append(subprocess.Popen(words, env=self.environment, stdout=log, stderr=subprocess.STDOUT))
+        with open(self.folder / (words[0] + ".out"), "wb") as log:
+            self.daemons.append(subprocess.Popen(words, env=self.environment, stdout=log, stderr=subprocess.STDOUT))
 
     def ask(self, *words):
         return subprocess.run(words, env=self.environment, capture_output=True, text=True).stdout
