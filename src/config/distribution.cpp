@@ -136,10 +136,14 @@ class Reader {
     for (const auto& item : value) {
       const std::string name = item.first.Scalar();
       try {
-        if (name == "pose") read_value(item.second, d.pose);
-        else if (name == "move") read_value(item.second, d.move);
-        else if (name == "turn") read_value(item.second, d.angle);
-        else complain("jitter knows no '" + name + "'", "known are pose, move and turn");
+        if (name == "pose")
+          read_value(item.second, d.pose);
+        else if (name == "move")
+          read_value(item.second, d.move);
+        else if (name == "turn")
+          read_value(item.second, d.angle);
+        else
+          complain("jitter knows no '" + name + "'", "known are pose, move and turn");
       } catch (const Mismatch& mismatch) {
         complain(name + ": expected " + mismatch.expected, "see docs/use/datasets.md");
       }
@@ -150,22 +154,28 @@ class Reader {
   void read_view(Distribution& d, const YAML::Node& value) {
     d.kind = Kind::view;
     if (!value.IsMap() || !value["distance"]) {
-      complain("view needs a distance", "view: {distance: {uniform: [0.8, 1.0]}, tilt: ..., turn: ..., target: [x, y, z]}");
+      complain("view needs a distance",
+               "view: {distance: {uniform: [0.8, 1.0]}, tilt: ..., turn: ..., target: [x, y, z]}");
       return;
     }
     for (const auto& item : value) {
       const std::string name = item.first.Scalar();
-      if (name == "distance") d.distance = part(item.second, name);
-      else if (name == "tilt") d.tilt = part(item.second, name);
-      else if (name == "turn") d.turn = part(item.second, name);
-      else if (name == "roll") d.roll = part(item.second, name);
+      if (name == "distance")
+        d.distance = part(item.second, name);
+      else if (name == "tilt")
+        d.tilt = part(item.second, name);
+      else if (name == "turn")
+        d.turn = part(item.second, name);
+      else if (name == "roll")
+        d.roll = part(item.second, name);
       else if (name == "target") {
         try {
           read_value(item.second, d.target);
         } catch (const Mismatch& mismatch) {
           complain("target: expected " + mismatch.expected, "m, in the bin frame");
         }
-      } else complain("view knows no '" + name + "'", "known are distance, tilt, turn, roll and target");
+      } else
+        complain("view knows no '" + name + "'", "known are distance, tilt, turn, roll and target");
     }
   }
 
@@ -260,7 +270,8 @@ std::string Distribution::draw(Random& random, const YAML::Node& own) const {
       const Vec3 axis = random.orientation() * Vec3::UnitZ();
       Pose moved = pose;
       moved.position += move * offset;
-      moved.orientation = (Quat(Eigen::AngleAxisd(random.uniform(-angle, angle), axis)) * pose.orientation).normalized();
+      moved.orientation =
+          (Quat(Eigen::AngleAxisd(random.uniform(-angle, angle), axis)) * pose.orientation).normalized();
       return text_of(moved);
     }
     case Kind::view: {

@@ -30,11 +30,11 @@ struct Distribution {
   double a = 0.0, b = 0.0;          ///< uniform: bounds; normal: mean and standard deviation
   bool whole = false;
   std::optional<double> min, max;
-  std::shared_ptr<Distribution> factor;                        ///< times
-  std::shared_ptr<Distribution> distance, tilt, turn, roll;    ///< view
-  Pose pose;                                                   ///< jitter
-  double move = 0.0, angle = 0.0;                              ///< jitter
-  Vec3 target = Vec3::Zero();                                  ///< view
+  std::shared_ptr<Distribution> factor;                      ///< times
+  std::shared_ptr<Distribution> distance, tilt, turn, roll;  ///< view
+  Pose pose;                                                 ///< jitter
+  double move = 0.0, angle = 0.0;                            ///< jitter
+  Vec3 target = Vec3::Zero();                                ///< view
 
   /// @param own  the request's own value, for `times`
   std::string draw(Random& random, const YAML::Node& own) const;

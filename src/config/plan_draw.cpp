@@ -11,8 +11,10 @@ namespace config {
 YAML::Node own_value(const YAML::Node& root, const std::string& path) {
   std::vector<std::string> words(1);
   for (const char c : path) {
-    if (c == '.' || c == '[') words.emplace_back();
-    else if (c != ']') words.back() += c;
+    if (c == '.' || c == '[')
+      words.emplace_back();
+    else if (c != ']')
+      words.back() += c;
   }
   const YAML::Node none(YAML::NodeType::Undefined);
   YAML::Node node;
@@ -51,8 +53,10 @@ void set_counts(Request& request, const config::Amount& amount, Random& random, 
   shares.resize(request.parts.size(), 0.0);
   double sum = 0.0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (request.parts[i].fixed) shares[i] = 0.0, counts[i] = request.parts[i].count;
-    else if (amount.shares.empty()) shares[i] = 1.0;
+    if (request.parts[i].fixed)
+      shares[i] = 0.0, counts[i] = request.parts[i].count;
+    else if (amount.shares.empty())
+      shares[i] = 1.0;
     sum += shares[i];
   }
   const auto any_line = [&] {
@@ -99,8 +103,8 @@ Request Plan::request(std::size_t heap, std::size_t attempt, const VolumeOf& vol
   for (std::size_t i = 0; i < state->draws.size(); ++i) {
     const config::Draw& draw = state->draws[i];
     Random random = stream.of_piece(i);
-    overrides.emplace_back(draw.path + "=" + draw.distribution.draw(random, config::own_value(state->request, draw.path)),
-                           draw.where);
+    overrides.emplace_back(
+        draw.path + "=" + draw.distribution.draw(random, config::own_value(state->request, draw.path)), draw.where);
   }
   Request request =
       config::read_document(YAML::Clone(state->request), state->file, state->base, overrides, PathRules());

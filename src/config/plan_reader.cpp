@@ -52,7 +52,8 @@ class PlanFile {
     keys.field({"seed", "", ""}, plan_.seed);
     keys.field({"scenes", "", ""}, plan_.heaps);
     keys.field({"attempts", "", ""}, plan_.attempts);
-    if (plan_.heaps < 1 || plan_.heaps > 1'000'000'000) complain("must be 1 to 1000000000", "scenes", "number of heaps");
+    if (plan_.heaps < 1 || plan_.heaps > 1'000'000'000)
+      complain("must be 1 to 1000000000", "scenes", "number of heaps");
     if (plan_.attempts < 1 || plan_.attempts > 1000) complain("must be 1 to 1000", "attempts", "3 is the default");
     read_outputs(keys.node({"outputs", "", ""}));
     if (!keys.node({"request", "", ""})) complain("is missing", "request", "give a request, or the path of its file");
@@ -79,8 +80,9 @@ class PlanFile {
 
   void read_draws(const YAML::Node& node) {
     if (!node || node.IsNull()) return;
-    if (!node.IsMap()) return complain("expected a map from keys of the request to distributions", "draw",
-                                       "for instance parts[0].friction: {uniform: [0.3, 0.6]}");
+    if (!node.IsMap())
+      return complain("expected a map from keys of the request to distributions", "draw",
+                      "for instance parts[0].friction: {uniform: [0.3, 0.6]}");
     std::set<std::string> seen;
     for (const auto& item : node) {
       const std::string path = item.first.Scalar(), key = "draw." + path;
@@ -100,16 +102,20 @@ class PlanFile {
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "amount." + name;
       source_.remember(key, item.first);
-      if (name == "parts") state_->amount.parts = config::read_number(item.second, key, source_);
-      else if (name == "fill") state_->amount.fill = config::read_number(item.second, key, source_);
-      else if (name == "shares") read_shares(item.second);
-      else complain("is unknown", key, "known are parts, fill and shares");
+      if (name == "parts")
+        state_->amount.parts = config::read_number(item.second, key, source_);
+      else if (name == "fill")
+        state_->amount.fill = config::read_number(item.second, key, source_);
+      else if (name == "shares")
+        read_shares(item.second);
+      else
+        complain("is unknown", key, "known are parts, fill and shares");
     }
     if (node["parts"] && node["fill"]) complain("parts and fill both say how many there are", "amount", "keep one");
     const auto bounds = [&](const std::optional<Distribution>& d, const char* key, double lower, double upper) {
       if (!d) return;
-      for (const std::string& end : d->kind == Kind::constant ? std::vector<std::string>{config::text_of(d->a)}
-                                                              : d->ends(YAML::Node())) {
+      for (const std::string& end :
+           d->kind == Kind::constant ? std::vector<std::string>{config::text_of(d->a)} : d->ends(YAML::Node())) {
         const double value = std::stod(end);
         if (value < lower || value > upper)
           complain(end + " is not within " + config::text_of(lower) + " to " + config::text_of(upper), key,
@@ -137,7 +143,8 @@ class PlanFile {
   void read_depletion(const YAML::Node& node) {
     if (!node) return;
     if (!node.IsMap() || !node["steps"] || !node["take"])
-      return complain("needs steps and take", "depletion", "for instance depletion: {steps: 4, take: {uniform: [3, 8]}}");
+      return complain("needs steps and take", "depletion",
+                      "for instance depletion: {steps: 4, take: {uniform: [3, 8]}}");
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "depletion." + name;
       source_.remember(key, item.first);
@@ -259,9 +266,12 @@ class PlanFile {
         for (const YAML::Node& value : item.second) {
           std::vector<double> v;
           config::read_value(value, v);
-          if (name == "continuous" && v.size() == 3) object.continuous->push_back(Vec3(v[0], v[1], v[2]).normalized());
-          else if (name == "discrete" && v.size() == 4) object.discrete->push_back(Quat(v[3], v[0], v[1], v[2]).normalized());
-          else throw config::Mismatch{"continuous: [[x, y, z], ...] and discrete: [[qx, qy, qz, qw], ...]"};
+          if (name == "continuous" && v.size() == 3)
+            object.continuous->push_back(Vec3(v[0], v[1], v[2]).normalized());
+          else if (name == "discrete" && v.size() == 4)
+            object.discrete->push_back(Quat(v[3], v[0], v[1], v[2]).normalized());
+          else
+            throw config::Mismatch{"continuous: [[x, y, z], ...] and discrete: [[qx, qy, qz, qw], ...]"};
         }
       }
     } catch (const config::Mismatch& mismatch) {
@@ -278,7 +288,8 @@ class PlanFile {
     if (!bop) return;
     for (const Sensor& sensor : request.sensors)
       if (sensor.model == SensorModel::laser_line)
-        complain("a laser_line sensor makes no pinhole image", "outputs", "leave bop and shards out, or choose another model");
+        complain("a laser_line sensor makes no pinhole image", "outputs",
+                 "leave bop and shards out, or choose another model");
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
       const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);

@@ -76,25 +76,24 @@ bool DataSetFacts::operator==(const DataSetFacts& other) const {
 }
 
 DataSetFacts facts_of(const Plan& plan) {
-  return {plan.sha256,     sha256_hex(plan.text),
-          BIN_SCENES_VERSION, plan.heaps,
-          plan.depletion.steps, plan.attempts,
-          plan.reference.sensors.size(), plan.formats,
-          plan.tolerance};
+  return {plan.sha256,   sha256_hex(plan.text),         BIN_SCENES_VERSION, plan.heaps,    plan.depletion.steps,
+          plan.attempts, plan.reference.sensors.size(), plan.formats,       plan.tolerance};
 }
 
 DataSetFacts read_facts(const fs::path& root) {
   const fs::path path = root / "dataset.json";
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
-    throw input_error("is no data set: it has no dataset.json", root.string(), "name the folder that was given as --out");
+    throw input_error("is no data set: it has no dataset.json", root.string(),
+                      "name the folder that was given as --out");
   const auto json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
   if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
     throw input_error(std::string("is damaged, or not of format ") + format_name, path.string(),
                       "use the version of bin_scenes that made it");
   try {
-    return {json.at("plan_sha256"), json.at("plan_text_sha256"), json.at("version"),  json.at("heaps"),   json.at("depletion_steps"),
-            json.at("attempts"),    json.at("sensors"),  json.at("outputs"), json.at("bop_tolerance_m")};
+    return {json.at("plan_sha256"), json.at("plan_text_sha256"), json.at("version"),
+            json.at("heaps"),       json.at("depletion_steps"),  json.at("attempts"),
+            json.at("sensors"),     json.at("outputs"),          json.at("bop_tolerance_m")};
   } catch (const nlohmann::json::exception&) {
     throw input_error("lacks a key", path.string(), "use the version of bin_scenes that made it");
   }
@@ -113,7 +112,8 @@ void claim(const DataFolder& folder, const DataSetFacts& facts, const std::strin
                         "name another --out, or go on with that plan");
   } else {
     if (holds_something(folder.root))
-      throw input_error("holds something that is no data set", folder.root.string(), "name a new or empty folder for --out");
+      throw input_error("holds something that is no data set", folder.root.string(),
+                        "name a new or empty folder for --out");
     make_directory(folder.root);
     write_text((folder.root / "plan.yaml").string(), plan_text);
     write_text(path.string(), facts_text(facts));

@@ -42,9 +42,8 @@ std::vector<int> highest(const Scene& scene, std::size_t count) {
   std::vector<const ScenePart*> parts;
   for (const ScenePart& part : scene.parts)
     if (is_there(part.state) && part.state != PartState::fixed && part.pose.finite()) parts.push_back(&part);
-  std::stable_sort(parts.begin(), parts.end(), [](const ScenePart* a, const ScenePart* b) {
-    return a->pose.position.z() > b->pose.position.z();
-  });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const ScenePart* a, const ScenePart* b) { return a->pose.position.z() > b->pose.position.z(); });
   std::vector<int> ids;
   for (std::size_t i = 0; i < std::min(count, parts.size()); ++i) ids.push_back(parts[i]->id);
   return ids;
@@ -137,7 +136,8 @@ void HeapMaker::write_scene(const Generator::Result& result, const Request& requ
     if (plan_.wants("bop"))
       folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, images); });
     if (plan_.wants("shards"))
-      folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, images); });
+      folders.write(folder_.samples(scene),
+                    [&](const std::string& hidden) { write_bop_samples(hidden, scene, images); });
   }
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
   folders.write(folder_.scene(scene), [&](const std::string& hidden) {
@@ -174,7 +174,8 @@ std::vector<int> HeapMaker::object_ids(const Request& request) const {
 }
 
 double HeapMaker::volume_of(const PartLine& line) {
-  double& volume = volumes_[line.sha256 + "|" + std::to_string(line.scale) + "|" + std::to_string(line.unit ? metres_per(*line.unit) : 0.0)];
+  double& volume = volumes_[line.sha256 + "|" + std::to_string(line.scale) + "|" +
+                            std::to_string(line.unit ? metres_per(*line.unit) : 0.0)];
   if (volume == 0.0) {
     LoadOptions options;
     options.unit = line.unit;

@@ -29,7 +29,8 @@ void take_over(const fs::path& from, const fs::path& to) {
     fs::create_hard_link(entry.path(), target, no_link);
     if (no_link) fs::copy_file(entry.path(), target, error);
     if (error)
-      throw environment_error("cannot be copied: " + error.message(), entry.path().string(), "check permissions and free space");
+      throw environment_error("cannot be copied: " + error.message(), entry.path().string(),
+                              "check permissions and free space");
   }
   hidden.commit();
 }

@@ -24,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t most_rows = 20'000;           ///< of scenes that the gallery can filter
+constexpr std::size_t most_rows = 20'000;  ///< of scenes that the gallery can filter
 constexpr std::size_t most_pictures = 120;
 constexpr std::size_t bytes_of_pictures = 2'600'000;  ///< as text
-constexpr std::size_t most_rejected = 300;          ///< that are listed
-constexpr std::size_t most_triangles = 60'000;      ///< of the models of the scene in 3-D
+constexpr std::size_t most_rejected = 300;            ///< that are listed
+constexpr std::size_t most_triangles = 60'000;        ///< of the models of the scene in 3-D
 constexpr int picture_width = 112;
 
 double rounded(double value) {
@@ -55,7 +55,8 @@ std::string small_picture(const DataFolder& folder, std::size_t scene) {
     for (const Json& sensor : json->value("sensors", Json::array()))
       candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
   candidates.push_back(folder.bop(scene) / "gray" / "000000.png");
-  const auto path = std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
+  const auto path =
+      std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
   if (path == candidates.end()) return "";
   const PngImage image = read_png(path->string());
   const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
@@ -66,7 +67,8 @@ std::string small_picture(const DataFolder& folder, std::size_t scene) {
         unsigned sum = 0;
         for (int dy = 0; dy < step; ++dy)
           for (int dx = 0; dx < step; ++dx)
-            sum += image.samples[static_cast<std::size_t>(((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
+            sum += image.samples[static_cast<std::size_t>(
+                ((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
         // Fewer shades pack better; nobody sees it at this size.
         small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step) & 0xf0u));
       }
@@ -182,7 +184,8 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   Json rows = Json::array();
   std::vector<std::size_t> scenes;
   index.each_scene([&](const SceneIndex::Row& row) {
-    const auto v = row.summary.at("visible").get<std::vector<int>>(), t = row.summary.at("tilt").get<std::vector<int>>();
+    const auto v = row.summary.at("visible").get<std::vector<int>>(),
+               t = row.summary.at("tilt").get<std::vector<int>>();
     std::transform(v.begin(), v.end(), visible.begin(), visible.begin(), std::plus<int>());
     std::transform(t.begin(), t.end(), tilt.begin(), tilt.begin(), std::plus<int>());
     parts += row.summary.at("parts").get<std::size_t>();
@@ -200,7 +203,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   for (std::size_t i = 0; i < rows.size() && used < bytes_of_pictures; i += step) {
     const std::size_t scene = rows[i][0];
     const std::string picture = small_picture(folder, scene);
-    if (picture.empty()) break;
+    if (picture.empty()) continue;
     pictures[std::to_string(scene)] = picture;
     used += picture.size();
     ++result.pictures;
@@ -210,7 +213,8 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   Json listed = Json::array();
   for (std::size_t i = 0; i < std::min(rejected.size(), most_rejected); ++i) {
     std::string reasons;
-    for (const Json& reason : Json::parse(rejected[i].reasons)) reasons += (reasons.empty() ? "" : "; ") + reason.get<std::string>();
+    for (const Json& reason : Json::parse(rejected[i].reasons))
+      reasons += (reasons.empty() ? "" : "; ") + reason.get<std::string>();
     listed.push_back({rejected[i].heap, rejected[i].attempt, reasons, rejected[i].path});
   }
 
@@ -218,9 +222,11 @@ ReportResult write_report(const std::string& directory, const std::string& path)
       {"name", fs::weakly_canonical(directory).filename().string()},
       {"plan", read_file((folder.root / "plan.yaml").string())},
       {"facts", {{"outputs", facts.formats}, {"version", facts.version}}},
-      {"counts", {{"scenes", counts.scenes}, {"failed", counts.failed}, {"rejected", counts.rejected}, {"parts", parts}}},
+      {"counts",
+       {{"scenes", counts.scenes}, {"failed", counts.failed}, {"rejected", counts.rejected}, {"parts", parts}}},
       {"speed",
-       {{"seconds_a_heap", counts.timed ? counts.wall_s / static_cast<double>(counts.timed) : 0.0}, {"stages_ms", index.stages_ms()}}},
+       {{"seconds_a_heap", counts.timed ? counts.wall_s / static_cast<double>(counts.timed) : 0.0},
+        {"stages_ms", index.stages_ms()}}},
       {"visible", visible},
       {"tilt", tilt},
       {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},

@@ -47,10 +47,10 @@ void check_disk(const Plan& plan, const DataFolder& folder, std::size_t heaps_le
   if (unknown) return;
   const double scenes = static_cast<double>(heaps_left * (plan.depletion.steps + 1));
   const double needed = scenes * estimate_scene_bytes(plan), free = static_cast<double>(space.available);
-  const std::string figures =
-      "the scenes need about " + in_gigabytes(needed) + ", " + in_gigabytes(free) + " are free";
+  const std::string figures = "the scenes need about " + in_gigabytes(needed) + ", " + in_gigabytes(free) + " are free";
   if (needed > free)
-    throw environment_error(figures, folder.root.string(), "free space, ask for fewer scenes or outputs, or use --shard");
+    throw environment_error(figures, folder.root.string(),
+                            "free space, ask for fewer scenes or outputs, or use --shard");
   if (needed > 0.8 * free && options.warn) options.warn(figures);
 }
 
@@ -73,8 +73,9 @@ double estimate_scene_bytes(const Plan& plan) {
 
 namespace {
 
-void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& options, const std::set<std::size_t>& done,
-                SceneIndex& index, RunProgress& progress, const std::function<void()>& tell) {
+void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& options,
+                const std::set<std::size_t>& done, SceneIndex& index, RunProgress& progress,
+                const std::function<void()>& tell) {
   static const std::atomic<bool> never{false};
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::unique_ptr<HeapMaker> maker;  // of each worker, made in it
@@ -93,7 +94,8 @@ void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& op
       },
       [&](const nlohmann::json& answer) {
         if (answer.contains("error"))
-          throw Error(static_cast<ErrorKind>(answer["kind"].get<int>()), answer["error"], answer["where"], answer["remedy"]);
+          throw Error(static_cast<ErrorKind>(answer["kind"].get<int>()), answer["error"], answer["where"],
+                      answer["remedy"]);
         const HeapRecord record = record_of(answer);
         index.put(record);
         ++progress.heaps_done;

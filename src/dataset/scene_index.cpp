@@ -89,8 +89,10 @@ void SceneIndex::put(const HeapRecord& record) {
          {heap, record.accepted ? "done" : "failed", std::to_string(record.rejected.size() + record.accepted),
           std::to_string(record.wall_s), nlohmann::json(record.stages_ms).dump()});
     for (const SceneRecord& scene : record.scenes)
-      rows("insert into scenes (scene, heap, state, verdict, path, sha256, summary) values (?, ?, 'done', 'accepted', ?, ?, ?)",
-           {std::to_string(scene.scene), heap, scene.path, scene.sha256, scene.summary.dump()});
+      rows(
+          "insert into scenes (scene, heap, state, verdict, path, sha256, summary) values (?, ?, 'done', 'accepted', "
+          "?, ?, ?)",
+          {std::to_string(scene.scene), heap, scene.path, scene.sha256, scene.summary.dump()});
     for (const RejectedRecord& rejected : record.rejected)
       rows("insert into rejected (heap, attempt, path, reasons) values (?, ?, ?, ?)",
            {heap, std::to_string(rejected.attempt), rejected.path, nlohmann::json(rejected.reasons).dump()});
@@ -133,9 +135,12 @@ void SceneIndex::each_scene(const std::function<void(const Row&)>& visit) const 
   for (std::string after = "-1";;) {
     const auto some = rows(
         "select scene, scenes.heap, path, sha256, wall_s, summary from scenes join heaps using (heap) "
-        "where scene > cast(? as integer) order by scene limit " + std::to_string(at_once), {after});
+        "where scene > cast(? as integer) order by scene limit " +
+            std::to_string(at_once),
+        {after});
     for (const auto& r : some)
-      visit({std::stoul(r[0]), std::stoul(r[1]), r[2], r[3], std::strtod(r[4].c_str(), nullptr), nlohmann::json::parse(r[5])});
+      visit({std::stoul(r[0]), std::stoul(r[1]), r[2], r[3], std::strtod(r[4].c_str(), nullptr),
+             nlohmann::json::parse(r[5])});
     if (some.size() < at_once) return;
     after = some.back()[0];
   }

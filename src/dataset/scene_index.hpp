@@ -1,5 +1,5 @@
-/// index.sqlite: what became of each heap and scene, and how long it took. It can be made again from the scenes, but for
-/// the times.
+/// index.sqlite: what became of each heap and scene, and how long it took. It can be made again from the scenes, but
+/// for the times.
 #pragma once
 
 #include "dataset/record.hpp"
@@ -16,10 +16,10 @@ struct sqlite3;
 namespace bin_scenes {
 
 struct IndexCounts {
-  std::size_t accepted = 0, failed = 0;    ///< heaps
-  std::size_t scenes = 0, rejected = 0;    ///< scenes that are there; attempts that were set apart
-  double wall_s = 0.0;                     ///< of workers, over all heaps whose time is known
-  std::size_t timed = 0;                   ///< heaps whose time is known
+  std::size_t accepted = 0, failed = 0;  ///< heaps
+  std::size_t scenes = 0, rejected = 0;  ///< scenes that are there; attempts that were set apart
+  double wall_s = 0.0;                   ///< of workers, over all heaps whose time is known
+  std::size_t timed = 0;                 ///< heaps whose time is known
 };
 
 class SceneIndex {

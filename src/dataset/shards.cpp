@@ -71,8 +71,8 @@ std::size_t shard_count(const DataSetFacts& facts) {
   return (facts.scenes() + scenes_per_shard(facts) - 1) / scenes_per_shard(facts);
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> write_tar(
-    const std::string& path, const std::vector<std::pair<std::string, fs::path>>& files) {
+std::vector<std::pair<std::size_t, std::size_t>> write_tar(const std::string& path,
+                                                           const std::vector<std::pair<std::string, fs::path>>& files) {
   const std::unique_ptr<archive, int (*)(archive*)> out(archive_write_new(), archive_write_free);
   const auto check = [&](int status) {
     if (status == ARCHIVE_OK) return;

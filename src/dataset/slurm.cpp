@@ -83,7 +83,8 @@ std::map<std::string, int> states_of(const std::string& id) {
 std::string submit(const SlurmJob& job, const fs::path& folder) {
   const std::string environment = "ALL,BIN_SCENES_TOOL=" + fs::read_symlink("/proc/self/exe").string() +
                                   ",BIN_SCENES_PLAN=" + fs::absolute(job.plan).string() +
-                                  ",BIN_SCENES_OUT=" + folder.string() + ",BIN_SCENES_SHARES=" + std::to_string(job.shares);
+                                  ",BIN_SCENES_OUT=" + folder.string() +
+                                  ",BIN_SCENES_SHARES=" + std::to_string(job.shares);
   std::vector<std::string> words = {"sbatch",
                                     "--parsable",
                                     "--array=0-" + std::to_string(job.shares - 1),
@@ -133,7 +134,8 @@ std::vector<std::string> run_slurm_job(const SlurmJob& job) {
   for (std::size_t i = 0; i < job.shares; ++i) {
     const fs::path share = folder / ("share_" + std::to_string(i));
     if (!fs::exists(share / "dataset.json"))
-      throw environment_error("share " + std::to_string(i) + " made nothing", (folder / ("share_" + std::to_string(i) + ".log")).string(),
+      throw environment_error("share " + std::to_string(i) + " made nothing",
+                              (folder / ("share_" + std::to_string(i) + ".log")).string(),
                               "read this log; the same command submits again what is missing");
     shares.push_back(share.string());
   }

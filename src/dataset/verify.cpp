@@ -165,13 +165,13 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
                   "is not the plan that the data set was made from");
   for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "shards"}) {
     for (const fs::path& path : entries(folder.root / below))
-      findings.expect(path.filename().string().find(".tmp-") == std::string::npos, "no_leftovers", path.string(), "was left half-written");
+      findings.expect(path.filename().string().find(".tmp-") == std::string::npos, "no_leftovers", path.string(),
+                      "was left half-written");
   }
   verify_index(folder, facts, findings);
   verify_differences(folder, findings);
-  const std::map<int, BopModel> models = facts.wants("bop") || facts.wants("shards")
-                                             ? verify_models(folder, findings)
-                                             : std::map<int, BopModel>();
+  const std::map<int, BopModel> models =
+      facts.wants("bop") || facts.wants("shards") ? verify_models(folder, findings) : std::map<int, BopModel>();
   std::vector<std::size_t> there;
   for (std::size_t scene = 0; scene < facts.scenes(); ++scene)
     if (fs::exists(folder.scene(scene))) there.push_back(scene);

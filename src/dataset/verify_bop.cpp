@@ -78,7 +78,8 @@ void verify_masks(const fs::path& folder, const std::string& name, const Json& i
   std::size_t beside = 0;
   for (int y = 0, i = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, ++i) {
-      const bool in_seen = seen.samples[static_cast<std::size_t>(i)] != 0, in_whole = whole.samples[static_cast<std::size_t>(i)] != 0;
+      const bool in_seen = seen.samples[static_cast<std::size_t>(i)] != 0,
+                 in_whole = whole.samples[static_cast<std::size_t>(i)] != 0;
       if (in_seen) visible.add(x, y);
       if (in_whole) all.add(x, y);
       if (in_seen && !in_whole) ++beside;
@@ -89,7 +90,8 @@ void verify_masks(const fs::path& folder, const std::string& name, const Json& i
                   "has " + std::to_string(visible.count) + " pixels, " + std::to_string(count) + " are told");
   findings.expect(beside == 0, "bop_mask_inside", where, std::to_string(beside) + " pixels lie beside the silhouette");
   if (count > 0)
-    findings.expect(near_box(info.at("bbox_visib"), visible, 1), "bop_mask_box", where, "pixels do not fill bbox_visib");
+    findings.expect(near_box(info.at("bbox_visib"), visible, 1), "bop_mask_box", where,
+                    "pixels do not fill bbox_visib");
 }
 
 /// The model's vertices in the image span its box, up to pixels whose centres no triangle covers.
@@ -105,8 +107,9 @@ void verify_projection(const Json& truth, const Json& info, const Json& camera, 
   }
   const auto box = info.at("bbox_obj").get<std::array<int, 4>>();
   const auto close = [](double a, int b) { return std::abs(a - b) <= 2.5; };
-  findings.expect(close(left, box[0]) && close(top, box[1]) && close(right, box[0] + box[2]) && close(bottom, box[1] + box[3]),
-                  "bop_reprojection", where, "the projected model does not fill bbox_obj");
+  findings.expect(
+      close(left, box[0]) && close(top, box[1]) && close(right, box[0] + box[2]) && close(bottom, box[1] + box[3]),
+      "bop_reprojection", where, "the projected model does not fill bbox_obj");
 }
 
 void verify_image(const fs::path& folder, const std::string& key, const Json& scene, const Json& camera,
@@ -138,8 +141,8 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
     const int id = truth[i].at("id");
     const std::string part = where + ", part " + std::to_string(id);
     const Mat3 turn = matrix_of(truth[i].at("cam_R_m2c"));
-    findings.expect((turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6 && turn.determinant() > 0.0, "bop_rotation",
-                    part, "cam_R_m2c is no rotation");
+    findings.expect((turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6 && turn.determinant() > 0.0,
+                    "bop_rotation", part, "cam_R_m2c is no rotation");
     const Pose pose = camera_in_bin.inverse() * pose_of(parts.at(id)->at("pose"));
     const bool same = (turn - pose.orientation.toRotationMatrix()).norm() < 1e-6 &&
                       (vector_of(truth[i].at("cam_t_m2c")) - 1e3 * pose.position).norm() < 1e-3;
@@ -148,8 +151,8 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
     findings.expect(model != models.end(), "bop_object", part, "its object has no model");
     const std::size_t seen = info[i].at("px_count_visib"), all = info[i].at("px_count_all");
     const double ratio = all ? static_cast<double>(seen) / static_cast<double>(all) : 0.0;
-    findings.expect(std::abs(ratio - info[i].at("visib_fract").get<double>()) < 1e-9 && seen <= all, "bop_fraction", part,
-                    "visib_fract is not the ratio of the counts");
+    findings.expect(std::abs(ratio - info[i].at("visib_fract").get<double>()) < 1e-9 && seen <= all, "bop_fraction",
+                    part, "visib_fract is not the ratio of the counts");
     const bool none = info[i].at("bbox_visib") == Json({-1, -1, -1, -1});
     findings.expect(none == (seen == 0), "bop_unseen", part, "bbox_visib and px_count_visib do not agree");
     verify_masks(folder, file + "_" + six_digits(i) + ".png", info[i], width, height, findings);
@@ -182,7 +185,8 @@ std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findin
   const fs::path models = folder.root / "bop" / "models";
   std::map<int, BopModel> all;
   const auto info = json_in(models / "models_info.json");
-  if (!findings.expect(info.has_value(), "model_info", models.string(), "models_info.json is missing or damaged")) return all;
+  if (!findings.expect(info.has_value(), "model_info", models.string(), "models_info.json is missing or damaged"))
+    return all;
   verify_files(models, findings);
   for (const auto& [key, model] : info->items()) {
     const std::string path = (models / ("obj_" + six_digits(std::stoul(key)) + ".ply")).string();
@@ -214,7 +218,8 @@ void verify_bop(const DataFolder& folder, std::size_t number, const Json& scene,
   const auto camera = json_in(path / "scene_camera.json"), truth = json_in(path / "scene_gt.json"),
              info = json_in(path / "scene_gt_info.json");
   const bool good = camera && truth && info && camera->size() == truth->size() && truth->size() == info->size();
-  if (!findings.expect(good, "bop_json", path.string(), "JSON files are missing, damaged or of different images")) return;
+  if (!findings.expect(good, "bop_json", path.string(), "JSON files are missing, damaged or of different images"))
+    return;
   try {
     for (const auto& [key, entry] : camera->items())
       verify_image(path, key, scene, entry, truth->at(key), info->at(key), models, findings);

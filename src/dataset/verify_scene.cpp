@@ -43,15 +43,17 @@ void verify_parts(const Json& scene, const std::string& where, Findings& finding
                       name_of(part) + " is visible to more than all or less than nothing");
   }
   const auto count = static_cast<int>(scene.at("parts").size());
-  findings.expect(static_cast<int>(ids.size()) == count && (count == 0 || (*ids.begin() == 0 && *ids.rbegin() == count - 1)),
-                  "part_ids", where, "ids do not count from 0 to " + std::to_string(count - 1));
+  findings.expect(
+      static_cast<int>(ids.size()) == count && (count == 0 || (*ids.begin() == 0 && *ids.rbegin() == count - 1)),
+      "part_ids", where, "ids do not count from 0 to " + std::to_string(count - 1));
 }
 
 struct Extent {
   std::size_t count = 0;
   int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
   std::array<int, 4> box() const {
-    return count ? std::array<int, 4>{left, top, right - left + 1, bottom - top + 1} : std::array<int, 4>{-1, -1, -1, -1};
+    return count ? std::array<int, 4>{left, top, right - left + 1, bottom - top + 1}
+                 : std::array<int, 4>{-1, -1, -1, -1};
   }
 };
 
@@ -65,7 +67,8 @@ void verify_truth(const Json& sensor, const std::string& where, Findings& findin
     const auto box = part.at("bbox_visib").get<std::array<int, 4>>();
     const bool none = box == std::array<int, 4>{-1, -1, -1, -1};
     const bool inside = box[0] >= 0 && box[1] >= 0 && box[0] + box[2] <= width && box[1] + box[3] <= height;
-    findings.expect(seen == 0 ? none : inside, "truth_boxes", where, name_of(part) + ": its box is not that of its pixels");
+    findings.expect(seen == 0 ? none : inside, "truth_boxes", where,
+                    name_of(part) + ": its box is not that of its pixels");
   }
 }
 
@@ -99,7 +102,8 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
       }
       Extent& e = extents[label - 1u];
       ++e.count;
-      e.left = std::min(e.left, x), e.right = std::max(e.right, x), e.top = std::min(e.top, y), e.bottom = std::max(e.bottom, y);
+      e.left = std::min(e.left, x), e.right = std::max(e.right, x), e.top = std::min(e.top, y),
+      e.bottom = std::max(e.bottom, y);
     }
   }
   findings.expect(strange == 0, "label_range", where, std::to_string(strange) + " pixels carry the label of no part");

@@ -17,8 +17,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* files_of_image[] = {"camera.json", "depth.png", "gray.tiff", "gt.json", "gt_info.json", "mask.json",
-                                          "mask_visib.json"};
+constexpr const char* files_of_image[] = {"camera.json",  "depth.png", "gray.tiff",      "gt.json",
+                                          "gt_info.json", "mask.json", "mask_visib.json"};
 
 using Images = std::map<std::string, std::map<std::string, std::string>>;  ///< key -> file -> contents
 
@@ -33,15 +33,16 @@ std::optional<Images> read_tar(const std::string& path, bool& doubled) {
   while ((status = archive_read_next_header(in.get(), &entry)) == ARCHIVE_OK) {
     const std::string name = archive_entry_pathname(entry);
     std::string bytes(static_cast<std::size_t>(archive_entry_size(entry)), '\0');
-    if (archive_read_data(in.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size())) return std::nullopt;
+    if (archive_read_data(in.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size()))
+      return std::nullopt;
     const std::size_t dot = name.find('.');
     doubled |= !images[name.substr(0, dot)].emplace(name.substr(dot + 1), std::move(bytes)).second;
   }
   return status == ARCHIVE_EOF ? std::optional<Images>(std::move(images)) : std::nullopt;
 }
 
-void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files, const std::string& where,
-                        Findings& findings) {
+void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files,
+                        const std::string& where, Findings& findings) {
   const Json info = Json::parse(files.at("gt_info.json"));
   for (const char* file : {"mask.json", "mask_visib.json"}) {
     if (!files.count(file)) continue;
@@ -98,7 +99,8 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
     findings.expect(images->size() <= images_per_shard, "shard_size", where, "has more than 1000 images");
     verify_offsets(where, *images, findings);
     for (const auto& [key, files] : *images) {
-      findings.expect(found.emplace(key, shard).second, "shard_keys", where, "holds " + key + ", which another shard holds");
+      findings.expect(found.emplace(key, shard).second, "shard_keys", where,
+                      "holds " + key + ", which another shard holds");
       findings.expect(map.is_object() && map.value(key, Json()) == shard, "shard_keys", where,
                       "holds " + key + ", but key_to_shard.json does not tell so");
       bool complete = true;
@@ -116,7 +118,8 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
     for (std::size_t image = 0; image < facts.sensors; ++image) {
       char key[48];
       std::snprintf(key, sizeof key, "%06zu_%06zu", scene, image);
-      findings.expect(found.count(key) == 1, "shard_complete", folder.shards().string(), std::string(key) + " is in no shard");
+      findings.expect(found.count(key) == 1, "shard_complete", folder.shards().string(),
+                      std::string(key) + " is in no shard");
     }
   }
 }

@@ -31,13 +31,22 @@ constexpr int patience_ms = 250;         ///< between two looks at the clock
     try {
       answer = work(heap);
     } catch (const Error& error) {
-      answer = {{"heap", heap}, {"error", error.problem()}, {"where", error.where()}, {"remedy", error.remedy()},
+      answer = {{"heap", heap},
+                {"error", error.problem()},
+                {"where", error.where()},
+                {"remedy", error.remedy()},
                 {"kind", static_cast<int>(error.kind())}};
     } catch (const std::bad_alloc&) {
-      answer = {{"heap", heap}, {"error", "out of memory"}, {"where", "a worker"}, {"remedy", "use fewer --workers"},
+      answer = {{"heap", heap},
+                {"error", "out of memory"},
+                {"where", "a worker"},
+                {"remedy", "use fewer --workers"},
                 {"kind", static_cast<int>(ErrorKind::environment)}};
     } catch (const std::exception& error) {
-      answer = {{"heap", heap}, {"error", error.what()}, {"where", "a worker"}, {"remedy", "report it as a defect"},
+      answer = {{"heap", heap},
+                {"error", error.what()},
+                {"where", "a worker"},
+                {"remedy", "report it as a defect"},
                 {"kind", static_cast<int>(ErrorKind::environment)}};
     }
     const std::string line = answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -72,11 +81,13 @@ void Workers::end(Worker& worker) {
 void Workers::start(Worker& worker) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw environment_error(std::string("no socket for a worker: ") + std::strerror(errno), "workers", "use fewer --workers");
+    throw environment_error(std::string("no socket for a worker: ") + std::strerror(errno), "workers",
+                            "use fewer --workers");
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0)
-    throw environment_error(std::string("no process for a worker: ") + std::strerror(errno), "workers", "use fewer --workers");
+    throw environment_error(std::string("no process for a worker: ") + std::strerror(errno), "workers",
+                            "use fewer --workers");
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);  // it died before it could be watched
@@ -117,9 +128,9 @@ void Workers::hear(Worker& worker, const std::function<void(const nlohmann::json
   const std::size_t heap = *worker.heap;
   end(worker);
   if (++worker.deaths > most_deaths)
-    throw environment_error("workers died " + std::to_string(worker.deaths) + " times while they made heap " +
-                                std::to_string(heap),
-                            "workers", "look for the out-of-memory killer (dmesg), or use fewer --workers");
+    throw environment_error(
+        "workers died " + std::to_string(worker.deaths) + " times while they made heap " + std::to_string(heap),
+        "workers", "look for the out-of-memory killer (dmesg), or use fewer --workers");
   give(worker, heap);
 }
 

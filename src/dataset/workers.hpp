@@ -1,5 +1,5 @@
-/// Processes that make heaps for one parent. A worker that dies is replaced, and its heap is made again; workers die with
-/// their parent.
+/// Processes that make heaps for one parent. A worker that dies is replaced, and its heap is made again; workers die
+/// with their parent.
 ///
 ///     parent ── number of a heap ──► worker
 ///            ◄── one line of JSON ──
@@ -26,10 +26,11 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Has every heap that `next` gives made by some worker, and hands each answer to `done`. Returns early once `stop` is
-  /// set. Throws an environment Error if workers keep dying on one heap. The parent must have no threads.
-  void run(const std::function<std::optional<std::size_t>()>& next, const std::function<void(const nlohmann::json&)>& done,
-           const std::atomic<bool>& stop, const std::function<void()>& idle);
+  /// Has every heap that `next` gives made by some worker, and hands each answer to `done`. Returns early once `stop`
+  /// is set. Throws an environment Error if workers keep dying on one heap. The parent must have no threads.
+  void run(const std::function<std::optional<std::size_t>()>& next,
+           const std::function<void(const nlohmann::json&)>& done, const std::atomic<bool>& stop,
+           const std::function<void()>& idle);
 
  private:
   struct Worker {

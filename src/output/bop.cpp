@@ -106,13 +106,13 @@ BopVisibility from_labels(const RangeImage& image, const std::vector<PixelBox>& 
 
 /// The depth image as its readers will see it, as distance from the camera; empty where the labels have to do: by them
 /// alone, or where no pinhole describes the image.
-std::vector<float> stored_distances(const RangeImage& image, const std::vector<std::uint16_t>& counts, double tolerance) {
+std::vector<float> stored_distances(const RangeImage& image, const std::vector<std::uint16_t>& counts,
+                                    double tolerance) {
   const Lens lens = lens_of(image.sensor);
   if (!(tolerance > 0.0) || lens.distorts() || image.width != lens.width || image.height != lens.height) return {};
   std::vector<float> depth(counts.size());
-  std::transform(counts.begin(), counts.end(), depth.begin(), [&](std::uint16_t count) {
-    return static_cast<float>(count * image.sensor.depth_scale);
-  });
+  std::transform(counts.begin(), counts.end(), depth.begin(),
+                 [&](std::uint16_t count) { return static_cast<float>(count * image.sensor.depth_scale); });
   return distances(depth, lens);
 }
 
@@ -225,8 +225,13 @@ void write_bop_models(const std::string& directory, const std::vector<PartModelP
     const Aabb box = mesh.bounds();
     const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
     write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, millimetres);
-    info[id] = {{"diameter", millimetres * diameter(mesh)}, {"min_x", lower.x()}, {"min_y", lower.y()},
-                {"min_z", lower.z()}, {"size_x", size.x()}, {"size_y", size.y()}, {"size_z", size.z()}};
+    info[id] = {{"diameter", millimetres * diameter(mesh)},
+                {"min_x", lower.x()},
+                {"min_y", lower.y()},
+                {"min_z", lower.z()},
+                {"size_x", size.x()},
+                {"size_y", size.y()},
+                {"size_z", size.z()}};
     const Symmetries symmetries = i < given.size() ? given[i] : find_symmetries(*parts[i]);
     for (const Pose& turn : symmetries.discrete) {
       const Mat3 r = turn.orientation.toRotationMatrix();

@@ -1,4 +1,5 @@
-/// One image of a scene as BOP describes it, made once for both of its layouts: folders of scenes, and samples for shards.
+/// One image of a scene as BOP describes it, made once for both of its layouts: folders of scenes, and samples for
+/// shards.
 #pragma once
 
 #include "bin_scenes/output/scene_writer.hpp"
@@ -20,9 +21,9 @@ struct BopImage {
   Bytes depth;                    ///< PNG
   std::vector<std::uint8_t> gray;
   int gray_width = 0, gray_height = 0;
-  std::vector<int> ids;              ///< of the parts, by entry
-  std::vector<MaskBox> visible;      ///< by entry
-  std::vector<MaskBox> whole;        ///< by entry; empty: not known
+  std::vector<int> ids;          ///< of the parts, by entry
+  std::vector<MaskBox> visible;  ///< by entry
+  std::vector<MaskBox> whole;    ///< by entry; empty: not known
 };
 
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
@@ -31,8 +32,8 @@ std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModel
 /// The scene's folder of BOP's layout by scenes.
 void write_bop(const std::string& directory, const std::vector<BopImage>& images);
 
-/// Samples of BOP's layout by images: {scene:06d}_{image:06d}.{depth.png, gray.tiff, camera.json, gt.json, gt_info.json,
-/// mask.json, mask_visib.json}, to be packed into shards.
+/// Samples of BOP's layout by images: {scene:06d}_{image:06d}.{depth.png, gray.tiff, camera.json, gt.json,
+/// gt_info.json, mask.json, mask_visib.json}, to be packed into shards.
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images);
 
 /// Run lengths of a mask, column by column from the left, each from the top; the first run is one of zeros (COCO).

@@ -38,14 +38,17 @@ std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height)
   for (int x = 0; x < mask.width; ++x) {
     const std::size_t column = static_cast<std::size_t>(mask.left + x) * rows;
     const std::size_t top = column + static_cast<std::size_t>(mask.top);
-    if (value && mask.height < height) turn(top - rows + static_cast<std::size_t>(mask.height));  // beside the box: zeros
+    if (value && mask.height < height)
+      turn(top - rows + static_cast<std::size_t>(mask.height));  // beside the box: zeros
     for (int y = 0; y < mask.height; ++y) {
       const bool inside = mask.inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
                                       static_cast<std::size_t>(x)] != 0;
       if (inside != value) turn(top + static_cast<std::size_t>(y));
     }
   }
-  if (value) turn(static_cast<std::size_t>(mask.left + mask.width - 1) * rows + static_cast<std::size_t>(mask.top + mask.height));
+  if (value)
+    turn(static_cast<std::size_t>(mask.left + mask.width - 1) * rows +
+         static_cast<std::size_t>(mask.top + mask.height));
   if (begin < pixels || counts.empty()) counts.push_back(pixels - begin);
   return counts;
 }

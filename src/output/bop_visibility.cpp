@@ -118,8 +118,8 @@ std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_
   if (!canvas) return std::nullopt;
   BopVisibility seen;
   Bounds all, inside, visible;
-  // Calls visit(x, y, whether the pixel is visible) for pixels of the image; counts and bounds only need one pass, masks
-  // another, in the bounds found by the first.
+  // Calls visit(x, y, whether the pixel is visible) for pixels of the image; counts and bounds only need one pass,
+  // masks another, in the bounds found by the first.
   const auto each = [&](const auto& visit, const auto& beside) {
     std::size_t i = 0;
     for (int y = canvas->top; y < canvas->top + canvas->height; ++y) {
@@ -127,8 +127,8 @@ std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_
         if (canvas->depth[i] == 0.0f) continue;
         beside(x, y);
         if (x < 0 || y < 0 || x >= lens.width || y >= lens.height) continue;
-        const float measured = distance[static_cast<std::size_t>(y) * static_cast<std::size_t>(lens.width) +
-                                        static_cast<std::size_t>(x)];
+        const float measured =
+            distance[static_cast<std::size_t>(y) * static_cast<std::size_t>(lens.width) + static_cast<std::size_t>(x)];
         const double own = static_cast<double>(canvas->depth[i]) * norm_of_ray(lens, x, y);
         visit(x, y, measured > 0.0f, measured == 0.0f || own - static_cast<double>(measured) <= tolerance);
       }

@@ -56,7 +56,8 @@ PngImage read_png(const std::string& path) {
                         static_cast<std::size_t>(image.channels));
   for (int y = 0; y < image.height; ++y) {
     png_read_row(reader.png, row.data(), nullptr);
-    if (image.bits == 8) image.samples.insert(image.samples.end(), row.begin(), row.end());
+    if (image.bits == 8)
+      image.samples.insert(image.samples.end(), row.begin(), row.end());
     else
       for (std::size_t i = 0; i + 1 < row.size(); i += 2)
         image.samples.push_back(static_cast<std::uint16_t>(row[i] << 8 | row[i + 1]));

@@ -7,10 +7,10 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double equal_moments = 0.02;       ///< relative difference up to which an axis between two is tried
-constexpr int directions_between = 48;       ///< of those that are tried over half a turn
-constexpr std::size_t most_points = 600;     ///< of the surface that are moved
-constexpr int highest_order = 12;            ///< of a discrete symmetry; from there on a part counts as round
+constexpr double equal_moments = 0.02;    ///< relative difference up to which an axis between two is tried
+constexpr int directions_between = 48;    ///< of those that are tried over half a turn
+constexpr std::size_t most_points = 600;  ///< of the surface that are moved
+constexpr int highest_order = 12;         ///< of a discrete symmetry; from there on a part counts as round
 
 /// Points all over the surface: vertices, and the middles of faces, since large faces have few vertices.
 std::vector<Vec3> surface_points(const Mesh& mesh) {
@@ -26,7 +26,9 @@ std::vector<Vec3> surface_points(const Mesh& mesh) {
 class Search {
  public:
   Search(const PartModel& part, double tolerance)
-      : part_(part), center_(part.mass().center), points_(surface_points(part.mesh())),
+      : part_(part),
+        center_(part.mass().center),
+        points_(surface_points(part.mesh())),
         limit_(tolerance * part.diagonal()) {}
 
   bool symmetric(const Quat& turn) const {
@@ -126,7 +128,8 @@ Symmetries find_symmetries(const PartModel& part, double tolerance) {
 }
 
 double diameter(const Mesh& mesh) {
-  // Only vertices far from the middle can be ends of the longest distance: in order of that, most pairs are never tried.
+  // Only vertices far from the middle can be ends of the longest distance: in order of that, most pairs are never
+  // tried.
   const Vec3 middle = mesh.bounds().center();
   std::vector<std::pair<double, const Vec3*>> far;
   for (const Vec3& vertex : mesh.vertices) far.emplace_back((vertex - middle).norm(), &vertex);

@@ -69,15 +69,20 @@ class Teller {
     time_ = now;
     told_ = true;
     if (json_) {
-      const nlohmann::ordered_json line = {{"phase", p.phase},          {"heaps", p.heaps},
-                                           {"heaps_done", p.heaps_done}, {"accepted", p.accepted},
-                                           {"rejected", p.rejected},     {"failed", p.failed},
-                                           {"scenes_per_hour", p.scenes_per_hour}, {"remaining_s", p.remaining_s},
+      const nlohmann::ordered_json line = {{"phase", p.phase},
+                                           {"heaps", p.heaps},
+                                           {"heaps_done", p.heaps_done},
+                                           {"accepted", p.accepted},
+                                           {"rejected", p.rejected},
+                                           {"failed", p.failed},
+                                           {"scenes_per_hour", p.scenes_per_hour},
+                                           {"remaining_s", p.remaining_s},
                                            {"finished", last}};
       std::printf("%s\n", line.dump().c_str());
       std::fflush(stdout);
     } else if (terminal_) {
-      std::fprintf(stderr, "\r\033[K\033[?7l%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h, %s left\033[?7h",
+      std::fprintf(stderr,
+                   "\r\033[K\033[?7l%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h, %s left\033[?7h",
                    p.phase.c_str(), p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour,
                    duration(p.remaining_s).c_str());
       std::fflush(stderr);
@@ -112,8 +117,8 @@ int dataset(const DatasetOptions& options) {
   if (!options.json_progress)
     std::printf("%zu scenes in %s; %zu attempts set apart\n", end.accepted, options.out.c_str(), end.rejected);
   if (end.failed == 0) return exit_done;
-  std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n", end.failed,
-               end.heaps, plan.attempts, options.out.c_str());
+  std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n",
+               end.failed, end.heaps, plan.attempts, options.out.c_str());
   return exit_set_apart;
 }
 
@@ -122,7 +127,8 @@ int dataset_verify(const VerifyOptions& options) {
     for (const auto& [name, text] : invariants()) std::printf("%-18s %s\n", name, text);
     return exit_done;
   }
-  if (options.directory.empty()) throw input_error("no directory is named", "dataset verify", "name that of a data set");
+  if (options.directory.empty())
+    throw input_error("no directory is named", "dataset verify", "name that of a data set");
   constexpr std::size_t most = 100;  // findings that are printed
   Findings findings;
   verify_dataset({options.directory}, findings);

@@ -12,7 +12,9 @@ int report(const ReportOptions& options) {
   std::printf("%s: %zu scenes, %zu pictures, %.1f MB\n", path.c_str(), result.scenes, result.pictures,
               static_cast<double>(result.bytes) / 1e6);
   if (!result.in_3d)
-    std::fprintf(stderr, "bin_scenes: no 3-D view, since three.js was not found (install libjs-three, and make the report again)\n");
+    std::fprintf(
+        stderr,
+        "bin_scenes: no 3-D view, since three.js was not found (install libjs-three, and make the report again)\n");
   return exit_done;
 }
 

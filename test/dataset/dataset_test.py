@@ -103,6 +103,7 @@ class Repeatability(DataSetTest):
         for i, share in enumerate(shares):
             self.make(plan, share, "--shard", "%d/3" % i, "--workers", 1)
         self.run_tool("dataset", "merge", *shares[:2], "--out", "merged", code=1)
+        self.kill_at_random(5, 0.15, "dataset", "merge", *shares, "--out", "merged")
         self.run_tool("dataset", "merge", *shares, "--out", "merged")
         self.assert_same("one", "merged")
 
@@ -113,17 +114,18 @@ class Repeatability(DataSetTest):
         self.make(plan, "full")
         self.assert_same("one", "full")
 
-        self.kill_at_random(plan, "killed", 8)
+        self.kill_at_random(8, 0.6, "dataset", plan, "--out", "killed", "--workers", 2)
+        self.make(plan, "killed", "--resume")
         self.assert_same("one", "killed")
         self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "killed").stdout)
 
-    def kill_at_random(self, plan, out, kills):
-        """SIGKILL for the parent, or for one of its workers, at random instants; then to the end."""
+    def kill_at_random(self, kills, longest, *words):
+        """SIGKILL for the process, or for one of its workers, at random instants."""
         dice = random.Random(7)
         for _ in range(kills):
-            process = subprocess.Popen(self.command("dataset", plan, "--out", out, "--workers", 2), cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(dice.uniform(0.02, 0.6))
+            process = subprocess.Popen(self.command(*words), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(dice.uniform(0.02, longest))
             victims = [process.pid] + children(process.pid)
             try:
                 os.kill(dice.choice(victims), signal.SIGKILL)
@@ -132,7 +134,6 @@ class Repeatability(DataSetTest):
             time.sleep(0.05)
             process.kill()
             process.wait()
-        self.make(plan, out, "--resume")
 
     def test_the_index_is_made_again_from_the_scenes(self):
         plan = self.plan(scenes=3, outputs="json")

@@ -10,8 +10,10 @@ namespace {
 class PlanTest : public ConfigTest {
  protected:
   Plan plan(const std::string& draws, const std::string& more = "") {
-    return read_plan(put("plan.yaml", "seed: 3\nscenes: 1000\nrequest:\n  parts: [{model: bolt.stl, count: 5}, "
-                                      "{model: nut.stl, count: 7}]\ndraw:\n" + draws + more));
+    return read_plan(put("plan.yaml",
+                         "seed: 3\nscenes: 1000\nrequest:\n  parts: [{model: bolt.stl, count: 5}, "
+                         "{model: nut.stl, count: 7}]\ndraw:\n" +
+                             draws + more));
   }
   static double volume(const PartLine&) { return 1e-5; }
 };
@@ -50,8 +52,8 @@ TEST_F(PlanTest, ADrawDependsOnItsHeapAndAttemptAlone) {
 }
 
 TEST_F(PlanTest, FillAndSharesSetTheCounts) {
-  const Plan p = plan("  parts[0].friction: {uniform: [0.2, 0.4]}\n",
-                      "amount: {fill: {uniform: [0.1, 0.1]}, shares: [3, 1]}\n");
+  const Plan p =
+      plan("  parts[0].friction: {uniform: [0.2, 0.4]}\n", "amount: {fill: {uniform: [0.1, 0.1]}, shares: [3, 1]}\n");
   std::size_t first = 0, all = 0;
   for (std::size_t heap = 0; heap < 50; ++heap) {
     const Request r = p.request(heap, 0, volume);

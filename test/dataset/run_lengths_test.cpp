@@ -29,8 +29,11 @@ TEST(RunLengths, AreThoseOfAWalkOverAllPixels) {
   for (int left = 0; left < width; ++left) {
     for (int top = 0; top < height; ++top) {
       for (int trial = 0; trial < 40; ++trial) {
-        MaskBox mask{left, top, 1 + static_cast<int>(dice() % static_cast<unsigned>(width - left)),
-                     1 + static_cast<int>(dice() % static_cast<unsigned>(height - top)), {}};
+        MaskBox mask{left,
+                     top,
+                     1 + static_cast<int>(dice() % static_cast<unsigned>(width - left)),
+                     1 + static_cast<int>(dice() % static_cast<unsigned>(height - top)),
+                     {}};
         for (int i = 0; i < mask.width * mask.height; ++i) mask.inside.push_back(trial % 4 == 0 || dice() % 3 != 0);
         EXPECT_EQ(run_lengths(mask, width, height), plain(mask, width, height));
       }

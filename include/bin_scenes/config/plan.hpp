@@ -48,15 +48,15 @@ struct Depletion {
 class Plan {
  public:
   std::uint64_t seed = 0;
-  std::size_t heaps = 1;              ///< to pour; key `scenes`
-  std::size_t attempts = 3;           ///< for a heap: one that is not accepted is drawn and poured anew so many times
-  std::vector<std::string> formats;   ///< of json, pcd, png, bag, bop, shards; key `outputs`
-  double tolerance = 0.0015;          ///< m, bop: depth behind the measured surface up to which a part is visible
+  std::size_t heaps = 1;             ///< to pour; key `scenes`
+  std::size_t attempts = 3;          ///< for a heap: one that is not accepted is drawn and poured anew so many times
+  std::vector<std::string> formats;  ///< of json, pcd, png, bag, bop, shards; key `outputs`
+  double tolerance = 0.0015;         ///< m, bop: depth behind the measured surface up to which a part is visible
   Depletion depletion;
   std::vector<PlanObject> objects;
-  Request reference;                  ///< the template, nothing drawn
-  std::string text;                   ///< of the file
-  std::string sha256;                 ///< of everything that decides the scenes: text, template and models
+  Request reference;   ///< the template, nothing drawn
+  std::string text;    ///< of the file
+  std::string sha256;  ///< of everything that decides the scenes: text, template and models
 
   std::size_t scenes() const { return heaps * (depletion.steps + 1); }
   bool wants(const std::string& format) const;
