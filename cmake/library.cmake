@@ -1,4 +1,4 @@
-# bin_scenes::bin_scenes, what other projects link: one shared library of all layers but tool and node. It hides what
+# bin_scenes::bin_scenes, what other projects link: one shared library of all layers but dataset, tool and node. It hides what
 # the layers use themselves (assimp, Bullet, PCL, ...): its headers, and so its users, need Eigen alone, and none of our
 # compiler flags reach them.
 include(GNUInstallDirs)

@@ -89,7 +89,8 @@ KeyReader::KeyReader(YAML::Node map, std::string path, Source& source)
     const std::string name = item.first.Scalar();
     source_.remember(path_of(name), item.first);
     if (!seen.insert(name).second) {
-      throw input_error("'" + path_of(name) + "' is given twice", source_.where(path_of(name)), "keep one of them");
+      source_.complain(
+          input_error("'" + path_of(name) + "' is given twice", source_.where(path_of(name)), "keep one of them"));
     }
   }
 }
@@ -116,15 +117,15 @@ void KeyReader::bin_kind(Bin& bin, const BinKeys& keys) {
   if (keys.floor) chosen.emplace_back("floor", Kind::floor);
   if (keys.none) chosen.emplace_back("none", Kind::none);
   if (chosen.size() > 1) {
-    throw input_error(
+    source_.complain(input_error(
         std::string("'bin.") + chosen[0].first + "' and 'bin." + chosen[1].first + "' are two kinds of bin",
-        source_.where(path_of(chosen[1].first)), "keep one of inner_size, mesh, floor and none");
+        source_.where(path_of(chosen[1].first)), "keep one of inner_size, mesh, floor and none"));
   }
   if (!chosen.empty()) bin.kind = chosen[0].second;
   const auto only = [&](const char* name, Kind kind, const char* owner) {
     if (has(name) && bin.kind != kind) {
-      throw input_error("'bin." + std::string(name) + "' has no meaning for this kind of bin",
-                        source_.where(path_of(name)), std::string("it belongs to ") + owner + "; remove it");
+      source_.complain(input_error("'bin." + std::string(name) + "' has no meaning for this kind of bin",
+                                   source_.where(path_of(name)), std::string("it belongs to ") + owner + "; remove it"));
     }
   };
   only("wall_thickness", Kind::box, "a box");
@@ -142,7 +143,7 @@ void KeyReader::finish() const {
       remedy = "known here:";
       for (const std::string& known : known_) remedy += " " + known;
     }
-    throw input_error("unknown key '" + path_of(name) + "'", source_.where(path_of(name)), remedy);
+    source_.complain(input_error("unknown key '" + path_of(name) + "'", source_.where(path_of(name)), remedy));
   }
 }
 

@@ -25,7 +25,16 @@ class Source {
   std::string where(std::string path) const;
   bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
 
+  /// From now on errors of keys are added to `all`, and reading goes on behind them.
+  void collect(std::vector<Error>* all) { all_ = all; }
+  /// Throws, unless errors are collected.
+  void complain(const Error& error) {
+    if (!all_) throw error;
+    all_->push_back(error);
+  }
+
  private:
+  std::vector<Error>* all_ = nullptr;
   std::string file_;
   std::map<std::string, std::string> overrides_;
   std::map<std::string, int> lines_;
@@ -48,7 +57,7 @@ class KeyReader {
         read_value(node, value);
       } catch (const Mismatch& mismatch) {
         const YAML::Node item = mismatch.item < node.size() && node.IsSequence() ? node[mismatch.item] : node;
-        throw wrong_type(path_of(key.name) + mismatch.index(), mismatch.expected, item, mismatch.meant);
+        source_.complain(wrong_type(path_of(key.name) + mismatch.index(), mismatch.expected, item, mismatch.meant));
       }
     }
   }
@@ -70,7 +79,10 @@ class KeyReader {
   void list(const Key& key, std::vector<Struct>& values) {
     const YAML::Node node = take(key);
     if (!node || node.IsNull()) return;
-    if (!node.IsSequence()) throw wrong_type(path_of(key.name), "a list, each item starting with '-'", node);
+    if (!node.IsSequence()) {
+      source_.complain(wrong_type(path_of(key.name), "a list, each item starting with '-'", node));
+      return;
+    }
     values.clear();
     for (std::size_t i = 0; i < node.size(); ++i) {
       values.emplace_back();
@@ -79,9 +91,11 @@ class KeyReader {
   }
 
   void bin_kind(Bin& bin, const BinKeys& keys);
+  /// The value of a key as it is written, for what no type stands for; not defined if the key is not there.
+  YAML::Node node(const Key& key) { return take(key); }
 
   bool has(const std::string& name) const { return found_.count(name) != 0; }
-  /// Throws for keys nobody took, naming the nearest known one.
+  /// Complains of keys nobody took, naming the nearest known one.
   void finish() const;
 
  private:
@@ -93,7 +107,10 @@ class KeyReader {
   template <class Struct>
   void read_map(const YAML::Node& node, const std::string& path, Struct& value) {
     source_.remember(path, node);
-    if (!node.IsMap()) throw wrong_type(path, "a map of keys", node);
+    if (!node.IsMap()) {
+      source_.complain(wrong_type(path, "a map of keys", node));
+      return;
+    }
     start_from_preset(node, path, source_, value);
     KeyReader reader(node, path, source_);
     visit(reader, value);

@@ -5,6 +5,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
+#include "config/read_document.hpp"
 #include "config/yaml_text.hpp"
 #include "core/read_file.hpp"
 
@@ -167,9 +168,10 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
   request.text_sha256 = request_hash(request);
 }
 
-Request read(const std::string& text, const std::string& file, const std::string& base,
-             const std::vector<Override>& overrides, const PathRules& rules) {
-  YAML::Node root = parse(text, file);
+}  // namespace
+
+Request read_document(YAML::Node root, const std::string& file, const std::string& base,
+                      const std::vector<Override>& overrides, const PathRules& rules, std::vector<Error>* all) {
   std::map<std::string, std::string> origins;
   for (const Override& item : overrides) {
     if (!root.IsMap()) continue;
@@ -178,6 +180,7 @@ Request read(const std::string& text, const std::string& file, const std::string
   }
   Source source(file, std::move(origins));
   if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
+  source.collect(all);
   const auto read_over = [&](Request request) {
     KeyReader reader(root, "", source);
     visit(reader, request);
@@ -185,6 +188,7 @@ Request read(const std::string& text, const std::string& file, const std::string
     return request;
   };
   Request request = read_over(Request());
+  if (all && !all->empty()) return request;  // what follows builds on values that are not there
   if (request.solver.preset == SolverSettings::Preset::quick) {  // what is not given is the preset's
     Request quick;
     apply(SolverSettings::Preset::quick, quick);
@@ -194,6 +198,13 @@ Request read(const std::string& text, const std::string& file, const std::string
       request, base, rules, [&](const std::string& path) { return source.where(path); },
       [&](const std::string& path) { return source.knows(path); });
   return request;
+}
+
+namespace {
+
+Request read(const std::string& text, const std::string& file, const std::string& base,
+             const std::vector<Override>& overrides, const PathRules& rules) {
+  return read_document(parse(text, file), file, base, overrides, rules);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -55,8 +56,14 @@ std::optional<Writer> writer_of(const std::string& name) {
   return writer;
 }
 
+/// One that has ended and whose parent has not asked yet how is still a process, and writes nothing any more.
 bool runs(pid_t pid) {
-  return kill(pid, 0) == 0 || errno != ESRCH;
+  if (kill(pid, 0) != 0 && errno == ESRCH) return false;
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t name_end = text.rfind(") ");
+  return name_end == std::string::npos || text[name_end + 2] != 'Z';
 }
 
 bool in_a_temporary(const fs::path& path) {

@@ -207,6 +207,7 @@ Generator::Result Generator::result(const Heap& heap, const Options& options) {
   Reporter reporter(options.hooks, 1);
   Result result;
   result.scene = heap.scene();
+  result.scene.index = options.index.value_or(result.scene.index);
   State::name_origin(result.scene, heap.parts(), heap.solver_reason());
   reporter.phase("quality", result.scene.index, result.scene.parts.size());
   if (request.drift_check)

@@ -81,9 +81,21 @@ void ModelStore::load(const Request& request) {
     parts.push_back(get(line.path, line.sha256, options));
   }
   check_sizes(request, parts, bin);
-  models_ = std::move(used);
+  keep(std::move(used));
   parts_ = std::move(parts);
   bin_ = std::move(bin);
+}
+
+void ModelStore::keep(std::map<std::string, PartModelPtr>&& used) {
+  std::vector<std::string> order;
+  for (const std::string& key : order_)
+    if (used.count(key) == 0) order.push_back(key);
+  order.erase(order.begin(), order.end() - static_cast<std::ptrdiff_t>(std::min(order.size(), most_unused)));
+  for (const std::string& key : order) used.emplace(key, models_.at(key));
+  for (const auto& [key, model] : used)
+    if (std::find(order.begin(), order.end(), key) == order.end()) order.push_back(key);
+  models_ = std::move(used);
+  order_ = std::move(order);
 }
 
 }  // namespace bin_scenes

@@ -1,5 +1,10 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/part/symmetry.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "core/in_parallel.hpp"
+#include "output/bop_image.hpp"
+#include "output/bop_visibility.hpp"
 #include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
@@ -55,13 +60,13 @@ std::vector<const ScenePart*> in_places(const Scene& scene) {
   return places;
 }
 
-void write_gray(const std::string& path, const RangeImage& image) {
+std::vector<std::uint8_t> gray_of(const RangeImage& image) {
   std::vector<std::uint8_t> gray;
   gray.reserve(image.intensity.size());
   for (const float value : image.intensity) {
     gray.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f) : 0);
   }
-  write_bytes(path, png8(image.width, image.height, 1, gray));
+  return gray;
 }
 
 void make_directory(const fs::path& path) {
@@ -83,55 +88,118 @@ std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts) {
   return ids;
 }
 
-void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
-               const std::vector<RangeImage>& images) {
+namespace {
+
+/// What the labels tell: a pixel shows the part that is truly seen there.
+BopVisibility from_labels(const RangeImage& image, const std::vector<PixelBox>& boxes, const Mesh& mesh,
+                          const Pose& model_in_camera, int id, std::size_t valid) {
+  BopVisibility seen;
+  seen.box = projected_box(mesh, model_in_camera, image.sensor).xywh();
+  seen.visible_box = boxes[id].xywh();
+  seen.all = image.total.at(id);
+  seen.visible = image.visible.at(id);
+  seen.valid = valid;
+  seen.visible_mask = visible_mask(image, id, boxes[id]);
+  if (!image.silhouettes.empty()) seen.whole_mask = whole_mask(image.silhouettes.at(id));
+  return seen;
+}
+
+/// The depth image as its readers will see it, as distance from the camera; empty where the labels have to do: by them
+/// alone, or where no pinhole describes the image.
+std::vector<float> stored_distances(const RangeImage& image, const std::vector<std::uint16_t>& counts,
+                                    double tolerance) {
+  const Lens lens = lens_of(image.sensor);
+  if (!(tolerance > 0.0) || lens.distorts() || image.width != lens.width || image.height != lens.height) return {};
+  std::vector<float> depth(counts.size());
+  std::transform(counts.begin(), counts.end(), depth.begin(),
+                 [&](std::uint16_t count) { return static_cast<float>(count * image.sensor.depth_scale); });
+  return distances(depth, lens);
+}
+
+BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vector<PartModelPtr>& parts,
+                   const RangeImage& image, const BopOptions& options) {
+  BopImage bop;
+  const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  const std::vector<int> object_ids = options.object_ids.empty() ? bop_object_ids(parts) : options.object_ids;
+  const std::vector<std::uint16_t> counts = counted_depth(image.depth, image.sensor.depth_scale);
+  bop.camera = {{"cam_K", image.sensor.k},
+                {"depth_scale", millimetres * image.sensor.depth_scale},
+                {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
+                {"cam_t_w2c", in_mm(bin_in_camera.position)}};
+  bop.width = image.sensor.width, bop.height = image.sensor.height;
+  bop.depth = png16(image.width, image.height, counts);
+  bop.gray = gray_of(image);
+  bop.gray_width = image.width, bop.gray_height = image.height;
+  const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
+  std::vector<std::size_t> valid(image.visible.size());
+  for (const std::uint16_t label : image.label) {
+    if (label) ++valid[label - 1u];
+  }
+  const std::vector<float> distance = stored_distances(image, counts, options.tolerance);
+  std::vector<BopVisibility> seen(places.size());
+  in_parallel(places.size(), [&](std::size_t i) {
+    const ScenePart& part = *places[i];
+    const Mesh& mesh = parts.at(part.line)->mesh();
+    const Pose pose = bin_in_camera * part.pose;
+    std::optional<BopVisibility> measured;
+    if (!distance.empty()) measured = bop_visibility(mesh, pose, lens_of(image.sensor), distance, options.tolerance);
+    seen[i] = measured ? std::move(*measured)
+                       : from_labels(image, boxes, mesh, pose, part.id, valid.at(static_cast<std::size_t>(part.id)));
+  });
+  bop.truth = Json::array();
+  bop.info = Json::array();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ScenePart& part = *places[i];
+    const Pose pose = bin_in_camera * part.pose;
+    BopVisibility& v = seen[i];
+    bop.truth.push_back({{"cam_R_m2c", row_major(pose.orientation.toRotationMatrix())},
+                         {"cam_t_m2c", in_mm(pose.position)},
+                         {"obj_id", object_ids.at(part.line)},
+                         {"id", part.id}});
+    bop.info.push_back({{"bbox_obj", v.box},
+                        {"bbox_visib", v.visible_box},
+                        {"px_count_all", v.all},
+                        {"px_count_valid", v.valid},
+                        {"px_count_visib", v.visible},
+                        {"visib_fract", v.all ? static_cast<double>(v.visible) / static_cast<double>(v.all) : 0.0}});
+    bop.ids.push_back(part.id);
+    bop.visible.push_back(std::move(v.visible_mask));
+    if (!image.silhouettes.empty() || !distance.empty()) bop.whole.push_back(std::move(v.whole_mask));
+  }
+  return bop;
+}
+
+}  // namespace
+
+std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
+                                 const std::vector<RangeImage>& images, const BopOptions& options) {
+  const std::vector<const ScenePart*> places = in_places(scene);
+  std::vector<BopImage> all;
+  for (const RangeImage& image : images) all.push_back(bop_image(places, parts, image, options));
+  return all;
+}
+
+void write_bop(const std::string& directory, const std::vector<BopImage>& images) {
   const fs::path root(directory);
   for (const char* folder : {"depth", "gray", "mask_visib"}) make_directory(root / folder);
-  if (!images.empty() && !images[0].silhouettes.empty()) make_directory(root / "mask");
-  const std::vector<int> object_ids = bop_object_ids(parts);
-  const std::vector<const ScenePart*> places = in_places(scene);
   Json camera = Json::object(), truth = Json::object(), info = Json::object();
   for (std::size_t n = 0; n < images.size(); ++n) {
-    const RangeImage& image = images[n];
+    const BopImage& image = images[n];
     const std::string key = std::to_string(n), file = six_digits(n);
-    const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
-    camera[key] = {{"cam_K", image.sensor.k},
-                   {"depth_scale", millimetres * image.sensor.depth_scale},
-                   {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
-                   {"cam_t_w2c", in_mm(bin_in_camera.position)}};
-    write_bytes((root / "depth" / (file + ".png")).string(),
-                png16(image.width, image.height, counted_depth(image.depth, image.sensor.depth_scale)));
-    write_gray((root / "gray" / (file + ".png")).string(), image);
-    const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
-    std::vector<std::size_t> valid(image.visible.size());
-    for (const std::uint16_t label : image.label) {
-      if (label) ++valid[label - 1u];
-    }
-    truth[key] = Json::array();
-    info[key] = Json::array();
-    for (const ScenePart* placed : places) {
-      const ScenePart& part = *placed;
-      const Pose pose = bin_in_camera * part.pose;
-      const std::size_t visible = image.visible.at(part.id), total = image.total.at(part.id);
-      const int width = image.sensor.width, height = image.sensor.height;
-      const Bytes seen = mask_png(width, height, visible_mask(image, part.id, boxes[part.id]));
-      const Bytes whole =
-          image.silhouettes.empty() ? Bytes() : mask_png(width, height, whole_mask(image.silhouettes.at(part.id)));
-      for (const std::size_t number : std::set<std::size_t>{truth[key].size(), static_cast<std::size_t>(part.id)}) {
+    if (!image.whole.empty()) make_directory(root / "mask");
+    camera[key] = image.camera;
+    truth[key] = image.truth;
+    info[key] = image.info;
+    write_bytes((root / "depth" / (file + ".png")).string(), image.depth);
+    write_bytes((root / "gray" / (file + ".png")).string(), png8(image.gray_width, image.gray_height, 1, image.gray));
+    for (std::size_t i = 0; i < image.ids.size(); ++i) {
+      const Bytes seen = mask_png(image.width, image.height, image.visible[i]);
+      const Bytes whole = image.whole.empty() ? Bytes() : mask_png(image.width, image.height, image.whole[i]);
+      for (const std::size_t number : std::set<std::size_t>{i, static_cast<std::size_t>(image.ids[i])}) {
         const std::string name = file + "_" + six_digits(number) + ".png";
         write_bytes((root / "mask_visib" / name).string(), seen);
         if (!whole.empty()) write_bytes((root / "mask" / name).string(), whole);
       }
-      truth[key].push_back({{"cam_R_m2c", row_major(pose.orientation.toRotationMatrix())},
-                            {"cam_t_m2c", in_mm(pose.position)},
-                            {"obj_id", object_ids.at(part.line)},
-                            {"id", part.id}});
-      info[key].push_back({{"bbox_obj", projected_box(parts.at(part.line)->mesh(), pose, image.sensor).xywh()},
-                           {"bbox_visib", boxes[part.id].xywh()},
-                           {"px_count_all", total},
-                           {"px_count_valid", valid.at(part.id)},
-                           {"px_count_visib", visible},
-                           {"visib_fract", total ? static_cast<double>(visible) / static_cast<double>(total) : 0.0}});
     }
   }
   write_text((root / "scene_camera.json").string(), camera.dump(1) + "\n");
@@ -139,7 +207,13 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
   write_text((root / "scene_gt_info.json").string(), info.dump(1) + "\n");
 }
 
-void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts) {
+void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
+               const std::vector<RangeImage>& images) {
+  write_bop(directory, bop_images(scene, parts, images, {}));
+}
+
+void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
+                      const std::vector<Symmetries>& given) {
   const fs::path models(directory);
   make_directory(models);
   const std::vector<int> ids = bop_object_ids(parts);
@@ -151,9 +225,23 @@ void write_bop_models(const std::string& directory, const std::vector<PartModelP
     const Aabb box = mesh.bounds();
     const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
     write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, millimetres);
-    // BOP's diameter is the largest distance of two vertices; the box's diagonal bounds it at no cost.
-    info[id] = {{"diameter", size.norm()}, {"min_x", lower.x()}, {"min_y", lower.y()}, {"min_z", lower.z()},
-                {"size_x", size.x()},      {"size_y", size.y()}, {"size_z", size.z()}};
+    info[id] = {{"diameter", millimetres * diameter(mesh)},
+                {"min_x", lower.x()},
+                {"min_y", lower.y()},
+                {"min_z", lower.z()},
+                {"size_x", size.x()},
+                {"size_y", size.y()},
+                {"size_z", size.z()}};
+    const Symmetries symmetries = i < given.size() ? given[i] : find_symmetries(*parts[i]);
+    for (const Pose& turn : symmetries.discrete) {
+      const Mat3 r = turn.orientation.toRotationMatrix();
+      const Vec3 t = millimetres * turn.position;
+      info[id]["symmetries_discrete"].push_back({r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(),
+                                                 r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0, 0.0, 0.0, 1.0});
+    }
+    for (const Symmetries::Axis& axis : symmetries.continuous)
+      info[id]["symmetries_continuous"].push_back(
+          {{"axis", {axis.direction.x(), axis.direction.y(), axis.direction.z()}}, {"offset", in_mm(axis.point)}});
   }
   write_text((models / "models_info.json").string(), info.dump(1) + "\n");
 }

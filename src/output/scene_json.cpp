@@ -204,7 +204,7 @@ Report report_of(const Json& json) {
   report.device = json.value("device", "");
   report.finish = json.value("finish", "");
   report.simulated_s = json.value("simulated_s", 0.0);
-  report.wall_s = json.value("wall_s", 0.0);
+  if (json.contains("wall_s") && !json.at("wall_s").is_null()) report.wall_s = json.at("wall_s").get<double>();
   report.steps = json.value("steps", std::uint64_t{0});
   report.escaped = json.value("escaped", std::vector<int>());
   report.not_poured = json.value("not_poured", std::vector<int>());

@@ -37,6 +37,40 @@ struct SensorOptions {
 };
 int sensor(const SensorOptions& options);
 
+struct DatasetOptions {
+  std::string plan, out;
+  std::size_t workers = 0;  ///< 0: as many as cores
+  std::string shard;        ///< "i/n"; empty = all
+  bool json_progress = false;
+};
+int dataset(const DatasetOptions& options);
+
+struct VerifyOptions {
+  std::string directory;
+  bool list = false;  ///< prints the invariants instead
+};
+int dataset_verify(const VerifyOptions& options);
+
+struct MergeOptions {
+  std::vector<std::string> shares;
+  std::string out;
+};
+int dataset_merge(const MergeOptions& options);
+
+struct SubmitOptions {
+  std::string plan, out;
+  std::size_t shares = 4, cpus = 1;
+  std::vector<std::string> sbatch;  ///< further options of sbatch
+  bool slurm = false;
+};
+int dataset_submit(const SubmitOptions& options);
+
+struct ReportOptions {
+  std::string directory;
+  std::string out;  ///< HTML file; empty: report.html in the directory
+};
+int report(const ReportOptions& options);
+
 int doctor();
 
 }  // namespace bin_scenes

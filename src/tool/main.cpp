@@ -1,4 +1,5 @@
 /// bin_scenes: the command line.
+#include "bin_scenes/config/plan.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "tool/commands.hpp"
@@ -39,6 +40,15 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_flag("--verbose", o.verbose, "stage times and counters of each scene");
 }
 
+void add_dataset(CLI::App& app, DatasetOptions& o) {
+  app.add_option("PLAN", o.plan, "plan of the data set (docs/use/datasets.md)");
+  app.add_option("--out", o.out, "directory of the data set");
+  app.add_option("--workers", o.workers, "processes; left out: as many as cores")->check(CLI::Range(1, 1024));
+  app.add_option("--shard", o.shard, "i/n: makes share i, from 0, of n; `dataset merge` joins them");
+  app.add_flag("--resume", "go on with what is there, as is done without it");
+  app.add_flag("--json-progress", o.json_progress, "progress as lines of JSON on standard output");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Scenes of parts lying in a bin: poured, at rest, judged on their true meshes, seen by range cameras.");
   app.set_version_flag("--version", BIN_SCENES_VERSION);
@@ -62,6 +72,34 @@ int run(int argc, char** argv) {
   sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over incidence and albedo");
   sensor_app->add_flag("--json", sensor_options.json, "as JSON");
 
+  DatasetOptions dataset_options;
+  CLI::App* dataset_app = app.add_subcommand("dataset", "make a data set from a plan; it goes on where it was stopped");
+  add_dataset(*dataset_app, dataset_options);
+  VerifyOptions verify_options;
+  CLI::App* verify_app = dataset_app->add_subcommand("verify", "read a data set and check it against itself");
+  verify_app->add_option("DIR", verify_options.directory, "directory of the data set");
+  verify_app->add_flag("--list", verify_options.list, "what is checked");
+  MergeOptions merge_options;
+  CLI::App* merge_app = dataset_app->add_subcommand("merge", "join shares of a data set");
+  merge_app->add_option("DIR", merge_options.shares, "directories of the shares")->required();
+  merge_app->add_option("--out", merge_options.out, "directory of the whole data set")->required();
+
+  SubmitOptions submit_options;
+  CLI::App* submit_app = dataset_app->add_subcommand("submit", "make a data set on a cluster: submit, watch, merge");
+  submit_app->add_flag("--slurm", submit_options.slurm, "by an array job of Slurm")->required();
+  submit_app->add_option("PLAN", submit_options.plan, "plan of the data set")->required();
+  submit_app->add_option("--out", submit_options.out, "directory of the data set, seen by all nodes")->required();
+  submit_app->add_option("--shares", submit_options.shares, "tasks of the array job")->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  submit_app->add_option("--cpus", submit_options.cpus, "cores, and workers, a task")->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  submit_app->add_option("--sbatch", submit_options.sbatch, "further option of sbatch, such as --sbatch=--partition=long");
+
+  ReportOptions report_options;
+  CLI::App* report_app = app.add_subcommand("report", "a data set as one HTML page");
+  report_app->add_option("DIR", report_options.directory, "directory of the data set")->required();
+  report_app->add_option("--out", report_options.out, "HTML file; left out: DIR/report.html");
+
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
   CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
 
@@ -76,6 +114,11 @@ int run(int argc, char** argv) {
   if (generate_app->parsed()) return generate(generate_options);
   if (inspect_app->parsed()) return inspect(inspect_options);
   if (sensor_app->parsed()) return sensor(sensor_options);
+  if (verify_app->parsed()) return dataset_verify(verify_options);
+  if (merge_app->parsed()) return dataset_merge(merge_options);
+  if (submit_app->parsed()) return dataset_submit(submit_options);
+  if (report_app->parsed()) return report(report_options);
+  if (dataset_app->parsed()) return dataset(dataset_options);
   if (doctor_app->parsed()) return doctor();
   if (reference_app->parsed()) std::cout << request_reference();
   return exit_done;
@@ -86,6 +129,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const PlanErrors& errors) {
+    for (const Error& error : errors.all()) complain(error.what(), 0);
+    return static_cast<int>(errors.kind());
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) {
       std::signal(SIGALRM, SIG_IGN);  // the patience of generate(): it would say so once more

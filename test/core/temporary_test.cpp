@@ -52,6 +52,20 @@ TEST_F(TemporaryTest, LeftoversOfAKilledProcessAreRemoved) {
   EXPECT_EQ(entries(), 0u);
 }
 
+TEST_F(TemporaryTest, AProcessThatEndedWritesNoMoreThoughNobodyAskedHow) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const Temporary file((dir / "a.txt").string());
+    std::ofstream(file.path()) << "half";
+    raise(SIGKILL);
+  }
+  siginfo_t ended;
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  EXPECT_EQ(remove_leftovers(dir.string()), 1u);
+  EXPECT_EQ(entries(), 0u);
+  waitpid(child, nullptr, 0);
+}
+
 TEST_F(TemporaryTest, WhatIsStillWrittenAndWhatOtherHostsWriteStays) {
   const Temporary mine((dir / "a.txt").string());
   std::ofstream(mine.path()) << "half";

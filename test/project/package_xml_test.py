@@ -28,6 +28,9 @@ DEBIAN = {
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
         "glslang-tools",  # rosdep has no key of it; where it is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
+        "libjs-three",  # for reports; without it they have no 3-D view
+        # a browser and a cluster, which tests start; where they are missing these tests are skipped
+        "chromium", "slurmctld", "slurmd", "slurm-client", "munge",
         # of the shell: rosrun, rosservice, rostopic and rospack, which come with a ROS that has roslaunch
         "rosbash", "rospack-tools", "python3-rosservice", "python3-rostopic"}
 # Named for users alone: scripts/demo and the tests need no window.
@@ -60,14 +63,15 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "run", "tests", "bench", "ros", "ros_tests"})
+                         {"build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "bench", "ros", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
 
     def test_what_is_installed_has_a_key(self):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
-        for name in ("build", "libraries", "pcd", "run", "tests", "ros", "ros_tests"):
+        for name in ("build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "ros",
+                     "ros_tests"):
             for package in self.arrays[name]:
                 known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
                 if not known and package not in OURS:

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace bin_scenes {
 
@@ -27,6 +28,8 @@ class Generator {
     /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
     /// poured: the place for what takes long, such as writing files. It may take the images away.
     std::function<void(Result&)> prepare;
+    /// Of the scene that result() hands over, for heaps that give several: names it, and draws its sensors' noise.
+    std::optional<std::size_t> index;
     RunHooks hooks;
   };
 

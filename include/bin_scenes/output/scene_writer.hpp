@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
@@ -45,8 +46,17 @@ void write_pngs(const std::string& directory, const RangeImage& image);
 /// and their masks are stored under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
-/// The folder models of a BOP data set: obj_<obj_id>.ply and models_info.json (mm).
-void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts);
+/// How BOP's files tell what is visible, and which object a part is.
+struct BopOptions {
+  /// m: as bop_toolkit defines visible pixels and boxes, from the depth image, up to so far behind the measured surface;
+  /// 0: from the true labels.
+  double tolerance = 0.0;
+  std::vector<int> object_ids;  ///< by part line; empty: bop_object_ids()
+};
+/// The folder models of a BOP data set: obj_<obj_id>.ply and models_info.json (mm) with diameter and symmetries: those
+/// given, by part line, else those found on the mesh.
+void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
+                      const std::vector<Symmetries>& given = {});
 /// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
 

@@ -1,0 +1,118 @@
+"""Samples of shards: tar files with an index that tells where each file lies."""
+import json
+import pathlib
+
+import numpy as np
+
+from .images import read_png, read_tiff
+
+
+def run_lengths_to_mask(run_lengths):
+    """COCO's uncompressed run lengths, column by column, zeros first, to a boolean image."""
+    height, width = run_lengths["size"]
+    values = np.arange(len(run_lengths["counts"])) % 2 == 1
+    return np.repeat(values, run_lengths["counts"]).reshape(width, height).T
+
+
+class Sample:
+    """One image with its truth."""
+
+    def __init__(self, key, files, data, begin):
+        self.key = key  #: "SCENE_IMAGE", six digits each
+        self._files, self._data, self._begin = files, data, begin
+
+    def raw(self, name):
+        """Bytes of a file: depth.png, gray.tiff, camera.json, gt.json, gt_info.json, mask.json or mask_visib.json."""
+        offset, size = self._files[name]
+        return self._data[offset - self._begin:offset - self._begin + size]
+
+    def _json(self, name):
+        return json.loads(self.raw(name))
+
+    @property
+    def camera_matrix(self):
+        """3 x 3, pixels."""
+        return np.array(self._json("camera.json")["cam_K"]).reshape(3, 3)
+
+    @property
+    def depth(self):
+        """m along the optical axis, float32; NaN where nothing was measured."""
+        counts = read_png(self.raw("depth.png"))
+        depth = counts.astype(np.float32) * np.float32(self._json("camera.json")["depth_scale"] / 1e3)
+        depth[counts == 0] = np.nan
+        return depth
+
+    @property
+    def gray(self):
+        """Intensity, 8 bits."""
+        return read_tiff(self.raw("gray.tiff"))
+
+    @property
+    def poses(self):
+        """(parts, 4, 4): from the model's frame to the camera's, m."""
+        truth = self._json("gt.json")
+        poses = np.tile(np.eye(4), (len(truth), 1, 1))
+        for pose, part in zip(poses, truth):
+            pose[:3, :3] = np.array(part["cam_R_m2c"]).reshape(3, 3)
+            pose[:3, 3] = np.array(part["cam_t_m2c"]) / 1e3
+        return poses
+
+    @property
+    def objects(self):
+        """Numbers of the models, one a part."""
+        return np.array([part["obj_id"] for part in self._json("gt.json")], int)
+
+    @property
+    def info(self):
+        """Boxes, counts of pixels and visible fraction, a dict a part: see BOP's scene_gt_info."""
+        return self._json("gt_info.json")
+
+    def masks(self, name="mask_visib"):
+        """(parts, rows, columns), boolean: what is visible, or with `mask` the whole silhouettes."""
+        masks = self._json(name + ".json")
+        return np.stack([run_lengths_to_mask(masks[str(i)]) for i in range(len(masks))]) if masks else np.zeros((0, 0, 0), bool)
+
+
+class Shards:
+    """The shards of a data set."""
+
+    def __init__(self, directory):
+        self.directory = pathlib.Path(directory) / "shards"
+        if not (self.directory / "key_to_shard.json").is_file():
+            raise FileNotFoundError("%s has no key_to_shard.json: name a finished data set with output `shards`" % self.directory)
+        self._shard_of = json.loads((self.directory / "key_to_shard.json").read_text())
+        self.keys = sorted(self._shard_of)
+        self._offsets = {}
+
+    def __len__(self):
+        return len(self.keys)
+
+    def _path(self, shard):
+        return self.directory / ("shard-%06d.tar" % shard)
+
+    def _offsets_of(self, shard):
+        if shard not in self._offsets:
+            if len(self._offsets) >= 16:  # a million images have a thousand shards; a reader needs a few at a time
+                self._offsets.clear()
+            self._offsets[shard] = json.loads(self._path(shard).with_suffix(".json").read_text())
+        return self._offsets[shard]
+
+    @staticmethod
+    def _read(file, key, files):
+        begin = min(offset for offset, _ in files.values())
+        end = max(offset + size for offset, size in files.values())
+        file.seek(begin)
+        return Sample(key, files, file.read(end - begin), begin)
+
+    def __getitem__(self, which):
+        """By number (negative ones count from the end) or key; raises IndexError or KeyError."""
+        key = which if isinstance(which, str) else self.keys[which]
+        shard = self._shard_of[key]
+        with open(self._path(shard), "rb") as file:
+            return self._read(file, key, self._offsets_of(shard)[key])
+
+    def __iter__(self):
+        for shard in sorted(set(self._shard_of.values())):
+            with open(self._path(shard), "rb") as file:
+                for key, files in self._offsets_of(shard).items():
+                    yield self._read(file, key, files)

@@ -1,0 +1,329 @@
+#include "bin_scenes/config/plan.hpp"
+
+#include "bin_scenes/core/sha256.hpp"
+#include "config/plan_state.hpp"
+#include "config/read_document.hpp"
+#include "config/yaml_text.hpp"
+#include "core/read_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+using config::Distribution;
+
+namespace {
+
+using config::own_value;
+using Kind = Distribution::Kind;
+
+constexpr std::size_t most_ends = 64;  ///< of one distribution that are tried on the request
+
+class PlanFile {
+ public:
+  explicit PlanFile(const std::string& path) : path_(path), source_(path, {}) { source_.collect(&errors_); }
+
+  Plan read() {
+    plan_.text = read_file(path_, config::longest_text);
+    const YAML::Node root = config::load_yaml(plan_.text, path_);
+    if (!root.IsMap()) throw input_error("the plan is no map of keys", path_, "see docs/use/datasets.md");
+    auto state = std::make_shared<Plan::State>();
+    state_ = state.get();
+    read_keys(root);
+    read_request(own_value(root, "request"));
+    if (errors_.empty()) try_ends();
+    if (errors_.empty()) check_outputs();
+    if (!errors_.empty()) throw PlanErrors(errors_);
+    plan_.sha256 = digest();
+    plan_.state = state;
+    return plan_;
+  }
+
+ private:
+  void complain(const std::string& problem, const std::string& key, const std::string& remedy) {
+    errors_.push_back(input_error("'" + key + "': " + problem, source_.where(key), remedy));
+  }
+
+  void read_keys(const YAML::Node& root) {
+    config::KeyReader keys(root, "", source_);
+    keys.field({"seed", "", ""}, plan_.seed);
+    keys.field({"scenes", "", ""}, plan_.heaps);
+    keys.field({"attempts", "", ""}, plan_.attempts);
+    if (plan_.heaps < 1 || plan_.heaps > 1'000'000'000)
+      complain("must be 1 to 1000000000", "scenes", "number of heaps");
+    if (plan_.attempts < 1 || plan_.attempts > 1000) complain("must be 1 to 1000", "attempts", "3 is the default");
+    read_outputs(keys.node({"outputs", "", ""}));
+    if (!keys.node({"request", "", ""})) complain("is missing", "request", "give a request, or the path of its file");
+    read_draws(keys.node({"draw", "", ""}));
+    read_amount(keys.node({"amount", "", ""}));
+    read_depletion(keys.node({"depletion", "", ""}));
+    read_bop(keys.node({"bop", "", ""}));
+    keys.finish();
+  }
+
+  void read_outputs(const YAML::Node& node) {
+    plan_.formats = {"json"};
+    if (!node) return;
+    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, png, bag, bop, shards");
+    plan_.formats.clear();
+    for (const YAML::Node& item : node) {
+      const std::string name = item.IsScalar() ? item.Scalar() : "";
+      const std::vector<std::string> known = {"json", "pcd", "png", "bag", "bop", "shards"};
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, png, bag, bop and shards");
+      plan_.formats.push_back(name);
+    }
+  }
+
+  void read_draws(const YAML::Node& node) {
+    if (!node || node.IsNull()) return;
+    if (!node.IsMap())
+      return complain("expected a map from keys of the request to distributions", "draw",
+                      "for instance parts[0].friction: {uniform: [0.3, 0.6]}");
+    std::set<std::string> seen;
+    for (const auto& item : node) {
+      const std::string path = item.first.Scalar(), key = "draw." + path;
+      source_.remember(key, item.first);
+      if (!seen.insert(path).second) complain("is drawn twice", key, "keep one of them");
+      if (path == "seed" || path == "scenes" || path == "first") complain("belongs to the plan", key, "remove it");
+      const auto distribution = config::read_distribution(item.second, key, source_);
+      if (distribution)
+        state_->draws.push_back({path, source_.where(key), config::flow_text(item.second), *distribution});
+    }
+  }
+
+  void read_amount(const YAML::Node& node) {
+    if (!node) return;
+    if (!node.IsMap() || (!node["parts"] && !node["fill"]))
+      return complain("needs parts or fill", "amount", "for instance amount: {parts: {uniform: [20, 60]}}");
+    for (const auto& item : node) {
+      const std::string name = item.first.Scalar(), key = "amount." + name;
+      source_.remember(key, item.first);
+      if (name == "parts")
+        state_->amount.parts = config::read_number(item.second, key, source_);
+      else if (name == "fill")
+        state_->amount.fill = config::read_number(item.second, key, source_);
+      else if (name == "shares")
+        read_shares(item.second);
+      else
+        complain("is unknown", key, "known are parts, fill and shares");
+    }
+    if (node["parts"] && node["fill"]) complain("parts and fill both say how many there are", "amount", "keep one");
+    const auto bounds = [&](const std::optional<Distribution>& d, const char* key, double lower, double upper) {
+      if (!d) return;
+      for (const std::string& end :
+           d->kind == Kind::constant ? std::vector<std::string>{config::text_of(d->a)} : d->ends(YAML::Node())) {
+        const double value = std::stod(end);
+        if (value < lower || value > upper)
+          complain(end + " is not within " + config::text_of(lower) + " to " + config::text_of(upper), key,
+                   "mend the range, or give min and max");
+      }
+    };
+    bounds(state_->amount.parts, "amount.parts", 1, 1e6);
+    bounds(state_->amount.fill, "amount.fill", 1e-6, 1.0);
+  }
+
+  void read_shares(const YAML::Node& node) {
+    try {
+      config::read_value(node, state_->amount.shares);
+    } catch (const config::Mismatch& mismatch) {
+      return complain("expected " + mismatch.expected, "amount.shares", "one number a part line");
+    }
+    double sum = 0.0;
+    for (const double share : state_->amount.shares) {
+      if (!(share >= 0.0)) complain("a share is negative", "amount.shares", "give 0 or more");
+      sum += share;
+    }
+    if (!(sum > 0.0)) complain("all shares are 0", "amount.shares", "give at least one above 0");
+  }
+
+  void read_depletion(const YAML::Node& node) {
+    if (!node) return;
+    if (!node.IsMap() || !node["steps"] || !node["take"])
+      return complain("needs steps and take", "depletion",
+                      "for instance depletion: {steps: 4, take: {uniform: [3, 8]}}");
+    for (const auto& item : node) {
+      const std::string name = item.first.Scalar(), key = "depletion." + name;
+      source_.remember(key, item.first);
+      if (name == "take") {
+        state_->take = config::read_number(item.second, key, source_);
+      } else if (name == "steps") {
+        try {
+          config::read_value(item.second, plan_.depletion.steps);
+        } catch (const config::Mismatch& mismatch) {
+          complain("expected " + mismatch.expected, key, "scenes of a heap beside the first");
+        }
+      } else {
+        complain("is unknown", key, "known are steps and take");
+      }
+    }
+    if (plan_.depletion.steps > 100'000) complain("must be at most 100000", "depletion.steps", "take more at a time");
+  }
+
+  void read_bop(const YAML::Node& node) {
+    if (!node) return;
+    if (!node.IsMap()) return complain("expected a map", "bop", "bop: {tolerance: 0.0015, symmetries: {...}}");
+    for (const auto& item : node) {
+      const std::string name = item.first.Scalar(), key = "bop." + name;
+      source_.remember(key, item.first);
+      if (name == "tolerance") {
+        try {
+          config::read_value(item.second, plan_.tolerance);
+        } catch (const config::Mismatch& mismatch) {
+          complain("expected " + mismatch.expected, key, "m; 0.001 to 0.002 suits parts of centimetres");
+        }
+        if (!(plan_.tolerance > 0.0 && plan_.tolerance <= 0.1)) complain("must be above 0 and at most 0.1 m", key, "m");
+      } else if (name == "symmetries") {
+        symmetries_.reset(item.second);
+      } else {
+        complain("is unknown", key, "known are tolerance and symmetries");
+      }
+    }
+  }
+
+  void read_request(const YAML::Node& node) {
+    if (!node) return;
+    state_->file = path_;
+    fs::path base = fs::absolute(path_).parent_path();
+    state_->request.reset(node);
+    std::vector<Error> found;
+    try {
+      if (node.IsScalar()) {
+        const fs::path file = base / node.Scalar();
+        state_->file = file.lexically_normal().string();
+        base = file.parent_path();
+        state_->request.reset(config::load_yaml(read_file(state_->file, config::longest_text), state_->file));
+      }
+      state_->base = base.string();
+      plan_.reference = config::read_document(state_->request, state_->file, state_->base, {}, {}, &found);
+      for (const char* key : {"seed", "scenes", "first"})
+        if (own_value(state_->request, key))
+          found.push_back(input_error(std::string("'") + key + "' belongs to the plan", state_->file,
+                                      "remove it from the request"));
+    } catch (const Error& error) {
+      found.push_back(error);
+    }
+    errors_.insert(errors_.end(), found.begin(), found.end());
+    if (errors_.empty()) note_objects(plan_.reference);
+    const std::vector<double>& shares = state_->amount.shares;
+    if (errors_.empty() && !shares.empty() && shares.size() != plan_.reference.parts.size())
+      complain("has " + std::to_string(shares.size()) + " numbers for " + std::to_string(plan_.reference.parts.size()) +
+                   " part lines",
+               "amount.shares", "give one a line");
+  }
+
+  /// A draw that cannot be right is found here instead of after hours: each end is put into the request alone.
+  void try_ends() {
+    for (const config::Draw& draw : state_->draws) {
+      const YAML::Node own = own_value(state_->request, draw.path);
+      if (draw.distribution.kind == Kind::times && !own) {
+        complain("the request has no value to multiply", "draw." + draw.path, "write the value into the request");
+        continue;
+      }
+      std::vector<std::string> ends = draw.distribution.ends(own);
+      if (ends.size() > most_ends) ends.resize(most_ends);
+      for (const std::string& end : ends) {
+        std::vector<Error> found;
+        try {
+          const Request request = config::read_document(YAML::Clone(state_->request), state_->file, state_->base,
+                                                        {{draw.path + "=" + end, draw.where}}, {}, &found);
+          if (found.empty()) note_objects(request);
+        } catch (const Error& error) {
+          found.push_back(error);
+        }
+        if (found.empty()) continue;
+        errors_.push_back(input_error("'draw." + draw.path + "' with " + end + ": " + found[0].problem(), draw.where,
+                                      found[0].remedy()));
+        break;
+      }
+    }
+  }
+
+  void note_objects(const Request& request) {
+    digests_ += request.bin.mesh_sha256;
+    for (const PartLine& line : request.parts) {
+      const auto same = [&](const PlanObject& object) { return is_of(object, line); };
+      if (std::any_of(plan_.objects.begin(), plan_.objects.end(), same)) continue;
+      PlanObject object{line.model, line.path, line.sha256, line.unit, line.scale, line.thickness, {}, {}};
+      read_symmetries(object);
+      plan_.objects.push_back(object);
+      digests_ += line.sha256;
+    }
+  }
+
+  void read_symmetries(PlanObject& object) {
+    if (!symmetries_ || !symmetries_.IsMap()) return;
+    const YAML::Node given = symmetries_[object.model];
+    if (!given) return;
+    object.continuous.emplace();
+    object.discrete.emplace();
+    try {
+      for (const auto& item : given) {
+        const std::string name = item.first.Scalar();
+        for (const YAML::Node& value : item.second) {
+          std::vector<double> v;
+          config::read_value(value, v);
+          if (name == "continuous" && v.size() == 3)
+            object.continuous->push_back(Vec3(v[0], v[1], v[2]).normalized());
+          else if (name == "discrete" && v.size() == 4)
+            object.discrete->push_back(Quat(v[3], v[0], v[1], v[2]).normalized());
+          else
+            throw config::Mismatch{"continuous: [[x, y, z], ...] and discrete: [[qx, qy, qz, qw], ...]"};
+        }
+      }
+    } catch (const config::Mismatch& mismatch) {
+      complain("of '" + object.model + "': expected " + mismatch.expected, "bop.symmetries", "in the model's frame");
+    }
+  }
+
+  void check_outputs() {
+    const Request& request = plan_.reference;
+    const bool bop = plan_.wants("bop") || plan_.wants("shards");
+    if ((bop || plan_.wants("png") || plan_.wants("pcd")) && request.sensors.empty())
+      complain("they show what a sensor sees, but the request has no sensors", "outputs",
+               "add `sensors: [{name: camera}]` to the request");
+    if (!bop) return;
+    for (const Sensor& sensor : request.sensors)
+      if (sensor.model == SensorModel::laser_line)
+        complain("a laser_line sensor makes no pinhole image", "outputs",
+                 "leave bop and shards out, or choose another model");
+    for (const config::Draw& draw : state_->draws) {
+      const std::size_t dot = draw.path.rfind('.');
+      const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);
+      if ((name == "scale" || name == "thickness") && draw.distribution.kind != Kind::choice)
+        complain("BOP has one file a model, and here each heap has its own size", "draw." + draw.path,
+                 "draw it by choice, or leave bop and shards out");
+    }
+  }
+
+  std::string digest() const {
+    return sha256_hex(plan_.text + "\n" + write_request(plan_.reference) + "\n" + digests_);
+  }
+
+  std::string path_, digests_;
+  config::Source source_;
+  std::vector<Error> errors_;
+  YAML::Node symmetries_;
+  Plan plan_;
+  Plan::State* state_ = nullptr;
+};
+
+std::string summary_of(const std::vector<Error>& all) {
+  return all.size() == 1 ? all[0].problem() : std::to_string(all.size()) + " errors";
+}
+
+}  // namespace
+
+PlanErrors::PlanErrors(std::vector<Error> all)
+    : Error(ErrorKind::input, summary_of(all), all.at(0).where(), all[0].remedy()), all_(std::move(all)) {}
+
+Plan read_plan(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw input_error("there is no such plan file", path, "check the path");
+  return PlanFile(path).read();
+}
+
+}  // namespace bin_scenes

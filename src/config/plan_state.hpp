@@ -1,0 +1,42 @@
+/// What a plan keeps of its file in order to draw requests.
+#pragma once
+
+#include "bin_scenes/config/plan.hpp"
+#include "config/distribution.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+namespace config {
+
+struct Draw {
+  std::string path, where, text;  ///< key of the request; its line; as the plan writes it
+  Distribution distribution;
+};
+
+/// How many parts there are altogether, and of which lines.
+struct Amount {
+  std::optional<Distribution> parts;  ///< number of parts
+  std::optional<Distribution> fill;   ///< volume of all parts / inner volume of the bin
+  std::vector<double> shares;         ///< by part line
+};
+
+/// The value that the request itself has at a path; not defined if it has none.
+YAML::Node own_value(const YAML::Node& root, const std::string& path);
+
+}  // namespace config
+
+struct Plan::State {
+  YAML::Node request;
+  std::string file, base;  ///< of the request: for messages, and what relative paths start at
+  std::vector<config::Draw> draws;
+  config::Amount amount;
+  std::optional<config::Distribution> take;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,22 @@
+/// A request from the tree of its document, for readers of files that hold one among other things.
+#pragma once
+
+#include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/error.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes::config {
+
+/// @param root  is changed by the overrides
+/// @param file, base  for messages, and what relative paths start at
+/// @param all  takes the errors of all keys, with their lines; the request then says nothing. Other errors are thrown,
+///             and without it those of keys, too.
+Request read_document(YAML::Node root, const std::string& file, const std::string& base,
+                      const std::vector<Override>& overrides, const PathRules& rules,
+                      std::vector<Error>* all = nullptr);
+
+}  // namespace bin_scenes::config

@@ -1,0 +1,144 @@
+#include "dataset/data_folder.hpp"
+
+#include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "core/read_file.hpp"
+#include "dataset/whole_folders.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* format_name = "bin_scenes/dataset/1";
+
+std::string six_digits(const char* before, std::size_t number) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s%06zu", before, number);
+  return text;
+}
+
+std::string facts_text(const DataSetFacts& facts) {
+  nlohmann::ordered_json json = {{"format", format_name},
+                                 {"version", facts.version},
+                                 {"plan_sha256", facts.plan_sha256},
+                                 {"plan_text_sha256", facts.plan_text_sha256},
+                                 {"scenes", facts.scenes()},
+                                 {"heaps", facts.heaps},
+                                 {"depletion_steps", facts.steps},
+                                 {"attempts", facts.attempts},
+                                 {"sensors", facts.sensors},
+                                 {"outputs", facts.formats},
+                                 {"bop_tolerance_m", facts.tolerance}};
+  return json.dump(1) + "\n";
+}
+
+bool holds_something(const fs::path& root) {
+  std::error_code not_there;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root, not_there))
+    if (entry.path().filename().string()[0] != '.') return true;
+  return false;
+}
+
+}  // namespace
+
+fs::path DataFolder::scene(std::size_t scene) const {
+  return root / "scenes" / six_digits("scene_", scene);
+}
+fs::path DataFolder::set_apart(std::size_t scene, std::size_t attempt) const {
+  return root / "set_apart" / (six_digits("scene_", scene) + "_attempt_" + std::to_string(attempt));
+}
+fs::path DataFolder::bop(std::size_t scene) const {
+  return root / "bop" / "train" / six_digits("", scene);
+}
+fs::path DataFolder::samples(std::size_t scene) const {
+  return root / "samples" / six_digits("", scene);
+}
+fs::path DataFolder::shard(std::size_t shard) const {
+  return shards() / (six_digits("shard-", shard) + ".tar");
+}
+
+bool DataSetFacts::wants(const std::string& format) const {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+bool DataSetFacts::operator==(const DataSetFacts& other) const {
+  return facts_text(*this) == facts_text(other);
+}
+
+DataSetFacts facts_of(const Plan& plan) {
+  return {plan.sha256,   sha256_hex(plan.text),         BIN_SCENES_VERSION, plan.heaps,    plan.depletion.steps,
+          plan.attempts, plan.reference.sensors.size(), plan.formats,       plan.tolerance};
+}
+
+DataSetFacts read_facts(const fs::path& root) {
+  const fs::path path = root / "dataset.json";
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored))
+    throw input_error("is no data set: it has no dataset.json", root.string(),
+                      "name the folder that was given as --out");
+  const auto json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
+  if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
+    throw input_error(std::string("is damaged, or not of format ") + format_name, path.string(),
+                      "use the version of bin_scenes that made it");
+  try {
+    return {json.at("plan_sha256"), json.at("plan_text_sha256"), json.at("version"),
+            json.at("heaps"),       json.at("depletion_steps"),  json.at("attempts"),
+            json.at("sensors"),     json.at("outputs"),          json.at("bop_tolerance_m")};
+  } catch (const nlohmann::json::exception&) {
+    throw input_error("lacks a key", path.string(), "use the version of bin_scenes that made it");
+  }
+}
+
+void claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text) {
+  const fs::path path = folder.root / "dataset.json";
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) {
+    const DataSetFacts there = read_facts(folder.root);
+    if (there.version != facts.version)
+      throw input_error("was begun by version " + there.version + ", this is " + facts.version, folder.root.string(),
+                        "go on with that version, or name another --out");
+    if (!(there == facts))
+      throw input_error("is the data set of another plan (see its plan.yaml)", folder.root.string(),
+                        "name another --out, or go on with that plan");
+  } else {
+    if (holds_something(folder.root))
+      throw input_error("holds something that is no data set", folder.root.string(),
+                        "name a new or empty folder for --out");
+    make_directory(folder.root);
+    write_text((folder.root / "plan.yaml").string(), plan_text);
+    write_text(path.string(), facts_text(facts));
+  }
+  for (const char* below : {"scenes", "set_apart"}) make_directory(folder.root / below);
+}
+
+FolderLock::FolderLock(const fs::path& root) : descriptor_(::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  // Workers hold it too, and a parent that was killed may be gone before the last of them.
+  constexpr int tries = 100;
+  constexpr useconds_t pause_us = 50'000;
+  for (int i = 0; descriptor_ >= 0 && i < tries; ++i) {
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    usleep(pause_us);
+  }
+  if (descriptor_ >= 0) ::close(descriptor_);
+  throw environment_error("another process works there", root.string(), "wait for it, or stop it");
+}
+FolderLock::~FolderLock() {
+  ::close(descriptor_);
+}
+
+void remove_leftovers(const DataFolder& folder) {
+  for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "samples", "shards"})
+    remove_leftovers((folder.root / below).string());
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,71 @@
+/// The directory of a data set, and whose it is.
+///
+///     DIR/dataset.json                     plan, version and size, written before anything else
+///     DIR/plan.yaml                        the plan as it was read
+///     DIR/scenes/scene_000007/             scene.json, request.yaml, files.json, images
+///     DIR/set_apart/scene_000007_attempt_0/  the same for what was not accepted
+///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes
+///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
+///     DIR/shards/shard-000000.tar, ...
+///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not tell itself but times
+///
+/// Everything but index.sqlite is the same, byte for byte, however it was made.
+#pragma once
+
+#include "bin_scenes/config/plan.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace bin_scenes {
+
+struct DataFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path index() const { return root / "index.sqlite"; }
+  std::filesystem::path scene(std::size_t scene) const;
+  std::filesystem::path set_apart(std::size_t scene, std::size_t attempt) const;
+  std::filesystem::path bop(std::size_t scene) const;
+  std::filesystem::path samples(std::size_t scene) const;
+  std::filesystem::path shards() const { return root / "shards"; }
+  std::filesystem::path shard(std::size_t shard) const;
+};
+
+/// What dataset.json tells.
+struct DataSetFacts {
+  std::string plan_sha256;       ///< of everything that decides the scenes
+  std::string plan_text_sha256;  ///< of plan.yaml alone
+  std::string version;
+  std::size_t heaps = 0, steps = 0, attempts = 0, sensors = 0;
+  std::vector<std::string> formats;
+  double tolerance = 0.0;
+
+  std::size_t scenes() const { return heaps * (steps + 1); }
+  bool wants(const std::string& format) const;
+  bool operator==(const DataSetFacts& other) const;
+};
+DataSetFacts facts_of(const Plan& plan);
+/// Throws an input Error if DIR is no data set.
+DataSetFacts read_facts(const std::filesystem::path& root);
+
+/// Writes dataset.json and plan.yaml, or checks that those there are the same. Throws an input Error with advice for a
+/// folder of another plan or version, or of something else.
+void claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
+
+/// One process at a time works in a folder; the lock goes with the process, however it ends.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& root);  ///< throws an environment Error if another one has it
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// Removes what killed processes left half-written.
+void remove_leftovers(const DataFolder& folder);
+
+}  // namespace bin_scenes

@@ -1,0 +1,238 @@
+#include "dataset/heap_maker.hpp"
+
+#include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "core/read_file.hpp"
+#include "dataset/shards.hpp"
+#include "output/bop_image.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// Wall times differ from run to run: they go into the index, and the scene does without.
+void without_times(Report& report) {
+  report.wall_s = std::nan("");
+  report.profile = {};
+}
+
+LoadOptions options_of(const PlanObject& object) {
+  LoadOptions options;
+  options.unit = object.unit;
+  options.scale = object.scale;
+  options.thickness = object.thickness;
+  return options;
+}
+
+/// The highest parts, the highest first.
+std::vector<int> highest(const Scene& scene, std::size_t count) {
+  std::vector<const ScenePart*> parts;
+  for (const ScenePart& part : scene.parts)
+    if (is_there(part.state) && part.state != PartState::fixed && part.pose.finite()) parts.push_back(&part);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const ScenePart* a, const ScenePart* b) { return a->pose.position.z() > b->pose.position.z(); });
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < std::min(count, parts.size()); ++i) ids.push_back(parts[i]->id);
+  return ids;
+}
+
+SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const nlohmann::json& json) {
+  const fs::path path = folder.scene(scene);
+  return {scene, path.lexically_relative(folder.root).string(), sha256_of_file((path / "files.json").string()),
+          summary_of(json)};
+}
+
+}  // namespace
+
+HeapRecord HeapMaker::make(std::size_t heap) {
+  const auto begin = Clock::now();
+  HeapRecord record;
+  record.heap = heap;
+  for (std::size_t k = 0; k < plan_.attempts && !record.accepted; ++k) {
+    WholeFolders folders;
+    const std::vector<std::string> reasons = attempt(heap, k, record, folders);
+    record.accepted = reasons.empty();
+    if (!record.accepted) {
+      const fs::path path = folder_.set_apart(heap * (plan_.depletion.steps + 1), k);
+      record.rejected.push_back({k, path.lexically_relative(folder_.root).string(), reasons});
+      continue;
+    }
+    const auto before = Clock::now();
+    folders.commit();
+    record.stages_ms["commit"] += ms_since(before);
+  }
+  if (record.accepted) {
+    for (std::size_t step = 0; step <= plan_.depletion.steps; ++step) {
+      const std::size_t scene = heap * (plan_.depletion.steps + 1) + step;
+      const auto json = scene_in(folder_.scene(scene).string());
+      record.scenes.push_back(record_of_scene(folder_, scene, *json));
+    }
+  }
+  record.wall_s = ms_since(begin) / 1e3;
+  return record;
+}
+
+std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attempt, HeapRecord& record,
+                                            WholeFolders& folders) {
+  std::optional<Request> request;
+  std::optional<Generator::Result> result;
+  std::vector<std::string> reasons;
+  try {
+    request = plan_.request(heap, attempt, [&](const PartLine& line) { return volume_of(line); });
+    auto before = Clock::now();
+    Heap pile = generator_.heap(*request);
+    record.stages_ms["load"] += ms_since(before);
+    for (std::size_t step = 0; step <= plan_.depletion.steps && reasons.empty(); ++step) {
+      before = Clock::now();
+      if (step > 0) pile.remove(highest(pile.scene(), plan_.take(heap, attempt, step)));
+      pile.settle();
+      record.stages_ms["pour"] += ms_since(before);
+      before = Clock::now();
+      Generator::Options options;
+      options.render = plan_.formats != std::vector<std::string>{"json"};
+      options.index = request->first + step;
+      result = generator_.result(pile, options);
+      const Profile& spent = result->scene.report.profile;
+      for (const char* stage : {"quality", "render"})
+        if (spent.stages_ms.count(stage)) record.stages_ms[stage] += spent.stages_ms.at(stage);
+      without_times(result->scene.report);
+      if (!result->scene.report.accepted) {
+        reasons = result->scene.report.reasons;
+        if (reasons.empty()) reasons = {"not accepted"};
+        break;
+      }
+      before = Clock::now();
+      write_scene(*result, pile.request(), request->first + step, folders);
+      record.stages_ms["write"] += ms_since(before);
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    reasons = {std::string("the values drawn do not go together: ") + error.what()};
+    result.reset();
+  }
+  if (!reasons.empty()) set_apart(result ? &*result : nullptr, request ? &*request : nullptr, reasons, heap, attempt);
+  return reasons;
+}
+
+void HeapMaker::write_scene(const Generator::Result& result, const Request& request, std::size_t scene,
+                            WholeFolders& folders) {
+  // The folder with scene.json gets its name last: where it is, everything is.
+  if (plan_.wants("bop") || plan_.wants("shards")) {
+    const std::vector<BopImage> images =
+        bop_images(result.scene, generator_.parts(), result.images, {plan_.tolerance, object_ids(request)});
+    if (plan_.wants("bop"))
+      folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, images); });
+    if (plan_.wants("shards"))
+      folders.write(folder_.samples(scene),
+                    [&](const std::string& hidden) { write_bop_samples(hidden, scene, images); });
+  }
+  const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
+  folders.write(folder_.scene(scene), [&](const std::string& hidden) {
+    write_scene_files(hidden, formats, result, request, generator_.parts(), generator_.bin_model());
+    write_text((fs::path(hidden) / "request.yaml").string(), write_request(request));
+  });
+}
+
+void HeapMaker::set_apart(const Generator::Result* result, const Request* request,
+                          const std::vector<std::string>& reasons, std::size_t heap, std::size_t attempt) {
+  WholeFolders folders;
+  const std::set<std::string> formats = {"json", plan_.wants("png") ? "png" : "json"};
+  folders.write(folder_.set_apart(heap * (plan_.depletion.steps + 1), attempt), [&](const std::string& hidden) {
+    if (result) write_scene_files(hidden, formats, *result, *request, generator_.parts(), generator_.bin_model());
+    if (request) write_text((fs::path(hidden) / "request.yaml").string(), write_request(*request));
+    std::string text;
+    for (const std::string& reason : reasons) text += reason + "\n";
+    write_text((fs::path(hidden) / "reasons.txt").string(), text);
+  });
+  folders.commit();
+}
+
+std::vector<int> HeapMaker::object_ids(const Request& request) const {
+  std::vector<int> ids;
+  for (const PartLine& line : request.parts) {
+    const auto object = std::find_if(plan_.objects.begin(), plan_.objects.end(),
+                                     [&](const PlanObject& one) { return is_of(one, line); });
+    if (object == plan_.objects.end())
+      throw input_error("the model of a part line is in no list of the plan", line.model,
+                        "draw model, unit, scale and thickness of a line together, by one choice");
+    ids.push_back(static_cast<int>(object - plan_.objects.begin()) + 1);
+  }
+  return ids;
+}
+
+double HeapMaker::volume_of(const PartLine& line) {
+  double& volume = volumes_[line.sha256 + "|" + std::to_string(line.scale) + "|" +
+                            std::to_string(line.unit ? metres_per(*line.unit) : 0.0)];
+  if (volume == 0.0) {
+    LoadOptions options;
+    options.unit = line.unit;
+    options.scale = line.scale;
+    options.thickness = line.thickness;
+    volume = PartModel::load(line.path, options)->mass().volume;
+  }
+  return volume;
+}
+
+std::optional<HeapRecord> found_on_disk(const DataFolder& folder, const DataSetFacts& facts, std::size_t heap) {
+  HeapRecord record;
+  record.heap = heap;
+  record.wall_s = -1.0;
+  const std::size_t first = heap * (facts.steps + 1);
+  for (std::size_t attempt = 0; attempt < facts.attempts; ++attempt) {
+    const fs::path path = folder.set_apart(first, attempt);
+    std::ifstream file(path / "reasons.txt");
+    if (!file || !whole(path, false)) break;
+    RejectedRecord rejected{attempt, path.lexically_relative(folder.root).string(), {}};
+    for (std::string line; std::getline(file, line);) rejected.reasons.push_back(line);
+    record.rejected.push_back(rejected);
+  }
+  for (std::size_t scene = first; scene <= first + facts.steps; ++scene) {
+    const auto json = scene_in(folder.scene(scene).string());
+    if (!json || !json->is_object() || !whole(folder.scene(scene), false)) break;
+    if (facts.wants("bop") && !whole(folder.bop(scene), false)) break;
+    const bool packed = std::filesystem::exists(folder.shard(shard_of(facts, scene)));
+    if (facts.wants("shards") && !packed && !whole(folder.samples(scene), false)) break;
+    record.scenes.push_back(record_of_scene(folder, scene, *json));
+  }
+  record.accepted = record.scenes.size() == facts.steps + 1;
+  if (record.accepted) return record;
+  record.scenes.clear();
+  if (record.rejected.size() == facts.attempts) return record;
+  return std::nullopt;
+}
+
+void write_models(const Plan& plan, const DataFolder& folder) {
+  std::vector<PartModelPtr> parts;
+  std::vector<Symmetries> symmetries;
+  for (const PlanObject& object : plan.objects) {
+    parts.push_back(PartModel::load(object.path, options_of(object)));
+    if (!object.continuous) {
+      symmetries.push_back(find_symmetries(*parts.back()));
+      continue;
+    }
+    Symmetries given;
+    for (const Vec3& axis : *object.continuous) given.continuous.push_back({axis, parts.back()->mass().center});
+    for (const Quat& turn : *object.discrete)
+      given.discrete.push_back({parts.back()->mass().center - turn * parts.back()->mass().center, turn});
+    symmetries.push_back(given);
+  }
+  WholeFolders folders;
+  folders.write(folder.root / "bop" / "models",
+                [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries); });
+  folders.commit();
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,90 @@
+#include "dataset/merge.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
+#include "core/read_file.hpp"
+#include "dataset/heap_maker.hpp"
+#include "dataset/scene_index.hpp"
+#include "dataset/shards.hpp"
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The files of a folder under a hidden name, linked or copied; the name comes with commit().
+void take_over(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from) || whole(to, false)) return;
+  make_directory(to.parent_path());
+  Temporary hidden(to.string());
+  make_directory(hidden.path());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
+    stop_if_cancelled();
+    const fs::path target = hidden.path() / entry.path().lexically_relative(from);
+    std::error_code no_link, error;
+    if (entry.is_directory()) {
+      make_directory(target);
+      continue;
+    }
+    fs::create_hard_link(entry.path(), target, no_link);
+    if (no_link) fs::copy_file(entry.path(), target, error);
+    if (error)
+      throw environment_error("cannot be copied: " + error.message(), entry.path().string(),
+                              "check permissions and free space");
+  }
+  hidden.commit();
+}
+
+void take_heap(const DataFolder& from, const DataFolder& to, const DataSetFacts& facts, const HeapRecord& record) {
+  for (const RejectedRecord& rejected : record.rejected) take_over(from.root / rejected.path, to.root / rejected.path);
+  for (const SceneRecord& scene : record.scenes) {
+    if (facts.wants("bop")) take_over(from.bop(scene.scene), to.bop(scene.scene));
+    if (facts.wants("shards")) take_over(from.samples(scene.scene), to.samples(scene.scene));
+    take_over(from.scene(scene.scene), to.scene(scene.scene));
+  }
+}
+
+}  // namespace
+
+Merged merge_datasets(const std::vector<std::string>& shares, const std::string& out, const std::atomic<bool>* stop) {
+  const CancelScope scope(stop);
+  std::vector<DataFolder> folders;
+  for (const std::string& share : shares) folders.push_back({share});
+  const DataSetFacts facts = read_facts(shares.at(0));
+  for (const DataFolder& folder : folders) {
+    if (!(read_facts(folder.root) == facts))
+      throw input_error("is of another plan or version than " + shares[0], folder.root.string(),
+                        "merge shares of one plan, made by one version");
+    std::error_code ignored;
+    if (fs::equivalent(folder.root, out, ignored))
+      throw input_error("is one of the folders to merge", out, "name a new folder for --out");
+  }
+  const DataFolder to{out};
+  check_writable(out);
+  claim(to, facts, read_file((folders[0].root / "plan.yaml").string()));
+  const FolderLock lock(to.root);
+  remove_leftovers(to);
+  SceneIndex index(to.index());
+  std::set<std::size_t> known = index.heaps();
+  for (const DataFolder& from : folders) {
+    const SceneIndex share(from.index(), true);
+    for (const std::size_t heap : share.heaps()) {
+      stop_if_cancelled();
+      const HeapRecord record = share.record(heap);
+      // Two shares may both have a heap, after a task was given to two machines: they are the same, byte for byte.
+      if (!known.insert(heap).second && found_on_disk(to, facts, heap)) continue;
+      take_heap(from, to, facts, record);
+      index.put(record);
+    }
+  }
+  Merged merged;
+  const IndexCounts counts = index.counts();
+  merged.scenes = counts.scenes;
+  merged.rejected = counts.rejected;
+  merged.missing = facts.heaps - known.size();
+  take_over(folders[0].root / "bop" / "models", to.root / "bop" / "models");
+  if (merged.missing == 0 && facts.wants("shards")) pack_shards(to, facts);
+  return merged;
+}
+
+}  // namespace bin_scenes

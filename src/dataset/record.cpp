@@ -1,0 +1,74 @@
+#include "dataset/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr std::size_t bins = 20;
+
+void count(std::vector<int>& histogram, double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(bins);
+  ++histogram[std::min(bins - 1, static_cast<std::size_t>(place))];
+}
+
+/// Angle between the model's z axis and the bin's, as a share of half a turn.
+double tilt_of(const nlohmann::json& q) {
+  const double x = q.at(0), y = q.at(1);
+  return std::acos(std::clamp(1.0 - 2.0 * (x * x + y * y), -1.0, 1.0)) / M_PI;
+}
+
+}  // namespace
+
+nlohmann::json json_of(const HeapRecord& record) {
+  nlohmann::json json = {
+      {"heap", record.heap},           {"accepted", record.accepted},       {"wall_s", record.wall_s},
+      {"stages_ms", record.stages_ms}, {"scenes", nlohmann::json::array()}, {"rejected", nlohmann::json::array()}};
+  for (const SceneRecord& scene : record.scenes)
+    json["scenes"].push_back(
+        {{"scene", scene.scene}, {"path", scene.path}, {"sha256", scene.sha256}, {"summary", scene.summary}});
+  for (const RejectedRecord& rejected : record.rejected)
+    json["rejected"].push_back({{"attempt", rejected.attempt}, {"path", rejected.path}, {"reasons", rejected.reasons}});
+  return json;
+}
+
+HeapRecord record_of(const nlohmann::json& json) {
+  HeapRecord record;
+  record.heap = json.at("heap");
+  record.accepted = json.at("accepted");
+  record.wall_s = json.at("wall_s");
+  record.stages_ms = json.at("stages_ms").get<std::map<std::string, double>>();
+  for (const auto& scene : json.at("scenes"))
+    record.scenes.push_back({scene.at("scene"), scene.at("path"), scene.at("sha256"), scene.at("summary")});
+  for (const auto& rejected : json.at("rejected"))
+    record.rejected.push_back({rejected.at("attempt"), rejected.at("path"), rejected.at("reasons")});
+  return record;
+}
+
+nlohmann::json summary_of(const nlohmann::json& scene) {
+  std::vector<int> visible(bins, 0), tilt(bins, 0);
+  std::vector<double> heights;
+  for (const auto& part : scene.at("parts")) {
+    if (!part.at("pose").is_object()) continue;
+    count(tilt, tilt_of(part.at("pose").at("orientation_xyzw")));
+    heights.push_back(part.at("pose").at("position").at(2).get<double>());
+    for (const auto& [sensor, fraction] : part.at("visible_fraction").items()) count(visible, fraction);
+  }
+  double fill = 0.0;
+  if (scene.at("bin").contains("inner_size") && !heights.empty()) {
+    std::sort(heights.begin(), heights.end());
+    const double height = scene.at("bin").at("inner_size").at(2);
+    fill = heights[static_cast<std::size_t>(0.95 * static_cast<double>(heights.size() - 1))] / height;
+  }
+  const auto& report = scene.at("report");
+  return {{"parts", heights.size()},
+          {"visible", visible},
+          {"tilt", tilt},
+          {"fill", fill},
+          {"penetration", report.at("penetration").at("p95_relative")},
+          {"rest_s", report.at("simulated_s")}};
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,40 @@
+/// What a worker tells of the heaps that it made; the index keeps it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct SceneRecord {
+  std::size_t scene = 0;
+  std::string path;        ///< in the data set
+  std::string sha256;      ///< of its files.json, which holds the digests of all its files
+  nlohmann::json summary;  ///< what the report shows: see summary_of()
+};
+
+struct RejectedRecord {
+  std::size_t attempt = 0;
+  std::string path;
+  std::vector<std::string> reasons;
+};
+
+struct HeapRecord {
+  std::size_t heap = 0;
+  bool accepted = false;  ///< else every attempt was rejected
+  double wall_s = 0.0;    ///< negative: not known, since it was found on the disk
+  std::map<std::string, double> stages_ms;
+  std::vector<SceneRecord> scenes;
+  std::vector<RejectedRecord> rejected;
+};
+
+nlohmann::json json_of(const HeapRecord& record);
+HeapRecord record_of(const nlohmann::json& json);
+
+/// Histograms and figures of a scene for the report, from its scene.json alone.
+nlohmann::json summary_of(const nlohmann::json& scene);
+
+}  // namespace bin_scenes

@@ -1,0 +1,247 @@
+#include "dataset/report.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "core/read_file.hpp"
+#include "dataset/data_folder.hpp"
+#include "dataset/scene_index.hpp"
+#include "dataset/whole_folders.hpp"
+#include "output/png.hpp"
+#include "output/png_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+
+namespace bin_scenes {
+
+extern const char report_page[];
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::size_t most_rows = 20'000;  ///< of scenes that the gallery can filter
+constexpr std::size_t most_pictures = 120;
+constexpr std::size_t bytes_of_pictures = 2'600'000;  ///< as text
+constexpr std::size_t most_rejected = 300;            ///< that are listed
+constexpr std::size_t most_triangles = 60'000;        ///< of the models of the scene in 3-D
+constexpr int picture_width = 112;
+
+double rounded(double value) {
+  return std::isfinite(value) && value != 0.0 ? std::strtod(std::to_string(value).c_str(), nullptr) : 0.0;
+}
+
+std::string base64(const Bytes& bytes) {
+  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned value = 0;
+    for (std::size_t k = 0; k < 3; ++k) value = value << 8 | (k < n ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? letters[value >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+/// A picture of the first sensor, made small; empty if the data set has none.
+std::string small_picture(const DataFolder& folder, std::size_t scene) {
+  std::vector<fs::path> candidates;
+  const auto json = scene_in(folder.scene(scene).string());
+  if (json && json->is_object())
+    for (const Json& sensor : json->value("sensors", Json::array()))
+      candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
+  candidates.push_back(folder.bop(scene) / "gray" / "000000.png");
+  const auto path =
+      std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
+  if (path == candidates.end()) return "";
+  const PngImage image = read_png(path->string());
+  const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
+  std::vector<std::uint8_t> small;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < image.channels; ++c) {
+        unsigned sum = 0;
+        for (int dy = 0; dy < step; ++dy)
+          for (int dx = 0; dx < step; ++dx)
+            sum += image.samples[static_cast<std::size_t>(
+                ((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
+        // Fewer shades pack better; nobody sees it at this size.
+        small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step) & 0xf0u));
+      }
+    }
+  }
+  return base64(png8(width, height, image.channels, small));
+}
+
+/// Vertices (m) and triangles of a PLY file that this project wrote (mm).
+Json model_of(const fs::path& path) {
+  const std::string bytes = read_file(path.string()), end = "end_header\n";
+  const auto count = [&](const std::string& element) {
+    return std::stoul(bytes.substr(bytes.find("element " + element + " ") + 9 + element.size(), 12));
+  };
+  const std::size_t vertices = count("vertex"), faces = count("face");
+  const char* at = bytes.data() + bytes.find(end) + end.size();
+  Json model = {{"vertices", Json::array()}, {"triangles", Json::array()}};
+  for (std::size_t i = 0; i < 3 * vertices; ++i, at += 4) {
+    float mm;
+    std::memcpy(&mm, at, 4);
+    model["vertices"].push_back(rounded(static_cast<double>(mm) / 1e3));
+  }
+  for (std::size_t i = 0; i < faces; ++i, at += 13) {
+    std::int32_t corner[3];
+    std::memcpy(corner, at + 1, 12);
+    for (const std::int32_t k : corner) model["triangles"].push_back(k);
+  }
+  return model;
+}
+
+/// Parts with their models, as far as the data set holds these (output bop); else the page draws boxes.
+Json scene_in_3d(const DataFolder& folder, std::size_t number) {
+  const auto scene = scene_in(folder.scene(number).string());
+  if (!scene || !scene->is_object()) return {};
+  Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
+  if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
+  std::map<int, int> object_of;
+  const fs::path truth = folder.bop(number) / "scene_gt.json";
+  if (fs::is_regular_file(truth)) {
+    const Json images = Json::parse(read_file(truth.string()));
+    for (const Json& entry : images.value("0", Json::array())) object_of[entry.at("id")] = entry.at("obj_id");
+  }
+  std::map<int, std::size_t> models;
+  std::size_t triangles = 0;
+  for (const Json& part : scene->at("parts")) {
+    if (!part.at("pose").is_object()) continue;
+    int place = -1;
+    const auto object = object_of.find(part.at("id"));
+    if (object != object_of.end()) {
+      char name[32];
+      std::snprintf(name, sizeof name, "obj_%06d.ply", object->second);
+      const fs::path ply = folder.root / "bop" / "models" / name;
+      if (!models.count(object->second) && fs::is_regular_file(ply)) {
+        Json model = model_of(ply);
+        triangles += model["triangles"].size() / 3;
+        if (triangles > most_triangles) model = {{"vertices", Json::array()}, {"triangles", Json::array()}};
+        models[object->second] = view["models"].size();
+        view["models"].push_back(model);
+      }
+      if (models.count(object->second)) place = static_cast<int>(models[object->second]);
+    }
+    Json row = {place};
+    for (const double x : part.at("pose").at("position")) row.push_back(rounded(x));
+    for (const double x : part.at("pose").at("orientation_xyzw")) row.push_back(rounded(x));
+    view["parts"].push_back(row);
+  }
+  return view;
+}
+
+/// three.js and its orbit control, for the page to hold; empty where Debian's libjs-three is not installed.
+std::string three() {
+  const char* set = std::getenv("BIN_SCENES_THREE");
+  const fs::path folder = set && *set ? set : "/usr/share/javascript/three";
+  std::string text;
+  for (const char* file : {"build/three.min.js", "examples/js/controls/OrbitControls.js"}) {
+    std::error_code missing;
+    if (!fs::is_regular_file(folder / file, missing)) return "";
+    text += read_file((folder / file).string()) + "\n";
+  }
+  return text;
+}
+
+/// Text for a script element: nothing in it may end that.
+std::string for_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.insert(at + 1, "\\");
+  return text;
+}
+
+void put(std::string& page, const std::string& mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  page.replace(at, mark.size(), text);
+}
+
+double mean_of(const std::vector<int>& histogram) {
+  double sum = 0.0, weighted = 0.0;
+  for (std::size_t i = 0; i < histogram.size(); ++i) {
+    sum += histogram[i];
+    weighted += histogram[i] * (static_cast<double>(i) + 0.5) / static_cast<double>(histogram.size());
+  }
+  return sum > 0.0 ? weighted / sum : 0.0;
+}
+
+}  // namespace
+
+ReportResult write_report(const std::string& directory, const std::string& path) {
+  const DataFolder folder{directory};
+  const DataSetFacts facts = read_facts(directory);
+  const SceneIndex index(folder.index(), true);
+  const IndexCounts counts = index.counts();
+  const std::size_t every = counts.scenes / most_rows + 1;
+  std::vector<int> visible(20, 0), tilt(20, 0);
+  std::size_t seen = 0, parts = 0;
+  Json rows = Json::array();
+  std::vector<std::size_t> scenes;
+  index.each_scene([&](const SceneIndex::Row& row) {
+    const auto v = row.summary.at("visible").get<std::vector<int>>(),
+               t = row.summary.at("tilt").get<std::vector<int>>();
+    std::transform(v.begin(), v.end(), visible.begin(), visible.begin(), std::plus<int>());
+    std::transform(t.begin(), t.end(), tilt.begin(), tilt.begin(), std::plus<int>());
+    parts += row.summary.at("parts").get<std::size_t>();
+    scenes.push_back(row.scene);
+    if (seen++ % every != 0) return;
+    rows.push_back({row.scene, row.summary.at("parts"), rounded(mean_of(v)), rounded(row.summary.at("fill")),
+                    rounded(row.summary.at("penetration")), rounded(row.summary.at("rest_s"))});
+  });
+
+  ReportResult result;
+  result.scenes = scenes.size();
+  Json pictures = Json::object();
+  std::size_t used = 0;
+  const std::size_t step = std::max<std::size_t>(1, rows.size() / most_pictures);
+  for (std::size_t i = 0; i < rows.size() && used < bytes_of_pictures; i += step) {
+    const std::size_t scene = rows[i][0];
+    const std::string picture = small_picture(folder, scene);
+    if (picture.empty()) continue;
+    pictures[std::to_string(scene)] = picture;
+    used += picture.size();
+    ++result.pictures;
+  }
+
+  const std::vector<SceneIndex::Rejected> rejected = index.rejected();
+  Json listed = Json::array();
+  for (std::size_t i = 0; i < std::min(rejected.size(), most_rejected); ++i) {
+    std::string reasons;
+    for (const Json& reason : Json::parse(rejected[i].reasons))
+      reasons += (reasons.empty() ? "" : "; ") + reason.get<std::string>();
+    listed.push_back({rejected[i].heap, rejected[i].attempt, reasons, rejected[i].path});
+  }
+
+  const Json data = {
+      {"name", fs::weakly_canonical(directory).filename().string()},
+      {"plan", read_file((folder.root / "plan.yaml").string())},
+      {"facts", {{"outputs", facts.formats}, {"version", facts.version}}},
+      {"counts",
+       {{"scenes", counts.scenes}, {"failed", counts.failed}, {"rejected", counts.rejected}, {"parts", parts}}},
+      {"speed",
+       {{"seconds_a_heap", counts.timed ? counts.wall_s / static_cast<double>(counts.timed) : 0.0},
+        {"stages_ms", index.stages_ms()}}},
+      {"visible", visible},
+      {"tilt", tilt},
+      {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},
+      {"pictures", pictures},
+      {"rejected", {{"total", rejected.size()}, {"rows", listed}}},
+      {"scene3d", scenes.empty() ? Json() : scene_in_3d(folder, scenes[scenes.size() / 2])}};
+
+  std::string page = report_page;
+  const std::string library = three();
+  result.in_3d = !library.empty();
+  put(page, "/*THREE*/", library);
+  put(page, "/*DATA*/null", for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  write_text(path, page);
+  result.bytes = page.size();
+  return result;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,16 @@
+/// A data set as one HTML page that opens from the disk, without a network.
+#pragma once
+
+#include <string>
+
+namespace bin_scenes {
+
+struct ReportResult {
+  std::size_t bytes = 0, scenes = 0, pictures = 0;
+  bool in_3d = false;  ///< three.js was there when the report was made
+};
+
+/// Reads index, plan and some scenes of a data set and writes `path`, at most 5 MB. Throws Error.
+ReportResult write_report(const std::string& directory, const std::string& path);
+
+}  // namespace bin_scenes

@@ -1,0 +1,61 @@
+/// index.sqlite: what became of each heap and scene, and how long it took. It can be made again from the scenes, but
+/// for the times.
+#pragma once
+
+#include "dataset/record.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+
+namespace bin_scenes {
+
+struct IndexCounts {
+  std::size_t accepted = 0, failed = 0;  ///< heaps
+  std::size_t scenes = 0, rejected = 0;  ///< scenes that are there; attempts that were set apart
+  double wall_s = 0.0;                   ///< of workers, over all heaps whose time is known
+  std::size_t timed = 0;                 ///< heaps whose time is known
+};
+
+class SceneIndex {
+ public:
+  /// Opens or makes it. Throws an environment Error; an input Error for a file that is damaged.
+  explicit SceneIndex(const std::filesystem::path& path, bool only_read = false);
+  ~SceneIndex();
+  SceneIndex(const SceneIndex&) = delete;
+  SceneIndex& operator=(const SceneIndex&) = delete;
+
+  void put(const HeapRecord& record);  ///< in one transaction; replaces what was known of the heap
+  void forget(std::size_t heap);
+  std::set<std::size_t> heaps() const;  ///< those that are done or have failed
+  IndexCounts counts() const;
+  std::map<std::string, double> stages_ms() const;  ///< summed over all heaps
+
+  struct Row {
+    std::size_t scene, heap;
+    std::string path, sha256;
+    double wall_s;  ///< of its heap
+    nlohmann::json summary;
+  };
+  void each_scene(const std::function<void(const Row&)>& visit) const;  ///< in order
+  struct Rejected {
+    std::size_t heap, attempt;
+    std::string path, reasons;
+  };
+  std::vector<Rejected> rejected() const;  ///< in order
+  HeapRecord record(std::size_t heap) const;
+
+  /// Of every statement's result rows, as text.
+  std::vector<std::vector<std::string>> rows(const std::string& sql, const std::vector<std::string>& values = {}) const;
+
+ private:
+  std::string path_;
+  sqlite3* database_ = nullptr;
+};
+
+}  // namespace bin_scenes

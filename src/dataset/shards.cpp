@@ -1,0 +1,122 @@
+#include "dataset/shards.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "core/read_file.hpp"
+#include "dataset/whole_folders.hpp"
+
+#include <archive.h>
+#include <archive_entry.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Files of a scene's samples in order of name; none if the scene is not there.
+std::vector<std::pair<std::string, fs::path>> samples_of(const DataFolder& folder, std::size_t scene) {
+  std::vector<std::pair<std::string, fs::path>> files;
+  std::error_code not_there;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.samples(scene), not_there)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "files.json") files.emplace_back(name, entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string offsets_path(const DataFolder& folder, std::size_t shard) {
+  return fs::path(folder.shard(shard)).replace_extension(".json").string();
+}
+
+void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t shard) {
+  std::vector<std::pair<std::string, fs::path>> files;
+  const std::size_t first = shard * scenes_per_shard(facts);
+  const std::size_t end = std::min(first + scenes_per_shard(facts), facts.scenes());
+  for (std::size_t scene = first; scene < end; ++scene) {
+    const auto some = samples_of(folder, scene);
+    if (some.empty() && fs::exists(folder.scene(scene) / "scene.json"))
+      throw input_error("the samples of scene " + std::to_string(scene) + " are gone", folder.samples(scene).string(),
+                        "remove " + folder.scene(scene).string() + ", and the scene is made anew");
+    files.insert(files.end(), some.begin(), some.end());
+  }
+  Temporary tar(folder.shard(shard).string());
+  const auto places = write_tar(tar.path(), files);
+  Json offsets = Json::object();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::size_t dot = files[i].first.find('.');
+    offsets[files[i].first.substr(0, dot)][files[i].first.substr(dot + 1)] = {places[i].first, places[i].second};
+  }
+  // The tar comes last: where it is, its offsets are.
+  write_text(offsets_path(folder, shard), offsets.dump() + "\n");
+  tar.commit();
+}
+
+}  // namespace
+
+std::size_t scenes_per_shard(const DataSetFacts& facts) {
+  return std::max<std::size_t>(1, images_per_shard / std::max<std::size_t>(1, facts.sensors));
+}
+std::size_t shard_of(const DataSetFacts& facts, std::size_t scene) {
+  return scene / scenes_per_shard(facts);
+}
+std::size_t shard_count(const DataSetFacts& facts) {
+  return (facts.scenes() + scenes_per_shard(facts) - 1) / scenes_per_shard(facts);
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> write_tar(const std::string& path,
+                                                           const std::vector<std::pair<std::string, fs::path>>& files) {
+  const std::unique_ptr<archive, int (*)(archive*)> out(archive_write_new(), archive_write_free);
+  const auto check = [&](int status) {
+    if (status == ARCHIVE_OK) return;
+    throw environment_error(std::string("cannot be written: ") + archive_error_string(out.get()), path,
+                            "check permissions and free space");
+  };
+  check(archive_write_set_format_ustar(out.get()));
+  check(archive_write_set_bytes_per_block(out.get(), 10240));
+  check(archive_write_open_filename(out.get(), path.c_str()));
+  std::vector<std::pair<std::size_t, std::size_t>> places;
+  constexpr std::size_t block = 512;
+  std::size_t at = 0;
+  const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(), archive_entry_free);
+  for (const auto& [name, file] : files) {
+    stop_if_cancelled();
+    const std::string bytes = read_file(file.string());
+    archive_entry_clear(entry.get());
+    archive_entry_set_pathname(entry.get(), name.c_str());
+    archive_entry_set_size(entry.get(), static_cast<la_int64_t>(bytes.size()));
+    archive_entry_set_filetype(entry.get(), AE_IFREG);
+    archive_entry_set_perm(entry.get(), 0644);  // no owner and no time: they would differ between machines
+    archive_entry_set_mtime(entry.get(), 0, 0);
+    check(archive_write_header(out.get(), entry.get()));
+    if (archive_write_data(out.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size()))
+      check(ARCHIVE_FATAL);
+    places.emplace_back(at + block, bytes.size());
+    at += block + (bytes.size() + block - 1) / block * block;
+  }
+  check(archive_write_close(out.get()));
+  return places;
+}
+
+void pack_shards(const DataFolder& folder, const DataSetFacts& facts) {
+  make_directory(folder.shards());
+  Json key_to_shard = Json::object();
+  for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
+    stop_if_cancelled();
+    if (!fs::exists(folder.shard(shard))) pack_one(folder, facts, shard);
+    const Json offsets = Json::parse(read_file(offsets_path(folder, shard)));
+    for (const auto& [key, files] : offsets.items()) key_to_shard[key] = shard;
+  }
+  write_text((folder.shards() / "key_to_shard.json").string(), key_to_shard.dump() + "\n");
+  std::error_code ignored;
+  fs::remove_all(folder.root / "samples", ignored);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,24 @@
+/// A data set made by an array job of Slurm, one share a task.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct SlurmJob {
+  std::string plan, out;             ///< shares lie in OUT/shares until they are merged into OUT
+  std::size_t shares = 4, cpus = 1;  ///< tasks; cores a task
+  std::vector<std::string> options;  ///< further ones of sbatch
+  std::function<void(const std::string&)> tell;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Submits the job, or finds the one that an earlier call submitted, waits until Slurm has no task of it any more, and
+/// returns the folders of the shares. Throws an environment Error if Slurm is not there; Error(cancelled) when stopped:
+/// the job then goes on, and the next call finds it.
+std::vector<std::string> run_slurm_job(const SlurmJob& job);
+
+}  // namespace bin_scenes

@@ -1,0 +1,127 @@
+#include "core/read_file.hpp"
+#include "dataset/shards.hpp"
+#include "dataset/verify.hpp"
+
+#include <archive.h>
+#include <archive_entry.h>
+
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr const char* files_of_image[] = {"camera.json",  "depth.png", "gray.tiff",      "gt.json",
+                                          "gt_info.json", "mask.json", "mask_visib.json"};
+
+using Images = std::map<std::string, std::map<std::string, std::string>>;  ///< key -> file -> contents
+
+/// Everything in a tar; none if it is cut off or no tar.
+std::optional<Images> read_tar(const std::string& path, bool& doubled) {
+  const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
+  archive_read_support_format_tar(in.get());
+  if (archive_read_open_filename(in.get(), path.c_str(), 1 << 16) != ARCHIVE_OK) return std::nullopt;
+  Images images;
+  archive_entry* entry = nullptr;
+  int status;
+  while ((status = archive_read_next_header(in.get(), &entry)) == ARCHIVE_OK) {
+    const std::string name = archive_entry_pathname(entry);
+    std::string bytes(static_cast<std::size_t>(archive_entry_size(entry)), '\0');
+    if (archive_read_data(in.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size()))
+      return std::nullopt;
+    const std::size_t dot = name.find('.');
+    doubled |= !images[name.substr(0, dot)].emplace(name.substr(dot + 1), std::move(bytes)).second;
+  }
+  return status == ARCHIVE_EOF ? std::optional<Images>(std::move(images)) : std::nullopt;
+}
+
+void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files,
+                        const std::string& where, Findings& findings) {
+  const Json info = Json::parse(files.at("gt_info.json"));
+  for (const char* file : {"mask.json", "mask_visib.json"}) {
+    if (!files.count(file)) continue;
+    const Json masks = Json::parse(files.at(file));
+    bool good = masks.size() == info.size();
+    for (const auto& [number, mask] : masks.items()) {
+      std::size_t sum = 0, inside = 0, i = 0;
+      for (const std::size_t run : mask.at("counts")) {
+        sum += run;
+        if (i++ % 2 == 1) inside += run;
+      }
+      const Json& entry = info.at(std::stoul(number));
+      good &= sum == mask.at("size").at(0).get<std::size_t>() * mask.at("size").at(1).get<std::size_t>();
+      good &= std::string(file) == "mask.json" ? inside <= entry.at("px_count_all").get<std::size_t>()
+                                               : inside == entry.at("px_count_visib").get<std::size_t>();
+    }
+    findings.expect(good, "shard_masks", where + ", " + key + "." + file, "run lengths do not add up");
+  }
+}
+
+void verify_offsets(const fs::path& tar, const Images& images, Findings& findings) {
+  const fs::path path = fs::path(tar).replace_extension(".json");
+  const Json offsets = fs::exists(path) ? Json::parse(read_file(path.string()), nullptr, false) : Json();
+  bool good = offsets.is_object() && offsets.size() == images.size();
+  std::ifstream in(tar, std::ios::binary);
+  for (const auto& [key, files] : images) {
+    for (const auto& [name, bytes] : files) {
+      if (!good || !offsets.contains(key) || !offsets[key].contains(name)) {
+        good = false;
+        continue;
+      }
+      std::string there(bytes.size(), '\0');
+      in.seekg(static_cast<std::streamoff>(offsets[key][name].at(0).get<std::size_t>()));
+      in.read(there.data(), static_cast<std::streamsize>(there.size()));
+      good &= static_cast<bool>(in) && there == bytes && offsets[key][name].at(1) == bytes.size();
+    }
+  }
+  findings.expect(good, "shard_offsets", path.string(), "does not tell where the files of the shard lie");
+}
+
+}  // namespace
+
+void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings& findings) {
+  const fs::path map_path = folder.shards() / "key_to_shard.json";
+  const Json map = fs::exists(map_path) ? Json::parse(read_file(map_path.string()), nullptr, false) : Json();
+  findings.expect(map.is_object(), "shard_keys", map_path.string(), "is missing or damaged");
+  std::map<std::string, std::size_t> found;
+  for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
+    const std::string where = folder.shard(shard).string();
+    bool doubled = false;
+    const auto images = fs::exists(where) ? read_tar(where, doubled) : std::nullopt;
+    if (!findings.expect(images.has_value(), "shard_tar", where, "is missing, cut off or no tar")) continue;
+    findings.expect(!doubled, "shard_keys", where, "holds a file twice");
+    findings.expect(images->size() <= images_per_shard, "shard_size", where, "has more than 1000 images");
+    verify_offsets(where, *images, findings);
+    for (const auto& [key, files] : *images) {
+      findings.expect(found.emplace(key, shard).second, "shard_keys", where,
+                      "holds " + key + ", which another shard holds");
+      findings.expect(map.is_object() && map.value(key, Json()) == shard, "shard_keys", where,
+                      "holds " + key + ", but key_to_shard.json does not tell so");
+      bool complete = true;
+      for (const char* file : files_of_image) complete &= files.count(file) == 1;
+      if (!findings.expect(complete, "shard_complete", where + ", " + key, "lacks a file")) continue;
+      try {
+        verify_run_lengths(key, files, where, findings);
+      } catch (const std::exception& error) {
+        findings.expect(false, "shard_masks", where + ", " + key, error.what());
+      }
+    }
+  }
+  for (std::size_t scene = 0; scene < facts.scenes(); ++scene) {
+    if (!fs::exists(folder.scene(scene) / "scene.json")) continue;
+    for (std::size_t image = 0; image < facts.sensors; ++image) {
+      char key[48];
+      std::snprintf(key, sizeof key, "%06zu_%06zu", scene, image);
+      findings.expect(found.count(key) == 1, "shard_complete", folder.shards().string(),
+                      std::string(key) + " is in no shard");
+    }
+  }
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,61 @@
+/// Folders of a scene's files that appear whole or not at all, and tell later whether they still are.
+#pragma once
+
+#include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/generate/generator.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Throws an environment Error if a directory cannot be made.
+void make_directory(const std::filesystem::path& path);
+/// Throws Error for formats that are unknown, or that this build lacks. `where`: the option that names them.
+void check_formats(const std::set<std::string>& formats, const std::string& where);
+/// Before hours of simulation, not after them: the nearest directory that exists has to take new files.
+void check_writable(const std::filesystem::path& directory);
+
+/// scene.json of a folder, no object if it is damaged; none if there is none.
+std::optional<nlohmann::json> scene_in(const std::string& folder);
+
+/// Writes down what is in a folder in files.json, itself left out: sizes and digests.
+void write_manifest(const std::string& folder);
+bool has_manifest(const std::string& folder);
+/// Whether everything that was written into a folder is there: each file with its size, and with its digest on request.
+/// A folder without the list of its files is of a run that was killed, or of an earlier version.
+bool whole(const std::filesystem::path& folder, bool digests);
+
+/// The files of one scene in the formats json, pcd, png and bag.
+void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
+                       const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model);
+
+/// Folders that are written under hidden names and take their own only when all of them are whole. Without commit()
+/// nothing of them is left, nor of the directories above them that were made for them.
+class WholeFolders {
+ public:
+  WholeFolders() = default;
+  WholeFolders(const WholeFolders&) = delete;
+  WholeFolders& operator=(const WholeFolders&) = delete;
+  ~WholeFolders();
+
+  /// `fill` writes into the folder it is given. Its errors name the folder that it was to become.
+  void write(const std::filesystem::path& target, const std::function<void(const std::string& hidden)>& fill);
+  /// In the order in which they were written.
+  void commit();
+
+ private:
+  void make_parents(const std::filesystem::path& target);
+
+  std::vector<std::unique_ptr<Temporary>> folders_;
+  std::vector<std::filesystem::path> made_;  ///< outermost first
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,31 @@
+/// What BOP says of a part in an image, by the definitions of bop_toolkit's calc_gt_info: from the depth image as it is
+/// stored and the depth of the part alone.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/sensor/lens.hpp"
+#include "output/mask_png.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace bin_scenes {
+
+struct BopVisibility {
+  std::array<int, 4> box = {-1, -1, -1, -1};  ///< x, y, of the last pixel less the first: width and height
+  std::array<int, 4> visible_box = {-1, -1, -1, -1};
+  std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` also of what lies beside the image
+  MaskBox whole_mask, visible_mask;
+};
+
+/// A pixel is visible if the part lies no more than `tolerance` (m) behind the measured distance, or if nothing was
+/// measured there. `distance`: of each pixel from the camera (m), 0 = not measured. None if part of the mesh lies
+/// beside or behind the camera.
+std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,
+                                            const std::vector<float>& distance, double tolerance);
+
+/// From depth along the optical axis to distance from the camera.
+std::vector<float> distances(const std::vector<float>& depth, const Lens& lens);
+
+}  // namespace bin_scenes

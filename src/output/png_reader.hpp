@@ -1,0 +1,18 @@
+/// Lossless images back from their files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct PngImage {
+  int width = 0, height = 0, channels = 1, bits = 8;
+  std::vector<std::uint16_t> samples;  ///< row-major, channels of a pixel together
+};
+
+/// Grey and RGB of 8 or 16 bits; colours of a palette as RGB. Throws an input Error that names the path.
+PngImage read_png(const std::string& path);
+
+}  // namespace bin_scenes

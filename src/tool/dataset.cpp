@@ -1,0 +1,167 @@
+#include "bin_scenes/config/plan.hpp"
+#include "dataset/merge.hpp"
+#include "dataset/run.hpp"
+#include "dataset/slurm.hpp"
+#include "dataset/verify.hpp"
+#include "tool/commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+void give_up(int) {
+  _exit(exit_interrupted);  // workers die with this process, and what they left is removed by the next run
+}
+
+void stop(int) {
+  if (interrupted.exchange(true)) give_up(0);
+  std::signal(SIGALRM, give_up);
+  const itimerval once{{0, 0}, {0, 700'000}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+void listen() {
+  std::signal(SIGINT, stop);
+  std::signal(SIGTERM, stop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is an error like a full disk
+}
+
+/// "2/8": the share with number 2, from 0, of 8.
+void read_shard(const std::string& text, RunOptions& run) {
+  char behind = 0;
+  const bool read = std::sscanf(text.c_str(), "%zu/%zu%c", &run.shard, &run.shards, &behind) == 2;
+  if (!read || text[0] == '-' || run.shards == 0 || run.shards > 1'000'000 || run.shard >= run.shards)
+    throw input_error("expected i/n with i from 0 to n - 1, found '" + text + "'", "--shard", "for instance 0/8");
+}
+
+std::string duration(double seconds) {
+  char text[64];
+  const auto s = static_cast<long>(seconds);
+  std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+  return text;
+}
+
+/// One line on a terminal, or a line of JSON at most twice a second.
+class Teller {
+ public:
+  explicit Teller(bool json) : json_(json), terminal_(isatty(STDERR_FILENO) == 1) {}
+  ~Teller() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+
+  void tell(const RunProgress& p, bool last = false) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!last && told_ && now - time_ < std::chrono::milliseconds(500)) return;
+    time_ = now;
+    told_ = true;
+    if (json_) {
+      const nlohmann::ordered_json line = {{"phase", p.phase},
+                                           {"heaps", p.heaps},
+                                           {"heaps_done", p.heaps_done},
+                                           {"accepted", p.accepted},
+                                           {"rejected", p.rejected},
+                                           {"failed", p.failed},
+                                           {"scenes_per_hour", p.scenes_per_hour},
+                                           {"remaining_s", p.remaining_s},
+                                           {"finished", last}};
+      std::printf("%s\n", line.dump().c_str());
+      std::fflush(stdout);
+    } else if (terminal_) {
+      std::fprintf(stderr,
+                   "\r\033[K\033[?7l%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h, %s left\033[?7h",
+                   p.phase.c_str(), p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour,
+                   duration(p.remaining_s).c_str());
+      std::fflush(stderr);
+      shown_ = true;
+    }
+  }
+
+ private:
+  bool json_, terminal_, shown_ = false, told_ = false;
+  std::chrono::steady_clock::time_point time_;
+};
+
+}  // namespace
+
+int dataset(const DatasetOptions& options) {
+  if (options.plan.empty()) throw input_error("no plan is named", "dataset", "bin_scenes dataset PLAN.yaml --out DIR");
+  if (options.out.empty()) throw input_error("is missing", "--out", "name the directory of the data set");
+  RunOptions run;
+  run.workers = options.workers;
+  if (!options.shard.empty()) read_shard(options.shard, run);
+  const Plan plan = read_plan(options.plan);
+  listen();
+  run.stop = &interrupted;
+  run.warn = [](const std::string& text) { std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str()); };
+  RunProgress end;
+  {
+    Teller teller(options.json_progress);
+    run.progress = [&](const RunProgress& progress) { teller.tell(progress); };
+    end = run_dataset(plan, options.out, run);
+    teller.tell(end, true);
+  }
+  if (!options.json_progress)
+    std::printf("%zu scenes in %s; %zu attempts set apart\n", end.accepted, options.out.c_str(), end.rejected);
+  if (end.failed == 0) return exit_done;
+  std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n",
+               end.failed, end.heaps, plan.attempts, options.out.c_str());
+  return exit_set_apart;
+}
+
+int dataset_verify(const VerifyOptions& options) {
+  if (options.list) {
+    for (const auto& [name, text] : invariants()) std::printf("%-18s %s\n", name, text);
+    return exit_done;
+  }
+  if (options.directory.empty())
+    throw input_error("no directory is named", "dataset verify", "name that of a data set");
+  constexpr std::size_t most = 100;  // findings that are printed
+  Findings findings;
+  verify_dataset({options.directory}, findings);
+  std::size_t tried = 0;
+  for (const auto& [name, count] : findings.checked()) tried += count;
+  const std::vector<Finding> found = findings.sorted();
+  for (std::size_t i = 0; i < std::min(found.size(), most); ++i)
+    std::printf("%s: %s: %s\n", found[i].check.c_str(), found[i].where.c_str(), found[i].text.c_str());
+  if (found.size() > most) std::printf("and %zu more\n", found.size() - most);
+  std::printf("%zu invariants, %zu checks, %zu findings\n", findings.checked().size(), tried, found.size());
+  return found.empty() ? exit_done : exit_set_apart;
+}
+
+int dataset_merge(const MergeOptions& options) {
+  listen();
+  const Merged merged = merge_datasets(options.shares, options.out, &interrupted);
+  std::printf("%zu scenes in %s; %zu attempts set apart\n", merged.scenes, options.out.c_str(), merged.rejected);
+  if (merged.missing == 0) return exit_done;
+  std::fprintf(stderr, "bin_scenes: %zu heaps are in no share; make them, and merge again\n", merged.missing);
+  return exit_set_apart;
+}
+
+int dataset_submit(const SubmitOptions& options) {
+  const Plan plan = read_plan(options.plan);  // its errors are told here, not by every task
+  listen();
+  const auto tell = [](const std::string& text) {
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+  };
+  const std::size_t shares = std::min(options.shares, plan.heaps);
+  const std::vector<std::string> made =
+      run_slurm_job({options.plan, options.out, shares, options.cpus, options.sbatch, tell, &interrupted});
+  return dataset_merge({made, options.out});
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,21 @@
+#include "dataset/report.hpp"
+
+#include "tool/commands.hpp"
+
+#include <cstdio>
+
+namespace bin_scenes {
+
+int report(const ReportOptions& options) {
+  const std::string path = options.out.empty() ? options.directory + "/report.html" : options.out;
+  const ReportResult result = write_report(options.directory, path);
+  std::printf("%s: %zu scenes, %zu pictures, %.1f MB\n", path.c_str(), result.scenes, result.pictures,
+              static_cast<double>(result.bytes) / 1e6);
+  if (!result.in_3d)
+    std::fprintf(
+        stderr,
+        "bin_scenes: no 3-D view, since three.js was not found (install libjs-three, and make the report again)\n");
+  return exit_done;
+}
+
+}  // namespace bin_scenes

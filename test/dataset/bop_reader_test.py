@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""BOP's two layouts against each other, and against rays of our own through the true boxes: an independent reader.
+
+    bop_reader_test.py TOOL
+"""
+import json
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+import data_set
+from data_set import BAR, BOX, DataSetTest, ROOT
+from bin_scenes_data import Shards, read_png
+
+TOLERANCE = 0.0015  # m, the default of a plan
+
+
+def ray_depth(size, pose, rays):
+    """Depth along the optical axis of a box at `pose` (model to camera) for rays with z = 1; inf where it is missed."""
+    turn, shift = pose[:3, :3], pose[:3, 3]
+    origin, directions = -turn.T @ shift, rays @ turn
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ends = np.stack([(sign * np.array(size) / 2 - origin) / directions for sign in (-1, 1)])
+    near, far = ends.min(0).max(-1), ends.max(0).min(-1)
+    return np.where((near <= far) & (near > 0), near, np.inf)
+
+
+class Bop(DataSetTest):
+    def setUp(self):
+        super().setUp()
+        self.make(self.plan(scenes=4), "out")
+        self.out = self.folder / "out"
+
+    def images(self):
+        for scene in sorted((self.out / "bop/train").iterdir()):
+            files = {name: json.loads((scene / (name + ".json")).read_text())
+                     for name in ("scene_gt", "scene_gt_info", "scene_camera")}
+            for key in files["scene_gt"]:
+                yield scene, int(key), *(files[name][key] for name in ("scene_gt", "scene_gt_info", "scene_camera"))
+
+    def test_counts_boxes_and_fractions_agree_with_rays_of_our_own(self):
+        compared = 0
+        for scene, key, truth, infos, camera in self.images():
+            counts = read_png((scene / "depth" / ("%06d.png" % key)).read_bytes())
+            k = np.array(camera["cam_K"]).reshape(3, 3)
+            height, width = counts.shape
+            rows, columns = np.mgrid[-height:2 * height, -width:2 * width]
+            rays = np.stack([(columns - k[0, 2]) / k[0, 0], (rows - k[1, 2]) / k[1, 1], np.ones(rows.shape)], -1)
+            inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+            norm = np.linalg.norm(rays, axis=-1)
+            measured = np.zeros(rows.shape)
+            measured[inside] = counts.ravel() * camera["depth_scale"] / 1e3
+            for number, (part, info) in enumerate(zip(truth, infos)):
+                pose = np.eye(4)
+                pose[:3, :3] = np.array(part["cam_R_m2c"]).reshape(3, 3)
+                pose[:3, 3] = np.array(part["cam_t_m2c"]) / 1e3
+                alone = ray_depth((BOX, BAR)[part["obj_id"] - 1], pose, rays)
+                whole = np.isfinite(alone)
+                visible = whole & inside & ((measured == 0) | ((alone - measured) * norm <= TOLERANCE))
+                with self.subTest(scene=scene.name, image=key, part=number):
+                    self.assertLessEqual(abs(int(whole.sum()) - info["px_count_all"]), 2 + 0.005 * whole.sum())
+                    self.assertLessEqual(abs(int(visible.sum()) - info["px_count_visib"]), 2 + 0.005 * whole.sum())
+                    self.assertAlmostEqual(info["visib_fract"], visible.sum() / whole.sum(), delta=0.02)
+                    if visible.any():
+                        ys, xs = rows[visible], columns[visible]
+                        box = [xs.min(), ys.min(), xs.max() - xs.min(), ys.max() - ys.min()]
+                        self.assertLessEqual(max(abs(a - b) for a, b in zip(box, info["bbox_visib"])), 1)
+                    else:
+                        self.assertEqual(info["bbox_visib"], [-1, -1, -1, -1])
+                    compared += 1
+        self.assertGreater(compared, 20)
+
+    def test_shards_hold_what_the_folders_hold(self):
+        shards = Shards(self.out)
+        self.assertEqual(len(shards), 8)
+        for scene, key, truth, infos, camera in self.images():
+            sample = shards["%s_%06d" % (scene.name, key)]
+            name = "%06d.png" % key
+            self.assertEqual(sample.raw("depth.png"), (scene / "depth" / name).read_bytes())
+            np.testing.assert_array_equal(sample.gray, read_png((scene / "gray" / name).read_bytes()))
+            self.assertEqual(sample.info, infos)
+            self.assertEqual(sample.objects.tolist(), [part["obj_id"] for part in truth])
+            self.assertEqual(sample.camera_matrix.ravel().tolist(), camera["cam_K"])
+            for kind in ("mask", "mask_visib"):
+                for i, mask in enumerate(sample.masks(kind)):
+                    png = read_png((scene / kind / ("%06d_%06d.png" % (key, i))).read_bytes())
+                    np.testing.assert_array_equal(mask, png > 0)
+
+    def test_symmetries_and_diameters_are_those_of_boxes(self):
+        info = json.loads((self.out / "bop/models/models_info.json").read_text())
+        for number, size, others in ((1, BOX, 3), (2, BAR, 7)):  # a box; a bar with a square end
+            self.assertAlmostEqual(info[str(number)]["diameter"], 1e3 * np.linalg.norm(size), places=3)
+            self.assertEqual(len(info[str(number)]["symmetries_discrete"]), others)
+            self.assertNotIn("symmetries_continuous", info[str(number)])
+
+    def test_the_example_shows_a_batch(self):
+        done = subprocess.run([sys.executable, ROOT / "python/examples/show_batch.py", self.out, "--size", "3"],
+                              capture_output=True, text=True, env={"PYTHONPATH": str(ROOT / "python")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(done.stdout.splitlines()), 3)
+
+    def test_samples_come_in_order_and_at_random(self):
+        shards = Shards(self.out)
+        self.assertEqual([sample.key for sample in shards], shards.keys)
+        self.assertEqual(shards[-1].key, shards.keys[-1])
+        with self.assertRaises(KeyError):
+            shards["999999_000000"]
+        begin = time.monotonic()
+        depths = [sample.depth for sample in shards]
+        print("%d samples of up to 96 x 72 decoded in %.3f s" % (len(depths), time.monotonic() - begin))
+        self.assertTrue(all(np.isfinite(depth).any() for depth in depths))
+
+
+if __name__ == "__main__":
+    data_set.main()

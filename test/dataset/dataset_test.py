@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""`bin_scenes dataset`: plans and their errors, repeatability whatever happens on the way, depletion, retries.
+
+    dataset_test.py TOOL
+"""
+import json
+import os
+import pathlib
+import random
+import signal
+import sqlite3
+import subprocess
+import time
+import unittest
+
+import data_set
+from data_set import DataSetTest
+
+
+def children(parent):
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            if int(path.read_text().rsplit(")", 1)[1].split()[1]) == parent:
+                found.append(int(path.parent.name))
+        except OSError:
+            pass  # it has ended
+    return found
+
+
+class Plans(DataSetTest):
+    def errors(self, text):
+        (self.folder / "bad.yaml").write_text(text)
+        done = self.make("bad.yaml", "out", code=2)
+        self.assertFalse((self.folder / "out").exists())
+        return done.stderr.splitlines()
+
+    def test_all_errors_are_told_at_once_with_their_lines(self):
+        lines = self.errors("""seed: -1
+scenes: 2
+outputs: [json, exr]
+request:
+  bin: {inner_sise: [0.2, 0.2, 0.2]}
+  parts: [{model: box.stl, count: many}]
+draw:
+  parts[0].friction: {uniform: [0.5, 0.2]}
+  parts[0].density: {normal: [1000]}
+colour: red
+""")
+        for line, words in ((1, "seed"), (3, "exr"), (5, "inner_sise"), (6, "count"), (8, "minimum is above"),
+                            (9, "normal needs"), (10, "colour")):
+            found = [text for text in lines if "bad.yaml:%d: " % line in text and words in text]
+            self.assertEqual(len(found), 1, "line %d, '%s':\n%s" % (line, words, "\n".join(lines)))
+        self.assertEqual(len(lines), 7, lines)
+
+    def test_ranges_that_cannot_be_are_found_before_the_first_scene(self):
+        lines = self.errors("""scenes: 2
+request: {parts: [{model: box.stl}]}
+draw:
+  parts[0].friction: {uniform: [-0.5, 0.2]}
+  parts[0].cuont: {choice: [1, 2]}
+  parts[0].model: {choice: [box.stl, missing.stl]}
+  pour.finish: {choice: [settled, perfect]}
+""")
+        for line, words in ((4, "-0.5"), (5, "count"), (6, "missing.stl"), (7, "perfect")):
+            self.assertEqual(len([t for t in lines if "bad.yaml:%d: " % line in t and words in t]), 1, "\n".join(lines))
+
+    def test_a_folder_of_another_plan_or_of_something_else_is_refused(self):
+        self.make(self.plan(scenes=1, outputs="json"), "out")
+        other = self.plan(scenes=2, outputs="json", name="other.yaml")
+        self.assertIn("another plan", self.make(other, "out", code=2).stderr)
+        facts = self.folder / "out/dataset.json"
+        facts.write_text(facts.read_text().replace('"version": "', '"version": "9.'))
+        self.assertIn("version 9.", self.make("plan.yaml", "out", code=2).stderr)
+        (self.folder / "full").mkdir()
+        (self.folder / "full/thesis.txt").write_text("mine")
+        self.assertIn("no data set", self.make("plan.yaml", "full", code=2).stderr)
+        self.assertIn("--shard", self.make("plan.yaml", "out2", "--shard", "3/2", code=2).stderr)
+        self.run_tool("dataset", "plan.yaml", code=2)
+
+    def test_draws_follow_their_distributions(self):
+        self.make(self.plan(scenes=12, outputs="json"), "out", "--workers", 2)
+        frictions, counts, distances = set(), [], []
+        for path in sorted((self.folder / "out/scenes").iterdir()):
+            text = (path / "request.yaml").read_text()
+            scene = json.loads((path / "scene.json").read_text())
+            frictions.update(line.split(":")[1] for line in text.splitlines() if line.startswith("    friction:"))
+            counts.append(len(scene["parts"]))
+            distances.append(sum(x * x for x in scene["sensors"][0]["pose"]["position"]) ** 0.5)
+        self.assertGreater(len(frictions), 6)
+        self.assertTrue(all(3 <= n <= 6 for n in counts) and len(set(counts)) > 2, counts)
+        self.assertTrue(all(0.5 <= d <= 0.6 for d in distances), distances)
+
+
+class Repeatability(DataSetTest):
+    def test_workers_shares_kills_and_full_disks_change_no_byte(self):
+        plan = self.plan(scenes=8)
+        self.make(plan, "one", "--workers", 1)
+        self.make(plan, "three", "--workers", 3)
+        self.assert_same("one", "three")
+
+        shares = ["share_%d" % i for i in range(3)]
+        for i, share in enumerate(shares):
+            self.make(plan, share, "--shard", "%d/3" % i, "--workers", 1)
+        self.run_tool("dataset", "merge", *shares[:2], "--out", "merged", code=1)
+        self.kill_at_random(5, 0.15, "dataset", "merge", *shares, "--out", "merged")
+        self.run_tool("dataset", "merge", *shares, "--out", "merged")
+        self.assert_same("one", "merged")
+
+        # A limit of file sizes stands for a full disk: the write fails, the run ends with 3 and goes on later.
+        for kilobytes in (8, 48):
+            full = self.run_tool("dataset", plan, "--out", "full", "--workers", 2, before="ulimit -f %d;" % kilobytes, code=3)
+            self.assertEqual(full.stderr.count("\n"), 1, full.stderr)
+        self.make(plan, "full")
+        self.assert_same("one", "full")
+
+        self.kill_at_random(8, 0.6, "dataset", plan, "--out", "killed", "--workers", 2)
+        self.make(plan, "killed", "--resume")
+        self.assert_same("one", "killed")
+        self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "killed").stdout)
+
+    def kill_at_random(self, kills, longest, *words):
+        """SIGKILL for the process, or for one of its workers, at random instants."""
+        dice = random.Random(7)
+        for _ in range(kills):
+            process = subprocess.Popen(self.command(*words), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(dice.uniform(0.02, longest))
+            victims = [process.pid] + children(process.pid)
+            try:
+                os.kill(dice.choice(victims), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            time.sleep(0.05)
+            process.kill()
+            process.wait()
+
+    def test_the_index_is_made_again_from_the_scenes(self):
+        plan = self.plan(scenes=3, outputs="json")
+        self.make(plan, "out")
+        (self.folder / "out/index.sqlite").unlink()
+        before = {p: os.stat(p).st_mtime_ns for p in (self.folder / "out/scenes").rglob("scene.json")}
+        self.make(plan, "out")
+        self.assertEqual(before, {p: os.stat(p).st_mtime_ns for p in (self.folder / "out/scenes").rglob("scene.json")})
+        with sqlite3.connect(self.folder / "out/index.sqlite") as index:
+            self.assertEqual(index.execute("select count(*), min(verdict) from scenes").fetchone(), (3, "accepted"))
+
+    def test_sigint_ends_with_130_and_the_run_goes_on_later(self):
+        plan = self.plan(scenes=40, outputs="json")
+        process = subprocess.Popen(self.command("dataset", plan, "--out", "out", "--workers", 2), cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        scenes = self.folder / "out/scenes"
+        while not (scenes.is_dir() and any(not p.name.startswith(".") for p in scenes.iterdir())):
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual([p.name for p in scenes.iterdir() if p.name.startswith(".")], [])
+        done = self.make(plan, "out", "--json-progress")
+        lines = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual((lines[-1]["accepted"], lines[-1]["finished"]), (40, True))
+
+
+class Heaps(DataSetTest):
+    def test_rejected_attempts_are_kept_apart_and_made_again(self):
+        draw = "  pour: {choice: [{limit: 0.05, rest_window: 0.04}, {limit: 20}]}"
+        plan = self.plan(scenes=6, outputs="json", draw=draw)
+        self.make(plan, "out", code=None)
+        apart = sorted((self.folder / "out/set_apart").iterdir())
+        self.assertGreater(len(apart), 1)
+        for path in apart:
+            self.assertIn("rest", (path / "reasons.txt").read_text())
+            self.assertIn("limit: 0.05", (path / "request.yaml").read_text())
+        self.make(plan, "again", "--workers", 1, code=None)
+        self.assert_same("out", "again")
+        self.assertEqual(self.run_tool("dataset", "verify", "out", code=None).stdout.count("rejected_kept:"), 0)
+
+    def test_depletion_takes_the_highest_parts_out(self):
+        plan = self.plan(scenes=2, outputs="json, bop", more="depletion: {steps: 2, take: 1}")
+        self.make(plan, "out")
+        scenes = [json.loads((self.folder / ("out/scenes/scene_%06d/scene.json" % i)).read_text()) for i in range(6)]
+        for heap in (0, 3):
+            before = scenes[heap]
+            for step in (1, 2):
+                after = scenes[heap + step]
+                self.assertEqual(after["index"], heap + step)
+                gone = [p["id"] for p, q in zip(after["parts"], before["parts"])
+                        if p["state"] == "removed" and q["state"] != "removed"]
+                there = [p for p in before["parts"] if p["pose"]]
+                highest = max(there, key=lambda p: p["pose"]["position"][2])
+                self.assertEqual(gone, [highest["id"]])
+                before = after
+        self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "out").stdout)
+
+
+if __name__ == "__main__":
+    data_set.main()

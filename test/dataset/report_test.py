@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""`bin_scenes report`: one page that opens in a browser without a network; skipped where there is no Chromium.
+
+    report_test.py TOOL [--keep PNG]
+"""
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+import data_set
+from data_set import DataSetTest
+
+KEEP = None
+if "--keep" in sys.argv:
+    at = sys.argv.index("--keep")
+    KEEP = sys.argv[at + 1]
+    del sys.argv[at:at + 2]
+CHROMIUM = shutil.which("chromium")
+
+
+class Report(DataSetTest):
+    def browse(self, *options):
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                   "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=8000",
+                   "--user-data-dir=%s" % (self.folder / "profile"), *options, "file://%s" % (self.folder / "out/report.html")]
+        return subprocess.run(command, capture_output=True, text=True, timeout=300)
+
+    def make_report(self):
+        draw = "  pour: {choice: [{limit: 0.05, rest_window: 0.04}, {limit: 20}]}"
+        self.make(self.plan(scenes=5, draw=draw), "out", code=None)
+        done = self.run_tool("report", "out")
+        page = self.folder / "out/report.html"
+        self.assertLess(page.stat().st_size, 5_000_000)
+        return done, page.read_text()
+
+    def test_the_page_holds_everything_itself(self):
+        _, page = self.make_report()
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', page), [])
+        self.assertIn("not at rest", page)
+        self.assertIn("parts[0].friction", page)
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_it_opens_in_a_browser_without_a_network(self):
+        done, _ = self.make_report()
+        dom = self.browse("--dump-dom").stdout
+        self.assertIn('data-ready="yes"', dom, "the page's script did not reach its end")
+        self.assertEqual(len(re.findall(r'<svg viewBox="0 0 330', dom)), 6)
+        self.assertGreater(len(re.findall(r"<figcaption>scene \d+", dom)), 2)
+        self.assertIn("attempt 0", dom)
+        if "no 3-D view" not in done.stderr:
+            self.assertRegex(dom, r'data-drawn="\d+"')
+        if KEEP:
+            self.browse("--window-size=1240,2300", "--screenshot=%s" % KEEP)
+
+
+if __name__ == "__main__":
+    data_set.main()

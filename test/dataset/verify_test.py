@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""`bin_scenes dataset verify` finds each of many seeded corruptions by the invariant that it breaks, and nothing in a
+sound data set.
+
+    verify_test.py TOOL
+"""
+import json
+import shutil
+import sqlite3
+
+import data_set
+from data_set import DataSetTest
+
+SCENE = "scenes/scene_000001/"
+BOP = "bop/train/000001/"
+
+
+def edit_json(path, change):
+    value = json.loads(path.read_text())
+    change(value)
+    path.write_text(json.dumps(value))
+
+
+def scene(change):
+    return lambda root: edit_json(root / (SCENE + "scene.json"), change)
+
+
+def bop(name, change):
+    return lambda root: edit_json(root / (BOP + name + ".json"), lambda value: change(value["0"]))
+
+
+def index(sql):
+    def change(root):
+        with sqlite3.connect(root / "index.sqlite") as database:
+            database.execute(sql)
+    return change
+
+
+def flip(name, at=-20):
+    def change(root):
+        data = bytearray((root / name).read_bytes())
+        data[at] ^= 1
+        (root / name).write_bytes(data)
+    return change
+
+
+def replace(name, other):
+    return lambda root: shutil.copy(root / other, root / name)
+
+
+def cut(name):
+    return lambda root: (root / name).write_bytes((root / name).read_bytes()[:20_000])
+
+
+def put(name, text="x"):
+    return lambda root: (root / name).write_text(text)
+
+
+def remove(name):
+    return lambda root: (root / name).unlink()
+
+
+def swap_keys(root):
+    edit_json(root / "shards/key_to_shard.json", lambda keys: keys.update({"000001_000000": 7}))
+
+
+def rename_key(root):
+    """An image gets the key of a scene that is not there. Its digits have the same sum, so that the tar stays whole."""
+    path = root / "shards/shard-000000.tar"
+    path.write_bytes(path.read_bytes().replace(b"000001_000001.", b"000010_000001."))
+
+
+def longer_run(root):
+    """One pixel more in a run of a mask: bytes of the tar in place, same length."""
+    path = root / "shards/shard-000000.tar"
+    offset, size = json.loads(path.with_suffix(".json").read_text())["000001_000000"]["mask_visib.json"]
+    data = bytearray(path.read_bytes())
+    text = data[offset:offset + size]
+    at = text.index(b'"counts":[') + 10
+    data[offset + at] = ord("8") if text[at] != ord("8") else ord("7")
+    path.write_bytes(data)
+
+
+def visible_of(infos):
+    return next(i for i, info in enumerate(infos) if info["px_count_visib"] > 20)
+
+
+def set_info(key, value):
+    def change(infos):
+        info = infos[visible_of(infos)]
+        info[key] = value(info[key]) if callable(value) else value
+    return bop("scene_gt_info", change)
+
+
+def more(number):
+    return number + 3
+
+
+CORRUPTIONS = [
+    ("plan_unchanged", put("plan.yaml", "scenes: 9\n")),
+    ("no_leftovers", put("scenes/.scene_000009.tmp-1-0@host")),
+    ("heap_known", index("delete from heaps where heap = 1")),
+    ("scene_there", lambda root: shutil.rmtree(root / SCENE)),
+    ("scene_known", lambda root: shutil.copytree(root / SCENE, root / "scenes/scene_000007")),
+    ("index_digest", index("update scenes set sha256 = '00' where scene = 1")),
+    ("rejected_kept", index("insert into rejected values (1, 0, 'set_apart/scene_000001_attempt_0', '[]')")),
+    ("scenes_differ", replace(SCENE + "scene.json", "scenes/scene_000000/scene.json")),
+    ("manifest", put(SCENE + "files.json", "{")),
+    ("file_there", remove(SCENE + "camera_depth.png")),
+    ("file_size", put(SCENE + "camera.png", "short")),
+    ("file_digest", flip(SCENE + "camera_labels.png")),
+    ("file_listed", put(SCENE + "notes.txt")),
+    ("scene_json", scene(lambda s: s.pop("report"))),
+    ("scene_number", scene(lambda s: s.update(index=2))),
+    ("request_there", remove(SCENE + "request.yaml")),
+    ("scene_accepted", scene(lambda s: s["report"].update(accepted=False))),
+    ("part_ids", scene(lambda s: s["parts"][1].update(id=0))),
+    ("part_turn", scene(lambda s: s["parts"][0]["pose"].update(orientation_xyzw=[0, 0, 0.5, 0.5]))),
+    ("part_place", scene(lambda s: s["parts"][0]["pose"].update(position=[3, 0, 0]))),
+    ("fraction_range", scene(lambda s: s["parts"][0]["visible_fraction"].update(camera=1.2))),
+    ("truth_counts", scene(lambda s: s["sensors"][0]["truth"][0].update(visible_fraction=0.123))),
+    ("truth_boxes", scene(lambda s: s["sensors"][0]["truth"][0].update(bbox_visib=[90, 70, 20, 20]))),
+    ("image_size", replace(SCENE + "camera_labels.png", SCENE + "side_labels.png")),
+    ("label_range", replace(SCENE + "camera_labels.png", SCENE + "camera_depth.png")),
+    ("label_counts", replace(SCENE + "camera_labels.png", "scenes/scene_000000/camera_labels.png")),
+    ("label_boxes", scene(lambda s: s["sensors"][0]["truth"][0].update(bbox_visib=[0, 0, 2, 2]))),
+    ("depth_range", scene(lambda s: s["sensors"][0].update(far=0.1))),
+    ("validity_codes", replace(SCENE + "camera_validity.png", BOP + "gray/000000.png")),
+    ("bop_json", put(BOP + "scene_gt.json", "[")),
+    ("bop_parts", bop("scene_gt", lambda gt: gt.pop())),
+    ("bop_rotation", bop("scene_gt", lambda gt: gt[0].update(cam_R_m2c=[-x for x in gt[0]["cam_R_m2c"]]))),
+    ("bop_pose", bop("scene_gt", lambda gt: gt[0].update(cam_t_m2c=[x + 1 for x in gt[0]["cam_t_m2c"]]))),
+    ("bop_object", bop("scene_gt", lambda gt: gt[0].update(obj_id=77))),
+    ("bop_image", remove(BOP + "depth/000000.png")),
+    ("bop_mask_there", remove(BOP + "mask_visib/000000_000000.png")),
+    ("bop_mask_count", set_info("px_count_visib", more)),
+    ("bop_mask_box", set_info("bbox_visib", lambda box: [box[0] + 4] + box[1:])),
+    ("bop_mask_inside", replace(BOP + "mask/000000_000000.png", BOP + "mask/000000_000001.png")),
+    ("bop_fraction", set_info("visib_fract", 0.0123)),
+    ("bop_unseen", set_info("bbox_visib", [-1, -1, -1, -1])),
+    ("bop_reprojection", set_info("bbox_obj", lambda box: [box[0] + 9] + box[1:])),
+    ("model_info", lambda root: edit_json(root / "bop/models/models_info.json", lambda m: m["1"].update(diameter=1.0))),
+    ("shard_tar", cut("shards/shard-000000.tar")),
+    ("shard_keys", swap_keys),
+    ("shard_complete", rename_key),
+    ("shard_offsets", put("shards/shard-000000.json", "{}")),
+    ("shard_masks", longer_run),
+]
+
+
+class Verify(DataSetTest):
+    def test_each_corruption_is_found_by_the_invariant_that_it_breaks(self):
+        self.make(self.plan(scenes=3), "sound")
+        done = self.run_tool("dataset", "verify", "sound")
+        self.assertIn(" 0 findings", done.stdout)
+        names = [line.split()[0] for line in self.run_tool("dataset", "verify", "--list").stdout.splitlines()]
+        self.assertGreaterEqual(len(names), 30)
+        for check, corrupt in CORRUPTIONS:
+            with self.subTest(check=check):
+                broken = self.folder / "broken"
+                shutil.rmtree(broken, ignore_errors=True)
+                shutil.copytree(self.folder / "sound", broken)
+                corrupt(broken)
+                found = self.run_tool("dataset", "verify", "broken", code=1).stdout
+                self.assertIn("\n" + check + ": ", "\n" + found)
+        self.assertEqual(sorted(set(names) - {check for check, _ in CORRUPTIONS}), ["shard_size"])
+
+    def test_what_is_no_data_set_is_refused(self):
+        (self.folder / "empty").mkdir()
+        self.assertIn("is no data set", self.run_tool("dataset", "verify", "empty", code=2).stderr)
+
+
+if __name__ == "__main__":
+    data_set.main()
