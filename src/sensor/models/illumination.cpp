@@ -39,6 +39,8 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   const Mat3 turn = pose.orientation.toRotationMatrix().transpose();
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
+  rays.reserve(count);
+  asked.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
     lit[i] = {};

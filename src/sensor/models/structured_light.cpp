@@ -30,6 +30,8 @@ std::vector<StructuredLight::Pixel> StructuredLight::lit(std::vector<std::size_t
   const auto width = static_cast<std::size_t>(view_.lens.width);
   std::vector<Pixel> pixels;
   std::vector<SeenPoint> points;
+  pixels.reserve(indices.size());
+  points.reserve(indices.size());
   for (const std::size_t i : indices) {
     pixels.push_back({i, view_.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width)), {}});
     points.push_back(seen(i, pixels.back().ray));
@@ -105,11 +107,11 @@ double StructuredLight::depth_sigma(const Pixel& pixel) const {
          fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
 }
 
-/// Whether the faces beside a pixel's own one matter: they may move its column by a quarter of their step, which noise
-/// hides up to its standard deviation.
+/// Whether the faces beside a pixel's own one matter. Its samples lie a quarter of a pixel from its centre and see about
+/// a quarter of the step to a neighbour; noise of twice that hides it.
 bool StructuredLight::is_uneven(const Pixel& pixel) const {
   const double step = step_beside(pixel);
-  return step >= setup_.settings.edge_step || (step > least_step && step > depth_sigma(pixel));
+  return step >= setup_.settings.edge_step || (step > least_step && step > 2.0 * depth_sigma(pixel));
 }
 
 /// By how much a neighbour lies off the plane of this pixel's face (m); infinite where a neighbour sees nothing.
