@@ -18,8 +18,8 @@ Targets plate(double z, double degrees, double albedo);
 /// A white ball and a dark block on a plate, about 1 m away.
 Targets still_life();
 
-/// An image by structured light or stereo, beside the truth and the standard deviation of depth that the model's formula
-/// predicts for each pixel (m).
+/// An image by structured light or stereo, beside the truth and the standard deviation of depth that the model's
+/// formula predicts for each pixel (m).
 struct Shot {
   View view;
   Measurement measured{0};

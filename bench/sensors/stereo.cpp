@@ -53,8 +53,8 @@ void stereo_rows(Run& out) {
       } rows[] = {{1, "at least 0.5; white noise: 0"}, {window / 2, ""}, {window, ""}, {3 * window, "-0.15 to 0.15"}};
       for (const auto& [lag, goal] : rows) {
         Figure figure{"stereo: autocorrelation of errors at a lag of " + std::to_string(lag) + " pixels"};
-        figure.setting = std::string(fidelity == Fidelity::decoded ? "matched" : "analytic") + ", window " +
-                         std::to_string(window);
+        figure.setting =
+            std::string(fidelity == Fidelity::decoded ? "matched" : "analytic") + ", window " + std::to_string(window);
         figure.incidence_deg = 17.0;
         if (!out.wanted(figure.key())) continue;
         if (errors.empty()) {

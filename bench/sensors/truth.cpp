@@ -15,9 +15,9 @@ namespace {
 
 /// Boxes, a long bar, balls and rings in all poses about the point (0, 0, z), some hidden by others.
 void add_heap(test::Stage& stage, double z, int parts, std::uint64_t seed) {
-  const std::size_t lines[] = {
-      stage.model(test::box_mesh({0.06, 0.04, 0.03})), stage.model(test::sphere_mesh(0.03, 2)),
-      stage.model(test::box_mesh({0.12, 0.01, 0.02}, {0.03, 0.01, 0})), stage.model(test::torus_mesh(0.03, 0.01, 16, 8))};
+  const std::size_t lines[] = {stage.model(test::box_mesh({0.06, 0.04, 0.03})), stage.model(test::sphere_mesh(0.03, 2)),
+                               stage.model(test::box_mesh({0.12, 0.01, 0.02}, {0.03, 0.01, 0})),
+                               stage.model(test::torus_mesh(0.03, 0.01, 16, 8))};
   Random random(seed, 0, Stream::probe);
   for (int i = 0; i < parts; ++i) {
     const Vec3 where(random.uniform(-0.15, 0.15), random.uniform(-0.12, 0.12), z + random.uniform(-0.08, 0.08));
@@ -79,8 +79,7 @@ class Reference {
 };
 
 void ideal_depth(Run& out, double z) {
-  const Figure depth{"ideal: depth against a double-precision ray cast, largest error", z},
-      ids{"ideal: wrong ids", z};
+  const Figure depth{"ideal: depth against a double-precision ray cast, largest error", z}, ids{"ideal: wrong ids", z};
   if (!out.wanted(depth.key()) && !out.wanted(ids.key())) return;
   test::Stage stage;
   add_heap(stage, z, out.quick() ? 6 : 20, static_cast<std::uint64_t>(10 * z));
@@ -92,7 +91,8 @@ void ideal_depth(Run& out, double z) {
     if (truth.near_border(i)) continue;
     ++compared;
     wrong += view.label[i] != truth.at(i).hit.label;
-    if (truth.at(i).hit.label) worst = std::max(worst, std::abs(static_cast<float>(view.depth[i]) - truth.at(i).hit.distance));
+    if (truth.at(i).hit.label)
+      worst = std::max(worst, std::abs(static_cast<float>(view.depth[i]) - truth.at(i).hit.distance));
   }
   out.row(row_of(depth, 1e6 * worst, "um", z == 1.0 ? "at most 2" : "").info("samples", compared));
   out.row(row_of(ids, wrong, "pixels", "0").info("samples", compared));
@@ -115,8 +115,8 @@ void light_codes(Run& out, Fidelity fidelity) {
   sensor = resolved(sensor, stage.request.bin);
   const Lens lens = lens_of(sensor);
   const Scenery scenery = stage.scenery();
-  const RangeImage image = measure(scenery, look(scenery, lens, Pose(), sensor.near, sensor.far), sensor,
-                                   surfaces_of(stage.request), {});
+  const RangeImage image =
+      measure(scenery, look(scenery, lens, Pose(), sensor.near, sensor.far), sensor, surfaces_of(stage.request), {});
   const test::BruteCast cast(stage);
   Reference truth(lens, sensor.near, sensor.far, cast);
   truth.light_by(sensor, lens, cast);

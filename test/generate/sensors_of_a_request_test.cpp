@@ -63,12 +63,22 @@ TEST_F(SensorsOfARequest, SensorsThatCanNotMeasureAreRefusedBeforeAnythingIsPour
     const char* words;  ///< of the message
     std::function<void(Request&)> spoil;
   } cases[] = {
-      {"the camera stands inside part 0", [&](Request& r) { r.sensors[0].pose = Pose{in_the_box, Quat(0, 1, 0, 0)}; }},
+      {"the camera stands inside part 0",
+       [&](Request& r) {
+         r.sensors[0].pose = Pose{in_the_box, Quat(0, 1, 0, 0)};
+       }},
       {"the projector stands inside part 0",
-       [&](Request& r) { r.sensors[0].projector.pose = Pose{in_the_box, Quat(0, 1, 0, 0)}; }},
-      {"below the floor", [](Request& r) { r.sensors[0].pose = Pose{Vec3(0, 0, -1), Quat::Identity()}; }},
+       [&](Request& r) {
+         r.sensors[0].projector.pose = Pose{in_the_box, Quat(0, 1, 0, 0)};
+       }},
+      {"below the floor",
+       [](Request& r) {
+         r.sensors[0].pose = Pose{Vec3(0, 0, -1), Quat::Identity()};
+       }},
       {"the projector looks away",
-       [](Request& r) { r.sensors[0].projector.pose = Pose{Vec3(0, 0, 1), Quat::Identity()}; }},
+       [](Request& r) {
+         r.sensors[0].projector.pose = Pose{Vec3(0, 0, 1), Quat::Identity()};
+       }},
       {"without it there is no triangle", [](Request& r) { r.sensors[0].projector.baseline = 0.0; }},
       {"read_noise", [](Request& r) { r.sensors[0].imager.read_noise = -1.0; }},
       {"the request needs about", [](Request& r) { r.sensors[0].width = r.sensors[0].height = 16384; }},

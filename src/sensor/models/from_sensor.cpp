@@ -64,8 +64,8 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
           s.noise,    s.near,  s.far};
 }
 
-RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor,
-                                    const Surfaces& surfaces, const Draw& draw) {
+RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                    const Draw& draw) {
   const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
   const Random random = random_of(draw);
   Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
@@ -80,8 +80,8 @@ RangeImage measure_stereo(const Scenery& scenery, View&& view, const Sensor& sen
   return image_of(std::move(view), std::move(measured));
 }
 
-RangeImage measure_time_of_flight(const Scenery& scenery, View&& view, const Sensor& sensor,
-                                  const Surfaces& surfaces, const Draw& draw) {
+RangeImage measure_time_of_flight(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                  const Draw& draw) {
   Measurement measured = time_of_flight(scenery, view, surfaces, sensor.time_of_flight, sensor.noise, sensor.near,
                                         sensor.far, random_of(draw));
   return image_of(std::move(view), std::move(measured));

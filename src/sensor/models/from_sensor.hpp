@@ -14,12 +14,12 @@ Stereo::Setup stereo_setup(const Sensor& sensor);
 LaserLine::Setup laser_line_setup(const Sensor& sensor);
 
 // Each image takes over what it needs of the view as truth.
-RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor,
-                                    const Surfaces& surfaces, const Draw& draw);
+RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                    const Draw& draw);
 RangeImage measure_stereo(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                           const Draw& draw);
-RangeImage measure_time_of_flight(const Scenery& scenery, View&& view, const Sensor& sensor,
-                                  const Surfaces& surfaces, const Draw& draw);
+RangeImage measure_time_of_flight(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                  const Draw& draw);
 RangeImage measure_laser_line(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                               const Draw& draw);
 

@@ -74,8 +74,9 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
   }
 }
 
-/// Cuts the fan's ends that pass the camera's image at every depth in range. A ray's points fall on a line of the image,
-/// so that both of its ends on one side of the image are enough; a distorted line bends, and its fan stays whole.
+/// Cuts the fan's ends that pass the camera's image at every depth in range. A ray's points fall on a line of the
+/// image, so that both of its ends on one side of the image are enough; a distorted line bends, and its fan stays
+/// whole.
 void LaserLine::keep_what_the_camera_can_see() {
   if (setup_.camera.distorts()) return;
   const Mat3 to_camera = setup_.camera_pose.orientation.toRotationMatrix().transpose();

@@ -107,8 +107,8 @@ double StructuredLight::depth_sigma(const Pixel& pixel) const {
          fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
 }
 
-/// Whether the faces beside a pixel's own one matter. Its samples lie a quarter of a pixel from its centre and see about
-/// a quarter of the step to a neighbour; noise of twice that hides it.
+/// Whether the faces beside a pixel's own one matter. Its samples lie a quarter of a pixel from its centre and see
+/// about a quarter of the step to a neighbour; noise of twice that hides it.
 bool StructuredLight::is_uneven(const Pixel& pixel) const {
   const double step = step_beside(pixel);
   return step >= setup_.settings.edge_step || (step > least_step && step > 2.0 * depth_sigma(pixel));
@@ -214,8 +214,8 @@ Measurement StructuredLight::analytic(const Random& random) const {
       if (pixel.lit.code != Validity::valid) continue;
       const bool sampled = next < uneven.size() && uneven[next].index == i;
       const bool mixed = sampled && samples.mixed[next];
-      const Reading reading = sampled ? summed(pixel, &samples.lit[Samples::per_pixel * next])
-                                      : Reading{pixel.lit.column, fringe(pixel)};
+      const Reading reading =
+          sampled ? summed(pixel, &samples.lit[Samples::per_pixel * next]) : Reading{pixel.lit.column, fringe(pixel)};
       next += sampled;
       double of_phase = 0.0, of_amplitude = 0.0;
       if (setup_.noise) draw.normals(of_phase, of_amplitude);
