@@ -69,7 +69,11 @@ std::string in_megabytes(double bytes) {
 /// Images of one scene.
 double image_bytes(const Request& request) {
   double bytes = 0.0;
-  for (const Sensor& sensor : request.sensors) bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
+  for (const Sensor& sensor : request.sensors) {
+    bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
+    if (sensor.model != SensorModel::laser_line) continue;
+    bytes += per_pixel * std::max(sensor.width, sensor.height) * static_cast<double>(sensor.scan.profiles);
+  }
   return bytes;
 }
 

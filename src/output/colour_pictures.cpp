@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace bin_scenes {
 
@@ -94,13 +95,26 @@ constexpr Code codes[] = {{"valid", {205, 210, 205}},   {"nothing", {255, 255, 2
 
 }  // namespace
 
+namespace {
+
+/// Depths (m) between which the colours run. The outermost half per cent on each side is left out: a few wrong matches
+/// or flying pixels would leave one colour for all the rest.
+std::pair<float, float> range_of_colours(std::vector<float> depths) {
+  depths.erase(std::remove_if(depths.begin(), depths.end(), [](float z) { return !std::isfinite(z); }), depths.end());
+  if (depths.empty()) return {0.0f, 0.0f};
+  const std::ptrdiff_t left_out = static_cast<std::ptrdiff_t>(depths.size()) / 200;
+  std::nth_element(depths.begin(), depths.begin() + left_out, depths.end());
+  const float nearest = depths[static_cast<std::size_t>(left_out)];
+  std::nth_element(depths.begin(), depths.end() - 1 - left_out, depths.end());
+  return {nearest, *(depths.end() - 1 - left_out)};
+}
+
+}  // namespace
+
 Palette depth_picture(const RangeImage& image) {
-  float nearest = std::numeric_limits<float>::infinity(), farthest = 0.0f;
-  for (const float z : image.depth) {
-    if (std::isfinite(z)) nearest = std::min(nearest, z), farthest = std::max(farthest, z);
-  }
+  const auto [nearest, farthest] = range_of_colours(image.depth);
   Canvas canvas(image.width, image.height, 7);
-  if (!(farthest >= nearest)) return canvas.picture;  // nothing is valid
+  if (!(farthest > 0.0f)) return canvas.picture;  // nothing is valid
   constexpr int shades = 250;
   for (int i = 0; i < shades; ++i) canvas.picture.colours.push_back(colour_of_depth((i + 0.5) / shades));
   const double range = std::max(1e-9, static_cast<double>(farthest) - nearest);
@@ -108,7 +122,7 @@ Palette depth_picture(const RangeImage& image) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x, ++depth) {
       if (!std::isfinite(*depth)) continue;
-      const int shade = std::min(shades - 1, static_cast<int>(shades * (*depth - nearest) / range));
+      const int shade = static_cast<int>(std::clamp(shades * (*depth - nearest) / range, 0.0, shades - 1.0));
       canvas.at(x, y) = static_cast<std::uint8_t>(first_colour + shade);
     }
   }

@@ -45,6 +45,7 @@ std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, co
     RangeImage& image = images.back();
     count_pixels(image, scene, std::move(alone));
     scene.report.profile.count("views");
+    scene.report.profile.count("noisy_images", sensor.noise && sensor.model != SensorModel::ideal);
     std::size_t there = 0;
     for (std::size_t i = 0; i < scenery.part_count(); ++i) there += scenery.part(i).mesh != nullptr;
     scene.report.profile.count("silhouettes", there);

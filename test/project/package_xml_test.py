@@ -19,6 +19,7 @@ DEBIAN = {
     "libpcl-all-dev": ["libpcl-dev"],
     "libopencv-dev": ["libopencv-calib3d-dev"],
     "nlohmann-json-dev": ["nlohmann-json3-dev"],
+    "nodelet": ["libnodeletlib-tools"],
     "opengl": ["libegl1", "libopengl0", "libgl1-mesa-dri"],
     "tbb": ["libtbb-dev"],
     "tinyxml2": ["libtinyxml2-dev"],

@@ -2,9 +2,11 @@
 
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "core/in_parallel.hpp"
 #include "sensor/models/time_of_flight.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -16,28 +18,33 @@ Random random_of(const Draw& draw) {
   return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
 }
 
-void add_truth(RangeImage& image, const View& view) {
+void add_truth(RangeImage& image, View&& view) {
   image.truth_depth.assign(view.depth.begin(), view.depth.end());
-  image.truth_label = view.label;
-  image.truth_normal = view.normal;
+  image.truth_label = std::move(view.label);
+  image.truth_normal = std::move(view.normal);
 }
 
-RangeImage image_of(const View& view, const Measurement& measured) {
+RangeImage image_of(View&& view, Measurement&& measured) {
   RangeImage image;
   image.width = view.lens.width;
   image.height = view.lens.height;
+  image.intensity = std::move(measured.intensity);
   const std::size_t pixels = view.depth.size();
-  image.depth.assign(measured.depth.begin(), measured.depth.end());
-  image.intensity = measured.intensity;
-  image.label.assign(pixels, 0);
-  image.normal.assign(pixels, {nan, nan, nan});
-  for (std::size_t i = 0; i < pixels; ++i) {
-    image.validity.push_back(static_cast<std::uint8_t>(measured.validity[i]));
-    if (measured.validity[i] != Validity::valid) continue;
-    image.label[i] = view.label[i];
-    image.normal[i] = view.normal[i];
-  }
-  add_truth(image, view);
+  image.depth.resize(pixels);
+  image.label.resize(pixels);
+  image.normal.resize(pixels);
+  image.validity.resize(pixels);
+  add_truth(image, std::move(view));
+  const auto width = static_cast<std::size_t>(image.width);
+  in_parallel(static_cast<std::size_t>(image.height), [&](std::size_t row) {
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+      const bool valid = measured.validity[i] == Validity::valid;
+      image.validity[i] = static_cast<std::uint8_t>(measured.validity[i]);
+      image.depth[i] = static_cast<float>(measured.depth[i]);
+      image.label[i] = valid ? image.truth_label[i] : std::uint16_t{0};
+      image.normal[i] = valid ? image.truth_normal[i] : std::array<float, 3>{nan, nan, nan};
+    }
+  });
   return image;
 }
 
@@ -57,27 +64,30 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
           s.noise,    s.near,  s.far};
 }
 
-RangeImage measure_structured_light(const Scenery& scenery, const View& view, const Sensor& sensor,
-                                    const Surfaces& surfaces, const Draw& draw) {
+RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                    const Draw& draw) {
   const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
   const Random random = random_of(draw);
-  return image_of(view, sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
+  return image_of(std::move(view), std::move(measured));
 }
 
-RangeImage measure_stereo(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+RangeImage measure_stereo(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                           const Draw& draw) {
   const Stereo model(scenery, view, surfaces, stereo_setup(sensor));
   const Random random = random_of(draw);
-  return image_of(view, sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
+  return image_of(std::move(view), std::move(measured));
 }
 
-RangeImage measure_time_of_flight(const Scenery& scenery, const View& view, const Sensor& sensor,
-                                  const Surfaces& surfaces, const Draw& draw) {
-  return image_of(view, time_of_flight(scenery, view, surfaces, sensor.time_of_flight, sensor.noise, sensor.near,
-                                       sensor.far, random_of(draw)));
+RangeImage measure_time_of_flight(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                                  const Draw& draw) {
+  Measurement measured = time_of_flight(scenery, view, surfaces, sensor.time_of_flight, sensor.noise, sensor.near,
+                                        sensor.far, random_of(draw));
+  return image_of(std::move(view), std::move(measured));
 }
 
-RangeImage measure_laser_line(const Scenery& scenery, const View& view, const Sensor& sensor, const Surfaces& surfaces,
+RangeImage measure_laser_line(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                               const Draw& draw) {
   Profiles profiles = LaserLine(scenery, surfaces, laser_line_setup(sensor)).scanned(random_of(draw));
   RangeImage image;
@@ -92,7 +102,7 @@ RangeImage measure_laser_line(const Scenery& scenery, const View& view, const Se
   }
   image.intensity = std::move(profiles.intensity);
   image.points = std::move(profiles.points);
-  add_truth(image, view);
+  add_truth(image, std::move(view));
   return image;
 }
 

@@ -39,6 +39,8 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   const Mat3 turn = pose.orientation.toRotationMatrix().transpose();
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
+  rays.reserve(count);
+  asked.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
     lit[i] = {};
@@ -67,13 +69,14 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   }
 }
 
-double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light) {
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,
+               double light_z) {
   if (imager.reference_distance > 0.0) return imager.exposure * imager.reference_distance * imager.reference_distance;
-  const double light_z = (view.pose.inverse() * light).z();
   std::vector<double> losses;  // distance^2 / cosine
   for (std::size_t i = 0; i < lit.size(); ++i) {
     if (lit[i].code != Validity::valid) continue;
-    losses.push_back(std::pow(lit[i].distance, 3) / std::max(std::abs(view.depth[i] - light_z), 1e-6));
+    const double distance = lit[i].distance;
+    losses.push_back(distance * distance * distance / std::max(std::abs(depths[i] - light_z), 1e-6));
   }
   if (losses.empty()) return imager.exposure;
   const auto middle = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);

@@ -41,10 +41,12 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
 /// surface shade itself.
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
 
-/// Signal of a white = gain * reflected / distance^2. An automatic exposure gives a white matte surface that is
-/// parallel to the image the exposure's signal, at the median distance of what is lit: noise then grows with the square
-/// of the range, as triangulation says, not with the loss of light as well.
-/// @param light  where it stands, bin frame
-double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const View& view, const Vec3& light);
+/// The gain of an exposure: a white surface's signal is gain * reflected / distance^2. With automatic exposure, a white
+/// matte surface parallel to the image, at the median distance of all points that are lit, gives the signal
+/// ImagerSettings::exposure. Noise of triangulation then grows with the square of the range and not faster.
+/// @param depths   m along the camera's axis, of the points of `lit`
+/// @param light_z  m, depth of the light itself
+double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,
+               double light_z);
 
 }  // namespace bin_scenes

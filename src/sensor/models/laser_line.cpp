@@ -12,8 +12,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double edge =
-    1e-3;  // m: two neighbours of the fan that lie further off each other's plane are no one surface
+/// m: two hits of neighbouring rays are on different surfaces if each lies off the other's plane by more.
+constexpr double edge = 1e-3;
 
 /// Depth step between two hits of neighbouring rays, as the plane of either says.
 bool one_surface(const Hit& a, const Vec3& along_a, const Hit& b, const Vec3& along_b) {
@@ -21,6 +21,16 @@ bool one_surface(const Hit& a, const Vec3& along_a, const Hit& b, const Vec3& al
   const double b_on_a = a.distance * a.normal.dot(along_a) / a.normal.dot(along_b);
   const double a_on_b = b.distance * b.normal.dot(along_b) / b.normal.dot(along_a);
   return std::abs(b_on_a - b.distance) < edge || std::abs(a_on_b - a.distance) < edge;
+}
+
+void add_speckle(double contrast, Random& draw, std::vector<float>& window) {
+  for (std::size_t i = 0; i < window.size(); i += 2) {
+    double speckle[2];
+    draw.normals(speckle[0], speckle[1]);
+    for (std::size_t k = i; k < std::min(i + 2, window.size()); ++k) {
+      window[k] *= static_cast<float>(std::max(0.0, 1.0 + contrast * speckle[k - i]));
+    }
+  }
 }
 
 }  // namespace
@@ -50,6 +60,7 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
   for (int i = 0; i < rays; ++i) {
     directions_.push_back(setup_.laser_pose.orientation * Vec3(0.0, half * (2.0 * i / (rays - 1) - 1.0), 1.0));
   }
+  keep_what_the_camera_can_see();
   reference_ = setup_.imager.reference_distance;
   if (!(reference_ > 0.0)) {
     std::vector<double> distances{1.0};
@@ -61,6 +72,37 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
     std::nth_element(distances.begin(), middle, distances.end());
     reference_ = *middle;
   }
+}
+
+/// Cuts the fan's ends that pass the camera's image at every depth in range. A ray's points fall on a line of the
+/// image, so that both of its ends on one side of the image are enough; a distorted line bends, and its fan stays
+/// whole.
+void LaserLine::keep_what_the_camera_can_see() {
+  if (setup_.camera.distorts()) return;
+  const Mat3 to_camera = setup_.camera_pose.orientation.toRotationMatrix().transpose();
+  const Vec3 laser = to_camera * (setup_.laser_pose.position - setup_.camera_pose.position);
+  /// -1: before the image's first sample, 1: behind its last one, 0: perhaps in it.
+  const auto side = [&](const Vec3& direction) {
+    const Vec3 way = to_camera * direction;
+    if (!(way.z() > 0.0)) return 0;
+    int sides[2];
+    for (const int end : {0, 1}) {
+      const double depth = std::max(end ? setup_.far : setup_.near, 1e-6), run = (depth - laser.z()) / way.z();
+      const auto pixel = run > 0.0 ? setup_.camera.project(laser + run * way) : std::nullopt;
+      if (!pixel) return 0;
+      sides[end] = along(*pixel) < -1.0 ? -1 : along(*pixel) > samples_ ? 1 : 0;
+    }
+    return sides[0] == sides[1] ? sides[0] : 0;
+  };
+  std::size_t first = 0, last = directions_.size() - 1;
+  while (first + 2 < last && side(directions_[first + 1]) && side(directions_[first + 1]) == side(directions_[first])) {
+    ++first;
+  }
+  while (last > first + 2 && side(directions_[last - 1]) && side(directions_[last - 1]) == side(directions_[last])) {
+    --last;
+  }
+  directions_ = {directions_.begin() + static_cast<std::ptrdiff_t>(first),
+                 directions_.begin() + static_cast<std::ptrdiff_t>(last + 1)};
 }
 
 std::vector<Hit> LaserLine::fan(const Vec3& origin) const {
@@ -188,9 +230,7 @@ void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, P
           window[i] += static_cast<float>(other->signal * std::exp(-0.5 * x * x));
         }
       }
-      if (setup_.noise && setup_.settings.speckle > 0.0) {
-        for (float& w : window) w *= static_cast<float>(std::max(0.0, 1.0 + setup_.settings.speckle * draw.normal()));
-      }
+      if (setup_.noise && setup_.settings.speckle > 0.0) add_speckle(setup_.settings.speckle, draw, window);
       imager_.expose(window.data(), window.size(), draw);
       const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
       if (!peak) {
@@ -238,9 +278,9 @@ double LaserLine::depth_sigma() const {
       const double across = reach + (k + 0.5) / draws - 0.5;
       for (std::size_t i = 0; i < window.size(); ++i) {
         const double x = (static_cast<double>(i) - across) / sigma;
-        const double speckle = setup_.noise ? std::max(0.0, 1.0 + setup_.settings.speckle * draw.normal()) : 1.0;
-        window[i] = static_cast<float>(line.signal * std::exp(-0.5 * x * x) * speckle);
+        window[i] = static_cast<float>(line.signal * std::exp(-0.5 * x * x));
       }
+      if (setup_.noise) add_speckle(setup_.settings.speckle, draw, window);
       imager_.expose(window.data(), window.size(), draw);
       const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
       if (!peak) continue;

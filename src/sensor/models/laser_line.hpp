@@ -48,6 +48,7 @@ class LaserLine {
 
   double along(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.y() : pixel.x(); }
   double across(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.x() : pixel.y(); }
+  void keep_what_the_camera_can_see();
   std::vector<Hit> fan(const Vec3& origin) const;
   void find_lines(const Vec3& offset, Lines& lines) const;
   void read_lines(const Vec3& offset, const Lines& lines, Random draw, Profiles& out, std::size_t profile) const;

@@ -20,20 +20,20 @@ RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, co
       image = measure_ideal(std::move(view));
       break;
     case SensorModel::structured_light:
-      image = measure_structured_light(scenery, view, sensor, surfaces, draw);
+      image = measure_structured_light(scenery, std::move(view), sensor, surfaces, draw);
       break;
     case SensorModel::laser_line:
-      image = measure_laser_line(scenery, view, sensor, surfaces, draw);
+      image = measure_laser_line(scenery, std::move(view), sensor, surfaces, draw);
       break;
     case SensorModel::stereo:
-      image = measure_stereo(scenery, view, sensor, surfaces, draw);
+      image = measure_stereo(scenery, std::move(view), sensor, surfaces, draw);
       break;
     case SensorModel::time_of_flight:
-      image = measure_time_of_flight(scenery, view, sensor, surfaces, draw);
+      image = measure_time_of_flight(scenery, std::move(view), sensor, surfaces, draw);
       break;
   }
   image.sensor = sensor;
-  if (image.width == 0) image.width = view.lens.width, image.height = view.lens.height;
+  if (image.width == 0) image.width = sensor.width, image.height = sensor.height;
   return image;
 }
 

@@ -65,7 +65,7 @@ Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surface
       imager_(setup.imager, setup.noise),
       second_(view.pose * Pose{Vec3(setup.settings.baseline, 0.0, 0.0), Quat::Identity()}),
       lit_(lit(view)) {
-  gain_ = gain_of(setup_.imager, lit_, view_, setup_.projector_pose.position);
+  gain_ = gain_of(setup_.imager, lit_, view_.depth, (view_.pose.inverse() * setup_.projector_pose.position).z());
 }
 
 std::vector<Lit> Stereo::lit(const View& view) const {

@@ -6,8 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace bin_scenes {
+
+namespace {
+constexpr double least_step = 2e-6;  // m; below it two faces are one, whatever the noise
+}
 
 StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
     : scenery_(scenery),
@@ -18,33 +24,61 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       imager_(setup.imager, setup.noise),
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       turn_(view.pose.orientation.toRotationMatrix()),
-      rays_(view.depth.size()),
-      lit_(view.depth.size()) {
-  const auto width = static_cast<std::size_t>(view.lens.width);
-  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
-    std::vector<SeenPoint> points(width);
-    for (std::size_t x = 0; x < width; ++x) {
-      rays_[row * width + x] = view_.lens.ray(static_cast<double>(x), static_cast<double>(row));
-      points[x] = seen(row * width + x);
-    }
-    light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(),
-          &lit_[row * width], width);
-  });
-  gain_ = gain_of(setup_.imager, lit_, view_, setup_.projector_pose.position);
+      gain_(gain()) {}
+
+std::vector<StructuredLight::Pixel> StructuredLight::lit(std::vector<std::size_t> indices) const {
+  const auto width = static_cast<std::size_t>(view_.lens.width);
+  std::vector<Pixel> pixels;
+  std::vector<SeenPoint> points;
+  pixels.reserve(indices.size());
+  points.reserve(indices.size());
+  for (const std::size_t i : indices) {
+    pixels.push_back({i, view_.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width)), {}});
+    points.push_back(seen(i, pixels.back().ray));
+  }
+  std::vector<Lit> all(pixels.size());
+  light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), all.data(),
+        all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) pixels[i].lit = all[i];
+  return pixels;
 }
 
-SeenPoint StructuredLight::seen(std::size_t pixel) const {
-  const double z = view_.depth[pixel];
+std::vector<StructuredLight::Pixel> StructuredLight::lit_row(std::size_t row) const {
+  std::vector<std::size_t> indices(static_cast<std::size_t>(view_.lens.width));
+  std::iota(indices.begin(), indices.end(), row * indices.size());
+  return lit(std::move(indices));
+}
+
+/// The automatic exposure looks at a grid of pixels: some ten thousand tell the median distance as well as all do.
+double StructuredLight::gain() const {
+  constexpr double enough = 16384;
+  const auto width = static_cast<std::size_t>(view_.lens.width), height = static_cast<std::size_t>(view_.lens.height);
+  const auto step = static_cast<std::size_t>(std::max(1.0, std::sqrt(static_cast<double>(width * height) / enough)));
+  std::vector<std::size_t> indices;
+  for (std::size_t y = step / 2; y < height; y += step) {
+    for (std::size_t x = step / 2; x < width; x += step) indices.push_back(y * width + x);
+  }
+  std::vector<Lit> all;
+  std::vector<double> depths;
+  for (const Pixel& pixel : lit(std::move(indices))) {
+    all.push_back(pixel.lit);
+    depths.push_back(view_.depth[pixel.index]);
+  }
+  return gain_of(setup_.imager, all, depths, (view_.pose.inverse() * setup_.projector_pose.position).z());
+}
+
+SeenPoint StructuredLight::seen(std::size_t index, const Vec3& ray) const {
+  const double z = view_.depth[index];
   if (std::isnan(z)) return {};
-  const auto& n = view_.normal[pixel];
-  return {view_.pose * (z * rays_[pixel]), turn_ * Vec3(n[0], n[1], n[2]), view_.line[pixel], true};
+  const auto& n = view_.normal[index];
+  return {view_.pose * (z * ray), turn_ * Vec3(n[0], n[1], n[2]), view_.line[index], true};
 }
 
 /// Factor by which a pixel's extent on the surface weakens the fringe.
-double StructuredLight::footprint(std::size_t pixel) const {
-  const auto& n = view_.normal[pixel];
-  const Vec3 normal(n[0], n[1], n[2]), direction = rays_[pixel];
-  const double z = view_.depth[pixel], facing = normal.dot(direction);
+double StructuredLight::footprint(const Pixel& pixel) const {
+  const auto& n = view_.normal[pixel.index];
+  const Vec3 normal(n[0], n[1], n[2]), direction = pixel.ray;
+  const double z = view_.depth[pixel.index], facing = normal.dot(direction);
   double factor = 1.0;
   for (const Vec3& step : {Vec3(1.0 / view_.lens.fx, 0.0, 0.0), Vec3(0.0, 1.0 / view_.lens.fy, 0.0)}) {
     const Vec3 along = z * (step - direction * (normal.dot(step) / facing));  // on the surface, a pixel further
@@ -53,39 +87,53 @@ double StructuredLight::footprint(std::size_t pixel) const {
   return factor;
 }
 
-StructuredLight::Fringe StructuredLight::fringe(std::size_t pixel) const {
-  const Lit& l = lit_[pixel];
-  const double white = gain_ * l.reflected / (l.distance * l.distance);
-  const double ambient = setup_.imager.ambient * diffuse_share(surfaces_.of(view_.line[pixel]));
-  return {ambient + white * fringes_.mean(), white * fringes_.amplitude() * footprint(pixel)};
+double StructuredLight::ambient(const Pixel& pixel) const {
+  return setup_.imager.ambient * diffuse_share(surfaces_.of(view_.line[pixel.index]));
 }
 
-double StructuredLight::depth_sigma(std::size_t pixel) const {
-  if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
+StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {
+  const double white = gain_ * pixel.lit.reflected / (pixel.lit.distance * pixel.lit.distance);
+  return {ambient(pixel) + white * fringes_.mean(), white * fringes_.amplitude() * footprint(pixel)};
+}
+
+double StructuredLight::depth_sigma(std::size_t index) const {
+  return depth_sigma(lit({index}).front());
+}
+
+double StructuredLight::depth_sigma(const Pixel& pixel) const {
+  if (pixel.lit.code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const Fringe f = fringe(pixel);
-  return triangulation_.depth_per_column(rays_[pixel], view_.depth[pixel]) *
+  return triangulation_.depth_per_column(pixel.ray, view_.depth[pixel.index]) *
          fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
 }
 
-/// Whether a neighbour lies off the plane of this pixel's face by more than an edge.
-bool StructuredLight::near_edge(std::size_t pixel) const {
-  const int width = view_.lens.width, x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
-  const auto& n = view_.normal[pixel];
-  const Vec3 normal(n[0], n[1], n[2]), direction = rays_[pixel];
-  const double plane = view_.depth[pixel] * normal.dot(direction);
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int u = x + dx, v = y + dy;
-      if (u < 0 || v < 0 || u >= width || v >= view_.lens.height) continue;
-      const double there = view_.depth[static_cast<std::size_t>(v) * width + u];
-      const Vec3 next = direction + Vec3(dx / view_.lens.fx, dy / view_.lens.fy, 0.0);
-      if (!(std::abs(there - plane / normal.dot(next)) < setup_.settings.edge_step)) return true;
-    }
-  }
-  return false;
+/// Whether the faces beside a pixel's own one matter. Its samples lie a quarter of a pixel from its centre and see
+/// about a quarter of the step to a neighbour; noise of twice that hides it.
+bool StructuredLight::is_uneven(const Pixel& pixel) const {
+  const double step = step_beside(pixel);
+  return step >= setup_.settings.edge_step || (step > least_step && step > 2.0 * depth_sigma(pixel));
 }
 
-void StructuredLight::sample(const std::vector<std::size_t>& pixels, Samples& out) const {
+/// By how much a neighbour lies off the plane of this pixel's face (m); infinite where a neighbour sees nothing.
+double StructuredLight::step_beside(const Pixel& pixel) const {
+  const int width = view_.lens.width, x = static_cast<int>(pixel.index) % width,
+            y = static_cast<int>(pixel.index) / width;
+  const auto& n = view_.normal[pixel.index];
+  const Vec3 normal(n[0], n[1], n[2]), direction = pixel.ray;
+  const double plane = view_.depth[pixel.index] * normal.dot(direction);
+  double largest = 0.0;
+  for (int v = std::max(0, y - 1); v <= std::min(y + 1, view_.lens.height - 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(x + 1, width - 1); ++u) {
+      const double there = view_.depth[static_cast<std::size_t>(v) * width + u];
+      if (std::isnan(there)) return std::numeric_limits<double>::infinity();
+      const Vec3 next = direction + Vec3((u - x) / view_.lens.fx, (v - y) / view_.lens.fy, 0.0);
+      largest = std::max(largest, std::abs(there - plane / normal.dot(next)));
+    }
+  }
+  return largest;
+}
+
+void StructuredLight::sample(const std::vector<Pixel>& pixels, Samples& out) const {
   constexpr int n = Samples::per_pixel;
   out.rays.resize(n * pixels.size());
   out.hits.resize(out.rays.size());
@@ -93,7 +141,7 @@ void StructuredLight::sample(const std::vector<std::size_t>& pixels, Samples& ou
   out.lit.resize(out.rays.size());
   out.mixed.assign(pixels.size(), 0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Vec3 middle = rays_[pixels[i]];
+    const Vec3 middle = pixels[i].ray;
     for (int k = 0; k < n; ++k) {
       const Vec3 offset((k & 1 ? 0.25 : -0.25) / view_.lens.fx, (k & 2 ? 0.25 : -0.25) / view_.lens.fy, 0.0);
       out.rays[n * i + k] = {view_.pose.position, turn_ * (middle + offset), setup_.near, setup_.far};
@@ -101,7 +149,7 @@ void StructuredLight::sample(const std::vector<std::size_t>& pixels, Samples& ou
   }
   scenery_.first_hits(out.rays.data(), out.hits.data(), out.rays.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const SeenPoint middle = seen(pixels[i]);
+    const SeenPoint middle = seen(pixels[i].index, pixels[i].ray);
     const double plane = middle.normal.dot(middle.position - view_.pose.position);
     for (int k = 0; k < n; ++k) {
       const Ray& ray = out.rays[n * i + k];
@@ -116,62 +164,72 @@ void StructuredLight::sample(const std::vector<std::size_t>& pixels, Samples& ou
         out.lit.data(), out.points.size());
 }
 
-/// Column that the fringes of a pixel's four samples add up to, as a phase near that of the brightest.
-double StructuredLight::mixed_column(const Lit* lit) const {
+/// What the fringes of a pixel's four samples add up to. The column is the one that their common phase names nearest to
+/// the brightest of them.
+StructuredLight::Reading StructuredLight::summed(const Pixel& pixel, const Lit* samples) const {
   const auto signal = [](const Lit& l) {
     return l.code == Validity::valid ? l.reflected / (l.distance * l.distance) : 0.0;
   };
-  const Lit* const brightest = std::max_element(lit, lit + Samples::per_pixel,
+  const Lit* const brightest = std::max_element(samples, samples + Samples::per_pixel,
                                                 [&](const Lit& a, const Lit& b) { return signal(a) < signal(b); });
-  double sine = 0.0, cosine = 0.0;
+  double sine = 0.0, cosine = 0.0, white = 0.0;
   const double turn = 2.0 * M_PI / setup_.settings.period;
   for (int k = 0; k < Samples::per_pixel; ++k) {
-    sine += signal(lit[k]) * std::sin(turn * (lit[k].column - brightest->column));
-    cosine += signal(lit[k]) * std::cos(turn * (lit[k].column - brightest->column));
+    const double s = gain_ * signal(samples[k]) / Samples::per_pixel;
+    sine += s * std::sin(turn * (samples[k].column - brightest->column));
+    cosine += s * std::cos(turn * (samples[k].column - brightest->column));
+    white += s;
   }
-  return brightest->column + std::atan2(sine, cosine) / turn;
+  return {brightest->column + std::atan2(sine, cosine) / turn,
+          {ambient(pixel) + white * fringes_.mean(), fringes_.amplitude() * std::hypot(sine, cosine)}};
 }
 
-void StructuredLight::deliver(Measurement& out, std::size_t pixel, double column) const {
-  const double z = triangulation_.depth(rays_[pixel], column);
+void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double column) const {
+  const double z = triangulation_.depth(pixel.ray, column);
   const bool good = z >= setup_.near && z <= setup_.far;
-  out.validity[pixel] = good ? Validity::valid : Validity::decoding;
-  if (good) out.depth[pixel] = z;
+  out.validity[pixel.index] = good ? Validity::valid : Validity::decoding;
+  if (good) out.depth[pixel.index] = z;
 }
 
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
-  const auto width = static_cast<std::size_t>(view_.lens.width);
   const bool keep = setup_.settings.mixed == MixedPixels::keep;
   in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
-    std::vector<std::size_t> edges;
-    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-      if (lit_[i].code == Validity::valid && near_edge(i)) edges.push_back(i);
+    const std::vector<Pixel> pixels = lit_row(row);
+    const auto lit = [&](std::size_t x) { return x >= pixels.size() || pixels[x].lit.code == Validity::valid; };
+    // Where a pixel sees more than one face, or half a shadow, its samples tell what comes of it.
+    std::vector<Pixel> uneven;
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      if (!lit(x)) continue;
+      if (!lit(x - 1) || !lit(x + 1) || is_uneven(pixels[x])) uneven.push_back(pixels[x]);
     }
     Samples samples;
-    sample(edges, samples);
+    sample(uneven, samples);
 
     Random draw = random.of_piece(row);
-    std::size_t next = 0;  // of the edges
-    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-      const std::size_t edge = next < edges.size() && edges[next] == i ? next++ : edges.size();
-      out.validity[i] = lit_[i].code;
-      if (lit_[i].code != Validity::valid) continue;
+    std::size_t next = 0;  // of the uneven ones
+    for (const Pixel& pixel : pixels) {
+      const std::size_t i = pixel.index;
+      out.validity[i] = pixel.lit.code;
+      if (pixel.lit.code != Validity::valid) continue;
+      const bool sampled = next < uneven.size() && uneven[next].index == i;
+      const bool mixed = sampled && samples.mixed[next];
+      const Reading reading =
+          sampled ? summed(pixel, &samples.lit[Samples::per_pixel * next]) : Reading{pixel.lit.column, fringe(pixel)};
+      next += sampled;
       double of_phase = 0.0, of_amplitude = 0.0;
       if (setup_.noise) draw.normals(of_phase, of_amplitude);
-      const Fringe f = fringe(i);
+      const Fringe& f = reading.fringe;
       const double sigma = std::sqrt(imager_.variance(f.mean));
       out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
-      const bool mixed = edge < edges.size() && samples.mixed[edge];
       if (mixed && !keep) {
         out.validity[i] = Validity::mixed;
-      } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(lit_[i].column))) {
+      } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(reading.column))) {
         out.validity[i] = Validity::saturated;
       } else if (f.amplitude + fringes_.amplitude_sigma(sigma) * of_amplitude < setup_.settings.min_modulation) {
         out.validity[i] = Validity::dark;
       } else {
-        const double column = mixed ? mixed_column(&samples.lit[Samples::per_pixel * edge]) : lit_[i].column;
-        deliver(out, i, column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);
+        deliver(out, pixel, reading.column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);
       }
     }
   });

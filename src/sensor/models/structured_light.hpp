@@ -37,18 +37,34 @@ class StructuredLight {
   double depth_sigma(std::size_t pixel) const;
 
  private:
-  struct Fringe {
-    double mean, amplitude;  ///< A and B
+  /// A pixel of the camera and the light that falls on what its centre sees.
+  struct Pixel {
+    std::size_t index;  ///< in the image, row-major
+    Vec3 ray;           ///< through its centre, camera frame, z = 1
+    Lit lit;
   };
-  struct Samples;  ///< the sub-rays of a row
+  struct Fringe {
+    double mean, amplitude;  ///< A and B, shares of the full well
+  };
+  struct Samples;  ///< four rays through each of several pixels
+  struct Reading {
+    double column;  ///< of the projector, without noise
+    Fringe fringe;
+  };
 
-  SeenPoint seen(std::size_t pixel) const;
-  Fringe fringe(std::size_t pixel) const;
-  double footprint(std::size_t pixel) const;
-  bool near_edge(std::size_t pixel) const;
-  void sample(const std::vector<std::size_t>& pixels, Samples& samples) const;
-  void deliver(Measurement& out, std::size_t pixel, double column) const;
-  double mixed_column(const Lit* lit) const;
+  std::vector<Pixel> lit(std::vector<std::size_t> indices) const;
+  std::vector<Pixel> lit_row(std::size_t row) const;
+  double gain() const;
+  SeenPoint seen(std::size_t index, const Vec3& ray) const;
+  double ambient(const Pixel& pixel) const;
+  Fringe fringe(const Pixel& pixel) const;
+  double depth_sigma(const Pixel& pixel) const;
+  double footprint(const Pixel& pixel) const;
+  bool is_uneven(const Pixel& pixel) const;
+  double step_beside(const Pixel& pixel) const;
+  void sample(const std::vector<Pixel>& pixels, Samples& samples) const;
+  Reading summed(const Pixel& pixel, const Lit* samples) const;
+  void deliver(Measurement& out, const Pixel& pixel, double column) const;
 
   const Scenery& scenery_;
   const View& view_;
@@ -57,10 +73,8 @@ class StructuredLight {
   Fringes fringes_;
   Imager imager_;
   Triangulation triangulation_;
-  Mat3 turn_;               ///< of the camera
-  std::vector<Vec3> rays_;  ///< of every pixel's centre, camera frame, z = 1
-  std::vector<Lit> lit_;    ///< of every pixel's centre
-  double gain_ = 0.0;       ///< signal of the projector's white = gain * reflected / distance^2
+  Mat3 turn_;          ///< of the camera
+  double gain_ = 0.0;  ///< signal of the projector's white = gain * reflected / distance^2
 };
 
 }  // namespace bin_scenes

@@ -9,14 +9,13 @@ namespace bin_scenes {
 
 Measurement StructuredLight::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
-  const auto width = static_cast<std::size_t>(view_.lens.width);
   const bool keep = setup_.settings.mixed == MixedPixels::keep;
   constexpr int n = Samples::per_pixel;
   in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
-    std::vector<std::size_t> pixels;
-    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-      out.validity[i] = lit_[i].code;
-      if (lit_[i].code == Validity::valid) pixels.push_back(i);
+    std::vector<Pixel> pixels;
+    for (const Pixel& pixel : lit_row(row)) {
+      out.validity[pixel.index] = pixel.lit.code;
+      if (pixel.lit.code == Validity::valid) pixels.push_back(pixel);
     }
     Samples samples;
     sample(pixels, samples);
@@ -37,7 +36,7 @@ Measurement StructuredLight::decoded(const Random& random) const {
       }
       imager_.expose(images.data(), images.size(), draw);
 
-      const std::size_t i = pixels[p];
+      const std::size_t i = pixels[p].index;
       const auto shifts = images.begin() + setup_.settings.steps;
       out.intensity[i] = std::accumulate(images.begin(), shifts, 0.0f) / static_cast<float>(setup_.settings.steps);
       const Fringes::Reading reading = fringes_.read(images.data());
@@ -50,7 +49,7 @@ Measurement StructuredLight::decoded(const Random& random) const {
       } else if (std::isnan(reading.column)) {
         out.validity[i] = Validity::decoding;
       } else {
-        deliver(out, i, reading.column);
+        deliver(out, pixels[p], reading.column);
       }
     }
   });

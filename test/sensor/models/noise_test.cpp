@@ -74,6 +74,9 @@ TEST(TimeOfFlightNoise, IsThatOfThePaper) {
   EXPECT_NEAR(axial_sigma(s, 2.0, 0.0, s.albedo), 0.0012 + 0.0019 * 2.56, 1e-12);
   EXPECT_NEAR(axial_sigma(s, 1.0, M_PI / 3, s.albedo) - axial_sigma(s, 1.0, 0.0, s.albedo), 0.0001 * 4.0, 1e-12);
   EXPECT_NEAR(lateral_sigma(s, M_PI / 4), 0.8 + 0.035, 1e-12);
+  const double steep = 80.0 * M_PI / 180.0;
+  EXPECT_EQ(axial_sigma(s, 1.0, 0.5 * M_PI, s.albedo), axial_sigma(s, 1.0, steep, s.albedo)) << "measured up to 80";
+  EXPECT_LT(axial_sigma(s, 1.0, steep, s.albedo), 0.01);
   EXPECT_NEAR(axial_sigma(s, 1.0, 0.0, s.albedo / 4) / axial_sigma(s, 1.0, 0.0, s.albedo), 2.0, 1e-12);
 }
 
