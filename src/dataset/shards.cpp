@@ -16,7 +16,7 @@
 namespace bin_scenes {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
 
@@ -49,7 +49,7 @@ void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t s
   }
   Temporary tar(folder.shard(shard).string());
   const auto places = write_tar(tar.path(), files);
-  Json offsets = Json::object();
+  OrderedJson offsets = OrderedJson::object();
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::size_t dot = files[i].first.find('.');
     offsets[files[i].first.substr(0, dot)][files[i].first.substr(dot + 1)] = {places[i].first, places[i].second};
@@ -107,11 +107,11 @@ std::vector<std::pair<std::size_t, std::size_t>> write_tar(const std::string& pa
 
 void pack_shards(const DataFolder& folder, const DataSetFacts& facts) {
   make_directory(folder.shards());
-  Json key_to_shard = Json::object();
+  OrderedJson key_to_shard = OrderedJson::object();
   for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
     stop_if_cancelled();
     if (!fs::exists(folder.shard(shard))) pack_one(folder, facts, shard);
-    const Json offsets = Json::parse(read_file(offsets_path(folder, shard)));
+    const OrderedJson offsets = OrderedJson::parse(read_file(offsets_path(folder, shard)));
     for (const auto& [key, files] : offsets.items()) key_to_shard[key] = shard;
   }
   write_text((folder.shards() / "key_to_shard.json").string(), key_to_shard.dump() + "\n");

@@ -22,11 +22,11 @@ void read_some(png_structp png, png_bytep to, png_size_t size) {
   std::memcpy(to, source.bytes->data() + source.at, size);
   source.at += size;
 }
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+[[noreturn]] void on_read_error(png_structp png, png_const_charp message) {
   throw input_error(std::string("is no whole PNG: ") + message, *static_cast<std::string*>(png_get_error_ptr(png)),
                     "make the scene anew");
 }
-void on_warning(png_structp, png_const_charp) {}
+void on_read_warning(png_structp, png_const_charp) {}
 
 }  // namespace
 
@@ -39,7 +39,7 @@ PngImage read_png(const std::string& path) {
     png_infop info = nullptr;
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
   } reader;
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, on_error, on_warning);
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, on_read_error, on_read_warning);
   reader.info = png_create_info_struct(reader.png);
   png_set_read_fn(reader.png, &source, read_some);
   png_read_info(reader.png, reader.info);

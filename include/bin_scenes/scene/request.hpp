@@ -76,7 +76,7 @@ struct Pour {
     pressed,  ///< stiff contacts take the overlap out
     probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
   };
-  Finish finish = Finish::pressed;
+  Finish finish = Finish::probed;
   double drop_height = 0.02;     ///< m, rain: free fall of a part's lowest point onto the heap; higher = harder impacts
   double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
   std::string scene;             ///< given: path of a scene.json to continue from
