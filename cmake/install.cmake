@@ -14,4 +14,5 @@ install(DIRECTORY python/bin_scenes_data DESTINATION ${share}/python FILES_MATCH
 install(FILES LICENSE DESTINATION ${share})
 if(BIN_SCENES_ROS)
   install(DIRECTORY launch DESTINATION ${share})
+  install(FILES nodelet_plugins.xml DESTINATION ${share})
 endif()

@@ -35,6 +35,7 @@ else()
   include(CMakePackageConfigHelpers)
   configure_file(cmake/bin_scenes-extras.cmake ${development}/bin_scenesConfig.cmake COPYONLY)
   write_basic_package_version_file(${development}/bin_scenesConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  #catkin_lint: ignore_once missing_file wrong_install_destination
   install(FILES ${development}/bin_scenesConfig.cmake ${development}/bin_scenesConfigVersion.cmake
     DESTINATION ${package})
 endif()

@@ -16,17 +16,19 @@ if(EXISTS /usr/bin/python3)
 endif()
 
 find_package(catkin REQUIRED COMPONENTS
-  geometry_msgs message_generation rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs
-  visualization_msgs)
+  actionlib actionlib_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet
+  rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
 
 add_message_files(FILES
   Bin.msg Counter.msg Drift.msg Energy.msg ErrorCode.msg Flag.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
   ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg)
-add_service_files(FILES GenerateScene.srv)
-generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+add_service_files(FILES AddParts.srv GenerateScene.srv PickPart.srv)
+add_action_files(FILES GenerateScene.action)
+generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)
+generate_dynamic_reconfigure_options(cfg/BinScenes.cfg)
 
 # The library (cmake/library.cmake) and the messages; bin_scenes-extras.cmake adds the target bin_scenes::bin_scenes.
-catkin_package(INCLUDE_DIRS include LIBRARIES bin_scenes CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
+catkin_package(INCLUDE_DIRS include LIBRARIES bin_scenes CATKIN_DEPENDS actionlib_msgs geometry_msgs message_runtime std_msgs
   DEPENDS EIGEN3 CFG_EXTRAS bin_scenes-extras.cmake)
 
 # catkin gives its include path and definitions to every target of the project. Only those of src/ros and test/ros take
@@ -40,3 +42,10 @@ set_directory_properties(PROPERTIES COMPILE_DEFINITIONS "" INCLUDE_DIRECTORIES "
 unset(CMAKE_ARCHIVE_OUTPUT_DIRECTORY)
 unset(CMAKE_LIBRARY_OUTPUT_DIRECTORY)
 unset(CMAKE_RUNTIME_OUTPUT_DIRECTORY)
+
+# rosrun looks for programs below the package, but never in a folder `build` there, where this development space lies
+# unless it belongs to a workspace. It finds them through a link beside it.
+string(FIND "${CATKIN_DEVEL_PREFIX}/" "${PROJECT_SOURCE_DIR}/build/" inside_build)
+if(inside_build EQUAL 0)
+  file(CREATE_LINK ${CATKIN_DEVEL_PREFIX} ${PROJECT_SOURCE_DIR}/devel SYMBOLIC)
+endif()

@@ -50,8 +50,13 @@ fs::path find_below(const fs::path& directory, const std::string& package, int d
 }
 
 fs::path find_package(const std::string& package, const PathRules& rules, const std::string& where) {
-  for (const auto& [name, directory] : rules.packages) {
-    if (name == package) return directory;
+  if (rules.find_package) {
+    const std::string folder = rules.find_package(package);
+    if (folder.empty()) {
+      throw input_error("rospack finds no package '" + package + "'", where,
+                        "source the workspace that has it before the node starts, or write a path");
+    }
+    return folder;
   }
   const char* variable = std::getenv("ROS_PACKAGE_PATH");
   std::vector<fs::path> roots;
@@ -74,6 +79,33 @@ fs::path find_package(const std::string& package, const PathRules& rules, const 
 bool lies_in(const fs::path& path, const fs::path& root) {
   const auto [mismatch, ignored] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
   return mismatch == root.end() || (std::next(mismatch) == root.end() && mismatch->empty());  // a trailing slash
+}
+
+/// Whether `real`, without symbolic links, lies in one of the roots.
+bool allowed(const fs::path& real, const PathRules& rules) {
+  return rules.roots.empty() || std::any_of(rules.roots.begin(), rules.roots.end(), [&](const std::string& root) {
+           std::error_code ignored;
+           return lies_in(real, fs::weakly_canonical(root, ignored));
+         });
+}
+
+/// A relative path is of the file that it is written in; if nothing is there, of the first root that has it.
+fs::path located(const fs::path& relative, const std::string& base, const PathRules& rules) {
+  const auto usable = [&](const fs::path& path) {
+    std::error_code ignored;  // outside the roots not even the existence of a file decides anything
+    return allowed(fs::weakly_canonical(path, ignored), rules) && fs::exists(path, ignored);
+  };
+  const fs::path beside = fs::path(base) / relative;
+  if (usable(beside)) return beside;
+  for (const std::string& root : rules.roots)
+    if (usable(fs::path(root) / relative)) return fs::path(root) / relative;
+  return beside;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
 }
 
 std::string similar_file(const fs::path& path) {
@@ -100,7 +132,7 @@ std::string resolve_file(const std::string& written, const std::string& base, co
     }
     path = find_package(rest.substr(0, slash), rules, where) / rest.substr(slash + 1);
   } else if (path.is_relative()) {
-    path = fs::path(base) / path;
+    path = located(path, base, rules);
   }
   path = fs::absolute(path).lexically_normal();
 
@@ -108,21 +140,18 @@ std::string resolve_file(const std::string& written, const std::string& base, co
   std::error_code error;
   const fs::path real = fs::weakly_canonical(path, error);
   if (error) throw input_error("cannot follow '" + path.string() + "': " + error.message(), where, "check the path");
-  if (!rules.roots.empty()) {
-    const bool allowed = std::any_of(rules.roots.begin(), rules.roots.end(), [&](const std::string& root) {
-      std::error_code ignored;
-      return lies_in(real, fs::weakly_canonical(root, ignored));
-    });
-    if (!allowed) {
-      throw input_error("'" + written + "' lies outside the allowed directories", where,
-                        "move it there, or allow its directory");
-    }
+  if (!allowed(real, rules)) {
+    throw input_error("'" + written + "' lies outside of " + rules.roots_name + " (" + joined(rules.roots) + ")", where,
+                      "move it there, or add its folder to " + rules.roots_name);
   }
   if (!fs::exists(real, error)) {
     const std::string similar = similar_file(path);
     throw input_error(
         "there is no file '" + path.string() + "'", where,
-        similar.empty() ? "relative paths start at the request's directory" : "did you mean '" + similar + "'?");
+        !similar.empty()        ? "did you mean '" + similar + "'?"
+        : rules.roots.empty() ? "relative paths start at the request's directory"
+                              : "relative paths start at the request file's folder or at one of " + rules.roots_name +
+                                    " (" + joined(rules.roots) + ")");
   }
   if (!fs::is_regular_file(real, error)) {
     throw input_error("'" + path.string() + "' is not a file", where, "name a file");

@@ -7,9 +7,9 @@
 
 namespace bin_scenes::config {
 
-/// Absolute path of `written`: relative to `base`, absolute, or package://name/path (PathRules::packages, then
-/// ROS_PACKAGE_PATH). The file must exist, be readable and, symbolic links resolved, lie in one of rules.roots.
-/// Throws an input Error with `where`.
+/// Absolute path of `written`: relative to `base` or else to one of rules.roots, absolute, or package://name/path. The
+/// file must exist, be readable and, symbolic links resolved, lie in one of rules.roots. Throws an input Error with
+/// `where`.
 std::string resolve_file(const std::string& written, const std::string& base, const PathRules& rules,
                          const std::string& where);
 

@@ -201,6 +201,30 @@ Heap Generator::heap(const Request& request, const RunHooks& hooks) {
   return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
 }
 
+std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<PartLine>& lines, const RunHooks& hooks) {
+  const CancelScope scope(hooks.cancel);
+  Request all = heap.request();
+  for (const PartLine& line : lines) {
+    Request alone = heap.request();
+    alone.parts = {line};
+    alone.pour.pattern = line.poses.empty() || line.fixed ? Pour::Pattern::rain : Pour::Pattern::given;
+    check(alone);
+    all.parts.push_back(line);
+  }
+  Request counted = heap.request();  // the limits of counts hold for all together
+  counted.parts = {PartLine()};
+  counted.parts[0].model = "all";
+  counted.parts[0].count = all.part_count();
+  counted.pour.pattern = Pour::Pattern::rain;
+  check(counted);
+  Reporter reporter(hooks, 1);
+  state_->load(all, reporter);
+  std::vector<NewParts> parts;
+  const std::size_t before = all.parts.size() - lines.size();
+  for (std::size_t i = 0; i < lines.size(); ++i) parts.push_back({lines[i], state_->models.parts()[before + i]});
+  return parts;
+}
+
 Generator::Result Generator::result(const Heap& heap, const Options& options) {
   const CancelScope scope(options.hooks.cancel);
   const Request& request = heap.request();

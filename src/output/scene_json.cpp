@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/scene/sensor_name.hpp"
 #include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
@@ -49,7 +50,7 @@ Json json_of(const Bin& bin) {
 
 Json json_of(const Sensor& sensor) {
   Json json = {{"name", sensor.name},
-               {"frame", sensor.name + "_optical_frame"},
+               {"frame", graph_name(sensor.name) + "_optical_frame"},
                {"model", name_of(sensor.model)},
                {"preset", sensor.preset},
                {"pose", json_of(sensor.pose.value_or(Pose()))},

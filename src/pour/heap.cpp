@@ -6,6 +6,7 @@
 #include "bin_scenes/core/error.hpp"
 
 #include <chrono>
+#include <cmath>
 
 namespace bin_scenes {
 
@@ -18,7 +19,13 @@ struct Heap::State {
 
   State(std::shared_ptr<const PourPlan> plan, std::shared_ptr<Solver> with, std::string reason, std::size_t index)
       : solver(std::move(with)), solver_reason(std::move(reason)), core(std::move(plan), *solver, index) {}
+
+  void check_ids(const std::vector<int>& ids) const;
 };
+
+namespace {
+constexpr double longest_lift = 10.0;  ///< m
+}
 
 Heap::Heap(const Request& request, const std::vector<PartModelPtr>& parts, std::shared_ptr<Solver> solver,
            std::size_t index, PartModelPtr bin_model, std::string solver_reason)
@@ -45,12 +52,31 @@ std::vector<int> Heap::add(const std::vector<NewParts>& lines) {
   return ids;
 }
 
-void Heap::remove(const std::vector<int>& ids) {
+void Heap::State::check_ids(const std::vector<int>& ids) const {
   for (const int id : ids)
-    if (!state_->core.has(id))
+    if (!core.has(id))
       throw input_error("there is no part " + std::to_string(id) + " in the heap", "ids",
                         "name parts whose state is neither not_poured nor removed");
+}
+
+void Heap::remove(const std::vector<int>& ids) {
+  state_->check_ids(ids);
   for (const int id : ids) state_->core.remove(static_cast<std::size_t>(id));
+}
+
+void Heap::lift(const std::vector<int>& ids, const Vec3& direction, double distance, const RunHooks& hooks) {
+  state_->check_ids(ids);
+  const double length = direction.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) throw input_error("is no direction", "lift", "for instance [0, 0, 1]");
+  if (!(distance >= 0.0 && distance <= longest_lift))
+    throw input_error("the distance is " + std::to_string(distance) + " m", "lift", "give 0 to 10 m");
+  const CancelScope scope(hooks.cancel);
+  try {
+    state_->core.lift({ids.begin(), ids.end()}, direction / length, distance, hooks);
+  } catch (...) {
+    state_->core.recover();
+    throw;
+  }
 }
 
 void Heap::set_gravity(const Vec3& gravity) {

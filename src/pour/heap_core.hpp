@@ -27,6 +27,8 @@ class HeapCore final : private HeapView {
   void extend(std::shared_ptr<const PourPlan> plan);
   void remove(std::size_t body);
   void set_gravity(const Vec3& gravity);
+  /// Moves bodies along a unit vector at a set speed, and simulates all others meanwhile.
+  void lift(const std::vector<std::size_t>& bodies, const Vec3& direction, double distance, const RunHooks& hooks);
   /// After a cancelled step: makes a new world with the states of the last look and settles it again.
   void recover();
 

@@ -1,5 +1,7 @@
 #include "frames.hpp"
 
+#include "bin_scenes/scene/sensor_name.hpp"
+
 #include <geometry_msgs/TransformStamped.h>
 
 #include <cstdio>
@@ -23,20 +25,14 @@ geometry_msgs::TransformStamped transform(const std::string& parent, const std::
 
 }  // namespace
 
-std::string part_frame(int id) {
+std::string part_frame(int id, const std::string& prefix) {
   char name[32];
   std::snprintf(name, sizeof name, "part_%04d", id);
-  return name;
+  return prefix + name;
 }
 
-std::string sensor_frame(const std::string& sensor) {
-  return sensor + "_optical_frame";
-}
-std::string projector_frame(const std::string& sensor) {
-  return sensor + "_projector_optical_frame";
-}
-std::string laser_frame(const std::string& sensor) {
-  return sensor + "_laser_frame";
+std::string sensor_frame(const std::string& sensor, const std::string& prefix) {
+  return prefix + graph_name(sensor) + "_optical_frame";
 }
 
 geometry_msgs::Pose pose_message(const Pose& pose) {
@@ -63,7 +59,7 @@ tf2_msgs::TFMessage part_transforms(const Scene& scene, const Frames& frames, co
   tf2_msgs::TFMessage message;
   for (const ScenePart& part : scene.parts) {
     if (!part.pose.finite()) continue;  // tf2 refuses NaN; such a part is listed in the scene message
-    message.transforms.push_back(transform(frames.bin, part_frame(part.id), part.pose, stamp));
+    message.transforms.push_back(transform(frames.bin, part_frame(part.id, frames.prefix), part.pose, stamp));
   }
   return message;
 }
@@ -75,14 +71,13 @@ tf2_msgs::TFMessage static_transforms(const Scene& scene, const Frames& frames, 
   }
   for (const Sensor& sensor : scene.sensors) {
     if (!sensor.pose) continue;
-    message.transforms.push_back(transform(frames.bin, sensor_frame(sensor.name), *sensor.pose, stamp));
+    const auto place = [&](const std::string& frame, const Pose& pose) {
+      message.transforms.push_back(transform(frames.bin, frames.prefix + graph_name(sensor.name) + frame, pose, stamp));
+    };
+    place("_optical_frame", *sensor.pose);
     const bool projects = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
-    if (projects && sensor.projector.pose) {
-      message.transforms.push_back(transform(frames.bin, projector_frame(sensor.name), *sensor.projector.pose, stamp));
-    }
-    if (sensor.model == SensorModel::laser_line && sensor.laser.pose) {
-      message.transforms.push_back(transform(frames.bin, laser_frame(sensor.name), *sensor.laser.pose, stamp));
-    }
+    if (projects && sensor.projector.pose) place("_projector_optical_frame", *sensor.projector.pose);
+    if (sensor.model == SensorModel::laser_line && sensor.laser.pose) place("_laser_frame", *sensor.laser.pose);
   }
   return message;
 }

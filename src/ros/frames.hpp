@@ -15,12 +15,12 @@ struct Frames {
   std::string bin = "bin";       ///< frame of the bin: middle of the floor's top, z up
   std::string parent = "world";  ///< frame the bin stands in; empty: the bin frame is the root
   Pose bin_pose;                 ///< of the bin frame in `parent`
+  std::string prefix;            ///< of the frames of parts and sensors, "left/": tells several bins apart
 };
 
-std::string part_frame(int id);                       ///< "part_0007"
-std::string sensor_frame(const std::string& sensor);     ///< "<name>_optical_frame"
-std::string projector_frame(const std::string& sensor);  ///< "<name>_projector_optical_frame"
-std::string laser_frame(const std::string& sensor);      ///< "<name>_laser_frame"
+std::string part_frame(int id, const std::string& prefix = "");  ///< "part_0007"
+/// "<name>_optical_frame", the name as graph_name() spells it.
+std::string sensor_frame(const std::string& sensor, const std::string& prefix = "");
 
 geometry_msgs::Pose pose_message(const Pose& pose);
 /// The inverse. A quaternion of four zeros, the default of a message, is the identity.

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "frames.hpp"
+#include "markers.hpp"
 
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
@@ -106,6 +107,23 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   return message;
 }
 
+sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const std_msgs::Header& header) {
+  sensor_msgs::PointCloud2 plain = cloud_message(image, header), message = plain;
+  message.fields.push_back(field("rgb", plain.point_step, sensor_msgs::PointField::FLOAT32));
+  message.point_step += sizeof(std::uint32_t);
+  message.row_step = message.point_step * message.width;
+  message.data.resize(std::size_t(message.row_step) * message.height);
+  const auto byte = [](float share) { return static_cast<std::uint32_t>(std::lround(255.0f * share)); };
+  for (std::size_t pixel = 0; pixel < image.label.size(); ++pixel) {
+    const std_msgs::ColorRGBA color = image.label[pixel] > 0 ? part_color(image.label[pixel] - 1) : bin_color();
+    const std::uint32_t rgb = byte(color.r) << 16 | byte(color.g) << 8 | byte(color.b);
+    std::uint8_t* out = message.data.data() + pixel * message.point_step;
+    std::memcpy(out, plain.data.data() + pixel * plain.point_step, plain.point_step);
+    std::memcpy(out + plain.point_step, &rgb, sizeof rgb);
+  }
+  return message;
+}
+
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header) {
   const bool distorts = of_camera(image) && lens_of(image.sensor).distorts();
   return plane(distorts ? rectified(image) : image.depth, image, sensor_msgs::image_encodings::TYPE_32FC1, header);
@@ -138,10 +156,10 @@ sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs
   return message;
 }
 
-ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp) {
+ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, const std::string& frame_prefix) {
   std_msgs::Header header;
   header.stamp = stamp;
-  header.frame_id = sensor_frame(image.sensor.name);
+  header.frame_id = sensor_frame(image.sensor.name, frame_prefix);
   return {cloud_message(image, header), depth_message(image, header), camera_info_message(image.sensor, header),
           label_message(image, header), validity_message(image, header)};
 }

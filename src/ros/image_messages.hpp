@@ -19,11 +19,14 @@ struct ImageMessages {
   sensor_msgs::Image validity;
 };
 
-ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp);
+ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, const std::string& frame_prefix = "");
 
 /// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity (float32) label (uint32);
 /// NaN where nothing was seen (REP 117), hence not dense.
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header);
+/// The same with a field `rgb` (float32 that holds 0x00rrggbb, as PCL and RViz read it): each part in the colour of its
+/// marker, the bin in grey.
+sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const std_msgs::Header& header);
 /// 32FC1, metres along the optical axis, NaN where nothing is valid (REP 118). Of a lens that distorts, rectified: each
 /// pixel has the depth of the nearest one of the image as taken.
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header);

@@ -3,9 +3,10 @@
 
 #include "latched.hpp"
 
+#include <boost/make_shared.hpp>
 #include <ros/advertise_options.h>
-#include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
 
 #include <functional>
 #include <optional>
@@ -13,16 +14,23 @@
 
 namespace bin_scenes {
 
+struct LazyTopicOptions {
+  ros::NodeHandle node;
+  std::string name;
+  std::function<void()> connected;  ///< somebody has subscribed; called in the queue of `node`, answered by show()
+  /// Subscribers of the same process get the message itself. roscpp writes out every message of a topic that it latches
+  /// (TopicManager::publish), so that this topic keeps the last one for later subscribers itself.
+  bool in_process = false;
+};
+
 /// A plain latched publisher would hand the message of an older scene to the first subscriber of a newer one that
 /// nobody has looked at yet. This one forgets it.
 template <class Message>
 class LazyTopic {
  public:
-  /// `make` gives the message of the present state, or none; called in `queue`'s thread only, where renew() has to be
-  /// called too.
-  LazyTopic(ros::NodeHandle node, std::string name, ros::CallbackQueueInterface* queue,
-            std::function<std::optional<Message>()> make)
-      : node_(std::move(node)), name_(std::move(name)), queue_(queue), make_(std::move(make)) {
+  /// `make` gives the message of the present state, or none. The caller sees to it that one thread at a time is here.
+  LazyTopic(LazyTopicOptions options, std::function<std::optional<Message>()> make)
+      : options_(std::move(options)), make_(std::move(make)) {
     advertise();
   }
   LazyTopic(const LazyTopic&) = delete;
@@ -30,42 +38,40 @@ class LazyTopic {
 
   bool wanted() const { return publisher_.getNumSubscribers() > 0; }
 
-  /// There is something new to say: says it to those who listen, or else waits until somebody does.
+  /// There is something new to say, or nothing any more: says it to those who listen, else waits until somebody does.
   void renew() {
-    const bool stale = published_;
-    published_ = false;
-    if (wanted()) {
-      publish();
-    } else if (stale) {
-      publisher_.shutdown();
-      advertise();
-    }
+    const bool stale = last_ != nullptr;
+    last_.reset();
+    show();
+    if (!stale || last_ || options_.in_process) return;
+    publisher_.shutdown();  // the only way to make roscpp forget what it keeps for later subscribers
+    advertise();
+  }
+  /// Publishes what has not been published yet, if somebody listens.
+  void show() {
+    if (last_ || !wanted()) return;
+    std::optional<Message> message = make_();
+    if (!message) return;
+    last_ = boost::make_shared<Message>(std::move(*message));
+    publish_latched(publisher_, last_);
   }
 
  private:
   void advertise() {
-    const auto connected = [this](const ros::SingleSubscriberPublisher&) {
-      if (!published_) publish();
+    const auto connected = [this](const ros::SingleSubscriberPublisher& listener) {
+      if (options_.in_process && last_) return listener.publish(*last_);
+      options_.connected();
     };
-    auto options = ros::AdvertiseOptions::create<Message>(name_, 1, connected, ros::SubscriberStatusCallback(),
-                                                          ros::VoidConstPtr(), queue_);
-    options.latch = true;
-    publisher_ = node_.advertise(options);
+    auto options = ros::AdvertiseOptions::create<Message>(options_.name, 1, connected, ros::SubscriberStatusCallback(),
+                                                          ros::VoidConstPtr(), nullptr);
+    options.latch = !options_.in_process;
+    publisher_ = ros::NodeHandle(options_.node).advertise(options);
   }
 
-  void publish() {
-    const std::optional<Message> message = make_();
-    if (!message) return;
-    publish_latched(publisher_, *message);
-    published_ = true;
-  }
-
-  ros::NodeHandle node_;
-  std::string name_;
-  ros::CallbackQueueInterface* queue_;
+  const LazyTopicOptions options_;
   std::function<std::optional<Message>()> make_;
   ros::Publisher publisher_;
-  bool published_ = false;
+  boost::shared_ptr<Message> last_;  ///< what was published of the present state; null: nothing yet
 };
 
 }  // namespace bin_scenes

@@ -13,28 +13,6 @@ using visualization_msgs::Marker;
 
 constexpr double endless_floor = 4.0;  // m: edge of what is shown of it
 
-/// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
-std_msgs::ColorRGBA part_color(int id) {
-  const double hue = 6.0 * std::fmod(0.61803398875 * (id + 1), 1.0);
-  const auto channel = [hue](double shift) {
-    const double k = std::fmod(shift + hue, 6.0);
-    return 0.9 - 0.5 * std::max(0.0, std::min({k, 4.0 - k, 1.0}));  // HSV to RGB, value 0.9, range 0.5
-  };
-  std_msgs::ColorRGBA color;
-  color.r = static_cast<float>(channel(5.0));
-  color.g = static_cast<float>(channel(3.0));
-  color.b = static_cast<float>(channel(1.0));
-  color.a = 1.0f;
-  return color;
-}
-
-std_msgs::ColorRGBA bin_color() {
-  std_msgs::ColorRGBA color;
-  color.r = color.g = color.b = 0.6f;
-  color.a = 0.5f;  // parts behind a wall stay visible
-  return color;
-}
-
 Marker marker(const std::string& name, int id, const Pose& pose, const Frames& frames, const ros::Time& stamp) {
   Marker m;
   m.header.frame_id = frames.bin;
@@ -70,6 +48,27 @@ std::array<Box, 5> walls(const Bin& bin) {
 }
 
 }  // namespace
+
+std_msgs::ColorRGBA part_color(int id) {
+  const double hue = 6.0 * std::fmod(0.61803398875 * (id + 1), 1.0);
+  const auto channel = [hue](double shift) {
+    const double k = std::fmod(shift + hue, 6.0);
+    return 0.9 - 0.5 * std::max(0.0, std::min({k, 4.0 - k, 1.0}));  // HSV to RGB, value 0.9, range 0.5
+  };
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(channel(5.0));
+  color.g = static_cast<float>(channel(3.0));
+  color.b = static_cast<float>(channel(1.0));
+  color.a = 1.0f;
+  return color;
+}
+
+std_msgs::ColorRGBA bin_color() {
+  std_msgs::ColorRGBA color;
+  color.r = color.g = color.b = 0.6f;
+  color.a = 0.5f;  // parts behind a wall stay visible
+  return color;
+}
 
 std::string resource_uri(const std::string& model, const std::string& path) {
   if (model.rfind("package://", 0) == 0) return model;

@@ -16,6 +16,10 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
                                               const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
                                               const Frames& frames, const ros::Time& stamp);
 
+/// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
+std_msgs::ColorRGBA part_color(int id);
+std_msgs::ColorRGBA bin_color();
+
 /// How RViz finds a model: package:// as the user wrote it, else file:// with the absolute path, percent-encoded.
 std::string resource_uri(const std::string& model, const std::string& path);
 

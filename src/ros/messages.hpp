@@ -8,6 +8,8 @@
 #pragma once
 
 // Everything that the generated headers include comes first, so that the renaming touches nothing else.
+#include <actionlib_msgs/GoalID.h>
+#include <actionlib_msgs/GoalStatus.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
@@ -23,8 +25,11 @@
 #include <vector>
 
 #define bin_scenes bin_scenes_msgs
+#include <bin_scenes/AddParts.h>
 #include <bin_scenes/ErrorCode.h>
 #include <bin_scenes/GenerateScene.h>
+#include <bin_scenes/GenerateSceneAction.h>
+#include <bin_scenes/PickPart.h>
 #include <bin_scenes/Scene.h>
 #include <bin_scenes/SceneRequest.h>
 #undef bin_scenes

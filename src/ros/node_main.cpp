@@ -1,15 +1,52 @@
+/// The node: one bin, or several with names of their own (~bins).
 #include "bin_scenes/core/error.hpp"
 #include "scene_server.hpp"
 
+#include <ros/names.h>
 #include <ros/ros.h>
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+using bin_scenes::SceneServer;
+
+std::vector<std::unique_ptr<SceneServer>> servers() {
+  const ros::NodeHandle params("~");
+  std::vector<std::string> bins;
+  if (params.hasParam("bins") && !params.getParam("bins", bins)) {
+    throw bin_scenes::input_error("is of another type", "parameter " + params.resolveName("bins"),
+                                  "give a list of names: [left, right]");
+  }
+  std::vector<std::unique_ptr<SceneServer>> all;
+  if (bins.empty()) all.push_back(std::make_unique<SceneServer>(ros::NodeHandle(), params));
+  for (const std::string& bin : bins) {
+    std::string reason;
+    if (bin.empty() || bin[0] == '/' || !ros::names::validate(bin, reason)) {
+      throw bin_scenes::input_error("holds '" + bin + "', which is no name of a namespace",
+                                    "parameter " + params.resolveName("bins"), "use letters, digits and _");
+    }
+    all.push_back(std::make_unique<SceneServer>(ros::NodeHandle(bin), ros::NodeHandle(params, bin),
+                                                SceneServer::Host::node, bin + "/"));
+  }
+  return all;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "bin_scenes");
+  ros::NodeHandle node;  // the log topic works from here on
   try {
-    const bin_scenes::SceneServer server(ros::NodeHandle(), bin_scenes::read_settings(ros::NodeHandle("~")));
+    const auto running = servers();
     ros::spin();
   } catch (const bin_scenes::Error& error) {
     ROS_FATAL("%s", error.what());
+    // Also where roslaunch sends logs to files only, and before rosconsole has found its output.
+    std::cerr << "bin_scenes_node: " << error.what() << std::endl;
     return static_cast<int>(error.kind());
   }
   return 0;

@@ -1,12 +1,12 @@
 #include "request_message.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "config/paths.hpp"
 #include "frames.hpp"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace bin_scenes {
 
@@ -149,20 +149,6 @@ Keys sensor_keys(const msgs::Sensor& sensor, const std::string& path) {
   return keys;
 }
 
-/// A file is read before anything in it can be judged, so its own place is checked first.
-void check_inside(const std::string& file, const std::vector<std::string>& roots) {
-  namespace fs = std::filesystem;
-  if (roots.empty()) return;
-  std::error_code ignored;
-  const fs::path real = fs::weakly_canonical(file, ignored);
-  for (const std::string& root : roots) {
-    const fs::path inside = fs::weakly_canonical(root, ignored);
-    if (std::mismatch(inside.begin(), inside.end(), real.begin(), real.end()).first == inside.end()) return;
-  }
-  throw input_error("the request file lies outside of the allowed roots", file,
-                    "move it into one of ~model_roots, or add its folder there");
-}
-
 }  // namespace
 
 std::vector<Override> overrides_from(const bin_scenes_msgs::SceneRequest& message) {
@@ -203,11 +189,24 @@ Request request_from(const bin_scenes_msgs::SceneRequest& message, const PathRul
     throw input_error("a request file and a request text are both given", "file, yaml", "give one of them");
   }
   if (!message.file.empty()) {
-    check_inside(message.file, rules.roots);
-    return read_request(message.file, overrides, rules);
+    // A file is read before anything in it can be judged, so its own place is checked first.
+    const std::string base = rules.roots.empty() ? std::string(".") : rules.roots[0];
+    return read_request(config::resolve_file(message.file, base, rules, "file"), overrides, rules);
   }
   const std::string base = rules.roots.empty() ? std::string(".") : rules.roots[0];
   return read_request_text(message.yaml.empty() ? "{}" : message.yaml, base, overrides, rules);
+}
+
+std::vector<PartLine> part_lines_from(const std::vector<bin_scenes_msgs::PartLine>& messages, const PathRules& rules) {
+  if (messages.empty()) throw input_error("no part line is given", "parts", "name at least one model");
+  std::vector<PartLine> lines;
+  for (const bin_scenes_msgs::PartLine& message : messages) {
+    bin_scenes_msgs::SceneRequest alone;
+    alone.parts = {message};
+    if (!message.poses.empty() && !message.fixed) alone.pour_pattern = "given";
+    lines.push_back(request_from(alone, rules).parts.at(0));
+  }
+  return lines;
 }
 
 }  // namespace bin_scenes

@@ -41,10 +41,10 @@ void set(Quantiles& q, const msgs::Quantiles& message) {
   q.max = message.max;
 }
 
-msgs::ScenePart part_message(const ScenePart& part, const std::vector<Sensor>& sensors) {
+msgs::ScenePart part_message(const ScenePart& part, const std::vector<Sensor>& sensors, const Frames& frames) {
   msgs::ScenePart message;
   message.id = part.id;
-  message.frame_id = part_frame(part.id);
+  message.frame_id = part_frame(part.id, frames.prefix);
   message.line = static_cast<std::uint32_t>(part.line);
   message.model = part.model;
   message.pose = pose_message(part.pose);
@@ -239,7 +239,7 @@ bin_scenes_msgs::Scene scene_message(const Scene& scene, const Request& request,
   message.request_sha256 = request.text_sha256;
   message.bin = bin_message(request.bin);
   for (const Sensor& sensor : scene.sensors) message.sensors.push_back(sensor_message(sensor));
-  for (const ScenePart& part : scene.parts) message.parts.push_back(part_message(part, scene.sensors));
+  for (const ScenePart& part : scene.parts) message.parts.push_back(part_message(part, scene.sensors, frames));
   message.report = report_message(scene.report);
   return message;
 }

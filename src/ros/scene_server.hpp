@@ -1,101 +1,50 @@
-/// The node's work: makes scenes on request and says them on topics.
+/// All that serves one bin: node and nodelet own one, or several in namespaces of their own.
 ///
-///     generate_scene, clear_scene,        work queue, one thread          publishers
-///     new image subscribers          ───────────────────────────►  generate, render, convert ─► topics
-///                                    (owns GL, generator, scene)                │
-///     timer of the spinner  ◄───────── part transforms (mutex) ◄────────────────┘
-///
-/// All that touches a scene runs in the one thread that spins the work queue, so that nothing but the transforms, which
-/// are sent again at a steady rate while a scene is being made, needs a lock. An action server or a nodelet comes
-/// beside this class: the former calls make() from the same queue, the latter owns one as node_main does.
+///     thread        owns                              serves
+///     control       action, rates, diagnostics        goals, cancels, the service cancel, timers: never blocks
+///     calls         -                                 blocking services, one call at a time
+///     jobs          generator, solver, heap           goals and calls, one after the other
+///     publication   scene shown, topics               new subscribers, publishing again
+///     ahead         a generator of its own            scenes for next_scene, if wanted
 #pragma once
 
-#include "bin_scenes/generate/generator.hpp"
-#include "bin_scenes/sensor/sensor_rig.hpp"
-#include "lazy_topic.hpp"
+#include "diagnostics.hpp"
+#include "generate_action.hpp"
+#include "live_config.hpp"
+#include "publication.hpp"
+#include "scene_jobs.hpp"
+#include "scene_services.hpp"
 #include "settings.hpp"
-#include "topics.hpp"
+#include "thread_queue.hpp"
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <std_srvs/Trigger.h>
-
-#include <atomic>
-#include <memory>
-#include <mutex>
-#include <thread>
-#include <vector>
 
 namespace bin_scenes {
 
 class SceneServer {
  public:
-  /// `node` resolves the names of topics and services. The timer that re-sends transforms runs in its callback queue,
-  /// which the caller spins.
-  SceneServer(const ros::NodeHandle& node, Settings settings);
-  /// Cancels a scene that is being made.
+  /// In a nodelet, subscribers of the same process get clouds and images without a copy; for that the topics keep their
+  /// last message themselves instead of being latched by roscpp, which would write each message out at once.
+  enum class Host { node, nodelet };
+
+  /// `node` resolves the names of topics and services, `params` those of parameters. `frame_prefix`: of its TF frames,
+  /// where several bins share a tree. Throws an input Error for a wrong parameter. Needs nobody to spin.
+  SceneServer(const ros::NodeHandle& node, const ros::NodeHandle& params, Host host = Host::node,
+              const std::string& frame_prefix = "");
+  /// Cancels what is being made.
   ~SceneServer();
 
  private:
-  using GenerateScene = bin_scenes_msgs::GenerateScene;
-
-  /// The scene that the topics show.
-  struct Shown {
-    Scene scene;
-    Request request;
-    std::vector<PartModelPtr> parts;
-    PartModelPtr bin_model;
-    ros::Time stamp;
-    std::vector<RangeImage> images;  ///< empty until somebody looks
-  };
-
-  /// Topics of one sensor.
-  struct SensorTopics {
-    std::string name;
-    LazyTopic<sensor_msgs::PointCloud2> points;
-    LazyTopic<sensor_msgs::Image> depth;
-    LazyTopic<sensor_msgs::CameraInfo> camera_info;
-    LazyTopic<sensor_msgs::Image> labels, validity;
-
-    SensorTopics(SceneServer& server, std::size_t index, const std::string& name);
-    bool wanted() const {
-      return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted();
-    }
-    void renew();
-  };
-
-  void work();
-  bool generate(GenerateScene::Request& request, GenerateScene::Response& response);
-  bool clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-
-  void make(const bin_scenes_msgs::SceneRequest& message, GenerateScene::Response& response);
-  void show(Shown shown, bool render);
-  /// False if there was nothing left to do.
-  bool render();
-  void publish_scene();
-  void send_transforms();
-  template <class Message, class Convert>
-  std::function<std::optional<Message>()> from_image(std::size_t sensor, Convert convert);
-
-  ros::NodeHandle node_;
-  Settings settings_;
-  ros::CallbackQueue queue_;
-  std::atomic<bool> stop_{false};
-
-  // Of the work thread alone.
-  std::unique_ptr<Generator> generator_;
-  SensorRig rig_;
-  std::unique_ptr<Shown> shown_;
-  std::vector<std::unique_ptr<SensorTopics>> sensors_;
-  ros::Publisher scene_, markers_, tf_static_;
-  ros::ServiceServer generate_service_, clear_service_;
-
-  std::mutex transforms_mutex_;
-  tf2_msgs::TFMessage transforms_;
-  ros::Publisher tf_;
-  ros::WallTimer tf_timer_;
-
-  std::thread worker_;
+  const Settings settings_;
+  ThreadQueue control_;
+  ros::NodeHandle node_;  ///< its callbacks run in `control_`
+  Publication publication_;
+  SceneJobs jobs_;
+  GenerateAction action_;
+  SceneServices services_;
+  ros::NodeHandle params_;
+  LiveConfig live_;
+  Diagnostics diagnostics_;
 };
 
 }  // namespace bin_scenes

@@ -1,23 +1,30 @@
 #include "topics.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "bin_scenes/scene/sensor_name.hpp"
+
 
 namespace bin_scenes {
 
-std::string topic::of_sensor(const char* name, std::size_t index, const std::string& sensor) {
-  if (index == 0) return name;
-  // A graph resource name begins with a letter and has no hyphen; a sensor's name may.
-  std::string space = sensor;
-  std::replace(space.begin(), space.end(), '-', '_');
-  if (space.empty() || !std::isalpha(static_cast<unsigned char>(space[0]))) space = "sensor_" + space;
-  return space + "/" + name;
+std::string topic::of_sensor(const char* name, const std::string& sensor, std::size_t sensors) {
+  const std::string space = graph_name(sensor);
+  return sensors == 1 || space == "camera" ? name : space + "/" + name;
+}
+
+void set_stamp(SceneMessages& messages, const ros::Time& stamp) {
+  messages.scene.header.stamp = messages.done.stamp = stamp;
+  for (auto& marker : messages.markers.markers) marker.header.stamp = stamp;
+  for (auto& transform : messages.parts.transforms) transform.header.stamp = stamp;
+  for (auto& transform : messages.statics.transforms) transform.header.stamp = stamp;
 }
 
 SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
                              const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp) {
-  return {scene_message(scene, request, frames, stamp), scene_markers(scene, request, parts, bin_model, frames, stamp),
-          part_transforms(scene, frames, stamp), static_transforms(scene, frames, stamp)};
+  SceneMessages messages = {scene_message(scene, request, frames, stamp),
+                            scene_markers(scene, request, parts, bin_model, frames, stamp),
+                            part_transforms(scene, frames, stamp), static_transforms(scene, frames, stamp),
+                            {}};
+  messages.done = messages.scene.header;
+  return messages;
 }
 
 }  // namespace bin_scenes

@@ -17,11 +17,13 @@ constexpr char depth[] = "depth/image_rect";
 constexpr char camera_info[] = "depth/camera_info";
 constexpr char labels[] = "labels/image_raw";
 constexpr char validity[] = "validity/image_raw";
+constexpr char acquisition_done[] = "acquisition_done";
 constexpr char tf[] = "/tf";
 constexpr char tf_static[] = "/tf_static";
 
-/// Topics of sensor number `index`: the first has the plain name, every further one its own below the sensor's name.
-std::string of_sensor(const char* name, std::size_t index, const std::string& sensor);
+/// Topic of one of `sensors` sensors: below its name, as graph_name() spells it. The only sensor, and that which is
+/// named "camera", have the plain topics. The order of sensors makes no difference.
+std::string of_sensor(const char* name, const std::string& sensor, std::size_t sensors);
 }  // namespace topic
 
 /// A scene as messages, all of one stamp; images are apart because they are made only if somebody looks.
@@ -30,7 +32,9 @@ struct SceneMessages {
   visualization_msgs::MarkerArray markers;
   tf2_msgs::TFMessage parts;    ///< for /tf
   tf2_msgs::TFMessage statics;  ///< for /tf_static
+  std_msgs::Header done;        ///< the event that ends an acquisition: stamp, and frame of the bin
 };
+void set_stamp(SceneMessages& messages, const ros::Time& stamp);
 
 SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
                              const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp);

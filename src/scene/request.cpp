@@ -1,6 +1,7 @@
 #include "bin_scenes/scene/request.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/scene/sensor_name.hpp"
 #include "scene/sensor_check.hpp"
 
 #include <algorithm>
@@ -336,8 +337,9 @@ void check(const Request& request) {
   for (std::size_t i = 0; i < request.sensors.size(); ++i) {
     const std::string key = "sensors[" + std::to_string(i) + "]";
     check_sensor(key, request.sensors[i]);
-    if (!names.insert(request.sensors[i].name).second) {
-      refuse(key + ".name", "'" + request.sensors[i].name + "' names an earlier sensor too", "name each differently");
+    if (!names.insert(graph_name(request.sensors[i].name)).second) {
+      refuse(key + ".name", "'" + request.sensors[i].name + "' names an earlier sensor too",
+             "name each differently; a hyphen counts as an underscore, which topics and frames have in its place");
     }
   }
   at_least("accept.penetration", request.accept.penetration, 0.0, 1.0, "fraction of the part's diagonal");

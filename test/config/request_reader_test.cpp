@@ -282,7 +282,7 @@ TEST_F(ConfigTest, ModelsAreFoundByRelativeAbsoluteAndPackagePaths) {
             (dir / "space/deep/my_parts/meshes/ring.stl").string());
   EXPECT_EQ(read("parts: [{model: " + (dir / "nut.stl").string() + "}]").parts[0].path, (dir / "nut.stl").string());
   PathRules rules;
-  rules.packages = {{"mine", dir.string()}};
+  rules.find_package = [&](const std::string& name) { return name == "mine" ? dir.string() : std::string(); };
   EXPECT_EQ(read("parts: [{model: package://mine/nut.stl}]", {}, rules).parts[0].path, (dir / "nut.stl").string());
   expect_refused("parts: [{model: package://absent/ring.stl}]", {"no package 'absent'", "ROS_PACKAGE_PATH"});
   expect_refused("parts: [{model: package://my_parts}]", {"names no file"});
@@ -301,11 +301,24 @@ TEST_F(ConfigTest, ModelsOutsideTheRootsAreRefusedThroughLinksToo) {
   std::filesystem::create_symlink(dir / "nut.stl", dir / "inside/link.stl");
   PathRules rules;
   rules.roots = {(dir / "inside").string() + "/"};
+  rules.roots_name = "~model_roots";
   EXPECT_NO_THROW(read("parts: [{model: inside/part.stl}]", {}, rules));
   for (const char* model : {"nut.stl", "inside/../nut.stl", "inside/link.stl", "inside-not/part.stl", "absent.stl"}) {
     const std::string message = refusal("parts: [{model: " + std::string(model) + "}]", {}, rules);
-    EXPECT_NE(message.find("outside the allowed"), std::string::npos) << message;
+    EXPECT_NE(message.find("outside of ~model_roots"), std::string::npos) << message;
   }
+}
+
+TEST_F(ConfigTest, RelativeModelsAreSearchedInEachRootAfterTheRequestsFolder) {
+  put("first/other.stl", "solid");
+  put("second/part.stl", "solid");
+  put("second/bolt.stl", "solid");
+  PathRules rules;
+  rules.roots = {(dir / "first").string(), (dir / "second").string(), dir.string()};
+  EXPECT_EQ(read("parts: [{model: part.stl}]", {}, rules).parts[0].path, (dir / "second/part.stl").string());
+  EXPECT_EQ(read("parts: [{model: bolt.stl}]", {}, rules).parts[0].path, (dir / "bolt.stl").string());
+  rules.roots_name = "~model_roots";
+  EXPECT_NE(refusal("parts: [{model: absent.stl}]", {}, rules).find("~model_roots"), std::string::npos);
 }
 
 TEST_F(ConfigTest, GoesOnFromAnEarlierScene) {

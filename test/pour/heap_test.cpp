@@ -176,5 +176,23 @@ TEST_P(HeapTest, IsEmptiedPartByPart) {
   }
 }
 
+TEST_P(HeapTest, ALiftDragsWhatHangsInThePartAndNothingElse) {
+  Heap heap = heap_of(GetParam(), cube(), 4, towers({-0.05, 0.05}, 2));
+  ASSERT_TRUE(heap.settle());
+  const Scene before = heap.scene();
+  heap.lift({0}, Vec3(0, 0, 2), 0.05);
+  const Scene lifted = heap.scene();
+  EXPECT_NEAR(height(lifted, 0), height(before, 0) + 0.05, 2e-3);
+  EXPECT_NEAR(height(lifted, 1), height(before, 1) + 0.05, 5e-3) << "what lies on it rises with it";
+  for (const int id : {2, 3}) EXPECT_TRUE(same_bits(lifted.parts[id].pose, before.parts[id].pose)) << id;
+  heap.remove({0});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_NEAR(height(heap.scene(), 1), 0.01, 5e-4) << "and falls when it is gone";
+  for (const int id : {2, 3}) EXPECT_TRUE(same_bits(heap.scene().parts[id].pose, before.parts[id].pose)) << id;
+  EXPECT_THROW(heap.lift({0}, Vec3::UnitZ(), 0.05), Error) << "it is not there";
+  EXPECT_THROW(heap.lift({1}, Vec3::Zero(), 0.05), Error);
+  EXPECT_THROW(heap.lift({1}, Vec3::UnitZ(), 1e3), Error);
+}
+
 }  // namespace
 }  // namespace bin_scenes::testing

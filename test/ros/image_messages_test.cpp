@@ -1,4 +1,5 @@
 #include "image_messages.hpp"
+#include "markers.hpp"
 
 #include "bin_scenes/core/error.hpp"
 #include "scenes.hpp"
@@ -66,6 +67,23 @@ TEST(ImageMessages, CloudIsOrganised) {
   std::string names;
   for (const auto& f : cloud.fields) names += f.name + " ";
   EXPECT_EQ(names, "x y z normal_x normal_y normal_z intensity label ");
+}
+
+TEST(ImageMessages, ColoredCloudHasTheColoursOfTheMarkers) {
+  const RangeImage image = some_image();
+  const auto plain = image_messages(image, stamp).points, cloud = colored_cloud_message(image, plain.header);
+  ASSERT_EQ(cloud.fields.size(), plain.fields.size() + 1);
+  EXPECT_EQ(cloud.fields.back().name, "rgb");
+  EXPECT_EQ(cloud.data.size(), std::size_t(cloud.row_step) * cloud.height);
+  for (const int i : {0, 1, 11}) {  // the bin, and two parts
+    EXPECT_EQ(float_at(cloud, i % 4, i / 4, "z"), image.depth[i]);
+    const float value = float_at(cloud, i % 4, i / 4, "rgb");
+    std::uint32_t rgb;
+    std::memcpy(&rgb, &value, sizeof rgb);
+    const auto color = image.label[i] > 0 ? part_color(image.label[i] - 1) : bin_color();
+    EXPECT_EQ(rgb >> 16, static_cast<std::uint32_t>(std::lround(255.0f * color.r)));
+    EXPECT_EQ(rgb & 255, static_cast<std::uint32_t>(std::lround(255.0f * color.b)));
+  }
 }
 
 TEST(ImageMessages, CloudPointsLieOnTheRaysOfTheirPixels) {

@@ -3,17 +3,19 @@
 
 #include "bin_scenes/scene/request.hpp"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace bin_scenes {
 
-/// Where model paths may lie; empty = anywhere (command line). The ROS node sets it.
+/// Where model paths may lie. The ROS node sets it.
 struct PathRules {
-  std::vector<std::string> roots;
-  std::vector<std::pair<std::string, std::string>>
-      packages;  ///< package:// name -> directory, besides ROS_PACKAGE_PATH
+  std::vector<std::string> roots;        ///< empty: anywhere (command line)
+  std::string roots_name = "the roots";  ///< what the user calls them, for messages
+  /// Folder of a package for package://, "" if there is none; unset: found on ROS_PACKAGE_PATH.
+  std::function<std::string(const std::string& name)> find_package;
 };
 
 /// "path.to.key=value", as given to --set or by what stands for it.

@@ -40,6 +40,9 @@ class Generator {
   /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
   /// It may outlive the generator.
   Heap heap(const Request& request, const RunHooks& hooks = {});
+  /// Part lines with their models, for Heap::add: checked, also against the heap's bin, and loaded as heap() does. Throws
+  /// an input Error.
+  std::vector<NewParts> new_parts(const Heap& heap, const std::vector<PartLine>& lines, const RunHooks& hooks = {});
   /// The result of generate() for the current state of a heap: judged, and rendered as its request asks.
   Result result(const Heap& heap, const Options& options);
 

@@ -1,0 +1,44 @@
+/// Scenes made ahead, in a thread of their own, so that who asks for the next one waits for nothing.
+#pragma once
+
+#include "scene_maker.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace bin_scenes {
+
+class Ahead {
+ public:
+  /// `depth`: scenes that wait at most.
+  explicit Ahead(int depth);
+  ~Ahead();
+  Ahead(const Ahead&) = delete;
+  Ahead& operator=(const Ahead&) = delete;
+
+  /// The scene shown is `index` of this request: those after it are made. What was made for another request is dropped.
+  void follow(const Request& request, std::size_t index);
+  /// The next scene; waits for it if it is not there yet. Throws what making it threw, and Error(cancelled).
+  MadeScene take(const RunHooks& hooks);
+  std::size_t ready() const;
+
+ private:
+  void run();
+
+  const std::size_t depth_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<MadeScene> ready_;
+  std::exception_ptr failed_;  ///< of the scene after those that are ready
+  bool following_ = false, stop_ = false;
+  Request request_;
+  std::size_t next_ = 0;  ///< index to make
+  std::atomic<bool> unwanted_{false};
+  std::thread thread_;
+};
+
+}  // namespace bin_scenes

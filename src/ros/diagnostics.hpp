@@ -1,0 +1,35 @@
+/// What /diagnostics says of one bin.
+#pragma once
+
+#include "publication.hpp"
+#include "scene_jobs.hpp"
+#include "settings.hpp"
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/wall_timer.h>
+
+namespace bin_scenes {
+
+class Diagnostics {
+ public:
+  /// Once a second, in the queue of `node`.
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& params, const SceneJobs& jobs,
+              const Publication& publication, const Settings& settings);
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+  void device(Status& status) const;
+  void scene(Status& status) const;
+  void queue(Status& status) const;
+  void cache(Status& status) const;
+  void memory(Status& status) const;
+  void sensors(Status& status) const;
+
+  const SceneJobs& jobs_;
+  const Publication& publication_;
+  const int queue_size_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace bin_scenes

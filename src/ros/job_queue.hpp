@@ -1,0 +1,108 @@
+/// Jobs that change what lies in the bin, one after the other in one thread, and how each of them ends.
+///
+///     action goals ─┐
+///     service calls ├──► waiting ──► running ──► committed ──► ended      answer() is called once, at the end
+///     first scene  ─┘       └───────────┴── cancel() ───────────┘
+///
+/// A cancelled job is answered at once; the thread leaves its work within a fraction of a second after that. What it has
+/// made by then is dropped, because only a committed job may publish.
+#pragma once
+
+#include "bin_scenes/pour/pour.hpp"
+#include "messages.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace bin_scenes {
+
+/// How a job ended, as action and services answer it.
+struct Outcome {
+  bool success = false;
+  std::int32_t error_code = bin_scenes_msgs::ErrorCode::NONE;
+  std::string message;
+  bin_scenes_msgs::Scene scene;
+};
+
+/// Outcome of a job that threw the exception that is being handled.
+Outcome outcome_of_exception();
+
+class Job {
+ public:
+  using Work = std::function<Outcome(Job&)>;
+  using Answer = std::function<void(const Outcome&)>;
+
+  /// `work` runs in the thread of the queue; `answer` is called once, there or in that of cancel().
+  Job(std::string name, Work work, Answer answer);
+
+  const std::string& name() const { return name_; }
+  bool ended() const;
+  /// Ends the job as cancelled, for `reason`; false if it has ended or is past its commit.
+  bool cancel(const std::string& reason);
+
+  // For its work.
+  /// Progress is kept for progress(); cancelling stops what is done under these hooks.
+  RunHooks hooks();
+  /// From here on the job cannot be cancelled. Throws Error(cancelled) if it was before.
+  void commit();
+
+  struct State {
+    Progress progress;       ///< phase "queued" until it runs
+    double running_s = 0.0;  ///< s of wall time since it began
+  };
+  State state() const;
+
+ private:
+  friend class JobQueue;
+  void run();
+  bool end();  ///< false if it has ended before
+
+  const std::string name_;
+  Work work_;
+  Answer answer_;
+  std::atomic<bool> unwanted_{false};
+  mutable std::mutex mutex_;
+  enum class Stage { waiting, running, committed, ended } stage_ = Stage::waiting;
+  Progress progress_;
+  std::chrono::steady_clock::time_point begun_;
+};
+
+class JobQueue {
+ public:
+  /// `at_end` is called in the thread of the jobs, after the last of them: what they made with OpenGL dies where it was
+  /// made.
+  JobQueue(std::size_t most_waiting, std::function<void()> at_end);
+  /// Cancels all jobs.
+  ~JobQueue();
+  JobQueue(const JobQueue&) = delete;
+  JobQueue& operator=(const JobQueue&) = delete;
+
+  /// Throws an environment Error if too many jobs wait already.
+  void add(std::shared_ptr<Job> job);
+  /// All that run or wait; returns how many.
+  std::size_t cancel_all(const std::string& reason);
+  std::size_t size() const;              ///< jobs that wait or run
+  std::shared_ptr<Job> running() const;  ///< null: none
+
+ private:
+  void run();
+
+  const std::size_t most_waiting_;
+  const std::function<void()> at_end_;
+  mutable std::mutex mutex_;
+  std::condition_variable added_;
+  std::deque<std::shared_ptr<Job>> waiting_;
+  std::shared_ptr<Job> running_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,22 @@
+/// Parameters that may change while the node runs (cfg/BinScenes.cfg).
+#pragma once
+
+#include "publication.hpp"
+#include "scene_jobs.hpp"
+
+#include <bin_scenes/BinScenesConfig.h>
+#include <dynamic_reconfigure/server.h>
+
+namespace bin_scenes {
+
+class LiveConfig {
+ public:
+  /// Served in the queue of `params`.
+  LiveConfig(const ros::NodeHandle& params, SceneJobs& jobs, Publication& publication);
+
+ private:
+  boost::recursive_mutex mutex_;
+  dynamic_reconfigure::Server<BinScenesConfig> server_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,187 @@
+#include "publication.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+template <class Message>
+void tell(const ros::Publisher& publisher, const Message& message) {
+  publish_latched(publisher, boost::make_shared<Message>(message));
+}
+
+}  // namespace
+
+/// Topics of one sensor.
+struct Publication::SensorTopics {
+  std::string space;      ///< in front of the names of its topics
+  std::size_t index = 0;  ///< of the sensor in the scene shown
+  LazyTopic<sensor_msgs::PointCloud2> points;
+  LazyTopic<sensor_msgs::Image> depth;
+  LazyTopic<sensor_msgs::CameraInfo> camera_info;
+  LazyTopic<sensor_msgs::Image> labels, validity;
+
+  SensorTopics(Publication& p, const std::string& name_space)
+      : space(name_space),
+        points(options(p, topic::points), p.from_image<sensor_msgs::PointCloud2>(*this, clouds(p.rgb_))),
+        depth(options(p, topic::depth), p.from_image<sensor_msgs::Image>(*this, depth_message)),
+        camera_info(options(p, topic::camera_info), p.from_image<sensor_msgs::CameraInfo>(*this, model)),
+        labels(options(p, topic::labels), p.from_image<sensor_msgs::Image>(*this, label_message)),
+        validity(options(p, topic::validity), p.from_image<sensor_msgs::Image>(*this, validity_message)) {}
+
+  LazyTopicOptions options(Publication& p, const char* name) const {
+    return {p.node_, space + name, [&p] { p.show_images(); }, p.in_process_};
+  }
+  static sensor_msgs::CameraInfo model(const RangeImage& image, const std_msgs::Header& header) {
+    return camera_info_message(image.sensor, header);
+  }
+  static std::function<sensor_msgs::PointCloud2(const RangeImage&, const std_msgs::Header&)> clouds(bool rgb) {
+    return [rgb](const RangeImage& image, const std_msgs::Header& header) {
+      return rgb ? colored_cloud_message(image, header) : cloud_message(image, header);
+    };
+  }
+
+  bool wanted() const {
+    return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted();
+  }
+  void renew() {
+    points.renew();
+    depth.renew();
+    camera_info.renew();
+    labels.renew();
+    validity.renew();
+  }
+  void show() {
+    points.show();
+    depth.show();
+    camera_info.show();
+    labels.show();
+    validity.show();
+  }
+};
+
+template <class Message, class Convert>
+std::function<std::optional<Message>()> Publication::from_image(const SensorTopics& topics, Convert convert) {
+  return [this, &topics, convert]() -> std::optional<Message> {
+    if (!shown_ || topics.index >= shown_->made.images.size()) return std::nullopt;
+    const RangeImage& image = shown_->made.images[topics.index];
+    std_msgs::Header header;
+    header.stamp = shown_->stamp;
+    header.frame_id = sensor_frame(image.sensor.name, place_.prefix);
+    return convert(image, header);
+  };
+}
+
+Publication::Publication(const ros::NodeHandle& node, const Settings& settings, bool in_process)
+    : node_(node),
+      place_(settings.frames),
+      rgb_(settings.rgb),
+      in_process_(in_process),
+      frames_(node, place_.prefix + "removed_parts", settings.tf_rate, settings.tf_span,
+              [this] { thread_.post([this] { publish_again(); }); }) {
+  node_.setCallbackQueue(thread_.queue());
+  scene_ = node_.advertise<bin_scenes_msgs::Scene>(topic::scene, 1, true);
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>(topic::markers, 1, true);
+  tf_static_ = node_.advertise<tf2_msgs::TFMessage>(topic::tf_static, 1, true);
+  done_ = node_.advertise<std_msgs::Header>(topic::acquisition_done, 10);
+  set_topics({Sensor()});
+  set_publish_rate(settings.publish_rate);
+}
+
+Publication::~Publication() {
+  again_.stop();
+  thread_.stop();
+}
+
+void Publication::set_publish_rate(double rate) {
+  again_.stop();
+  if (!(rate > 0.0)) return;
+  again_ = node_.createWallTimer(ros::WallDuration(1.0 / rate), [this](const ros::WallTimerEvent&) { publish_again(); });
+}
+
+bool Publication::wanted() {
+  return thread_.call([this] {
+    return std::any_of(sensors_.begin(), sensors_.end(), [](const auto& topics) { return topics->wanted(); });
+  });
+}
+
+Publication::Counts Publication::counts() const {
+  return {scenes_, renderings_, render_failures_, shown_sensors_};
+}
+
+bin_scenes_msgs::Scene Publication::show(MadeScene made, bool render_anyway) {
+  return thread_.call([&] {
+    // What may fail comes first: the scene before is there until this one is whole.
+    Shown next{std::move(made), {}, {}};
+    const auto wanted = [](const auto& topics) { return topics->wanted(); };
+    if (render_anyway || std::any_of(sensors_.begin(), sensors_.end(), wanted)) render(next);
+    next.messages = scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
+    shown_ = std::move(next);
+    set_topics(shown_->made.scene.sensors);
+    shown_sensors_ = shown_->made.scene.sensors.size();
+    render_failures_ = 0;
+    ++scenes_;
+    publish(*shown_);
+    return shown_->messages.scene;
+  });
+}
+
+void Publication::publish(Shown& shown) {
+  // First of all, because whoever gets a cloud looks up the parts at its stamp.
+  shown.stamp = frames_.show(shown.messages.parts);
+  set_stamp(shown.messages, shown.stamp);
+  tell(tf_static_, shown.messages.statics);
+  tell(scene_, shown.messages.scene);
+  tell(markers_, shown.messages.markers);
+  for (const auto& topics : sensors_) topics->renew();
+  show_images();
+  done_.publish(shown.messages.done);
+}
+
+void Publication::publish_again() {
+  if (shown_) publish(*shown_);
+}
+
+void Publication::show_images() {
+  if (!shown_ || std::none_of(sensors_.begin(), sensors_.end(), [](const auto& topics) { return topics->wanted(); })) {
+    return;
+  }
+  try {
+    if (render(*shown_)) {  // the scene that is out does not know yet how much of each part is seen
+      shown_->messages.scene = scene_message(shown_->made.scene, shown_->made.request, place_, shown_->stamp);
+      tell(scene_, shown_->messages.scene);
+    }
+    for (const auto& topics : sensors_) topics->show();
+  } catch (const std::exception& error) {
+    ++render_failures_;
+    ROS_ERROR("no image: %s", error.what());
+  }
+}
+
+bool Publication::render(Shown& shown) {
+  MadeScene& made = shown.made;
+  if (!made.images.empty() || made.scene.sensors.empty()) return false;
+  const StageTimer timer(made.scene.report.profile, "render");
+  made.images = rig_.look(made.scene, made.request, made.parts, made.bin_model);
+  ++renderings_;
+  return true;
+}
+
+/// Topics that stay keep their subscribers; those that no sensor has any more go. Without sensors the plain ones stay.
+void Publication::set_topics(const std::vector<Sensor>& sensors) {
+  std::vector<std::unique_ptr<SensorTopics>> next;
+  const auto take = [&](const std::string& space, std::size_t index) {
+    const auto known = std::find_if(sensors_.begin(), sensors_.end(),
+                                    [&](const auto& topics) { return topics && topics->space == space; });
+    next.push_back(known != sensors_.end() ? std::move(*known) : std::make_unique<SensorTopics>(*this, space));
+    next.back()->index = index;
+  };
+  for (std::size_t i = 0; i < sensors.size(); ++i) take(topic::of_sensor("", sensors[i].name, sensors.size()), i);
+  if (sensors.empty()) take("", 0);
+  sensors_ = std::move(next);
+}
+
+}  // namespace bin_scenes

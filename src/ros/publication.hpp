@@ -1,0 +1,75 @@
+/// What the topics show: the last scene, its images when somebody looks, its frames.
+///
+/// All of it happens in one thread of its own, so that subscribers are served, and the scene is published again, while
+/// the next one is being made.
+#pragma once
+
+#include "lazy_topic.hpp"
+#include "part_frames.hpp"
+#include "scene_maker.hpp"
+#include "settings.hpp"
+#include "thread_queue.hpp"
+#include "topics.hpp"
+
+#include "bin_scenes/sensor/sensor_rig.hpp"
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace bin_scenes {
+
+class Publication {
+ public:
+  /// `node` resolves the names of topics; its queue serves the timer of the frames. `in_process`: subscribers of this
+  /// process get images without a copy (LazyTopic).
+  Publication(const ros::NodeHandle& node, const Settings& settings, bool in_process);
+  ~Publication();
+
+  /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays. With `render`
+  /// images are made even if nobody listens.
+  bin_scenes_msgs::Scene show(MadeScene made, bool render);
+  /// Whether somebody listens to an image or a cloud.
+  bool wanted();
+  void set_tf(double rate, double span) { frames_.set(rate, span); }
+  void set_publish_rate(double rate);
+
+  struct Counts {
+    std::size_t scenes = 0;           ///< shown, since the start
+    std::size_t renderings = 0;       ///< of scenes that were shown already, since the start
+    std::size_t render_failures = 0;  ///< of the scene shown
+    std::size_t sensors = 0;          ///< of the scene shown
+  };
+  Counts counts() const;
+
+ private:
+  struct Shown {
+    MadeScene made;
+    SceneMessages messages;
+    ros::Time stamp;
+  };
+  struct SensorTopics;
+
+  void publish(Shown& shown);
+  void publish_again();
+  void show_images();
+  bool render(Shown& shown);
+  void set_topics(const std::vector<Sensor>& sensors);
+  template <class Message, class Convert>
+  std::function<std::optional<Message>()> from_image(const SensorTopics& topics, Convert convert);
+
+  ThreadQueue thread_;
+  ros::NodeHandle node_;  ///< its callbacks run in `thread_`
+  const Frames place_;
+  const bool rgb_, in_process_;
+  PartFrames frames_;
+  SensorRig rig_;
+  std::optional<Shown> shown_;
+  std::vector<std::unique_ptr<SensorTopics>> sensors_;
+  ros::Publisher scene_, markers_, tf_static_, done_;
+  ros::WallTimer again_;
+  std::atomic<std::size_t> scenes_{0}, renderings_{0}, render_failures_{0}, shown_sensors_{0};
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,196 @@
+#include "scene_jobs.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "request_message.hpp"
+
+#include <malloc.h>
+#include <ros/console.h>
+
+#include <utility>
+
+namespace bin_scenes {
+
+namespace {
+
+using Code = bin_scenes_msgs::ErrorCode;
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
+}  // namespace
+
+SceneJobs::SceneJobs(Publication& publication, const Settings& settings)
+    : publication_(publication),
+      settings_(settings),
+      maker_(std::make_unique<SceneMaker>()),
+      ahead_(settings.scenes_ahead > 0 ? std::make_unique<Ahead>(settings.scenes_ahead) : nullptr),
+      queue_(static_cast<std::size_t>(settings.queue_size), [this] { maker_.reset(); }) {}
+
+SceneJobs::~SceneJobs() = default;
+
+std::shared_ptr<Job> SceneJobs::generate(const bin_scenes_msgs::SceneRequest& message, Answer answer) {
+  const auto make = [this, message](bool render, const RunHooks& hooks) {
+    Request request = request_of(message);
+    const std::size_t asked = std::exchange(request.scenes, 1);
+    MadeScene made = maker_->pour(request, render, hooks);
+    if (asked > 1) {
+      made.scene.report.flags.push_back(
+          {"one_scene_a_call", "the request asks for " + std::to_string(asked) + " scenes; this is the first of them",
+           "call again with another index, or use the command line for data sets"});
+    }
+    return made;
+  };
+  return submit("generate", make, std::move(answer), message.render);
+}
+
+std::shared_ptr<Job> SceneJobs::pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer) {
+  const auto make = [this, request](bool render, const RunHooks& hooks) {
+    Lift lift;
+    const auto& d = request.lift_direction;
+    if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) lift.direction = Vec3(d.x, d.y, d.z);
+    lift.distance = request.lift_distance;
+    const std::vector<int> ids(request.ids.begin(), request.ids.end());
+    return ids.empty() ? maker_->settle(render, hooks) : maker_->pick(ids, lift, render, hooks);
+  };
+  return submit("pick_part", make, std::move(answer));
+}
+
+std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& request, Answer answer) {
+  const auto make = [this, request](bool render, const RunHooks& hooks) {
+    return maker_->add(part_lines_from(request.parts, settings_.paths), render, hooks);
+  };
+  return submit("add_parts", make, std::move(answer));
+}
+
+std::shared_ptr<Job> SceneJobs::next(Answer answer) {
+  const auto make = [this](bool render, const RunHooks& hooks) -> MadeScene {
+    if (!maker_->has_scene()) {
+      throw input_error("there is no scene yet, so that nobody knows what comes next", "next_scene",
+                        "make one first: generate, generate_scene, ~request");
+    }
+    if (ahead_) return ahead_->take(hooks);
+    Request request = maker_->request();
+    ++request.first;
+    return maker_->pour(request, render, hooks);
+  };
+  return submit("next_scene", make, std::move(answer));
+}
+
+std::shared_ptr<Job> SceneJobs::clear(Answer answer) {
+  const auto make = [this](bool, const RunHooks&) {
+    if (!maker_->has_scene()) throw input_error("there was no scene", "clear_scene", "nothing is left to do");
+    return maker_->emptied();
+  };
+  return submit("clear_scene", make, std::move(answer));
+}
+
+void SceneJobs::set(const LiveSettings& live) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  live_ = live;
+}
+
+SceneJobs::Status SceneJobs::status() const {
+  Status status;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status = status_;
+  }
+  status.jobs = queue_.size();
+  if (const auto job = queue_.running()) {
+    status.running = job->name();
+    status.running_s = job->state().running_s;
+  }
+  if (ahead_) status.ahead = ahead_->ready();
+  return status;
+}
+
+std::shared_ptr<Job> SceneJobs::submit(const std::string& name, Make make, Answer answer, bool render) {
+  const auto work = [this, make = std::move(make), render](Job& job) { return run(job, make, render); };
+  const auto noted = [this, name, answer = std::move(answer)](const Outcome& outcome) {
+    note(name, outcome);
+    answer(outcome);
+  };
+  const auto job = std::make_shared<Job>(name, work, noted);
+  queue_.add(job);
+  return job;
+}
+
+Outcome SceneJobs::run(Job& job, const Make& make, bool render) {
+  try {
+    MadeScene made = make(render || publication_.wanted(), job.hooks());
+    job.commit();
+    return show(std::move(made), render);
+  } catch (...) {
+    malloc_trim(0);  // what a large request took goes back: the next one may come in days
+    throw;
+  }
+}
+
+Outcome SceneJobs::show(MadeScene made, bool render) {
+  MadeScene kept;  // what the maker has to know, while the topics take the rest
+  kept.heap = made.heap;
+  kept.request = made.request;
+  kept.bin_model = made.bin_model;
+  kept.scene.seed = made.scene.seed;
+  kept.scene.index = made.scene.index;
+  kept.scene.sensors = made.scene.sensors;
+  const Report report = made.scene.report;
+  const std::size_t parts = made.scene.parts.size();
+  made.heap.reset();
+
+  Outcome outcome;
+  outcome.scene = publication_.show(std::move(made), render);
+  maker_->keep(kept);
+  if (ahead_) ahead_->follow(kept.request, kept.scene.index);
+  outcome.success = report.accepted;
+  if (!report.accepted) {
+    outcome.error_code = Code::SET_APART;
+    outcome.message = "the scene was made, but not accepted: " + joined(report.reasons);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!report.solver.empty()) {
+    status_.device = report.device;
+    status_.solver = report.solver;
+    ROS_INFO("scene %zu of seed %lu: %zu parts after %.2f s simulated in %.2f s, by %s on %s", kept.scene.index,
+             kept.scene.seed, parts, report.simulated_s, report.wall_s, report.solver.c_str(), report.device.c_str());
+  }
+  return outcome;
+}
+
+void SceneJobs::note(const std::string& name, const Outcome& outcome) {
+  const bool apart = outcome.error_code == Code::SET_APART, cancelled = outcome.error_code == Code::CANCELLED;
+  if (cancelled) ROS_INFO("%s: %s", name.c_str(), outcome.message.c_str());
+  if (!cancelled && !outcome.success) ROS_ERROR("%s: %s", name.c_str(), outcome.message.c_str());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!outcome.success && !apart) {
+    ++(cancelled ? status_.cancelled : status_.failed);
+    return;
+  }
+  ++(apart ? status_.set_apart : status_.made);
+  status_.accepted = outcome.success;
+  status_.verdict = outcome.success ? "accepted" : outcome.message;
+  status_.set_apart_in_a_row = apart ? status_.set_apart_in_a_row + 1 : 0;
+}
+
+Request SceneJobs::request_of(const bin_scenes_msgs::SceneRequest& message) const {
+  LiveSettings live;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    live = live_;
+  }
+  bin_scenes_msgs::SceneRequest full = message;
+  // Before the caller's own entries, which override them.
+  std::vector<std::string> set;
+  if (!live.finish.empty()) set.push_back("pour.finish=" + live.finish);
+  if (!live.solver.empty() && message.solver.empty()) set.push_back("solver.type=" + live.solver);
+  full.set.insert(full.set.begin(), set.begin(), set.end());
+  Request request = request_from(full, settings_.paths);
+  if (!live.noise)
+    for (Sensor& sensor : request.sensors) sensor.noise = false;
+  return request;
+}
+
+}  // namespace bin_scenes

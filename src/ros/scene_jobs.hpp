@@ -1,0 +1,75 @@
+/// What can be asked of one bin, as jobs of its queue. Action and services are thin doors to this.
+#pragma once
+
+#include "ahead.hpp"
+#include "job_queue.hpp"
+#include "publication.hpp"
+#include "scene_maker.hpp"
+#include "settings.hpp"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What may change while the node runs (dynamic_reconfigure), beside the rates; empty: as the request says.
+struct LiveSettings {
+  std::string finish;  ///< pour.finish
+  std::string solver;  ///< solver.type
+  bool noise = true;   ///< false: every random effect of the sensors is off
+};
+
+class SceneJobs {
+ public:
+  SceneJobs(Publication& publication, const Settings& settings);
+  /// Cancels all jobs.
+  ~SceneJobs();
+
+  // Each adds a job to the queue and returns it; `answer` is called once, when it ends. Errors of a request are the
+  // job's outcome. Throw an environment Error if the queue is full.
+  using Answer = Job::Answer;
+  std::shared_ptr<Job> generate(const bin_scenes_msgs::SceneRequest& request, Answer answer);
+  std::shared_ptr<Job> pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer);
+  std::shared_ptr<Job> add(const bin_scenes_msgs::AddParts::Request& request, Answer answer);
+  std::shared_ptr<Job> next(Answer answer);
+  std::shared_ptr<Job> clear(Answer answer);
+
+  std::size_t cancel_all(const std::string& reason) { return queue_.cancel_all(reason); }
+  void set(const LiveSettings& live);
+
+  /// For diagnostics.
+  struct Status {
+    std::size_t jobs = 0;       ///< that wait or run
+    std::string running;        ///< name of the job, ""
+    double running_s = 0.0;     ///< s since it began
+    std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< jobs that ended, since the start
+    std::size_t set_apart_in_a_row = 0;
+    std::size_t ahead = 0;      ///< scenes that wait for next_scene
+    std::string device, solver, verdict;  ///< of the last scene
+    bool accepted = true;
+  };
+  Status status() const;
+
+ private:
+  using Make = std::function<MadeScene(bool render, const RunHooks&)>;
+
+  std::shared_ptr<Job> submit(const std::string& name, Make make, Answer answer, bool render = false);
+  Outcome run(Job& job, const Make& make, bool render);
+  Outcome show(MadeScene made, bool render);
+  Request request_of(const bin_scenes_msgs::SceneRequest& message) const;
+  void note(const std::string& name, const Outcome& outcome);
+
+  Publication& publication_;
+  const Settings settings_;
+  mutable std::mutex mutex_;  ///< of live_ and status_
+  LiveSettings live_;
+  Status status_;
+  std::unique_ptr<SceneMaker> maker_;  ///< of the thread of the jobs
+  std::unique_ptr<Ahead> ahead_;
+  JobQueue queue_;  ///< last: its thread uses all of the above
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,87 @@
+#include "scene_maker.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <utility>
+
+namespace bin_scenes {
+
+MadeScene SceneMaker::pour(const Request& request, bool render, const RunHooks& hooks) {
+  Profile loading;
+  std::shared_ptr<Heap> heap;
+  {
+    const StageTimer timer(loading, "load");
+    heap = std::make_shared<Heap>(generator_.heap(request, hooks));
+  }
+  MadeScene made = settled(heap, render, hooks);
+  made.scene.report.profile.merge(loading);
+  return made;
+}
+
+void SceneMaker::keep(const MadeScene& made) {
+  heap_ = made.heap;
+  has_scene_ = true;
+  request_ = made.request;
+  bin_model_ = made.bin_model;
+  last_.seed = made.scene.seed;
+  last_.index = made.scene.index;
+  last_.sensors = made.scene.sensors;
+}
+
+Heap& SceneMaker::heap(const char* purpose) const {
+  if (!heap_) throw input_error("there is no heap in the bin", purpose, "make a scene first: generate, generate_scene");
+  return *heap_;
+}
+
+MadeScene SceneMaker::pick(const std::vector<int>& ids, const Lift& lift, bool render, const RunHooks& hooks) {
+  Heap& heap = this->heap("pick_part");
+  if (lift.distance > 0.0) heap.lift(ids, lift.direction, lift.distance, hooks);
+  heap.remove(ids);
+  return settled(heap_, render, hooks);
+}
+
+MadeScene SceneMaker::add(const std::vector<PartLine>& lines, bool render, const RunHooks& hooks) {
+  if (!has_scene_) heap("add_parts");  // says what is missing
+  if (!heap_) {
+    Request anew = request_;
+    anew.parts = lines;
+    anew.pour.scene.clear();
+    if (anew.pour.pattern == Pour::Pattern::given) anew.pour.pattern = Pour::Pattern::rain;
+    return pour(anew, render, hooks);
+  }
+  heap_->add(generator_.new_parts(*heap_, lines, hooks));
+  return settled(heap_, render, hooks);
+}
+
+MadeScene SceneMaker::settle(bool render, const RunHooks& hooks) {
+  heap("settle");
+  return settled(heap_, render, hooks);
+}
+
+MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, bool render, const RunHooks& hooks) {
+  heap->settle(hooks);
+  Generator::Options options;
+  options.render = render;
+  options.hooks = hooks;
+  Generator::Result result = generator_.result(*heap, options);
+  MadeScene made;
+  made.scene = std::move(result.scene);
+  made.images = std::move(result.images);
+  made.request = heap->request();
+  made.parts = heap->parts();
+  made.bin_model = heap->bin_model();
+  made.heap = heap;
+  return made;
+}
+
+MadeScene SceneMaker::emptied() const {
+  MadeScene empty;
+  empty.scene = last_;
+  empty.scene.report.at_rest = empty.scene.report.accepted = true;
+  empty.request = request_;
+  empty.request.parts.clear();
+  empty.bin_model = bin_model_;
+  return empty;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,59 @@
+/// Makes the scenes of one bin and keeps their heap, so that parts can be taken out and added.
+#pragma once
+
+#include "bin_scenes/generate/generator.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace bin_scenes {
+
+/// A scene, with all that is needed to show it.
+struct MadeScene {
+  Scene scene;
+  Request request;
+  std::vector<PartModelPtr> parts;  ///< models, by part line
+  PartModelPtr bin_model;
+  std::vector<RangeImage> images;  ///< empty until somebody looks
+  std::shared_ptr<Heap> heap;      ///< that it is a snapshot of; null: the bin was emptied
+};
+
+/// What parts do before they leave.
+struct Lift {
+  Vec3 direction = Vec3::UnitZ();  ///< bin frame, any length
+  double distance = 0.0;           ///< m; 0: they vanish where they lie
+};
+
+/// One thread at a time. All calls throw Error; those that make a scene leave the heap that is kept as it was, but for
+/// pick() and add(), which change it first and settle it then: settle() completes what was cancelled.
+class SceneMaker {
+ public:
+  /// A scene of its own, with a heap of its own. `render`: whether images are made as well.
+  MadeScene pour(const Request& request, bool render, const RunHooks& hooks);
+
+  /// From now on pick() and add() change the heap of this scene.
+  void keep(const MadeScene& scene);
+
+  MadeScene pick(const std::vector<int>& ids, const Lift& lift, bool render, const RunHooks& hooks);
+  /// Onto the heap, or into the bin if it was emptied.
+  MadeScene add(const std::vector<PartLine>& lines, bool render, const RunHooks& hooks);
+  MadeScene settle(bool render, const RunHooks& hooks);
+  /// The empty bin of the scene that is kept.
+  MadeScene emptied() const;
+
+  bool has_scene() const { return has_scene_; }
+  const Request& request() const { return request_; }
+
+ private:
+  MadeScene settled(const std::shared_ptr<Heap>& heap, bool render, const RunHooks& hooks);
+  Heap& heap(const char* purpose) const;
+
+  Generator generator_;
+  std::shared_ptr<Heap> heap_;
+  bool has_scene_ = false;
+  Request request_;  ///< of the scene that is kept
+  Scene last_;       ///< without parts: seed, index, sensors
+  PartModelPtr bin_model_;
+};
+
+}  // namespace bin_scenes

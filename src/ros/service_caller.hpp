@@ -1,0 +1,22 @@
+/// Whether the client that waits for the answer of a service call is still there.
+#pragma once
+
+#include <ros/connection.h>
+#include <ros/datatypes.h>
+
+#include <string>
+
+namespace bin_scenes {
+
+class ServiceCaller {
+ public:
+  /// `header`: ros::ServiceEvent::getConnectionHeader() of the call, the very object; `service`: its resolved name.
+  ServiceCaller(const std::string& service, const ros::M_string& header);
+  /// Its process has ended, or it has closed the connection. False where this cannot be told.
+  bool gone() const;
+
+ private:
+  ros::ConnectionPtr connection_;
+};
+
+}  // namespace bin_scenes

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""pick_part, add_parts, next_scene, clear_scene: what lies in the bin changes, and the topics with it."""
+
+import math
+import os
+import sys
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from scene_client import CAMERA, SMALL, Doors, NodeTestCase, wait_until  # noqa: E402
+from bin_scenes.msg import ErrorCode, PartLine, ScenePart  # noqa: E402
+from sensor_msgs.msg import PointCloud2  # noqa: E402
+
+class HeapTest(NodeTestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.doors = Doors()
+
+    def picked(self, ids, **lift):
+        response = self.doors.pick(ids=ids, **lift)
+        self.assertEqual((response.success, response.message), (True, ""))
+        return response.scene
+
+    def test_a_heap_is_emptied_part_by_part(self):
+        scene = self.doors.scene(CAMERA)
+        for count, part in enumerate(list(scene.parts), 1):
+            before, scene = scene, self.picked([part.id])
+            self.assertGreater(scene.header.stamp, before.header.stamp)
+            self.assertEqual(len(scene.parts), 5)
+            gone = [p for p in scene.parts if p.state == ScenePart.REMOVED]
+            self.assertEqual(len(gone), count)
+            self.assertTrue(all(math.isnan(p.pose.position.x) for p in gone))
+            self.assertEqual(self.doors.latched().header.stamp, scene.header.stamp)
+        cloud = rospy.wait_for_message("points", PointCloud2, 20)
+        self.assertEqual(cloud.header.stamp, scene.header.stamp)
+        self.assertFalse(self.doors.pick(ids=[0]).success)
+
+    def test_parts_that_a_pick_does_not_touch_keep_their_pose_bit_for_bit(self):
+        before = self.doors.scene(set=["solver.type=sphere", "bin.inner_size=[0.6,0.5,0.1]"])
+        far = max(before.parts, key=lambda p: math.hypot(p.pose.position.x, p.pose.position.y))
+        after = self.picked([far.id])
+        same = sum(a.pose == b.pose for a, b in zip(before.parts, after.parts))
+        self.assertGreaterEqual(same, 3)
+        self.assertEqual(after.parts[far.id].state, ScenePart.REMOVED)
+
+    def test_a_lift_takes_parts_out_too(self):
+        self.doors.scene(set=["solver.type=sphere"])
+        after = self.picked([2], lift_distance=0.05)
+        self.assertEqual(after.parts[2].state, ScenePart.REMOVED)
+        response = self.doors.pick(ids=[1], lift_distance=1e6)
+        self.assertEqual(response.error_code.value, ErrorCode.INPUT)
+        self.assertIn("lift", response.message)
+
+    def test_wrong_ids_change_nothing(self):
+        before = self.doors.scene()
+        for ids in ([99], [-1], [0, 1, 2, 77]):
+            response = self.doors.pick(ids=ids)
+            self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT))
+            self.assertIn("no part", response.message)
+        self.assertEqual(self.doors.latched().header.stamp, before.header.stamp)
+        self.assertTrue(all(p.state == ScenePart.RESTING for p in self.picked([]).parts))
+
+    def test_parts_are_added(self):
+        before = self.doors.scene()
+        response = self.doors.add(parts=[PartLine(model="nut_hex.stl", unit="mm", count=2)])
+        self.assertEqual((response.success, response.message), (True, ""))
+        self.assertEqual([p.id for p in response.scene.parts], list(range(7)))
+        self.assertEqual({p.model for p in response.scene.parts[5:]}, {"nut_hex.stl"})
+        self.assertGreater(response.scene.header.stamp, before.header.stamp)
+        self.assertEqual(self.picked([6]).parts[6].state, ScenePart.REMOVED)
+        for line, text in ((PartLine(model="nowhere.stl"), "nowhere.stl"), (PartLine(), "model"),
+                           (PartLine(model="nut_hex.stl", unit="mm", count=10 ** 9), "count")):
+            response = self.doors.add(parts=[line])
+            self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT))
+            self.assertIn(text, response.message)
+        self.assertFalse(self.doors.add(parts=[]).success)
+
+    def test_a_cleared_bin_takes_parts_again(self):
+        self.doors.scene()
+        self.assertTrue(self.doors.clear().success)
+        self.assertEqual(self.doors.pick(ids=[0]).error_code.value, ErrorCode.INPUT)
+        response = self.doors.add(parts=[PartLine(model="nut_hex.stl", unit="mm", count=3)])
+        self.assertEqual((response.success, response.message), (True, ""))
+        self.assertEqual([p.id for p in response.scene.parts], [0, 1, 2])
+
+    def test_the_next_scene_is_that_of_the_next_index(self):
+        for doors in (self.doors, Doors("/ahead/")):
+            first = doors.scene()
+            hashes = []
+            for index in (1, 2, 3):
+                self.assertTrue(doors.next().success)
+                scene = doors.latched()
+                self.assertEqual(scene.index, first.index + index)
+                hashes.append(scene.report.state_hash)
+            self.assertEqual(len(set(hashes)), 3)
+            asked = doors.scene(index=[2])
+            self.assertEqual(asked.report.state_hash, hashes[1])
+            self.assertEqual(doors.pick(ids=[1]).scene.parts[1].state, ScenePart.REMOVED)
+
+    def test_two_bins_of_one_node_know_nothing_of_each_other(self):
+        left, right = Doors("/two/left/"), Doors("/two/right/")
+        one, two = left.scene(seed=[1]), right.scene(seed=[2])
+        self.assertEqual(left.latched().header.stamp, one.header.stamp)
+        self.assertEqual((one.parts[0].frame_id, two.parts[0].frame_id), ("left/part_0000", "right/part_0000"))
+        self.assertEqual(one.header.frame_id, "left/bin")
+        self.assertTrue(left.clear().success)
+        self.assertEqual(len(right.latched().parts), 5)
+
+    def test_everything_is_published_again_at_a_rate(self):
+        streaming = Doors("/streaming/")
+        first = streaming.scene(CAMERA)
+        clouds = []
+        subscriber = rospy.Subscriber("/streaming/points", PointCloud2, clouds.append)
+        wait_until(lambda: len({c.header.stamp for c in clouds}) > 3)
+        subscriber.unregister()
+        self.assertGreater(clouds[-1].header.stamp, first.header.stamp)
+        self.assertEqual(clouds[-1].data, clouds[0].data)
+        self.assertGreater(streaming.latched().header.stamp, first.header.stamp)
+
+
+if __name__ == "__main__":
+    rospy.init_node("heap_test", anonymous=True)
+    rostest.rosrun("bin_scenes", "heap", HeapTest)
