@@ -34,7 +34,7 @@ void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& directio
       solver_.insert(id_, bodies[i], state);
     }
     advanced(solver_.advance({id_}, lift_slice));
-    judge();
+    update_rest();
     if (hooks.progress) {
       Progress now = progress();
       now.phase = "lift";
