@@ -50,7 +50,7 @@ class NodeletTest(NodeTestCase):
         self.assertEqual(self.said["scene"].level, DiagnosticStatus.OK)
         self.assertIn("bullet", self.said["device"].message)
         for _ in range(3):
-            self.doors.generate(self.request(set=["pour.limit=0.05"]))
+            self.doors.generate(self.request(set=["pour.limit=0.3"]))
         wait_until(lambda: self.said["scene"].level == DiagnosticStatus.ERROR)
         self.doors.scene()
         wait_until(lambda: self.said["scene"].level == DiagnosticStatus.OK)
