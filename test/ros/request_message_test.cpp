@@ -14,7 +14,7 @@ namespace {
 namespace msgs = bin_scenes_msgs;
 
 const std::string models = std::getenv("BIN_SCENES_MODELS");
-const PathRules all_rules = {{models}, {}};
+const PathRules all_rules = {{models}, "the roots", {}};
 
 msgs::SceneRequest one_bolt() {
   msgs::SceneRequest message;
