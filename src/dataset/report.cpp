@@ -58,7 +58,7 @@ std::string small_picture(const DataFolder& folder, std::size_t scene) {
   const auto path =
       std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
   if (path == candidates.end()) return "";
-  const PngImage image = read_png(path->string());
+  const PngImage image = load_png(path->string());
   const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
   std::vector<std::uint8_t> small;
   for (int y = 0; y < height; ++y) {

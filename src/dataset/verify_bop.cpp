@@ -66,8 +66,8 @@ void verify_masks(const fs::path& folder, const std::string& name, const Json& i
   const std::string where = (folder / "mask_visib" / name).string();
   PngImage seen, whole;
   try {
-    seen = read_png(where);
-    whole = read_png((folder / "mask" / name).string());
+    seen = load_png(where);
+    whole = load_png((folder / "mask" / name).string());
   } catch (const Error& error) {
     findings.expect(false, "bop_mask_there", error.where(), error.problem());
     return;
@@ -121,7 +121,7 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
   for (const char* kind : {"depth", "gray"}) {
     const fs::path path = folder / kind / (file + ".png");
     try {
-      const PngImage image = read_png(path.string());
+      const PngImage image = load_png(path.string());
       findings.expect(image.width == width && image.height == height, "bop_image", path.string(),
                       "has another size than the sensor");
     } catch (const Error& error) {

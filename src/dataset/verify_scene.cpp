@@ -78,9 +78,9 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
   const bool pinhole = sensor.at("model") != "laser_line";
   PngImage labels, depth, validity;
   try {
-    labels = read_png((folder / (name + "_labels.png")).string());
-    depth = read_png((folder / (name + "_depth.png")).string());
-    validity = read_png((folder / (name + "_validity.png")).string());
+    labels = load_png((folder / (name + "_labels.png")).string());
+    depth = load_png((folder / (name + "_depth.png")).string());
+    validity = load_png((folder / (name + "_validity.png")).string());
   } catch (const Error& error) {
     findings.expect(false, "image_size", error.where(), error.problem());
     return;

@@ -30,7 +30,7 @@ void on_read_warning(png_structp, png_const_charp) {}
 
 }  // namespace
 
-PngImage read_png(const std::string& path) {
+PngImage load_png(const std::string& path) {
   const std::string bytes = read_file(path);
   std::string name = path;
   Source source{&bytes, 0};

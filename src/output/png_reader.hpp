@@ -13,6 +13,6 @@ struct PngImage {
 };
 
 /// Grey and RGB of 8 or 16 bits; colours of a palette as RGB. Throws an input Error that names the path.
-PngImage read_png(const std::string& path);
+PngImage load_png(const std::string& path);
 
 }  // namespace bin_scenes

@@ -9,8 +9,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double lift_speed = 0.1;         ///< m/s
-constexpr double lift_slice = 1.0 / 60.0;  ///< s between two corrections of what is lifted
+constexpr double lift_speed = 0.1;  ///< m/s
 
 }  // namespace
 
@@ -19,13 +18,15 @@ void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& directio
   states();
   if (settling_.done()) begin(Stage::mend);
   start_clock();
-  const BodyState moved{Pose(), {lift_speed * direction, Vec3::Zero()}};
   std::vector<Pose> poses;
   for (const std::size_t b : bodies) poses.push_back(states_[b].pose);
-  const int pieces = static_cast<int>(std::ceil(distance / (lift_speed * lift_slice)));
+  const double slice = solver_.step_size();
+  // Gravity takes its part of the velocity back within the step.
+  const BodyState moved{Pose(), {lift_speed * direction - slice * plan_->world.gravity, Vec3::Zero()}};
+  const int pieces = static_cast<int>(std::ceil(distance / (lift_speed * slice)));
   for (int piece = 1; piece <= pieces; ++piece) {
     stop_if_cancelled();
-    // Put to its place again in each piece: what the heap does to it counts for nothing.
+    // Put on its path again in every step, so that it carries parts instead of falling with them.
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (place_[bodies[i]] != Place::in) continue;  // it lay outside of the bin
       BodyState state = moved;
@@ -33,7 +34,7 @@ void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& directio
       state.pose.position += direction * (distance * (piece - 1) / pieces);
       solver_.insert(id_, bodies[i], state);
     }
-    advanced(solver_.advance({id_}, lift_slice));
+    advanced(solver_.advance({id_}, slice));
     update_rest();
     if (hooks.progress) {
       Progress now = progress();

@@ -21,7 +21,6 @@ DEBIAN = {
     "libopencv-dev": ["libopencv-calib3d-dev"],
     "nodelet": ["libnodelet-dev", "libnodeletlib-dev", "libnodeletlib-tools"],
     "nlohmann-json-dev": ["nlohmann-json3-dev"],
-    "nodelet": ["libnodeletlib-tools"],
     "opengl": ["libegl1", "libopengl0", "libgl1-mesa-dri"],
     "tbb": ["libtbb-dev"],
     "tinyxml2": ["libtinyxml2-dev"],

@@ -62,7 +62,7 @@ class NodeletTest(NodeTestCase):
 
     def test_parameters_change_live(self):
         config = dynamic_reconfigure.client.Client("bin_scenes", timeout=30)
-        self.assertEqual(self.doors.scene(SMALL.replace("bullet", "sphere")).report.finish, "pressed")
+        self.assertEqual(self.doors.scene(SMALL.replace("bullet", "sphere")).report.finish, "probed")
         config.update_configuration({"finish": "settled", "publish_rate": 10.0})
         first = self.doors.scene(SMALL.replace("bullet", "sphere"))
         self.assertEqual(first.report.finish, "settled")
