@@ -10,7 +10,6 @@ import threading
 import time
 
 import rosgraph
-import rosnode
 import rospy
 import rostest
 from actionlib import TerminalState
@@ -25,7 +24,7 @@ TYPED = (ErrorCode.NONE, ErrorCode.SET_APART, ErrorCode.INPUT, ErrorCode.ENVIRON
 
 def pid_of_node():
     import xmlrpc.client
-    return xmlrpc.client.ServerProxy(rosnode.get_api_uri(rosgraph.Master("/test"), NODE)).getPid("/test")[2]
+    return xmlrpc.client.ServerProxy(rosgraph.Master("/test").lookupNode(NODE)).getPid("/test")[2]
 
 
 def taken(pid):
@@ -153,7 +152,7 @@ class RobustTest(NodeTestCase):
         def answers():
             try:
                 return pid_of_node() != pid and self.doors.generate(SceneRequest(yaml=SMALL)).success
-            except (rospy.ServiceException, OSError, rosnode.ROSNodeException, rospy.ROSException):
+            except (rospy.ServiceException, rosgraph.MasterException, OSError, rospy.ROSException):
                 return False
         wait_until(answers, 60)
         self.assertEqual(len(self.doors.latched().parts), 5)
