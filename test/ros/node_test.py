@@ -23,18 +23,11 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scene_data as data  # noqa: E402
+from scene_client import SMALL  # noqa: E402
 from bin_scenes.msg import ErrorCode, PartLine, Scene, SceneRequest, Sensor  # noqa: E402
 from bin_scenes.srv import GenerateScene  # noqa: E402
 
-REQUEST = """
-seed: 7
-bin: {inner_size: [0.16, 0.14, 0.08]}
-parts:
-  - {model: bracket_l.stl, unit: mm, count: 3, density: 7850}
-  - {model: gear_spur.stl, unit: mm, count: 2, density: 7850}
-solver: {type: bullet}
-sensors: [{name: camera, width: 240, height: 200}]
-"""
+REQUEST = SMALL + "sensors: [{name: camera, width: 240, height: 200}]\n"
 # Nuts in a mug, seen from above and from the side.
 TWO_SENSORS = """
 seed: 3
