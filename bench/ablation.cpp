@@ -43,15 +43,8 @@ const Mechanism mechanisms[] = {
     {"oriented boxes", "pairs by upright boxes alone", [](Variant& v) { v.settings.oriented_boxes = false; }},
     {"recycling", "contacts found anew in every step",
      [](Variant& v) { v.settings.recycle = v.settings.coarse_recycle = 0; }},
-    {"groups of samples", "spheres around 16 nodes, none around 128",
-     [](Variant& v) { change_samples(v, [](Samples& s) { never_far(s.groups); }); }},
     {"clusters of samples", "every node of a pair looked at",
-     [](Variant& v) {
-       change_samples(v, [](Samples& s) {
-         never_far(s.groups);
-         never_far(s.clusters);
-       });
-     }},
+     [](Variant& v) { change_samples(v, [](Samples& s) { never_far(s.clusters); }); }},
     {"coarse samples", "parts pour on exact samples",
      [](Variant& v) { v.change = [](Shape& shape) { shape.coarse = shape.fine; }; }},
     {"edges", "nodes alone",

@@ -85,8 +85,7 @@ TEST(SphereVariant, TakesAwayWhatItNames) {
   EXPECT_EQ(Tumbled(anew).counters.at("pairs_recycled"), 0u);
   unculled.change = [](sphere::Shape& shape) {
     for (sphere::Samples* samples : {&shape.coarse, &shape.fine})
-      for (auto* balls : {&samples->groups, &samples->clusters})
-        for (sphere::Ball& ball : *balls) ball.radius = 1e3f;
+      for (sphere::Ball& ball : samples->clusters) ball.radius = 1e3f;
   };
   const Tumbled every(unculled);
   EXPECT_EQ(every.counters.at("nodes_tested"), every.counters.at("nodes_possible"));

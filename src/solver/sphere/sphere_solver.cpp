@@ -154,7 +154,6 @@ class SphereSolver final : public Solver {
     p.count("pairs_recycled", c.pairs_recycled);
     p.count("pairs_asleep", c.pairs_asleep);
     p.count("pairs_culled", c.pairs_culled);
-    p.count("groups_tested", c.groups_tested);
     p.count("clusters_tested", c.clusters_tested);
     p.count("nodes_tested", c.nodes_tested);
     p.count("nodes_possible", c.nodes_possible);

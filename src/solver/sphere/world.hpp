@@ -140,14 +140,13 @@ struct Plane {
 
 struct Counters {
   std::uint64_t steps = 0, free_steps = 0, asleep_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0,
-                pairs_culled = 0, groups_tested = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0,
-                contacts = 0, contacts_solved = 0, dropped = 0;
+                pairs_culled = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0,
+                contacts_solved = 0, dropped = 0;
 
   Counters& operator+=(const Counters& c) {
     steps += c.steps, free_steps += c.free_steps, asleep_steps += c.asleep_steps, pairs += c.pairs,
         pairs_recycled += c.pairs_recycled;
-    pairs_asleep += c.pairs_asleep, pairs_culled += c.pairs_culled, groups_tested += c.groups_tested,
-        clusters_tested += c.clusters_tested;
+    pairs_asleep += c.pairs_asleep, pairs_culled += c.pairs_culled, clusters_tested += c.clusters_tested;
     nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts;
     contacts_solved += c.contacts_solved, dropped += c.dropped;
     return *this;

@@ -91,8 +91,6 @@ TEST(Shape, ClustersHoldTheirNodesAndEdges) {
   for (std::size_t i = 0; i < s.nodes.size(); ++i) {
     const Ball& c = s.clusters[i / cluster_size];
     EXPECT_LE((s.nodes[i] - c.center).norm(), c.radius * 1.0001f);
-    const Ball& g = s.groups[i / (cluster_size * group_size)];
-    EXPECT_LE((s.nodes[i] - g.center).norm(), g.radius * 1.0001f);
   }
   for (std::size_t c = 0; c < s.clusters.size(); ++c)
     for (std::uint32_t e = s.first_edge[c]; e < s.first_edge[c + 1]; ++e) {

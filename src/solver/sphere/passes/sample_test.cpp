@@ -82,17 +82,13 @@ class SampleTest {
 
   void run(Counters& counters) {
     const float slack = view_.margin + samples_.radius + samples_.sag + error_;
-    Points<group_size> center;
-    std::array<float, group_size> distance;
+    Points<clusters_at_once> center;
+    std::array<float, clusters_at_once> distance;
     counters.nodes_possible += samples_.nodes.size();
-    for (std::size_t g = 0; g < samples_.groups.size(); ++g) {
-      ++counters.groups_tested;
-      const Ball& group = samples_.groups[g];
-      if (field_.sample(view_.to_field(group.center)) > group.radius + slack) continue;
-      const std::size_t first = g * group_size;
-      const std::size_t count = std::min(samples_.clusters.size() - first, std::size_t{group_size});
-      counters.clusters_tested += count;
-      sample(field_, view_.to_field, samples_.cluster_points[g], center, distance.data());
+    counters.clusters_tested += samples_.clusters.size();
+    for (std::size_t first = 0; first < samples_.clusters.size(); first += clusters_at_once) {
+      const std::size_t count = std::min(samples_.clusters.size() - first, std::size_t{clusters_at_once});
+      sample(field_, view_.to_field, samples_.cluster_points[first / clusters_at_once], center, distance.data());
       for (std::size_t k = 0; k < count; ++k)
         if (distance[k] <= samples_.clusters[first + k].radius + slack)
           counters.nodes_tested += test_cluster(first + k);

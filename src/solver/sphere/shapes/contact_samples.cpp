@@ -43,7 +43,7 @@ Samples ball_samples(float radius) {
   Samples samples;
   samples.nodes = {Vec3f::Zero()};
   samples.cones = {Cone{}};
-  samples.clusters = samples.groups = {{Vec3f::Zero(), 0}};
+  samples.clusters = {{Vec3f::Zero(), 0}};
   samples.first_edge = {0, 0};
   samples.radius = samples.spacing = radius;
   lay_out(samples);
@@ -100,7 +100,6 @@ void for_each_list(AnySamples& samples, Each&& each) {
   each(samples.edges);
   each(samples.clusters);
   each(samples.first_edge);
-  each(samples.groups);
 }
 
 template <class AnySamples, class Each>

@@ -5,7 +5,7 @@
 ///   edges   straight pieces between two nodes of a sharp edge: where two parts cross edge on edge the deepest point
 ///           lies between nodes and is found by a local descent of the other part's field along the edge
 ///           (Macklin et al. 2020, "Local optimization for robust signed distance field collision")
-///   clusters, groups   bounding spheres over 16 nodes, and over 8 clusters: one field sample rejects all of them
+///   clusters   bounding spheres over 16 nodes: one field sample rejects all of them
 ///
 /// Two faces touch at corners and edges of one of them, two curved surfaces at a point that some face node is near:
 /// no contact needs more than these.
@@ -40,23 +40,22 @@ struct Ball {
   float radius = 0;
 };
 
-constexpr int cluster_size = 16, group_size = 8;
+constexpr int cluster_size = 16, clusters_at_once = 8;
 
 /// Nodes at one resolution.
 struct Samples {
-  std::vector<Vec3f> nodes;                        ///< in cluster order
-  std::vector<Cone> cones;                         ///< of the nodes
-  std::vector<Points<cluster_size>> node_points;   ///< the same, a cluster at a time
-  std::vector<Edge> edges;                         ///< in order of their first node's cluster
-  std::vector<Ball> clusters;                      ///< nodes [16 c, 16 c + 16) and the edges that start there
-  std::vector<std::uint32_t> first_edge;           ///< clusters + 1
-  std::vector<Points<group_size>> cluster_points;  ///< their centres, a group at a time
-  std::vector<Ball> groups;                        ///< clusters [8 g, 8 g + 8)
-  EdgeGrid edge_grid;                              ///< make_shape() makes it, with the field
-  float spacing = 0;                               ///< longest edge piece (m)
-  float face_spacing = 0;                          ///< mean way between neighbours on faces (m)
-  float sag = 0;                                   ///< m by which a curved face may bulge between its nodes
-  float radius = 0;                                ///< of the nodes: 0 = points; a ball is one node of its own radius
+  std::vector<Vec3f> nodes;                              ///< in cluster order
+  std::vector<Cone> cones;                               ///< of the nodes
+  std::vector<Points<cluster_size>> node_points;         ///< the same, a cluster at a time
+  std::vector<Edge> edges;                               ///< in order of their first node's cluster
+  std::vector<Ball> clusters;                            ///< nodes [16 c, 16 c + 16) and the edges that start there
+  std::vector<std::uint32_t> first_edge;                 ///< clusters + 1
+  std::vector<Points<clusters_at_once>> cluster_points;  ///< their centres, eight at a time
+  EdgeGrid edge_grid;                                    ///< make_shape() makes it, with the field
+  float spacing = 0;                                     ///< longest edge piece (m)
+  float face_spacing = 0;                                ///< mean way between neighbours on faces (m)
+  float sag = 0;                                         ///< m by which a curved face may bulge between its nodes
+  float radius = 0;  ///< of the nodes: 0 = points; a ball is one node of its own radius
 };
 
 // Where nodes on edges would stand farther apart they could not stand for them: the edges belong to a curved face.
@@ -72,7 +71,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
 Samples ball_samples(float radius);
 
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
-constexpr int samples_format = 4;
+constexpr int samples_format = 5;
 
 void put(ByteWriter& out, const Samples& samples);
 void get(ByteReader& in, Samples& samples);

@@ -43,10 +43,10 @@ void lay_out(Samples& samples) {
   samples.node_points.resize(samples.clusters.size());
   for (std::size_t i = 0; i < samples.node_points.size() * cluster_size; ++i)
     samples.node_points[i / cluster_size].set(i % cluster_size, samples.nodes[std::min(i, samples.nodes.size() - 1)]);
-  samples.cluster_points.resize(samples.groups.size());
-  for (std::size_t i = 0; i < samples.cluster_points.size() * group_size; ++i)
-    samples.cluster_points[i / group_size].set(i % group_size,
-                                               samples.clusters[std::min(i, samples.clusters.size() - 1)].center);
+  samples.cluster_points.resize((samples.clusters.size() + clusters_at_once - 1) / clusters_at_once);
+  for (std::size_t i = 0; i < samples.cluster_points.size() * clusters_at_once; ++i)
+    samples.cluster_points[i / clusters_at_once].set(i % clusters_at_once,
+                                                     samples.clusters[std::min(i, samples.clusters.size() - 1)].center);
 }
 
 Samples clustered(Draft draft, const Vec3& center, double spacing) {
@@ -88,19 +88,6 @@ Samples clustered(Draft draft, const Vec3& center, double spacing) {
       points.push_back(samples.nodes[samples.edges[e].b]);
     samples.first_edge.push_back(static_cast<std::uint32_t>(e));
     samples.clusters.push_back(ball_around(points));
-  }
-  for (std::size_t g = 0; g < clusters; g += group_size) {
-    Vec3f lower = samples.clusters[g].center, upper = lower;
-    for (std::size_t c = g; c < std::min(clusters, g + group_size); ++c) {
-      const Ball& b = samples.clusters[c];
-      lower = lower.cwiseMin(b.center - Vec3f::Constant(b.radius));
-      upper = upper.cwiseMax(b.center + Vec3f::Constant(b.radius));
-    }
-    Ball ball{0.5f * (lower + upper), 0};
-    for (std::size_t c = g; c < std::min(clusters, g + group_size); ++c)
-      ball.radius =
-          std::max(ball.radius, (samples.clusters[c].center - ball.center).norm() + samples.clusters[c].radius);
-    samples.groups.push_back(ball);
   }
   lay_out(samples);
   return samples;
