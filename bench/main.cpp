@@ -1,5 +1,6 @@
 /// bin_scenes_bench: run time against error. Needs no ROS.
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/freed_memory.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/compare.hpp"
 #include "framework/host.hpp"
@@ -93,6 +94,7 @@ int main_of(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return main_of(argc, argv);
   } catch (const Error& error) {

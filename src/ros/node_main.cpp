@@ -1,5 +1,6 @@
 /// The node: one bin, or several with names of their own (~bins).
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/freed_memory.hpp"
 #include "scene_server.hpp"
 
 #include <ros/names.h>
@@ -38,6 +39,7 @@ std::vector<std::unique_ptr<SceneServer>> servers() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  bin_scenes::keep_freed_memory();
   ros::init(argc, argv, "bin_scenes");
   ros::NodeHandle node;  // the log topic works from here on
   try {

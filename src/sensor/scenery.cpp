@@ -16,10 +16,11 @@ namespace bin_scenes {
 
 namespace {
 
-/// One instruction set for every processor: the same bits everywhere. Embree's own setting `threads` stays unset, as
-/// it limits the threads of the whole process.
+/// The instruction set is fixed, so that all processors that have it compute the same bits; those without it compute
+/// the same bits among themselves. Embree's own setting `threads` stays unset, as it limits the threads of the whole
+/// process.
 RTCDevice device() {
-  static const RTCDevice shared = rtcNewDevice("isa=sse4.2");
+  static const RTCDevice shared = rtcNewDevice(__builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse4.2");
   if (!shared) throw environment_error("Embree gives no device", "sensors", "use a processor with SSE 4.2");
   return shared;
 }
@@ -40,15 +41,15 @@ void set_transform(RTCGeometry instance, const Pose& pose) {
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
 }
 
-/// Rays go to Embree in fours, the width of the instruction set: neighbours share most of the way through the tree.
-constexpr int lanes = 4;
+/// Rays go to Embree in eights, the width of AVX2: neighbours share most of the way through the tree.
+constexpr int lanes = 8;
 
 bool usable(const Ray& ray) {
   return ray.direction.allFinite() && ray.origin.allFinite() && ray.far >= ray.near;
 }
 
 /// Fills one lane; says whether it holds a ray.
-int set_lane(RTCRay4& packet, int lane, const Ray& ray) {
+int set_lane(RTCRay8& packet, int lane, const Ray& ray) {
   packet.org_x[lane] = static_cast<float>(ray.origin.x());
   packet.org_y[lane] = static_cast<float>(ray.origin.y());
   packet.org_z[lane] = static_cast<float>(ray.origin.z());
@@ -75,14 +76,14 @@ template <class RayOf>
 void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::size_t count) {
   RTCIntersectContext context = context_of_neighbours();
   for (std::size_t first = 0; first < count; first += lanes) {
-    RTCRay4 packet;
+    RTCRay8 packet;
     int valid[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const std::size_t i = first + static_cast<std::size_t>(lane);
       valid[lane] = set_lane(packet, lane, ray_of(i < count ? i : first));
       if (i >= count) valid[lane] = 0;
     }
-    rtcOccluded4(valid, scene, &context, &packet);
+    rtcOccluded8(valid, scene, &context, &packet);
     for (int lane = 0; lane < lanes; ++lane) {
       const std::size_t i = first + static_cast<std::size_t>(lane);
       if (i < count) blocked[i] = valid[lane] && packet.tfar[lane] < 0.0f;
@@ -185,7 +186,7 @@ struct Scenery::State {
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
   static double floor_distance(const Ray& ray) { return -ray.origin.z() / ray.direction.z(); }  // 0 / 0 is no number
   static bool within(const Ray& ray, double distance) { return distance >= ray.near && distance <= ray.far; }
-  Hit hit_of(const Ray& ray, const RTCRayHit4& packet, int lane) const;
+  Hit hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const;
 };
 
 Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
@@ -219,7 +220,7 @@ Scenery::~Scenery() = default;
 Scenery::Scenery(Scenery&&) noexcept = default;
 
 /// Distance and normal of what Embree names, from the triangle's plane.
-Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit4& packet, int lane) const {
+Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const {
   Hit hit;
   const Body& body = bodies[packet.hit.instID[0][lane]];
   const Mesh& mesh = body.tree->mesh();
@@ -242,7 +243,7 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   RTCIntersectContext context = context_of_neighbours();
   for (std::size_t first = 0; first < count; first += lanes) {
-    RTCRayHit4 packet;
+    RTCRayHit8 packet;
     int valid[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const std::size_t i = first + static_cast<std::size_t>(lane);
@@ -258,7 +259,7 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count) const {
       hits[i].normal = rays[i].direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());
       packet.ray.tfar[lane] = static_cast<float>(hits[i].distance);
     }
-    rtcIntersect4(valid, state_->scene, &context, &packet);
+    rtcIntersect8(valid, state_->scene, &context, &packet);
     for (int lane = 0; lane < lanes; ++lane) {
       if (!valid[lane] || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
       const std::size_t i = first + static_cast<std::size_t>(lane);

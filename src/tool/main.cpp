@@ -2,6 +2,7 @@
 #include "bin_scenes/config/plan.hpp"
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/freed_memory.hpp"
 #include "tool/commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -127,6 +128,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const PlanErrors& errors) {

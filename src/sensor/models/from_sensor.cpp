@@ -5,6 +5,7 @@
 #include "core/in_parallel.hpp"
 #include "sensor/models/time_of_flight.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -19,7 +20,11 @@ Random random_of(const Draw& draw) {
 }
 
 void add_truth(RangeImage& image, View&& view) {
-  image.truth_depth.assign(view.depth.begin(), view.depth.end());
+  image.truth_depth.resize(view.depth.size());
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+    std::copy_n(&view.depth[row * width], width, &image.truth_depth[row * width]);
+  });
   image.truth_label = std::move(view.label);
   image.truth_normal = std::move(view.normal);
 }

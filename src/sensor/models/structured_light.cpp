@@ -54,16 +54,18 @@ double StructuredLight::gain() const {
   constexpr double enough = 16384;
   const auto width = static_cast<std::size_t>(view_.lens.width), height = static_cast<std::size_t>(view_.lens.height);
   const auto step = static_cast<std::size_t>(std::max(1.0, std::sqrt(static_cast<double>(width * height) / enough)));
-  std::vector<std::size_t> indices;
-  for (std::size_t y = step / 2; y < height; y += step) {
-    for (std::size_t x = step / 2; x < width; x += step) indices.push_back(y * width + x);
-  }
-  std::vector<Lit> all;
-  std::vector<double> depths;
-  for (const Pixel& pixel : lit(std::move(indices))) {
-    all.push_back(pixel.lit);
-    depths.push_back(view_.depth[pixel.index]);
-  }
+  const std::size_t columns = (width - step / 2 + step - 1) / step, rows = (height - step / 2 + step - 1) / step;
+  std::vector<Lit> all(columns * rows);
+  std::vector<double> depths(all.size());
+  in_parallel(rows, [&](std::size_t row) {
+    std::vector<std::size_t> indices;
+    for (std::size_t x = step / 2; x < width; x += step) indices.push_back((step / 2 + row * step) * width + x);
+    std::size_t at = row * columns;
+    for (const Pixel& pixel : lit(std::move(indices))) {
+      all[at] = pixel.lit;
+      depths[at++] = view_.depth[pixel.index];
+    }
+  });
   return gain_of(setup_.imager, all, depths, (view_.pose.inverse() * setup_.projector_pose.position).z());
 }
 
@@ -97,21 +99,21 @@ StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {
 }
 
 double StructuredLight::depth_sigma(std::size_t index) const {
-  return depth_sigma(lit({index}).front());
+  const Pixel pixel = lit({index}).front();
+  if (pixel.lit.code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
+  return depth_sigma(pixel, fringe(pixel));
 }
 
-double StructuredLight::depth_sigma(const Pixel& pixel) const {
-  if (pixel.lit.code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
-  const Fringe f = fringe(pixel);
+double StructuredLight::depth_sigma(const Pixel& pixel, const Fringe& f) const {
   return triangulation_.depth_per_column(pixel.ray, view_.depth[pixel.index]) *
          fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
 }
 
 /// Whether the faces beside a pixel's own one matter. Its samples lie a quarter of a pixel from its centre and see
 /// about a quarter of the step to a neighbour; noise of twice that hides it.
-bool StructuredLight::is_uneven(const Pixel& pixel) const {
+bool StructuredLight::is_uneven(const Pixel& pixel, const Fringe& fringe) const {
   const double step = step_beside(pixel);
-  return step >= setup_.settings.edge_step || (step > least_step && step > 2.0 * depth_sigma(pixel));
+  return step >= setup_.settings.edge_step || (step > least_step && step > 2.0 * depth_sigma(pixel, fringe));
 }
 
 /// By how much a neighbour lies off the plane of this pixel's face (m); infinite where a neighbour sees nothing.
@@ -199,23 +201,26 @@ Measurement StructuredLight::analytic(const Random& random) const {
     const auto lit = [&](std::size_t x) { return x >= pixels.size() || pixels[x].lit.code == Validity::valid; };
     // Where a pixel sees more than one face, or half a shadow, its samples tell what comes of it.
     std::vector<Pixel> uneven;
+    std::vector<Fringe> fringes(pixels.size());
     for (std::size_t x = 0; x < pixels.size(); ++x) {
       if (!lit(x)) continue;
-      if (!lit(x - 1) || !lit(x + 1) || is_uneven(pixels[x])) uneven.push_back(pixels[x]);
+      fringes[x] = fringe(pixels[x]);
+      if (!lit(x - 1) || !lit(x + 1) || is_uneven(pixels[x], fringes[x])) uneven.push_back(pixels[x]);
     }
     Samples samples;
     sample(uneven, samples);
 
     Random draw = random.of_piece(row);
     std::size_t next = 0;  // of the uneven ones
-    for (const Pixel& pixel : pixels) {
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      const Pixel& pixel = pixels[x];
       const std::size_t i = pixel.index;
       out.validity[i] = pixel.lit.code;
       if (pixel.lit.code != Validity::valid) continue;
       const bool sampled = next < uneven.size() && uneven[next].index == i;
       const bool mixed = sampled && samples.mixed[next];
       const Reading reading =
-          sampled ? summed(pixel, &samples.lit[Samples::per_pixel * next]) : Reading{pixel.lit.column, fringe(pixel)};
+          sampled ? summed(pixel, &samples.lit[Samples::per_pixel * next]) : Reading{pixel.lit.column, fringes[x]};
       next += sampled;
       double of_phase = 0.0, of_amplitude = 0.0;
       if (setup_.noise) draw.normals(of_phase, of_amplitude);

@@ -58,9 +58,9 @@ class StructuredLight {
   SeenPoint seen(std::size_t index, const Vec3& ray) const;
   double ambient(const Pixel& pixel) const;
   Fringe fringe(const Pixel& pixel) const;
-  double depth_sigma(const Pixel& pixel) const;
+  double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
   double footprint(const Pixel& pixel) const;
-  bool is_uneven(const Pixel& pixel) const;
+  bool is_uneven(const Pixel& pixel, const Fringe& fringe) const;
   double step_beside(const Pixel& pixel) const;
   void sample(const std::vector<Pixel>& pixels, Samples& samples) const;
   Reading summed(const Pixel& pixel, const Lit* samples) const;

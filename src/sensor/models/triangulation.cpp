@@ -44,6 +44,7 @@ double Triangulation::columns_along(const Vec3& point, const Vec3& way) const {
 }
 
 double Triangulation::depth_per_column(const Vec3& ray, double depth) const {
+  if (!distorted_) return 1.0 / std::abs(columns_along(depth * ray, ray));
   const Vec3 direction = turn_ * ray;
   const double h = 1e-5 * depth;
   const auto a = projector_.project(origin_ + (depth - h) * direction);
