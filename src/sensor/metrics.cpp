@@ -116,6 +116,8 @@ Targets plate(const Vec3& middle, const Quat& turn, double size) {
 void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
   const double size = 4.0 * half_field(sensor, m.distances[2]).maxCoeff();
   const double tilt = M_PI / 6.0;
+  // A tilted plate reaches from the nearest to the farthest distance of the volume, and not beyond.
+  const double tilted = std::min(size, 2.0 * (m.distances[2] - m.distances[1]) / std::sin(tilt));
   const std::array<std::pair<double, Quat>, 7> poses = {{
       {m.distances[1], Quat::Identity()},
       {m.distances[1], Quat(Eigen::AngleAxisd(-tilt, Vec3::UnitY()))},
@@ -126,7 +128,8 @@ void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
       {m.distances[2], Quat::Identity()},
   }};
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    Targets targets = plate({0, 0, poses[i].first}, poses[i].second, size);
+    const bool upright = poses[i].second.isApprox(Quat::Identity());
+    Targets targets = plate({0, 0, poses[i].first}, poses[i].second, upright ? size : tilted);
     m.flatness[i] = range_of(fit_plane(points_with(shot(sensor, targets, 0), 1)).residuals);
   }
 }

@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   SensorOptions sensor_options;
   CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
   sensor_app->add_option("SENSOR", sensor_options.sensor, "name of a preset, or a file of sensor keys")->required();
-  sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over incidence and albedo");
+  sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over distance, incidence and albedo");
   sensor_app->add_flag("--json", sensor_options.json, "as JSON");
 
   DatasetOptions dataset_options;

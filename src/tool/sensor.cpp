@@ -2,14 +2,13 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/metrics.hpp"
 #include "tool/commands.hpp"
+#include "tool/sensor_plot.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 namespace bin_scenes {
@@ -58,7 +57,13 @@ Json json_of(const Sensor& sensor, const SensorMetrics& m) {
 
 void print_row(const char* name, const std::array<double, 7>& values) {
   std::printf("%-26s", name);
-  for (const double v : values) std::printf(" %8.4f", 1e3 * v);
+  for (const double v : values) {
+    if (std::isnan(v)) {
+      std::printf(" %8s", "unseen");
+    } else {
+      std::printf(" %8.4f", 1e3 * v);
+    }
+  }
   std::printf("\n");
 }
 
@@ -90,58 +95,13 @@ void print_text(const Sensor& sensor, const SensorMetrics& m) {
   std::printf("%-26s %zu\n", "points a plate", m.valid_points);
 }
 
-/// Predicted sigma over incidence, a curve an albedo, for the middle distance; logarithmic.
-void plot(const std::string& path, const SensorMetrics& m) {
-  std::ofstream out(path);
-  double least = 1e9, most = 0.0;
-  for (const PredictedSigma& p : m.predicted) {
-    if (p.distance != m.distances[1] || !(p.sigma > 0.0)) continue;
-    least = std::min(least, p.sigma);
-    most = std::max(most, p.sigma);
-  }
-  if (!(most > 0.0)) throw input_error("there is nothing to plot: no noise", path, "leave --plot out");
-  const double first = std::floor(std::log10(least)), last = std::max(first + 1.0, std::ceil(std::log10(most)));
-  const auto x = [](double incidence) { return 70.0 + 400.0 * degrees(incidence) / 70.0; };
-  const auto y = [&](double sigma) { return 270.0 - 240.0 * (std::log10(sigma) - first) / (last - first); };
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"560\" height=\"320\" font-family=\"sans-serif\" "
-         "font-size=\"12\">\n<rect width=\"560\" height=\"320\" fill=\"white\"/>\n";
-  for (double decade = first; decade <= last; ++decade) {
-    const double at = y(std::pow(10.0, decade));
-    out << "<path d=\"M70 " << at << "H470\" stroke=\"#ccc\"/><text x=\"64\" y=\"" << at + 4
-        << "\" text-anchor=\"end\">" << std::pow(10.0, decade + 3.0) << "</text>\n";
-  }
-  for (const int d : {0, 10, 20, 30, 40, 50, 60, 70}) {
-    out << "<text x=\"" << x(d * M_PI / 180.0) << "\" y=\"288\" text-anchor=\"middle\">" << d << "</text>\n";
-  }
-  out << "<text x=\"270\" y=\"308\" text-anchor=\"middle\">incidence (degrees)</text>\n<text x=\"70\" y=\"18\">sigma "
-         "of "
-         "depth (mm) at "
-      << m.distances[1] << " m</text>\n";
-  const char* const colours[] = {"#000", "#a33", "#36a", "#2a2"};
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::string path_of, separator = "M";
-    double end = 0.0;
-    for (std::size_t i = k; i < m.predicted.size(); i += 4) {
-      const PredictedSigma& p = m.predicted[i];
-      if (p.distance != m.distances[1] || !(p.sigma > 0.0)) continue;
-      path_of += separator + std::to_string(x(p.incidence)) + " " + std::to_string(end = y(p.sigma));
-      separator = "L";
-    }
-    out << "<path d=\"" << path_of << "\" fill=\"none\" stroke=\"" << colours[k] << "\" stroke-width=\"2\"/>"
-        << "<text x=\"476\" y=\"" << end + 4 << "\" fill=\"" << colours[k] << "\">albedo " << m.predicted[k].albedo
-        << "</text>\n";
-  }
-  out << "</svg>\n";
-  if (!out.flush()) throw environment_error("the plot can not be written", path, "check folder and disk");
-}
-
 }  // namespace
 
 int sensor(const SensorOptions& options) {
   const bool file = std::filesystem::is_regular_file(options.sensor);
   const Sensor sensor = file ? read_sensor_file(options.sensor) : sensor_preset(options.sensor);
   const SensorMetrics metrics = measure_sensor(sensor);
-  if (!options.plot.empty()) plot(options.plot, metrics);
+  if (!options.plot.empty()) write_sigma_plot(options.plot, metrics);
   if (options.json) {
     std::cout << json_of(sensor, metrics).dump(1) << "\n";
   } else {

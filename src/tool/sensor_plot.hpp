@@ -1,0 +1,15 @@
+/// Predicted noise of a sensor as a picture.
+#pragma once
+
+#include "bin_scenes/sensor/metrics.hpp"
+
+#include <string>
+
+namespace bin_scenes {
+
+/// SVG with two panels, a curve for each albedo, sigma on one logarithmic scale: over distance, facing, and over
+/// incidence at the middle distance. Throws an input Error for a sensor without noise, an environment Error if it
+/// cannot be written.
+void write_sigma_plot(const std::string& path, const SensorMetrics& metrics);
+
+}  // namespace bin_scenes
