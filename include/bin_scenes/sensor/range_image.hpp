@@ -27,7 +27,6 @@ struct RangeImage {
   // True, of the camera's own view, sensor.width * sensor.height; empty where it equals what was measured.
   std::vector<float> truth_depth;
   std::vector<std::uint16_t> truth_label;
-  std::vector<std::array<float, 3>> truth_normal;
   const std::vector<float>& seen_depth() const { return truth_depth.empty() ? depth : truth_depth; }
   const std::vector<std::uint16_t>& seen_label() const { return truth_label.empty() ? label : truth_label; }
 

@@ -26,7 +26,6 @@ void add_truth(RangeImage& image, View&& view) {
     std::copy_n(&view.depth[row * width], width, &image.truth_depth[row * width]);
   });
   image.truth_label = std::move(view.label);
-  image.truth_normal = std::move(view.normal);
 }
 
 RangeImage image_of(View&& view, Measurement&& measured) {
@@ -37,7 +36,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
   const std::size_t pixels = view.depth.size();
   image.depth.resize(pixels);
   image.label.resize(pixels);
-  image.normal.resize(pixels);
+  image.normal = std::move(view.normal);
   image.validity.resize(pixels);
   add_truth(image, std::move(view));
   const auto width = static_cast<std::size_t>(image.width);
@@ -47,7 +46,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
       image.validity[i] = static_cast<std::uint8_t>(measured.validity[i]);
       image.depth[i] = static_cast<float>(measured.depth[i]);
       image.label[i] = valid ? image.truth_label[i] : std::uint16_t{0};
-      image.normal[i] = valid ? image.truth_normal[i] : std::array<float, 3>{nan, nan, nan};
+      if (!valid) image.normal[i] = {nan, nan, nan};
     }
   });
   return image;
