@@ -8,15 +8,15 @@ parts_with(name) = system("awk -F, '/^part,/ { for (i = 1; i <= NF; ++i) if ($i 
 set logscale xy  # the same ranges in all panels, so that parts compare
 set format '%g'
 set xlabel 'CPU s a scene'
-array names = ['sphere: default', 'sphere: time step', 'sphere: sub-steps', 'sphere: samples', 'sphere: field cell', \
+array names = ['sphere: default', 'sphere: finish', 'sphere: quick', 'sphere: time step', 'sphere: sub-steps', 'sphere: samples', 'sphere: field cell', \
   'sphere/thesis', 'bullet, sleeping', 'bullet, no sleeping', 'Bullet as it comes', 'the same: iterations', \
   'ODE', 'ODE: iterations', 'DART']
-array series = ['sphere|yes|default', 'sphere|yes|time_step', 'sphere|yes|sub_steps', 'sphere|yes|fine_samples', \
+array series = ['sphere|yes|default', 'sphere|yes|finish', 'sphere/quick|yes|default', 'sphere|yes|time_step', 'sphere|yes|sub_steps', 'sphere|yes|fine_samples', \
   'sphere|yes|field_cell', 'sphere/thesis|no|default', 'bullet|yes|time_step', 'bullet|no|time_step', \
   'bullet_stock|yes|time_step', 'bullet_stock|yes|iterations', 'ode|no|time_step', 'ode|no|iterations', 'dart|no|time_step']
-array colours = ['#000000', '#0072b2', '#0072b2', '#0072b2', '#0072b2', '#009e73', '#d55e00', '#d55e00', '#d55e00', '#d55e00', \
+array colours = ['#000000', '#000000', '#000000', '#0072b2', '#0072b2', '#0072b2', '#0072b2', '#009e73', '#d55e00', '#d55e00', '#d55e00', '#d55e00', \
   '#cc79a7', '#cc79a7', '#e69f00']
-array shapes = [3, 7, 6, 4, 8, 9, 5, 4, 2, 1, 11, 10, 13]
+array shapes = [3, 1, 2, 7, 6, 4, 8, 9, 5, 4, 2, 1, 11, 10, 13]
 name(i) = strcol('solver').'|'.strcol('sleeping').'|'.strcol('varied') eq series[i]
 # Nothing to see below one part in 100,000: rounding.
 shown(y) = y < 1e-5 ? 1e-5 : y
@@ -44,7 +44,7 @@ do for [e=1:2] {
       table using (strcol('part') eq part && strcol(fronts[e]) eq 'yes' ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
         smooth unique with lines linecolor rgb '#bbbbbb' linewidth 3 notitle, \
       for [i=1:|series|] table using (strcol('part') eq part && name(i) ? column('cpu_s') : NaN):(shown(column(errors[e]))) \
-        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i == 1 ? 1.8 : 1) notitle
+        with points pointtype shapes[i] linecolor rgb colours[i] pointsize (i <= 3 ? 1.8 : 1) notitle
   }
 }
 # The key, in a panel of its own.
