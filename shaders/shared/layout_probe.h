@@ -11,9 +11,11 @@ struct LayoutProbe {
   ivec4 signed_words;
   vec2 two;
   uint tail[2];
+  vec3 three;
+  uint behind;
 };
 GPU_STRUCTS_END
 #ifdef __cplusplus
-static_assert(sizeof(bin_scenes::gpu::LayoutProbe) == 64, "std430 layout");
+static_assert(sizeof(bin_scenes::gpu::LayoutProbe) == 80, "std430 layout");
 #endif
 #endif

@@ -187,13 +187,16 @@ struct SpherePair {
 
 struct SphereManifold {
   uvec4 state;       // contacts, presses (in the solve: bounces), found, place of the first contact
-  vec4 found_position;     // of b in the frame of a when contacts were found; w: contacts solved in this step (bits)
+  vec3 found_position;     // of b in the frame of a when contacts were found
+  uint solved;             // contacts solved in this step: the first ones
   vec4 found_orientation;
 };
 
 struct SphereContact {
-  vec4 anchor_a;     // on the surface of a, body axes; w: place of the manifold's next contact (bits)
-  vec4 anchor_b;     // w: feature (bits)
+  vec3 anchor_a;     // on the surface of a, body axes
+  uint next;         // place of the manifold's next contact
+  vec3 anchor_b;
+  uint feature;
   vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: in the solve, speed at which the two meet
   vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
                      // 1 once it has pressed

@@ -1,5 +1,6 @@
 // GLSL's types for C++, so that one struct serves both languages. Members are vec4, uvec4, ivec4, vec2, uvec2, uint,
-// int, float only: with vec3 the layouts of std430 and C++ part.
+// int, float, and a vec3 only at a multiple of 16 bytes with a uint or float right behind it: elsewhere the layouts of
+// std430 and C++ part.
 #ifdef __cplusplus
 #pragma once
 #include <cstdint>
@@ -7,6 +8,7 @@ namespace bin_scenes::gpu {
 using uint = std::uint32_t;
 struct alignas(8) vec2 { float x, y; };
 struct alignas(8) uvec2 { uint x, y; };
+struct vec3 { float x, y, z; };
 struct alignas(16) vec4 { float x, y, z, w; };
 struct alignas(16) uvec4 { uint x, y, z, w; };
 struct alignas(16) ivec4 { int x, y, z, w; };

@@ -8,14 +8,14 @@ uint first_contact(SphereWorld world, uint slot) {
 }
 // How many of its contacts are solved in this step: the first ones.
 uint solved_contacts(SphereWorld world, uint slot) {
-  return floatBitsToUint(manifolds[world.pairs.x + slot].found_position.w);
+  return manifolds[world.pairs.x + slot].solved;
 }
-uint place_after(SphereWorld world, uint place) { return floatBitsToUint(contacts[world.contacts.x + place].anchor_a.w); }
+uint place_after(SphereWorld world, uint place) { return contacts[world.contacts.x + place].next; }
 uint next_contact(SphereWorld world, uint contact) {
   return world.contacts.x + place_after(world, contact - world.contacts.x);
 }
 void link_places(SphereWorld world, uint place, uint next) {
-  contacts[world.contacts.x + place].anchor_a.w = uintBitsToFloat(next);
+  contacts[world.contacts.x + place].next = next;
 }
 
 // find_pairs, one invocation, before any manifold is retired: what find_contacts gave up is free again.

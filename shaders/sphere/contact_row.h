@@ -48,9 +48,9 @@ const float least_turn = 1e-5;  // rad; below, a lever moves by less than contac
 
 Row row_of(SphereContact c, Side a, Side b) {
   Row row;
-  row.ra = rotate(a.orientation, c.anchor_a.xyz);
-  row.rb = rotate(b.orientation, c.anchor_b.xyz);
-  bool of_a = (floatBitsToUint(c.anchor_b.w) & SPHERE_SIDE_B) != 0u;
+  row.ra = rotate(a.orientation, c.anchor_a);
+  row.rb = rotate(b.orientation, c.anchor_b);
+  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;
   row.normal = rotate(of_a ? a.orientation : b.orientation, c.normal.xyz);
   row.separation = dot(b.position + row.rb - a.position - row.ra, row.normal);
   if (max(dot(a.ahead_turn, a.ahead_turn), dot(b.ahead_turn, b.ahead_turn)) > least_turn * least_turn) {

@@ -44,7 +44,7 @@ bool recyclable(SphereManifold manifold, SpherePair pair, bool fine) {
   vec3 position;
   vec4 orientation;
   relative_pose(pair, position, orientation);
-  vec3 moved = position - manifold.found_position.xyz;
+  vec3 moved = position - manifold.found_position;
   if (dot(moved, moved) > limit * limit) return false;
   vec4 turn = quat_multiply(quat_conjugate(manifold.found_orientation), orientation);
   return length(turn.xyz) * size < limit;

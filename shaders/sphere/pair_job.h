@@ -15,7 +15,10 @@ void enlist(SphereWorld world, uint w, SpherePair pair, uint place) {
   }
   uint job = atomicAdd(status.jobs, 1u);
   jobs[job] = place;
-  atomicMax(status.groups.x, job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u);
+  uint groups = job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u;
+  // A dispatch takes 65,535 groups an axis; groups that find no job end at once.
+  atomicMax(status.groups.x, min(groups, 65535u));
+  atomicMax(status.groups.y, (groups + 65534u) / 65535u);
 }
 
 // What this invocation saw: pairs, and bodies that sleep.

@@ -18,8 +18,6 @@ const uint NO_SOURCE = 0xffffffffu;
 uint mine;  // candidates of this invocation
 bool lost;
 
-uint feature_of(SphereContact contact) { return floatBitsToUint(contact.anchor_b.w); }
-
 // Rooms for the candidates of a group lie behind a word for each that says whether it is in use.
 shared uint room;
 
@@ -28,9 +26,13 @@ void take_room() {
     room = gl_WorkGroupID.x % settings.contact_groups;
     while (atomicExchange(candidates[room].feature.x, 1u) == 1u) room = (room + 1u) % settings.contact_groups;
   }
+  memoryBarrierBuffer();
   barrier();
 }
+// What this group wrote there is written before the next one takes the room.
 void leave_room() {
+  memoryBarrierBuffer();
+  barrier();
   if (gl_LocalInvocationIndex == 0u) atomicExchange(candidates[room].feature.x, 0u);
 }
 
@@ -71,7 +73,7 @@ void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
   }
   uint known = 0u;
   for (uint k = 0u; k < old_count; ++k)
-    if (old_found != 0u && feature_of(old[k]) == feature) known = 1u;
+    if (old_found != 0u && old[k].feature == feature) known = 1u;
   candidates[candidate_place(mine++)] =
       SphereCandidate(vec4(on_a, separation), vec4(normal, FAR), uvec4(feature, known, 0u, 0u));
 }
@@ -161,7 +163,7 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   if (i < count) {
     chosen_source[i] = NO_SOURCE;
     for (uint k = 0u; k < old_count; ++k)
-      if (old_found != 0u && feature_of(old[k]) == chosen_feature[i]) {
+      if (old_found != 0u && old[k].feature == chosen_feature[i]) {
         chosen_source[i] = k;
         source_taken[k] = 1u;
       }
@@ -172,9 +174,9 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
       if (chosen_source[n] != NO_SOURCE) continue;
       float nearest = near;
       for (uint k = 0u; k < old_count; ++k) {
-        float way = length(old[k].anchor_a.xyz - chosen_on_a[n].xyz);
+        float way = length(old[k].anchor_a - chosen_on_a[n].xyz);
         if (source_taken[k] == 1u || way > nearest) continue;
-        bool field_of_a = (feature_of(old[k]) & SPHERE_SIDE_B) != 0u;
+        bool field_of_a = (old[k].feature & SPHERE_SIDE_B) != 0u;
         vec3 normal = old[k].normal.xyz;
         if (!field_of_a) normal = (ground ? normal : rb * normal) * ra;
         if (dot(normal, chosen_normal[n].xyz) < 0.9) continue;
@@ -243,8 +245,10 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
     // The normal turns with the body whose field it comes from.
     if ((chosen_feature[thread] & SPHERE_SIDE_B) == 0u) normal = ground ? ra * normal : (ra * normal) * rb;
     uint at = world.contacts.x + place[thread], source = chosen_source[thread];
-    contacts[at].anchor_a = vec4(on_a, thread + 1u < count ? uintBitsToFloat(place[thread + 1u]) : 0.0);
-    contacts[at].anchor_b = vec4(on_b, uintBitsToFloat(chosen_feature[thread]));
+    contacts[at].anchor_a = on_a;
+    contacts[at].next = thread + 1u < count ? place[thread + 1u] : 0u;
+    contacts[at].anchor_b = on_b;
+    contacts[at].feature = chosen_feature[thread];
     contacts[at].normal = vec4(normal, 0.0);
     contacts[at].force = source != NO_SOURCE ? old[source].force : vec4(0.0);
   }
@@ -253,7 +257,7 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
     vec4 orientation;
     relative_pose(pair, position, orientation);
     manifolds[world.pairs.x + pair.slot] =
-        SphereManifold(uvec4(count, 0u, 1u, place[0]), vec4(position, 0.0), orientation);
+        SphereManifold(uvec4(count, 0u, 1u, place[0]), position, 0u, orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
     if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
   }

@@ -5,12 +5,12 @@
 // Distance of a contact's points where the bodies are (m).
 float separation_of(SphereContact c, SpherePair pair) {
   vec4 q = states[pair.a].orientation, q_b = vec4(0.0, 0.0, 0.0, 1.0);
-  vec3 on_a = states[pair.a].position.xyz + rotate(q, c.anchor_a.xyz), on_b = c.anchor_b.xyz;
+  vec3 on_a = states[pair.a].position.xyz + rotate(q, c.anchor_a), on_b = c.anchor_b;
   if (pair.b != SPHERE_GROUND) {
     q_b = states[pair.b].orientation;
     on_b = states[pair.b].position.xyz + rotate(q_b, on_b);
   }
-  bool of_a = (floatBitsToUint(c.anchor_b.w) & SPHERE_SIDE_B) != 0u;
+  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;
   return dot(on_b - on_a, rotate(of_a ? q : q_b, c.normal.xyz));
 }
 
@@ -38,7 +38,7 @@ uint put_solved_first(SphereWorld world, SpherePair pair) {
   }
   if (solved > 0u && solved < count) link_places(world, last, first_left);
   if (count > 0u) manifolds[slot].state.w = solved > 0u ? first : first_left;
-  manifolds[slot].found_position.w = uintBitsToFloat(solved);
+  manifolds[slot].solved = solved;
   return solved;
 }
 

@@ -21,5 +21,7 @@ void main() {
   p.two *= 2.0;
   p.tail[0] ^= 1u;
   p.tail[1] ^= 2u;
+  p.three = p.three.zxy;
+  p.behind += 3u;
   copies[i] = p;
 }

@@ -8,11 +8,19 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <utility>
 
 namespace bin_scenes::gl {
 
 namespace {
+constexpr int longest_wait_s = 600;  // software OpenGL on a busy machine takes minutes for a large step
+
+Error lost(const std::string& what) {
+  return environment_error("the OpenGL device " + what, Device::current().renderer(),
+                           "start again; solver.sphere.device: cpu needs no such device");
+}
+
 /// Behind what passes wrote there.
 void update_barrier() {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -165,7 +173,11 @@ bool ReadBack::ready() const {
 const void* ReadBack::wait() {
   if (fence_) {
     constexpr GLuint64 second = 1000000000;
-    while (glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, second) == GL_TIMEOUT_EXPIRED) {
+    for (int waited = 0;; ++waited) {
+      const GLenum state = glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, second);
+      if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) break;
+      if (state == GL_WAIT_FAILED || glGetGraphicsResetStatus() != GL_NO_ERROR) throw lost("has lost its work");
+      if (waited >= longest_wait_s) throw lost("has not answered for " + std::to_string(longest_wait_s) + " s");
     }
     glDeleteSync(static_cast<GLsync>(fence_));
     fence_ = nullptr;

@@ -120,10 +120,20 @@ Context open(Candidate& candidate) {
       return made;
     }
   }
-  const EGLint attributes[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                         4,
+                         EGL_CONTEXT_MINOR_VERSION,
+                         5,
+                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                         EGL_LOSE_CONTEXT_ON_RESET,
+                         EGL_NONE};
   made.context = eglCreateContext(made.display, config, EGL_NO_CONTEXT, attributes);
+  if (made.context == EGL_NO_CONTEXT) {  // a driver that does not tell of resets
+    attributes[6] = EGL_NONE;
+    made.context = eglCreateContext(made.display, config, EGL_NO_CONTEXT, attributes);
+  }
   if (made.context == EGL_NO_CONTEXT) {
     info.detail = std::string("no OpenGL 4.5 core context: ") + egl_error();
     return made;

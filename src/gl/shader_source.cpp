@@ -80,13 +80,28 @@ void append(const fs::path& directory, const std::string& file, const std::strin
   }
 }
 
+/// Of a group every invocation, of a dispatch every group: numbered in another order. Macros, as the size of a group is
+/// known only behind the layout line. 37 has no divisor in common with any size of a group.
+constexpr const char* other_numbers =
+    "#define shuffled_invocation ((gl_LocalInvocationIndex * 37u + 11u) % gl_WorkGroupSize.x)\n"
+    "#define shuffled_group uvec3(gl_NumWorkGroups.x - 1u - gl_WorkGroupID.x, gl_WorkGroupID.yz)\n";
+
+void shuffle(std::string& text) {
+  static const std::regex invocation("gl_LocalInvocationIndex\\b"), group("gl_WorkGroupID\\b");
+  text = std::regex_replace(text, invocation, "shuffled_invocation");
+  text = std::regex_replace(text, group, "shuffled_group");
+}
+
 }  // namespace
 
 ShaderSource read_shader(const std::string& file, const Defines& defines) {
   ShaderSource source;
-  source.text = "#version 450 core\n";
   for (const auto& [name, value] : defines) source.text += "#define " + name + " " + value + "\n";
   append(shader_directory(), file, "", source);
+  const char* const set = std::getenv("BIN_SCENES_SHUFFLE");
+  const bool shuffled = set && std::string(set) == "1";
+  if (shuffled) shuffle(source.text);
+  source.text.insert(0, std::string("#version 450 core\n") + (shuffled ? other_numbers : ""));
   return source;
 }
 

@@ -28,8 +28,15 @@ TEST_F(ProgramTest, StructsLieAlikeInBothLanguages) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto f = static_cast<float>(100 * i);
     const auto u = static_cast<std::uint32_t>(100 * i), s = static_cast<std::uint32_t>(i);
-    probes[i] = {{f, f + 1, f + 2, f + 3},         {u + 4, u + 5},   f + 6,           u + 7,
-                 {-static_cast<int>(s), 8, 9, 10}, {f + 11, f + 12}, {u + 16, u + 20}};
+    probes[i] = {{f, f + 1, f + 2, f + 3},
+                 {u + 4, u + 5},
+                 f + 6,
+                 u + 7,
+                 {-static_cast<int>(s), 8, 9, 10},
+                 {f + 11, f + 12},
+                 {u + 16, u + 20},
+                 {f + 21, f + 22, f + 23},
+                 u + 24};
   }
   Buffer<gpu::LayoutProbe> in("in"), out("out");
   in.upload(probes);
@@ -53,6 +60,9 @@ TEST_F(ProgramTest, StructsLieAlikeInBothLanguages) {
     EXPECT_EQ(b.two.y, a.two.y * 2);
     EXPECT_EQ(b.tail[0], a.tail[0] ^ 1u);
     EXPECT_EQ(b.tail[1], a.tail[1] ^ 2u);
+    EXPECT_EQ(b.three.x, a.three.z);
+    EXPECT_EQ(b.three.z, a.three.y);
+    EXPECT_EQ(b.behind, a.behind + 3);
   }
   EXPECT_EQ(copies[count].word, 0u) << "wrote beyond the count";
 }

@@ -12,7 +12,7 @@ layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[];
 layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
-layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
+layout(std430, binding = BIND_LARGE) coherent buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_WORK) coherent buffer Work { SphereWork work[]; };
 
 uniform uint coloring_round;   // the first that had none

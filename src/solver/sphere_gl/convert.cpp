@@ -101,10 +101,11 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
       if (c.normal_force > 0) presses = 1;
       const auto next = static_cast<std::uint32_t>(image.contacts.size() + 1);
       image.contacts.push_back(
-          {vec4(c.anchor_a, float_of(next)), vec4(c.anchor_b, float_of(c.feature)), vec4(c.local_normal), force_of(c)});
+          {three(c.anchor_a), next, three(c.anchor_b), c.feature, vec4(c.local_normal), force_of(c)});
     }
     image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, first},
-                               vec4(m.found_x),
+                               three(m.found_x),
+                               static_cast<gpu::uint>(m.solved),
                                vec4(m.found_q)});
   }
   return image;
@@ -119,7 +120,7 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     m.color = static_cast<int>(pair.color);
     const gpu::SphereManifold& from = image.manifolds[pair.slot];
     m.contacts.resize(from.state.x);
-    m.solved = word_of(from.found_position.w);
+    m.solved = from.solved;
     m.found = from.state.z;
     m.found_x = vec3(from.found_position);
     m.found_q = quat(from.found_orientation);
@@ -130,11 +131,11 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     std::uint32_t place = from.state.w;
     for (Contact& c : m.contacts) {
       const gpu::SphereContact& g = image.contacts[place];
-      place = word_of(g.anchor_a.w);
+      place = g.next;
       c.anchor_a = vec3(g.anchor_a);
       c.anchor_b = vec3(g.anchor_b);
       c.local_normal = vec3(g.normal);
-      c.feature = word_of(g.anchor_b.w);
+      c.feature = g.feature;
       c.normal_force = g.force.x;
       c.friction_force = {g.force.y, g.force.z, g.force.w};
     }
@@ -147,15 +148,14 @@ std::vector<gpu::uint> free_places(const std::vector<gpu::SphereContact>& contac
                                    const gpu::SphereProgress& progress) {
   std::vector<gpu::uint> places;
   for (const gpu::uint first : {progress.free_contact, progress.released_contact})
-    for (gpu::uint place = first; place != SPHERE_NO_PLACE; place = word_of(contacts[place].anchor_a.w))
-      places.push_back(place);
+    for (gpu::uint place = first; place != SPHERE_NO_PLACE; place = contacts[place].next) places.push_back(place);
   return places;
 }
 
 void set_free_places(std::vector<gpu::SphereContact>& contacts, const std::vector<gpu::uint>& places,
                      gpu::SphereProgress& progress) {
   for (std::size_t k = 0; k < places.size(); ++k)
-    contacts[places[k]].anchor_a.w = float_of(k + 1 < places.size() ? places[k + 1] : SPHERE_NO_PLACE);
+    contacts[places[k]].next = k + 1 < places.size() ? places[k + 1] : SPHERE_NO_PLACE;
   progress.free_contact = places.empty() ? SPHERE_NO_PLACE : places[0];
   progress.released_contact = SPHERE_NO_PLACE;
   progress.missing_contacts = 0;

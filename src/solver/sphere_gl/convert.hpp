@@ -12,6 +12,9 @@ namespace bin_scenes::sphere_gl {
 inline gpu::vec4 vec4(const sphere::Vec3f& v, float w = 0.0f) {
   return {v.x(), v.y(), v.z(), w};
 }
+inline gpu::vec3 three(const sphere::Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
 inline gpu::vec4 vec4(const sphere::Quatf& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
@@ -26,6 +29,9 @@ inline std::uint32_t word_of(float f) {
   return word;
 }
 inline sphere::Vec3f vec3(const gpu::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+inline sphere::Vec3f vec3(const gpu::vec3& v) {
   return {v.x, v.y, v.z};
 }
 inline sphere::Quatf quat(const gpu::vec4& v) {

@@ -317,6 +317,12 @@ std::size_t most_gl_bodies() {
 std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, const Capacity& capacity) {
   if (!(settings.time_step > 0))
     throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
+  constexpr int blocks = 16;  // of find_contacts, the most of all passes; OpenGL 4.5 promises 8
+  if (gl::Device::current().limits().storage_blocks < blocks) {
+    throw environment_error("the device has " + std::to_string(gl::Device::current().limits().storage_blocks) +
+                                " storage blocks a shader, the solver needs " + std::to_string(blocks),
+                            gl::Device::current().renderer(), "use solver.sphere.device: cpu");
+  }
   gl::Device::current().make_current();
   return std::make_unique<GlSphereSolver>(settings, capacity);
 }
