@@ -56,5 +56,6 @@ class LaunchTestCase(NodeTestCase):
         return rospy.wait_for_message("scene", Scene, 60)
 
     def tearDown(self):
-        """The next launch file starts a node of the same name: the master has to have forgotten this one."""
+        """The next launch file starts a node of the same name: the master has to have forgotten this one and its request."""
+        rospy.delete_param("/bin_scenes")
         wait_until(lambda: not any(kind == "bin_scenes/Scene" for _, kind in rospy.get_published_topics()), 30)
