@@ -149,7 +149,8 @@ class RobustTest(NodeTestCase):
             print("%8d  %11.1f  %11d  %7d" % ((count * share // 4,) + after))
             if share < 4:
                 work(count // 4)
-        self.assertLess(after[0], 1.05 * before[0] + 30)
+        allocators_share = 0 if count >= 1000 else 30  # MB that a short run has not touched before
+        self.assertLess(after[0], 1.05 * before[0] + allocators_share)
         self.assertLessEqual(after[1], before[1] + 3)
         self.assertLessEqual(after[2], before[2] + 1)
 
