@@ -18,6 +18,11 @@ endif()
 find_package(catkin REQUIRED COMPONENTS
   actionlib actionlib_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet
   rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
+if(BIN_SCENES_PCL)  # for the example icp_check alone; the rest of src/ros does without PCL's headers
+  find_package(pcl_conversions REQUIRED)
+  find_package(resource_retriever REQUIRED)
+  find_package(tf2_ros REQUIRED)
+endif()
 
 add_message_files(FILES
   Bin.msg Counter.msg Drift.msg Energy.msg ErrorCode.msg Flag.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg

@@ -8,7 +8,8 @@
 
 namespace bin_scenes {
 
-Ahead::Ahead(int depth) : depth_(static_cast<std::size_t>(depth)), thread_(&Ahead::run, this) {}
+Ahead::Ahead(int depth, Publication& publication)
+    : depth_(static_cast<std::size_t>(depth)), publication_(publication), thread_(&Ahead::run, this) {}
 
 Ahead::~Ahead() {
   {
@@ -22,7 +23,7 @@ Ahead::~Ahead() {
 void Ahead::follow(const Request& request, std::size_t index) {
   const std::lock_guard<std::mutex> lock(mutex_);
   // A pick or a scene that was taken from here changes nothing about what comes next.
-  if (following_ && request_.text_sha256 == request.text_sha256 && index + 1 + ready_.size() == next_ ) return;
+  if (following_ && request_.text_sha256 == request.text_sha256 && index + 1 + ready_.size() == next_) return;
   ready_.clear();
   failed_ = nullptr;
   request_ = request;
@@ -68,7 +69,8 @@ void Ahead::run() {
       RunHooks hooks;
       hooks.cancel = &unwanted_;
       const CancelScope scope(&unwanted_);
-      made = maker.pour(request, false, hooks);
+      made = maker.pour(request, hooks);
+      publication_.look(made, false, hooks);
     } catch (...) {
       failed = std::current_exception();
     }

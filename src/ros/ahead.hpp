@@ -1,6 +1,7 @@
 /// Scenes made ahead, in a thread of their own, so that who asks for the next one waits for nothing.
 #pragma once
 
+#include "publication.hpp"
 #include "scene_maker.hpp"
 
 #include <atomic>
@@ -14,8 +15,8 @@ namespace bin_scenes {
 
 class Ahead {
  public:
-  /// `depth`: scenes that wait at most.
-  explicit Ahead(int depth);
+  /// `depth`: scenes that wait at most. `publication` knows which of their images are wanted, and makes them.
+  Ahead(int depth, Publication& publication);
   ~Ahead();
   Ahead(const Ahead&) = delete;
   Ahead& operator=(const Ahead&) = delete;
@@ -30,6 +31,7 @@ class Ahead {
   void run();
 
   const std::size_t depth_;
+  Publication& publication_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<MadeScene> ready_;

@@ -1,6 +1,7 @@
 /// The node: one bin, or several with names of their own (~bins).
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
+#include "master_watch.hpp"
 #include "scene_server.hpp"
 
 #include <ros/names.h>
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle node;  // the log topic works from here on
   try {
     const auto running = servers();
+    const bin_scenes::MasterWatch watch;
     ros::spin();
   } catch (const bin_scenes::Error& error) {
     ROS_FATAL("%s", error.what());

@@ -68,6 +68,7 @@ std::function<std::optional<Message>()> Publication::from_image(const SensorTopi
   return [this, &topics, convert]() -> std::optional<Message> {
     if (!shown_ || topics.index >= shown_->made.images.size()) return std::nullopt;
     const RangeImage& image = shown_->made.images[topics.index];
+    if (image.depth.empty()) return std::nullopt;
     std_msgs::Header header;
     header.stamp = shown_->stamp;
     header.frame_id = sensor_frame(image.sensor.name, place_.prefix);
@@ -102,22 +103,42 @@ void Publication::set_publish_rate(double rate) {
   again_ = node_.createWallTimer(ros::WallDuration(1.0 / rate), [this](const ros::WallTimerEvent&) { publish_again(); });
 }
 
-bool Publication::wanted() {
-  return thread_.call([this] {
-    return std::any_of(sensors_.begin(), sensors_.end(), [](const auto& topics) { return topics->wanted(); });
-  });
+/// Which of the sensors somebody listens to. Those whose topics have yet to be made have no listeners.
+std::vector<bool> Publication::wanted(const std::vector<Sensor>& sensors) const {
+  std::vector<bool> wanted;
+  for (const Sensor& sensor : sensors) {
+    const std::string space = topic::of_sensor("", sensor.name, sensors.size());
+    wanted.push_back(std::any_of(sensors_.begin(), sensors_.end(), [&](const auto& topics) {
+      return topics->space == space && topics->wanted();
+    }));
+  }
+  return wanted;
+}
+
+void Publication::look(MadeScene& made, bool all, const RunHooks& hooks) {
+  const std::vector<Sensor>& sensors = made.scene.sensors;
+  const std::vector<bool> these =
+      all ? std::vector<bool>(sensors.size(), true) : thread_.call([&] { return wanted(sensors); });
+  if (std::none_of(these.begin(), these.end(), [](bool wanted) { return wanted; })) return;
+  if (hooks.progress) {
+    Progress progress;
+    progress.phase = "render";
+    progress.parts = made.scene.parts.size();
+    hooks.progress(progress);
+  }
+  const StageTimer timer(made.scene.report.profile, "render");
+  rig_.look(made.scene, made.request, made.parts, made.bin_model, these, made.images);
 }
 
 Publication::Counts Publication::counts() const {
   return {scenes_, renderings_, render_failures_, shown_sensors_};
 }
 
-bin_scenes_msgs::Scene Publication::show(MadeScene made, bool render_anyway) {
+bin_scenes_msgs::Scene Publication::show(MadeScene made) {
   return thread_.call([&] {
     // What may fail comes first: the scene before is there until this one is whole.
     Shown next{std::move(made), {}, {}};
-    const auto wanted = [](const auto& topics) { return topics->wanted(); };
-    if (render_anyway || std::any_of(sensors_.begin(), sensors_.end(), wanted)) render(next);
+    make_images(next);  // for those who came since look()
     next.messages = scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
     shown_ = std::move(next);
     set_topics(shown_->made.scene.sensors);
@@ -146,11 +167,9 @@ void Publication::publish_again() {
 }
 
 void Publication::show_images() {
-  if (!shown_ || std::none_of(sensors_.begin(), sensors_.end(), [](const auto& topics) { return topics->wanted(); })) {
-    return;
-  }
+  if (!shown_) return;
   try {
-    if (render(*shown_)) {  // the scene that is out does not know yet how much of each part is seen
+    if (make_images(*shown_)) {  // the scene that is out does not know yet how much of each part is seen
       shown_->messages.scene = scene_message(shown_->made.scene, shown_->made.request, place_, shown_->stamp);
       tell(scene_, shown_->messages.scene);
     }
@@ -161,12 +180,16 @@ void Publication::show_images() {
   }
 }
 
-bool Publication::render(Shown& shown) {
+/// Those that are wanted and not there yet; returns whether there were any.
+bool Publication::make_images(Shown& shown) {
   MadeScene& made = shown.made;
-  if (!made.images.empty() || made.scene.sensors.empty()) return false;
+  std::vector<bool> missing = wanted(made.scene.sensors);
+  for (std::size_t s = 0; s < missing.size(); ++s) missing[s] = missing[s] && made.images[s].depth.empty();
+  const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
+  if (count == 0) return false;
   const StageTimer timer(made.scene.report.profile, "render");
-  made.images = rig_.look(made.scene, made.request, made.parts, made.bin_model);
-  ++renderings_;
+  rig_.look(made.scene, made.request, made.parts, made.bin_model, missing, made.images);
+  renderings_ += count;
   return true;
 }
 

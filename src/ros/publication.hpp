@@ -27,17 +27,16 @@ class Publication {
   Publication(const ros::NodeHandle& node, const Settings& settings, bool in_process);
   ~Publication();
 
-  /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays. With `render`
-  /// images are made even if nobody listens.
-  bin_scenes_msgs::Scene show(MadeScene made, bool render);
-  /// Whether somebody listens to an image or a cloud.
-  bool wanted();
+  /// Makes the images of a scene to come that somebody listens to, or all of them; in the calling thread.
+  void look(MadeScene& made, bool all, const RunHooks& hooks);
+  /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays.
+  bin_scenes_msgs::Scene show(MadeScene made);
   void set_tf(double rate, double span) { frames_.set(rate, span); }
   void set_publish_rate(double rate);
 
   struct Counts {
     std::size_t scenes = 0;           ///< shown, since the start
-    std::size_t renderings = 0;       ///< of scenes that were shown already, since the start
+    std::size_t renderings = 0;       ///< images of scenes that were shown already, since the start
     std::size_t render_failures = 0;  ///< of the scene shown
     std::size_t sensors = 0;          ///< of the scene shown
   };
@@ -54,7 +53,8 @@ class Publication {
   void publish(Shown& shown);
   void publish_again();
   void show_images();
-  bool render(Shown& shown);
+  bool make_images(Shown& shown);
+  std::vector<bool> wanted(const std::vector<Sensor>& sensors) const;
   void set_topics(const std::vector<Sensor>& sensors);
   template <class Message, class Convert>
   std::function<std::optional<Message>()> from_image(const SensorTopics& topics, Convert convert);

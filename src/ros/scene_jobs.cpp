@@ -26,16 +26,16 @@ SceneJobs::SceneJobs(Publication& publication, const Settings& settings)
     : publication_(publication),
       settings_(settings),
       maker_(std::make_unique<SceneMaker>()),
-      ahead_(settings.scenes_ahead > 0 ? std::make_unique<Ahead>(settings.scenes_ahead) : nullptr),
+      ahead_(settings.scenes_ahead > 0 ? std::make_unique<Ahead>(settings.scenes_ahead, publication) : nullptr),
       queue_(static_cast<std::size_t>(settings.queue_size), [this] { maker_.reset(); }) {}
 
 SceneJobs::~SceneJobs() = default;
 
 std::shared_ptr<Job> SceneJobs::generate(const bin_scenes_msgs::SceneRequest& message, Answer answer) {
-  const auto make = [this, message](bool render, const RunHooks& hooks) {
+  const auto make = [this, message](const RunHooks& hooks) {
     Request request = request_of(message);
     const std::size_t asked = std::exchange(request.scenes, 1);
-    MadeScene made = maker_->pour(request, render, hooks);
+    MadeScene made = maker_->pour(request, hooks);
     if (asked > 1) {
       made.scene.report.flags.push_back(
           {"one_scene_a_call", "the request asks for " + std::to_string(asked) + " scenes; this is the first of them",
@@ -47,26 +47,26 @@ std::shared_ptr<Job> SceneJobs::generate(const bin_scenes_msgs::SceneRequest& me
 }
 
 std::shared_ptr<Job> SceneJobs::pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer) {
-  const auto make = [this, request](bool render, const RunHooks& hooks) {
+  const auto make = [this, request](const RunHooks& hooks) {
     Lift lift;
     const auto& d = request.lift_direction;
     if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) lift.direction = Vec3(d.x, d.y, d.z);
     lift.distance = request.lift_distance;
     const std::vector<int> ids(request.ids.begin(), request.ids.end());
-    return ids.empty() ? maker_->settle(render, hooks) : maker_->pick(ids, lift, render, hooks);
+    return ids.empty() ? maker_->settle(hooks) : maker_->pick(ids, lift, hooks);
   };
   return submit("pick_part", make, std::move(answer));
 }
 
 std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& request, Answer answer) {
-  const auto make = [this, request](bool render, const RunHooks& hooks) {
-    return maker_->add(part_lines_from(request.parts, settings_.paths), render, hooks);
+  const auto make = [this, request](const RunHooks& hooks) {
+    return maker_->add(part_lines_from(request.parts, settings_.paths), hooks);
   };
   return submit("add_parts", make, std::move(answer));
 }
 
 std::shared_ptr<Job> SceneJobs::next(Answer answer) {
-  const auto make = [this](bool render, const RunHooks& hooks) -> MadeScene {
+  const auto make = [this](const RunHooks& hooks) -> MadeScene {
     if (!maker_->has_scene()) {
       throw input_error("there is no scene yet, so that nobody knows what comes next", "next_scene",
                         "make one first: generate, generate_scene, ~request");
@@ -74,13 +74,13 @@ std::shared_ptr<Job> SceneJobs::next(Answer answer) {
     if (ahead_) return ahead_->take(hooks);
     Request request = maker_->request();
     ++request.first;
-    return maker_->pour(request, render, hooks);
+    return maker_->pour(request, hooks);
   };
   return submit("next_scene", make, std::move(answer));
 }
 
 std::shared_ptr<Job> SceneJobs::clear(Answer answer) {
-  const auto make = [this](bool, const RunHooks&) {
+  const auto make = [this](const RunHooks&) {
     if (!maker_->has_scene()) throw input_error("there was no scene", "clear_scene", "nothing is left to do");
     return maker_->emptied();
   };
@@ -120,16 +120,17 @@ std::shared_ptr<Job> SceneJobs::submit(const std::string& name, Make make, Answe
 
 Outcome SceneJobs::run(Job& job, const Make& make, bool render) {
   try {
-    MadeScene made = make(render || publication_.wanted(), job.hooks());
+    MadeScene made = make(job.hooks());
+    publication_.look(made, render, job.hooks());
     job.commit();
-    return show(std::move(made), render);
+    return show(std::move(made));
   } catch (...) {
     malloc_trim(0);  // what a large request took goes back: the next one may come in days
     throw;
   }
 }
 
-Outcome SceneJobs::show(MadeScene made, bool render) {
+Outcome SceneJobs::show(MadeScene made) {
   MadeScene kept;  // what the maker has to know, while the topics take the rest
   kept.heap = made.heap;
   kept.request = made.request;
@@ -142,7 +143,7 @@ Outcome SceneJobs::show(MadeScene made, bool render) {
   made.heap.reset();
 
   Outcome outcome;
-  outcome.scene = publication_.show(std::move(made), render);
+  outcome.scene = publication_.show(std::move(made));
   maker_->keep(kept);
   if (ahead_) ahead_->follow(kept.request, kept.scene.index);
   outcome.success = report.accepted;

@@ -54,11 +54,11 @@ class SceneJobs {
   Status status() const;
 
  private:
-  using Make = std::function<MadeScene(bool render, const RunHooks&)>;
+  using Make = std::function<MadeScene(const RunHooks&)>;
 
   std::shared_ptr<Job> submit(const std::string& name, Make make, Answer answer, bool render = false);
   Outcome run(Job& job, const Make& make, bool render);
-  Outcome show(MadeScene made, bool render);
+  Outcome show(MadeScene made);
   Request request_of(const bin_scenes_msgs::SceneRequest& message) const;
   void note(const std::string& name, const Outcome& outcome);
 

@@ -6,14 +6,14 @@
 
 namespace bin_scenes {
 
-MadeScene SceneMaker::pour(const Request& request, bool render, const RunHooks& hooks) {
+MadeScene SceneMaker::pour(const Request& request, const RunHooks& hooks) {
   Profile loading;
   std::shared_ptr<Heap> heap;
   {
     const StageTimer timer(loading, "load");
     heap = std::make_shared<Heap>(generator_.heap(request, hooks));
   }
-  MadeScene made = settled(heap, render, hooks);
+  MadeScene made = settled(heap, hooks);
   made.scene.report.profile.merge(loading);
   return made;
 }
@@ -33,40 +33,40 @@ Heap& SceneMaker::heap(const char* purpose) const {
   return *heap_;
 }
 
-MadeScene SceneMaker::pick(const std::vector<int>& ids, const Lift& lift, bool render, const RunHooks& hooks) {
+MadeScene SceneMaker::pick(const std::vector<int>& ids, const Lift& lift, const RunHooks& hooks) {
   Heap& heap = this->heap("pick_part");
   if (lift.distance > 0.0) heap.lift(ids, lift.direction, lift.distance, hooks);
   heap.remove(ids);
-  return settled(heap_, render, hooks);
+  return settled(heap_, hooks);
 }
 
-MadeScene SceneMaker::add(const std::vector<PartLine>& lines, bool render, const RunHooks& hooks) {
+MadeScene SceneMaker::add(const std::vector<PartLine>& lines, const RunHooks& hooks) {
   if (!has_scene_) heap("add_parts");  // says what is missing
   if (!heap_) {
     Request anew = request_;
     anew.parts = lines;
     anew.pour.scene.clear();
     if (anew.pour.pattern == Pour::Pattern::given) anew.pour.pattern = Pour::Pattern::rain;
-    return pour(anew, render, hooks);
+    return pour(anew, hooks);
   }
   heap_->add(generator_.new_parts(*heap_, lines, hooks));
-  return settled(heap_, render, hooks);
+  return settled(heap_, hooks);
 }
 
-MadeScene SceneMaker::settle(bool render, const RunHooks& hooks) {
+MadeScene SceneMaker::settle(const RunHooks& hooks) {
   heap("settle");
-  return settled(heap_, render, hooks);
+  return settled(heap_, hooks);
 }
 
-MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, bool render, const RunHooks& hooks) {
+MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks) {
   heap->settle(hooks);
   Generator::Options options;
-  options.render = render;
+  options.render = false;  // which images are wanted is not known here
   options.hooks = hooks;
   Generator::Result result = generator_.result(*heap, options);
   MadeScene made;
   made.scene = std::move(result.scene);
-  made.images = std::move(result.images);
+  made.images.resize(made.scene.sensors.size());
   made.request = heap->request();
   made.parts = heap->parts();
   made.bin_model = heap->bin_model();
@@ -81,6 +81,7 @@ MadeScene SceneMaker::emptied() const {
   empty.request = request_;
   empty.request.parts.clear();
   empty.bin_model = bin_model_;
+  empty.images.resize(empty.scene.sensors.size());
   return empty;
 }
 

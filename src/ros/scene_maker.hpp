@@ -14,7 +14,7 @@ struct MadeScene {
   Request request;
   std::vector<PartModelPtr> parts;  ///< models, by part line
   PartModelPtr bin_model;
-  std::vector<RangeImage> images;  ///< empty until somebody looks
+  std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody looks (Publication::look)
   std::shared_ptr<Heap> heap;      ///< that it is a snapshot of; null: the bin was emptied
 };
 
@@ -28,16 +28,16 @@ struct Lift {
 /// pick() and add(), which change it first and settle it then: settle() completes what was cancelled.
 class SceneMaker {
  public:
-  /// A scene of its own, with a heap of its own. `render`: whether images are made as well.
-  MadeScene pour(const Request& request, bool render, const RunHooks& hooks);
+  /// A scene of its own, with a heap of its own.
+  MadeScene pour(const Request& request, const RunHooks& hooks);
 
   /// From now on pick() and add() change the heap of this scene.
   void keep(const MadeScene& scene);
 
-  MadeScene pick(const std::vector<int>& ids, const Lift& lift, bool render, const RunHooks& hooks);
+  MadeScene pick(const std::vector<int>& ids, const Lift& lift, const RunHooks& hooks);
   /// Onto the heap, or into the bin if it was emptied.
-  MadeScene add(const std::vector<PartLine>& lines, bool render, const RunHooks& hooks);
-  MadeScene settle(bool render, const RunHooks& hooks);
+  MadeScene add(const std::vector<PartLine>& lines, const RunHooks& hooks);
+  MadeScene settle(const RunHooks& hooks);
   /// The empty bin of the scene that is kept.
   MadeScene emptied() const;
 
@@ -45,7 +45,7 @@ class SceneMaker {
   const Request& request() const { return request_; }
 
  private:
-  MadeScene settled(const std::shared_ptr<Heap>& heap, bool render, const RunHooks& hooks);
+  MadeScene settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks);
   Heap& heap(const char* purpose) const;
 
   Generator generator_;

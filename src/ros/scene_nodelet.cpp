@@ -1,5 +1,6 @@
 /// The node as a nodelet: subscribers in the same manager get images and clouds without a copy.
 #include "bin_scenes/core/error.hpp"
+#include "master_watch.hpp"
 #include "scene_server.hpp"
 
 #include <nodelet/nodelet.h>
@@ -13,6 +14,7 @@ class SceneNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
+      watch_ = std::make_unique<MasterWatch>();
       server_ = std::make_unique<SceneServer>(getNodeHandle(), getPrivateNodeHandle(), SceneServer::Host::nodelet);
     } catch (const Error& error) {
       NODELET_FATAL("%s", error.what());
@@ -20,6 +22,7 @@ class SceneNodelet : public nodelet::Nodelet {
     }
   }
 
+  std::unique_ptr<MasterWatch> watch_;
   std::unique_ptr<SceneServer> server_;
 };
 

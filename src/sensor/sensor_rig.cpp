@@ -34,15 +34,26 @@ SensorRig::~SensorRig() = default;
 
 std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
                                         const PartModelPtr& bin_model) {
+  std::vector<RangeImage> images(scene.sensors.size());
+  look(scene, request, parts, bin_model, std::vector<bool>(images.size(), true), images);
+  return images;
+}
+
+void SensorRig::look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                     const PartModelPtr& bin_model, const std::vector<bool>& wanted, std::vector<RangeImage>& images) {
+  std::vector<std::size_t> to_make;
+  for (std::size_t s = 0; s < scene.sensors.size(); ++s)
+    if (wanted.at(s) && images.at(s).depth.empty()) to_make.push_back(s);
+  if (to_make.empty()) return;
+
   const Scenery scenery(scene, request, parts, bin_model, *cache_);
   const Surfaces surfaces = surfaces_of(request);
-  std::vector<RangeImage> images;
-  for (const Sensor& sensor : scene.sensors) {
+  for (const std::size_t s : to_make) {
+    const Sensor& sensor = scene.sensors[s];
     View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
     std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
-    const Draw draw{scene.seed, scene.index, images.size()};
-    images.push_back(measure(scenery, std::move(view), sensor, surfaces, draw));
-    RangeImage& image = images.back();
+    const Draw draw{scene.seed, scene.index, s};
+    RangeImage& image = images[s] = measure(scenery, std::move(view), sensor, surfaces, draw);
     count_pixels(image, scene, std::move(alone));
     scene.report.profile.count("views");
     scene.report.profile.count("noisy_images", sensor.noise && sensor.model != SensorModel::ideal);
@@ -55,7 +66,6 @@ std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, co
       part.visible_fraction[sensor.name] = all > 0.0 ? static_cast<double>(image.visible[id]) / all : 0.0;
     }
   }
-  return images;
 }
 
 }  // namespace bin_scenes

@@ -28,6 +28,7 @@ DEBIAN = {
 }
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
+        "catkin-lint",
         "glslang-tools",  # rosdep has no key of it; where it is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
         "libjs-three",  # for reports; without it they have no 3-D view
@@ -35,8 +36,6 @@ OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assim
         "chromium", "slurmctld", "slurmd", "slurm-client", "munge",
         # of the shell: rosrun, rosservice, rostopic and rospack, which come with a ROS that has roslaunch
         "rosbash", "rospack-tools", "python3-rosservice", "python3-rostopic"}
-# Named for users alone: scripts/demo and the tests need no window.
-THEIRS = {"rviz"}
 
 
 def installed(script):
@@ -65,7 +64,7 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "bench", "ros", "ros_tests"})
+                         {"build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "bench", "ros", "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
 
@@ -73,7 +72,7 @@ class PackageXml(unittest.TestCase):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
         for name in ("build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "ros",
-                     "ros_tests"):
+                     "ros_pcl", "ros_tests"):
             for package in self.arrays[name]:
                 known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
                 if not known and package not in OURS:
@@ -81,9 +80,9 @@ class PackageXml(unittest.TestCase):
         self.assertEqual(missing, [], "package.xml lacks keys for them")
 
     def test_every_key_is_installed(self):
-        packages = {p for name in ("libraries", "pcd", "run", "tests", "ros", "ros_tests") for p in self.arrays[name]}
-        ros = {ros_package(p) for p in self.arrays["ros"] + self.arrays["ros_tests"]}
-        unknown = [k for k in sorted(self.keys - THEIRS)
+        packages = {p for name in ("libraries", "pcd", "run", "tests", "ros", "ros_pcl", "ros_tests") for p in self.arrays[name]}
+        ros = {ros_package(p) for p in self.arrays["ros"] + self.arrays["ros_pcl"] + self.arrays["ros_tests"]}
+        unknown = [k for k in sorted(self.keys)
                    if k not in ros and not packages.issuperset(DEBIAN.get(k, [k]))]
         self.assertEqual(unknown, [], "scripts/install_deps lacks packages for them")
 

@@ -4,13 +4,15 @@
 import math
 import os
 import sys
+import time
 
 import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from scene_client import CAMERA, SMALL, Doors, NodeTestCase, wait_until  # noqa: E402
+from scene_client import CAMERA, Doors, NodeTestCase, wait_until  # noqa: E402
 from bin_scenes.msg import ErrorCode, PartLine, ScenePart  # noqa: E402
+from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from sensor_msgs.msg import PointCloud2  # noqa: E402
 
 class HeapTest(NodeTestCase):
@@ -98,6 +100,21 @@ class HeapTest(NodeTestCase):
             asked = doors.scene(index=[2])
             self.assertEqual(asked.report.state_hash, hashes[1])
             self.assertEqual(doors.pick(ids=[1]).scene.parts[1].state, ScenePart.REMOVED)
+
+    def test_images_of_scenes_to_come_are_made_ahead_too(self):
+        ahead, said = Doors("/ahead/"), {}
+        diagnostics = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: said.update(
+            (s.name, {v.key: v.value for v in s.values}) for s in array.status))
+        clouds = []
+        looking = rospy.Subscriber("/ahead/points", PointCloud2, clouds.append)
+        scene = ahead.scene(CAMERA)
+        wait_until(lambda: clouds and clouds[-1].header.stamp == scene.header.stamp)
+        wait_until(lambda: said.get("ahead/bin_scenes ahead/: scene", {}).get("scenes ahead") == "2")
+        looking.unregister()
+        time.sleep(1.0)  # the node sees that nobody looks any more
+        self.assertTrue(ahead.next().success)
+        self.assertEqual({c.name: c.value for c in ahead.latched().report.counters}["views"], 1)
+        diagnostics.unregister()
 
     def test_two_bins_of_one_node_know_nothing_of_each_other(self):
         left, right = Doors("/two/left/"), Doors("/two/right/")

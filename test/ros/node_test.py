@@ -228,6 +228,25 @@ class NodeTest(unittest.TestCase):
         self.assertEqual(counter(asked, "views"), 1)
         self.assertFalse(any(math.isnan(p.visible_fraction[0]) for p in asked.parts))
 
+    def test_of_several_sensors_only_those_are_made_that_somebody_looks_at(self):
+        self.scene(yaml=TWO_SENSORS)  # the topics are there from now on
+        side = Listener({"side_view/points": PointCloud2, "scene": Scene})
+        try:
+            time.sleep(0.3)
+            scene = self.scene(yaml=TWO_SENSORS)
+            self.assertEqual(counter(scene, "views"), 1)
+            for part in scene.parts:
+                self.assertEqual([math.isnan(f) for f in part.visible_fraction], [True, False])
+            side.wait(scene.header.stamp, ["side_view/points"])
+            first = Listener({"depth/image_rect": Image})
+            try:
+                first.wait(scene.header.stamp, ["depth/image_rect"])
+                self.wait_until(lambda: counter(side.seen["scene"], "views") == 2)
+            finally:
+                first.close()
+        finally:
+            side.close()
+
     def test_a_late_subscriber_never_sees_an_older_scene(self):
         self.scene_on_topics(seed=[1])
         scene = self.scene(seed=[2])

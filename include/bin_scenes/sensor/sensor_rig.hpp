@@ -23,6 +23,10 @@ class SensorRig {
   /// models.
   std::vector<RangeImage> look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
                                const PartModelPtr& bin_model = nullptr);
+  /// The same for some sensors: makes the images of those that are wanted, unless they are there already. `wanted` and
+  /// `images` have one entry a sensor; an image that has not been made is RangeImage().
+  void look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
+            const std::vector<bool>& wanted, std::vector<RangeImage>& images);
 
  private:
   std::unique_ptr<SceneryCache> cache_;

@@ -8,8 +8,10 @@
 #include <cstdint>
 
 /// Before a function, with all that it calls: the compiler makes one version for any x86-64 and one for AVX2, and the
-/// machine picks at load time. Neither fuses multiply and add, so both give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+/// machine picks at load time. Neither fuses multiply and add, so both give the same bits. With sanitizers there is one
+/// version: the choice is made before a sanitizer has started, and would crash in it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define BIN_SCENES_WIDE __attribute__((target_clones("avx2", "default"), flatten))
 #else
 #define BIN_SCENES_WIDE

@@ -1,0 +1,242 @@
+/// An example of a consumer, to begin a pipeline with: PCL's ICP registers each labelled segment of the cloud with the
+/// model of its part, and the pose that comes out is compared with the true one on TF.
+///
+///     points   ─► one cloud a label ──────┐
+///     markers  ─► points on the model ────┼─► ICP ─► TF frame icp_<part>, and a line of the log
+///     /tf      ─► a displaced first guess ┘
+///
+/// A real pipeline has segments and first guesses of its own; the truth tells how good they are.
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
+
+#include <pcl/point_types.h>
+#include <pcl/registration/correspondence_rejection_surface_normal.h>
+#include <pcl/registration/icp.h>
+#include <pcl_conversions/pcl_conversions.h>
+#include <resource_retriever/retriever.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+/// The fields of the cloud that are used here, under the names that they have there.
+struct LabelledPoint {
+  PCL_ADD_POINT4D;
+  PCL_ADD_NORMAL4D;
+  std::uint32_t label;
+  PCL_MAKE_ALIGNED_OPERATOR_NEW
+};
+POINT_CLOUD_REGISTER_POINT_STRUCT(LabelledPoint,
+                                  (float, x, x)(float, y, y)(float, z, z)(float, normal_x, normal_x)(
+                                      float, normal_y, normal_y)(float, normal_z, normal_z)(std::uint32_t, label, label))
+
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+using Icp = pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal>;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::size_t model_points = 20000;
+constexpr int rounds = 100;
+constexpr double reach = 0.004;         // m: correspondences are no longer than this
+constexpr double largest_angle = 45.0;  // degrees between the two normals of a correspondence
+
+Cloud::PointType point(const Vector3d& position, const Vector3d& normal) {
+  pcl::PointNormal point;
+  point.getVector3fMap() = position.cast<float>();
+  point.getNormalVector3fMap() = normal.cast<float>();
+  return point;
+}
+
+Isometry3d pose_of(const geometry_msgs::Transform& t) {
+  return Eigen::Translation3d(t.translation.x, t.translation.y, t.translation.z) *
+         Eigen::Quaterniond(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
+}
+
+geometry_msgs::Transform transform_of(const Isometry3d& pose) {
+  const Eigen::Quaterniond q(pose.rotation());
+  geometry_msgs::Transform t;
+  t.translation.x = pose.translation().x();
+  t.translation.y = pose.translation().y();
+  t.translation.z = pose.translation().z();
+  t.rotation.x = q.x();
+  t.rotation.y = q.y();
+  t.rotation.z = q.z();
+  t.rotation.w = q.w();
+  return t;
+}
+
+/// The mesh that a marker shows, in metres.
+bin_scenes::Mesh mesh_of(const visualization_msgs::Marker& marker) {
+  const resource_retriever::MemoryResource file = resource_retriever::Retriever().get(marker.mesh_resource);
+  const std::string bytes(reinterpret_cast<const char*>(file.data.get()), file.size);
+  bin_scenes::LoadOptions options;
+  options.scale = marker.scale.x;
+  return bin_scenes::load_mesh({marker.mesh_resource, bytes, bin_scenes::sha256_hex(bytes)}, options).mesh;
+}
+
+/// Points spread evenly over the surface of a mesh, with its normals.
+Cloud::Ptr sampled(const bin_scenes::Mesh& mesh) {
+  std::vector<double> area_until;  // of the triangles up to this one
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area_until.push_back(area += mesh.area_vector(t).norm());
+  std::mt19937 random;
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto cloud = pcl::make_shared<Cloud>();
+  for (std::size_t i = 0; i < model_points; ++i) {
+    const auto found = std::upper_bound(area_until.begin(), area_until.end() - 1, share(random) * area);
+    const auto t = static_cast<std::size_t>(found - area_until.begin());
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double r = std::sqrt(share(random)), s = share(random);
+    const Vector3d at = (1.0 - r) * mesh.vertices[a] + r * (1.0 - s) * mesh.vertices[b] + r * s * mesh.vertices[c];
+    cloud->push_back(point(at, mesh.area_vector(t).normalized()));
+  }
+  return cloud;
+}
+
+/// A model, and the ICP that brings points onto it.
+struct Model {
+  Cloud::Ptr points;
+  Icp icp;
+
+  explicit Model(const visualization_msgs::Marker& marker) : points(sampled(mesh_of(marker))) {
+    icp.setInputTarget(points);
+    icp.setMaximumIterations(rounds);
+    icp.setMaxCorrespondenceDistance(reach);
+    icp.setTransformationEpsilon(1e-12);
+    const auto same_side = pcl::make_shared<pcl::registration::CorrespondenceRejectorSurfaceNormal>();
+    same_side->setThreshold(std::cos(largest_angle * M_PI / 180.0));
+    icp.addCorrespondenceRejector(same_side);  // thin sheets have another surface close behind
+  }
+
+  /// Pose of the model in the frame of the points; `guess` is where to begin.
+  Isometry3d pose(const Cloud::Ptr& segment, const Isometry3d& guess) {
+    icp.setInputSource(segment);
+    Cloud moved;
+    icp.align(moved, guess.inverse().matrix().cast<float>());
+    return Isometry3d(icp.getFinalTransformation().cast<double>()).inverse();
+  }
+
+  /// How far the surfaces of the model lie apart at two poses: mean of the distances from points to tangent planes (m).
+  /// A turn that changes nothing, as of a round part about its axis, does not count.
+  double surfaces_apart(const Isometry3d& a, const Isometry3d& b) {
+    const Isometry3d between = a.inverse() * b;
+    double sum = 0.0;
+    pcl::Indices nearest(1);
+    std::vector<float> square(1);
+    for (const pcl::PointNormal& p : *points) {
+      const Vector3d there = between * Vector3d(p.getVector3fMap().cast<double>());
+      icp.getSearchMethodTarget()->nearestKSearch(point(there, Vector3d::Zero()), 1, nearest, square);
+      const pcl::PointNormal& q = (*points)[static_cast<std::size_t>(nearest[0])];
+      sum += std::abs(q.getNormalVector3fMap().cast<double>().dot(there - q.getVector3fMap().cast<double>()));
+    }
+    return sum / static_cast<double>(points->size());
+  }
+};
+
+class IcpCheck {
+ public:
+  IcpCheck() : listener_(buffer_) {
+    const ros::NodeHandle params("~");
+    params.param("offset", offset_, offset_);
+    params.param("turn", turn_, turn_);
+    params.param("least_points", least_points_, least_points_);
+    params.param("tolerance", tolerance_, tolerance_);
+    markers_ = node_.subscribe("markers", 1, &IcpCheck::remember, this);
+    points_ = node_.subscribe("points", 1, &IcpCheck::check, this);
+  }
+
+ private:
+  void remember(const visualization_msgs::MarkerArray& array) {
+    marker_of_.clear();
+    for (const auto& marker : array.markers)
+      if (marker.ns == "parts" && marker.action == visualization_msgs::Marker::ADD) marker_of_[marker.id] = marker;
+  }
+
+  Model& model_of(const visualization_msgs::Marker& marker) {
+    const std::string key = marker.mesh_resource + " " + std::to_string(marker.scale.x);
+    const auto known = models_.find(key);
+    return known != models_.end() ? known->second : models_.try_emplace(key, marker).first->second;
+  }
+
+  /// A first guess: the truth, turned and shifted.
+  Isometry3d displaced(const Isometry3d& truth) {
+    std::normal_distribution<double> normal;
+    const auto direction = [&] { return Vector3d(normal(random_), normal(random_), normal(random_)).normalized(); };
+    return truth * Eigen::Translation3d(offset_ * direction()) * Eigen::AngleAxisd(turn_, direction());
+  }
+
+  void check(const sensor_msgs::PointCloud2& message) {
+    pcl::PointCloud<LabelledPoint> cloud;
+    pcl::fromROSMsg(message, cloud);  // no field needs another name
+    std::map<int, Cloud::Ptr> segments;  // by part id
+    for (const LabelledPoint& p : cloud) {
+      if (p.label == 0 || !std::isfinite(p.z)) continue;
+      Cloud::Ptr& segment = segments[static_cast<int>(p.label) - 1];
+      if (!segment) segment = pcl::make_shared<Cloud>();
+      segment->push_back(point(p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()));
+    }
+    int checked = 0, agree = 0;
+    for (const auto& [id, segment] : segments) {
+      const auto marker = marker_of_.find(id);
+      if (marker == marker_of_.end() || static_cast<int>(segment->size()) < least_points_) continue;
+      try {
+        agree += check_part(marker->second, segment, message.header);
+        ++checked;
+      } catch (const std::exception& error) {
+        ROS_ERROR("part %d: %s", id, error.what());
+      }
+    }
+    ROS_INFO("%d of %d parts with at least %d points agree with TF within %.2g mm", agree, checked, least_points_,
+             1e3 * tolerance_);
+  }
+
+  bool check_part(const visualization_msgs::Marker& marker, const Cloud::Ptr& segment, const std_msgs::Header& header) {
+    char frame[32];
+    std::snprintf(frame, sizeof frame, "part_%04d", marker.id);
+    // The cloud's own stamp: part frames are found there however late this is.
+    const Isometry3d truth =
+        pose_of(buffer_.lookupTransform(header.frame_id, frame, header.stamp, ros::Duration(1.0)).transform);
+    Model& model = model_of(marker);
+    const Isometry3d found = model.pose(segment, displaced(truth));
+    const double apart = model.surfaces_apart(truth, found);
+    ROS_INFO("%s: %zu points, the model's surface %.3f mm from that on TF", frame, segment->size(), 1e3 * apart);
+    geometry_msgs::TransformStamped message;
+    message.header = header;
+    message.child_frame_id = std::string("icp_") + frame;
+    message.transform = transform_of(found);
+    broadcaster_.sendTransform(message);
+    return apart <= tolerance_;
+  }
+
+  ros::NodeHandle node_;
+  double offset_ = 0.002;     ///< ~offset (m) and
+  double turn_ = 0.03;        ///< ~turn (rad) of the first guess from the truth
+  int least_points_ = 300;    ///< ~least_points: segments with fewer are left alone
+  double tolerance_ = 0.001;  ///< ~tolerance (m) of the log's last line
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  std::mt19937 random_;
+  std::map<int, visualization_msgs::Marker> marker_of_;  ///< by part id
+  std::map<std::string, Model> models_;
+  ros::Subscriber markers_, points_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "icp_check");
+  const IcpCheck check;
+  ros::spin();
+}

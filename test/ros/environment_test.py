@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""What the node needs goes away and comes back: the master, and OpenGL."""
+
+import glob
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from bin_scenes.msg import ErrorCode, SceneRequest  # noqa: E402
+from scene_client import Doors, NodeTestCase, run, wait_until  # noqa: E402
+
+ONE = "{parts: [{model: nut_hex.stl, unit: mm, count: 1}], solver: {type: sphere}}"
+DRIVERS = glob.glob("/usr/lib/*/dri/*_dri.so")
+
+
+class Process:
+    def __init__(self, *command, **environment):
+        self.process = subprocess.Popen(command, env={**os.environ, **environment})
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+
+class EnvironmentTest(NodeTestCase):
+    def test_a_master_that_is_started_again_finds_the_node(self):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        there = {"ROS_MASTER_URI": "http://127.0.0.1:%d" % port}
+        everything = {**os.environ, **there}
+
+        def asked(*command):
+            return run(*command, env=everything).stdout
+
+        def master():
+            started = Process("rosmaster", "--core", "-p", str(port))
+            wait_until(lambda: asked("rostopic", "list") != "", 30)
+            return started
+
+        call = ["rosservice", "call", "/generate_scene", "request: {yaml: '%s'}" % ONE]
+        stamp = ["rostopic", "echo", "-n1", "/scene/header/stamp"]
+        with master() as first, Process(rospy.get_param("/node"), "__name:=bin_scenes", **there) as node:
+            wait_until(lambda: "/generate_scene" in asked("rosservice", "list"), 30)
+            self.assertIn("success: True", asked(*call))
+            before = asked(*stamp)
+            first.process.send_signal(signal.SIGKILL)
+            first.process.wait()
+            with master():
+                wait_until(lambda: "/generate_scene" in asked("rosservice", "list"), 30)
+                self.assertIsNone(node.process.poll())
+                wait_until(lambda: "/scene" in asked("rostopic", "list").split(), 30)
+                self.assertEqual(asked(*stamp), before)  # the scene stands
+                self.assertIn("success: True", asked(*call))
+                self.assertNotEqual(asked(*stamp), before)
+                # Subscriptions too: the action hears of goals that are sent by a node which came after the master.
+                self.assertIn("/bin_scenes", asked("rostopic", "info", "/generate/goal"))
+
+    def test_without_opengl_the_node_serves_what_needs_none_and_tries_again_when_asked(self):
+        self.assertTrue(DRIVERS)
+        gpu = SceneRequest(yaml=ONE, set=["solver.sphere.device=gpu"])
+        with tempfile.TemporaryDirectory() as folder, Process(
+                rospy.get_param("/node"), "__name:=bin_scenes", LIBGL_DRIVERS_PATH=folder, BIN_SCENES_GL="software"):
+            doors = Doors()
+            for _ in range(2):
+                response = doors.generate(gpu)
+                self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.ENVIRONMENT))
+                self.assertIn("no OpenGL 4.5 device", response.message)
+                self.assertIn("apt install", response.message)
+                scene = doors.scene(ONE)
+                self.assertEqual(doors.latched().header.stamp, scene.header.stamp)
+            for driver in DRIVERS:
+                os.symlink(driver, os.path.join(folder, os.path.basename(driver)))
+            response = doors.generate(gpu)
+            self.assertTrue(response.success, response.message)
+            self.assertIn("llvmpipe", response.scene.report.device)
+
+
+if __name__ == "__main__":
+    rospy.init_node("environment_test", anonymous=True)
+    rostest.rosrun("bin_scenes", "environment", EnvironmentTest)

@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""Each launch file, started as a user starts it: `roslaunch bin_scenes NAME.launch`. demo_test.py has that with RViz."""
+
+import glob
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import rosbag
+import rospy
+import rostest
+import tf2_ros
+from sensor_msgs.msg import PointCloud2
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scene_data as data  # noqa: E402
+from launched import LaunchTestCase, Launched  # noqa: E402
+from scene_client import CAMERA, Doors, wait_until  # noqa: E402
+
+
+class LaunchTest(LaunchTestCase):
+    def test_bin_scenes(self):
+        with Launched("bin_scenes.launch", "request:=" + self.request, "parent_frame:=cell", "bin_pose:=[0, 0, 1, 0, 0, 0, 1]"):
+            self.assertEqual(len(self.first_scene().parts), 5)
+            tf = tf2_ros.Buffer()
+            tf2_ros.TransformListener(tf)
+            self.assertEqual(tf.lookup_transform("cell", "bin", rospy.Time(0), rospy.Duration(10)).transform.translation.z, 1.0)
+
+    def test_nodelet(self):
+        with Launched("nodelet.launch", "request:=" + self.request):
+            self.assertEqual(len(self.first_scene().parts), 5)
+            cloud = rospy.wait_for_message("points", PointCloud2, 20)
+            self.assertEqual(cloud.header.stamp, self.first_scene().header.stamp)
+
+    def test_depth_image_proc(self):
+        # Debian's pcl_ros names its libraries as if they lay in a folder lib below a prefix.
+        prefix = os.path.join(self.folder.name, "prefix")
+        os.mkdir(prefix)
+        for library in glob.glob("/usr/lib/*/libpcl_ros_filters.so"):
+            os.symlink(os.path.dirname(library), os.path.join(prefix, "lib"))
+        environment = {**os.environ, "CMAKE_PREFIX_PATH": os.environ["CMAKE_PREFIX_PATH"] + ":" + prefix}
+        with Launched("depth_image_proc.launch", "request:=" + self.request, environment=environment):
+            made = data.xyz(data.cloud_array(rospy.wait_for_message("depth/points", PointCloud2, 60)))
+            ours = data.xyz(data.cloud_array(rospy.wait_for_message("points", PointCloud2, 20)))
+            np.testing.assert_allclose(made, ours, rtol=1e-6, atol=1e-6)
+            # A nodelet of pcl_ros in the same manager takes the cloud as it is; both get what they listen to without a copy.
+            load = ["rosrun", "nodelet", "nodelet", "load", "pcl/PassThrough", "bin_manager", "~input:=points",
+                    "~output:=near/points", "_filter_field_name:=z", "_filter_limit_min:=0.0", "_filter_limit_max:=10.0"]
+            passed = subprocess.Popen(load)
+            try:
+                near = rospy.wait_for_message("near/points", PointCloud2, 30)
+                self.assertEqual([f.name for f in near.fields][:3], ["x", "y", "z"])
+                # Both nodelets listen only while somebody listens to them.
+                listeners = [rospy.Subscriber(name, PointCloud2, lambda _: None) for name in ("near/points", "depth/points")]
+                for topic in ("/points", "/depth/image_rect"):
+                    wait_until(lambda: {t for name, t in self.links("/bin_manager") if name == topic} == {"INTRAPROCESS"})
+                for listener in listeners:
+                    listener.unregister()
+            finally:
+                passed.send_signal(signal.SIGINT)
+                passed.wait()
+
+    @staticmethod
+    def links(node):
+        """(topic, transport) of what a node publishes or hears, as `rosnode info` lists it."""
+        import xmlrpc.client
+        return [(link[4], link[3]) for link in xmlrpc.client.ServerProxy(
+            rospy.get_master().lookupNode(node)[2]).getBusInfo("/test")[2]]
+
+    def test_record(self):
+        with Launched("bin_scenes.launch"):
+            doors = Doors()
+            with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded")):
+                wait_until(self.recorder_listens, 60)
+                scene = doors.scene(CAMERA)
+                time.sleep(1.0)
+        name, = glob.glob(os.path.join(self.folder.name, "recorded*.bag"))
+        with rosbag.Bag(name) as bag:
+            found = bag.get_type_and_topic_info().topics
+            for topic in ("/scene", "/markers", "/points", "/depth/image_rect", "/depth/camera_info", "/labels/image_raw",
+                          "/validity/image_raw", "/acquisition_done", "/tf", "/tf_static"):
+                self.assertIn(topic, found)
+            stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw"])}
+        self.assertEqual(stamps, {scene.header.stamp})
+
+    @staticmethod
+    def recorder_listens():
+        _, subscribed, _ = rospy.get_master().getSystemState()[2]
+        return any(topic == "/validity/image_raw" and nodes for topic, nodes in subscribed)
+
+    def test_icp_check(self):
+        """ICP of what the camera sees ends where TF says that the parts are, and nothing had to be remapped."""
+        with Launched("icp_check.launch", "request:=" + self.request) as launched:
+            tf = tf2_ros.Buffer()
+            tf2_ros.TransformListener(tf)
+            scene = self.first_scene()
+            wait_until(lambda: "5 of 5 parts" in launched.output(), 60)
+            cloud = rospy.wait_for_message("points", PointCloud2, 20)
+            labels = data.cloud_array(cloud)["label"]
+            seen = [p for p in scene.parts if np.count_nonzero(labels == p.id + 1) > 1500]
+            self.assertGreaterEqual(len(seen), 3)
+            for part in seen:
+                # From the part's true frame to the one that ICP found.
+                apart = tf.lookup_transform(part.frame_id, "icp_" + part.frame_id, cloud.header.stamp, rospy.Duration(5)).transform
+                t, q = apart.translation, apart.rotation
+                self.assertLess(np.linalg.norm([t.x, t.y, t.z]), 5e-4, part.frame_id)  # m; the guess is 2e-3 away
+                self.assertLess(2 * np.linalg.norm([q.x, q.y, q.z]), 0.01, part.frame_id)  # rad; likewise 0.03
+
+
+if __name__ == "__main__":
+    rospy.init_node("launch_test", anonymous=True)
+    rostest.rosrun("bin_scenes", "launch", LaunchTest)
