@@ -19,6 +19,7 @@ struct IndexCounts {
   std::size_t accepted = 0, failed = 0;  ///< heaps
   std::size_t scenes = 0, rejected = 0;  ///< scenes that are there; attempts that were set apart
   double wall_s = 0.0;                   ///< of workers, over all heaps whose time is known
+  double cpu_s = 0.0;                    ///< of workers, over the same heaps
   std::size_t timed = 0;                 ///< heaps whose time is known
 };
 
