@@ -16,6 +16,7 @@ constexpr const char* schema[] = {
     "cpu_s real, memory_mb real, stages_ms text, made_at text default (datetime('now')))",
     "create table if not exists scenes (scene integer primary key, heap integer, state text, verdict text, path text, "
     "sha256 text, summary text)",
+    "create table if not exists shares (shard integer, shards integer, primary key (shard, shards))",
     "create table if not exists rejected (heap integer, attempt integer, path text, reasons text, "
     "primary key (heap, attempt))",
     "create index if not exists scenes_of_heap on scenes (heap)"};
@@ -104,6 +105,17 @@ void SceneIndex::put(const HeapRecord& record) {
   }
 }
 
+void SceneIndex::add_share(std::size_t shard, std::size_t shards) {
+  rows("insert or ignore into shares values (cast(? as integer), cast(? as integer))",
+       {std::to_string(shard), std::to_string(shards)});
+}
+
+std::set<std::pair<std::size_t, std::size_t>> SceneIndex::shares() const {
+  std::set<std::pair<std::size_t, std::size_t>> all;
+  for (const auto& row : rows("select shard, shards from shares")) all.emplace(std::stoul(row[0]), std::stoul(row[1]));
+  return all;
+}
+
 std::set<std::size_t> SceneIndex::heaps() const {
   std::set<std::size_t> all;
   for (const auto& row : rows("select heap from heaps")) all.insert(std::stoul(row[0]));
@@ -160,7 +172,8 @@ HeapRecord SceneIndex::record(std::size_t heap) const {
   HeapRecord record;
   record.heap = heap;
   const std::vector<std::string> of = {std::to_string(heap)};
-  for (const auto& r : rows("select state, wall_s, stages_ms, cpu_s, memory_mb from heaps where heap = cast(? as integer)", of)) {
+  for (const auto& r :
+       rows("select state, wall_s, stages_ms, cpu_s, memory_mb from heaps where heap = cast(? as integer)", of)) {
     record.accepted = r[0] == "done";
     record.wall_s = std::strtod(r[1].c_str(), nullptr);
     record.stages_ms = nlohmann::json::parse(r[2]).get<std::map<std::string, double>>();
