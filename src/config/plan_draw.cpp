@@ -38,12 +38,11 @@ YAML::Node own_value(const YAML::Node& root, const std::string& path) {
 
 namespace {
 
-constexpr Stream plan_stream{5};  ///< beside those of core/random.hpp: what a plan draws
 constexpr std::size_t most_parts = 1'000'000;
 
 /// Attempts after the first have seeds of their own: they draw and pour something else.
 std::uint64_t seed_of(std::uint64_t seed, std::size_t attempt) {
-  return attempt == 0 ? seed : Random(seed, attempt, plan_stream).next();
+  return attempt == 0 ? seed : Random(seed, attempt, Stream::plan).next();
 }
 
 /// Puts `total` parts, or as many as fill the volume, into the lines by their shares; a line without parts goes.
@@ -98,7 +97,7 @@ bool Plan::wants(const std::string& format) const {
 }
 
 Request Plan::request(std::size_t heap, std::size_t attempt, const VolumeOf& volume_of) const {
-  const Random stream(seed_of(seed, attempt), heap, plan_stream);
+  const Random stream(seed_of(seed, attempt), heap, Stream::plan);
   std::vector<Override> overrides;
   for (std::size_t i = 0; i < state->draws.size(); ++i) {
     const config::Draw& draw = state->draws[i];
@@ -120,7 +119,7 @@ Request Plan::request(std::size_t heap, std::size_t attempt, const VolumeOf& vol
 }
 
 std::size_t Plan::take(std::size_t heap, std::size_t attempt, std::size_t step) const {
-  Random random = Random(seed_of(seed, attempt), heap, plan_stream).of_piece(2'000'000 + step);
+  Random random = Random(seed_of(seed, attempt), heap, Stream::plan).of_piece(2'000'000 + step);
   return static_cast<std::size_t>(std::llround(std::max(0.0, state->take->number(random))));
 }
 

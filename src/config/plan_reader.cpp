@@ -20,6 +20,7 @@ namespace {
 using config::own_value;
 using Kind = Distribution::Kind;
 
+constexpr const char* misfit_remedy = "change the request's sensors, or leave such outputs out";
 constexpr std::size_t most_ends = 64;  ///< of one distribution that are tried on the request
 
 class PlanFile {
@@ -184,6 +185,15 @@ class PlanFile {
     }
   }
 
+  /// A request file that `generate` takes serves a plan as well: what the plan decides itself is left out.
+  void ignore_plan_keys() {
+    for (const char* key : {"seed", "scenes", "first"}) {
+      if (!own_value(state_->request, key)) continue;
+      state_->request.remove(key);
+      plan_.notes.push_back("'" + std::string(key) + "' of " + state_->file + " is ignored: the plan decides it");
+    }
+  }
+
   void read_request(const YAML::Node& node) {
     if (!node) return;
     state_->file = path_;
@@ -196,6 +206,7 @@ class PlanFile {
         state_->file = file.lexically_normal().string();
         base = file.parent_path();
         state_->request.reset(config::load_yaml(read_file(state_->file, config::longest_text), state_->file));
+        ignore_plan_keys();
       }
       state_->base = base.string();
       plan_.reference = config::read_document(state_->request, state_->file, state_->base, {}, {}, &found);
@@ -231,6 +242,8 @@ class PlanFile {
           const Request request = config::read_document(YAML::Clone(state_->request), state_->file, state_->base,
                                                         {{draw.path + "=" + end, draw.where}}, {}, &found);
           if (found.empty()) note_objects(request);
+          const std::string text = found.empty() ? misfit(request) : "";
+          if (!text.empty()) found.push_back(input_error(text, draw.where, misfit_remedy));
         } catch (const Error& error) {
           found.push_back(error);
         }
@@ -279,17 +292,23 @@ class PlanFile {
     }
   }
 
-  void check_outputs() {
-    const Request& request = plan_.reference;
+  /// Why the outputs cannot hold what a request's sensors see; empty: they can.
+  std::string misfit(const Request& request) const {
     const bool bop = plan_.wants("bop") || plan_.wants("shards");
     if ((bop || plan_.wants("png") || plan_.wants("pcd")) && request.sensors.empty())
-      complain("they show what a sensor sees, but the request has no sensors", "outputs",
-               "add `sensors: [{name: camera}]` to the request");
-    if (!bop) return;
-    for (const Sensor& sensor : request.sensors)
-      if (sensor.model == SensorModel::laser_line)
-        complain("a laser_line sensor makes no pinhole image", "outputs",
-                 "leave bop and shards out, or choose another model");
+      return "the outputs show what a sensor sees, but the request has no sensors";
+    if (bop && request.sensors.size() != plan_.reference.sensors.size())
+      return "BOP has the same number of images in each scene, one a sensor";
+    const auto is_line = [](const Sensor& sensor) { return sensor.model == SensorModel::laser_line; };
+    if (bop && std::any_of(request.sensors.begin(), request.sensors.end(), is_line))
+      return "BOP holds pinhole images, and the profiles of a laser_line sensor are none";
+    return "";
+  }
+
+  void check_outputs() {
+    const std::string text = misfit(plan_.reference);
+    if (!text.empty()) complain(text, "outputs", misfit_remedy);
+    if (!plan_.wants("bop") && !plan_.wants("shards")) return;
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
       const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);

@@ -4,7 +4,9 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
-#include "output/bop_image.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,6 +23,21 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+double cpu_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+double resident_mb() {
+  std::size_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 /// Wall times differ from run to run: they go into the index, and the scene does without.
@@ -59,6 +76,7 @@ SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const n
 
 HeapRecord HeapMaker::make(std::size_t heap) {
   const auto begin = Clock::now();
+  const double cpu_before = cpu_seconds();
   HeapRecord record;
   record.heap = heap;
   for (std::size_t k = 0; k < plan_.attempts && !record.accepted; ++k) {
@@ -82,6 +100,8 @@ HeapRecord HeapMaker::make(std::size_t heap) {
     }
   }
   record.wall_s = ms_since(begin) / 1e3;
+  record.cpu_s = cpu_seconds() - cpu_before;
+  record.memory_mb = resident_mb();
   return record;
 }
 
@@ -115,7 +135,13 @@ std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attemp
         break;
       }
       before = Clock::now();
-      write_scene(*result, pile.request(), request->first + step, folders);
+      std::vector<BopImage> bop;
+      if (plan_.wants("bop") || plan_.wants("shards"))
+        bop = bop_images(result->scene, generator_.parts(), result->images,
+                         {plan_.tolerance, object_ids(pile.request())});
+      record.stages_ms["masks"] += ms_since(before);
+      before = Clock::now();
+      write_scene(*result, pile.request(), bop, request->first + step, folders);
       record.stages_ms["write"] += ms_since(before);
     }
   } catch (const Error& error) {
@@ -127,18 +153,13 @@ std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attemp
   return reasons;
 }
 
-void HeapMaker::write_scene(const Generator::Result& result, const Request& request, std::size_t scene,
-                            WholeFolders& folders) {
+void HeapMaker::write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
+                            std::size_t scene, WholeFolders& folders) {
   // The folder with scene.json gets its name last: where it is, everything is.
-  if (plan_.wants("bop") || plan_.wants("shards")) {
-    const std::vector<BopImage> images =
-        bop_images(result.scene, generator_.parts(), result.images, {plan_.tolerance, object_ids(request)});
-    if (plan_.wants("bop"))
-      folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, images); });
-    if (plan_.wants("shards"))
-      folders.write(folder_.samples(scene),
-                    [&](const std::string& hidden) { write_bop_samples(hidden, scene, images); });
-  }
+  if (plan_.wants("bop"))
+    folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
+  if (plan_.wants("shards"))
+    folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
   folders.write(folder_.scene(scene), [&](const std::string& hidden) {
     write_scene_files(hidden, formats, result, request, generator_.parts(), generator_.bin_model());

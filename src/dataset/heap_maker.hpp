@@ -5,6 +5,7 @@
 #include "dataset/data_folder.hpp"
 #include "dataset/record.hpp"
 #include "dataset/whole_folders.hpp"
+#include "output/bop_image.hpp"
 
 #include <map>
 #include <optional>
@@ -23,7 +24,8 @@ class HeapMaker {
  private:
   /// Reasons why the attempt was not accepted; empty: its scenes wait in `folders`.
   std::vector<std::string> attempt(std::size_t heap, std::size_t attempt, HeapRecord& record, WholeFolders& folders);
-  void write_scene(const Generator::Result& result, const Request& request, std::size_t scene, WholeFolders& folders);
+  void write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
+                   std::size_t scene, WholeFolders& folders);
   void set_apart(const Generator::Result* result, const Request* request, const std::vector<std::string>& reasons,
                  std::size_t heap, std::size_t attempt);
   std::vector<int> object_ids(const Request& request) const;

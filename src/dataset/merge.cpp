@@ -65,6 +65,7 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   const FolderLock lock(to.root);
   remove_leftovers(to);
   SceneIndex index(to.index());
+  index.add_share(0, 1);
   std::set<std::size_t> known = index.heaps();
   for (const DataFolder& from : folders) {
     const SceneIndex share(from.index(), true);

@@ -25,6 +25,7 @@ double tilt_of(const nlohmann::json& q) {
 nlohmann::json json_of(const HeapRecord& record) {
   nlohmann::json json = {
       {"heap", record.heap},           {"accepted", record.accepted},       {"wall_s", record.wall_s},
+      {"cpu_s", record.cpu_s},         {"memory_mb", record.memory_mb},
       {"stages_ms", record.stages_ms}, {"scenes", nlohmann::json::array()}, {"rejected", nlohmann::json::array()}};
   for (const SceneRecord& scene : record.scenes)
     json["scenes"].push_back(
@@ -39,6 +40,8 @@ HeapRecord record_of(const nlohmann::json& json) {
   record.heap = json.at("heap");
   record.accepted = json.at("accepted");
   record.wall_s = json.at("wall_s");
+  record.cpu_s = json.at("cpu_s");
+  record.memory_mb = json.at("memory_mb");
   record.stages_ms = json.at("stages_ms").get<std::map<std::string, double>>();
   for (const auto& scene : json.at("scenes"))
     record.scenes.push_back({scene.at("scene"), scene.at("path"), scene.at("sha256"), scene.at("summary")});

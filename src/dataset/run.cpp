@@ -121,6 +121,7 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   const FolderLock lock(folder.root);
   remove_leftovers(folder);
   SceneIndex index(folder.index());
+  index.add_share(options.shard, options.shards);
   const std::set<std::size_t> done = reconcile(folder, facts, index, options);
 
   RunProgress progress;

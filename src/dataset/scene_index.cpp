@@ -13,9 +13,10 @@ namespace {
 // Texts only: one way to bind and to read them serves all. Sorting and sums cast.
 constexpr const char* schema[] = {
     "create table if not exists heaps (heap integer primary key, state text, attempts integer, wall_s real, "
-    "stages_ms text, made_at text default (datetime('now')))",
+    "cpu_s real, memory_mb real, stages_ms text, made_at text default (datetime('now')))",
     "create table if not exists scenes (scene integer primary key, heap integer, state text, verdict text, path text, "
     "sha256 text, summary text)",
+    "create table if not exists shares (shard integer, shards integer, primary key (shard, shards))",
     "create table if not exists rejected (heap integer, attempt integer, path text, reasons text, "
     "primary key (heap, attempt))",
     "create index if not exists scenes_of_heap on scenes (heap)"};
@@ -85,9 +86,10 @@ void SceneIndex::put(const HeapRecord& record) {
   try {
     forget(record.heap);
     const std::string heap = std::to_string(record.heap);
-    rows("insert into heaps (heap, state, attempts, wall_s, stages_ms) values (?, ?, ?, ?, ?)",
+    rows("insert into heaps (heap, state, attempts, wall_s, cpu_s, memory_mb, stages_ms) values (?, ?, ?, ?, ?, ?, ?)",
          {heap, record.accepted ? "done" : "failed", std::to_string(record.rejected.size() + record.accepted),
-          std::to_string(record.wall_s), nlohmann::json(record.stages_ms).dump()});
+          std::to_string(record.wall_s), std::to_string(record.cpu_s), std::to_string(record.memory_mb),
+          nlohmann::json(record.stages_ms).dump()});
     for (const SceneRecord& scene : record.scenes)
       rows(
           "insert into scenes (scene, heap, state, verdict, path, sha256, summary) values (?, ?, 'done', 'accepted', "
@@ -101,6 +103,17 @@ void SceneIndex::put(const HeapRecord& record) {
     sqlite3_exec(database_, "rollback", nullptr, nullptr, nullptr);
     throw;
   }
+}
+
+void SceneIndex::add_share(std::size_t shard, std::size_t shards) {
+  rows("insert or ignore into shares values (cast(? as integer), cast(? as integer))",
+       {std::to_string(shard), std::to_string(shards)});
+}
+
+std::set<std::pair<std::size_t, std::size_t>> SceneIndex::shares() const {
+  std::set<std::pair<std::size_t, std::size_t>> all;
+  for (const auto& row : rows("select shard, shards from shares")) all.emplace(std::stoul(row[0]), std::stoul(row[1]));
+  return all;
 }
 
 std::set<std::size_t> SceneIndex::heaps() const {
@@ -117,7 +130,9 @@ IndexCounts SceneIndex::counts() const {
   counts.scenes = number("select count(*) from scenes");
   counts.rejected = number("select count(*) from rejected");
   counts.timed = number("select count(*) from heaps where wall_s >= 0");
-  counts.wall_s = std::strtod(rows("select total(wall_s) from heaps where wall_s >= 0").at(0).at(0).c_str(), nullptr);
+  const auto sums = rows("select total(wall_s), total(cpu_s) from heaps where wall_s >= 0").at(0);
+  counts.wall_s = std::strtod(sums[0].c_str(), nullptr);
+  counts.cpu_s = std::strtod(sums[1].c_str(), nullptr);
   return counts;
 }
 
@@ -157,10 +172,13 @@ HeapRecord SceneIndex::record(std::size_t heap) const {
   HeapRecord record;
   record.heap = heap;
   const std::vector<std::string> of = {std::to_string(heap)};
-  for (const auto& r : rows("select state, wall_s, stages_ms from heaps where heap = cast(? as integer)", of)) {
+  for (const auto& r :
+       rows("select state, wall_s, stages_ms, cpu_s, memory_mb from heaps where heap = cast(? as integer)", of)) {
     record.accepted = r[0] == "done";
     record.wall_s = std::strtod(r[1].c_str(), nullptr);
     record.stages_ms = nlohmann::json::parse(r[2]).get<std::map<std::string, double>>();
+    record.cpu_s = std::strtod(r[3].c_str(), nullptr);
+    record.memory_mb = std::strtod(r[4].c_str(), nullptr);
   }
   for (const auto& r :
        rows("select scene, path, sha256, summary from scenes where heap = cast(? as integer) order by scene", of))

@@ -19,6 +19,7 @@ struct IndexCounts {
   std::size_t accepted = 0, failed = 0;  ///< heaps
   std::size_t scenes = 0, rejected = 0;  ///< scenes that are there; attempts that were set apart
   double wall_s = 0.0;                   ///< of workers, over all heaps whose time is known
+  double cpu_s = 0.0;                    ///< of workers, over the same heaps
   std::size_t timed = 0;                 ///< heaps whose time is known
 };
 
@@ -34,6 +35,9 @@ class SceneIndex {
   void forget(std::size_t heap);
   std::set<std::size_t> heaps() const;  ///< those that are done or have failed
   IndexCounts counts() const;
+  /// Heaps that are to be here: those whose number leaves `shard` when divided by `shards`, and those of calls before.
+  void add_share(std::size_t shard, std::size_t shards);
+  std::set<std::pair<std::size_t, std::size_t>> shares() const;
   std::map<std::string, double> stages_ms() const;  ///< summed over all heaps
 
   struct Row {

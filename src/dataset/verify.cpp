@@ -59,7 +59,7 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
   static const std::vector<std::pair<const char*, const char*>> all = {
       {"plan_unchanged", "plan.yaml has the digest that dataset.json tells"},
       {"no_leftovers", "no file or folder is half-written"},
-      {"heap_known", "the index knows what became of every heap"},
+      {"heap_known", "the index knows what became of every heap, or of every one of the shares made here"},
       {"scene_there", "every scene of the index has its folder"},
       {"scene_known", "every folder of a scene is in the index"},
       {"index_digest", "the digest of files.json is that of the index"},
@@ -134,9 +134,15 @@ void verify_files(const fs::path& folder, Findings& findings) {
 void verify_index(const DataFolder& folder, const DataSetFacts& facts, Findings& findings) {
   const SceneIndex index(folder.index(), true);
   const std::set<std::size_t> heaps = index.heaps();
+  const auto shares = index.shares();
+  const auto belongs_here = [&](std::size_t heap) {
+    return std::any_of(shares.begin(), shares.end(),
+                       [&](const auto& share) { return heap % share.second == share.first; });
+  };
   for (std::size_t heap = 0; heap < facts.heaps; ++heap)
-    findings.expect(heaps.count(heap) == 1, "heap_known", folder.index().string(),
-                    "nothing is known of heap " + std::to_string(heap));
+    if (belongs_here(heap))
+      findings.expect(heaps.count(heap) == 1, "heap_known", folder.index().string(),
+                      "nothing is known of heap " + std::to_string(heap));
   std::set<std::string> known;
   index.each_scene([&](const SceneIndex::Row& row) {
     const fs::path path = folder.root / row.path;
@@ -163,7 +169,7 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
   const auto plan = fs::exists(folder.root / "plan.yaml") ? read_file((folder.root / "plan.yaml").string()) : "";
   findings.expect(sha256_hex(plan) == facts.plan_text_sha256, "plan_unchanged", (folder.root / "plan.yaml").string(),
                   "is not the plan that the data set was made from");
-  for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "shards"}) {
+  for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "samples", "shards"}) {
     for (const fs::path& path : entries(folder.root / below))
       findings.expect(path.filename().string().find(".tmp-") == std::string::npos, "no_leftovers", path.string(),
                       "was left half-written");
@@ -172,12 +178,15 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
   verify_differences(folder, findings);
   const std::map<int, BopModel> models =
       facts.wants("bop") || facts.wants("shards") ? verify_models(folder, findings) : std::map<int, BopModel>();
+  // Only the whole data set is packed into shards: a share has its samples instead.
+  const bool is_whole = SceneIndex(folder.index(), true).shares().count({0, 1}) == 1;
   std::vector<std::size_t> there;
   for (std::size_t scene = 0; scene < facts.scenes(); ++scene)
     if (fs::exists(folder.scene(scene))) there.push_back(scene);
   in_parallel(there.size(), [&](std::size_t i) {
     verify_files(folder.scene(there[i]), findings);
     verify_scene(folder, facts, there[i], findings);
+    if (facts.wants("shards") && !is_whole) verify_files(folder.samples(there[i]), findings);
     if (!facts.wants("bop")) return;
     if (findings.expect(fs::exists(folder.bop(there[i])), "bop_json", folder.bop(there[i]).string(), "is missing")) {
       verify_files(folder.bop(there[i]), findings);
@@ -185,7 +194,7 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
       verify_bop(folder, there[i], scene.value_or(nlohmann::json()), models, findings);
     }
   });
-  if (facts.wants("shards")) verify_shards(folder, facts, findings);
+  if (facts.wants("shards") && is_whole) verify_shards(folder, facts, findings);
 }
 
 }  // namespace bin_scenes

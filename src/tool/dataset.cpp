@@ -104,6 +104,7 @@ int dataset(const DatasetOptions& options) {
   run.workers = options.workers;
   if (!options.shard.empty()) read_shard(options.shard, run);
   const Plan plan = read_plan(options.plan);
+  for (const std::string& note : plan.notes) std::fprintf(stderr, "bin_scenes: note: %s\n", note.c_str());
   listen();
   run.stop = &interrupted;
   run.warn = [](const std::string& text) { std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str()); };

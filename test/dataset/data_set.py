@@ -57,6 +57,33 @@ def box_stl(path, size):
 BOX, BAR = (0.03, 0.04, 0.05), (0.08, 0.02, 0.02)
 
 
+def children(parent):
+    """Processes that this one has started."""
+    try:
+        return [int(child) for thread in os.listdir("/proc/%d/task" % parent)
+                for child in pathlib.Path("/proc/%d/task/%s/children" % (parent, thread)).read_text().split()]
+    except OSError:
+        return []  # it has ended
+
+
+def processor_time(process):
+    """Seconds that a process and its children have run until now."""
+    used = 0
+    for pid in [process] + children(process):
+        try:
+            used += sum(int(path.read_text().split()[0]) for path in pathlib.Path("/proc/%d/task" % pid).glob("*/schedstat"))
+        except OSError:
+            pass
+    return used / 1e9
+
+
+def tree_of(root):
+    """Path -> digest of every file of a data set that has to be the same however it was made."""
+    return {path.relative_to(root).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(root.rglob("*"))
+            if path.is_file() and not path.name.startswith("index.sqlite") and ".shares" not in path.parts}
+
+
 class DataSetTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="bin_scenes_dataset_"))
@@ -87,11 +114,7 @@ class DataSetTest(unittest.TestCase):
         return self.run_tool("dataset", plan, "--out", out, *options, code=code)
 
     def tree(self, name):
-        """Path -> digest of every file that has to be the same however it was made."""
-        root = self.folder / name
-        return {path.relative_to(root).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-                for path in sorted(root.rglob("*"))
-                if path.is_file() and not path.name.startswith("index.sqlite") and ".shares" not in path.parts}
+        return tree_of(self.folder / name)
 
     def assert_same(self, a, b):
         a, b = self.tree(a), self.tree(b)

@@ -5,7 +5,6 @@
 """
 import json
 import os
-import pathlib
 import random
 import signal
 import sqlite3
@@ -14,18 +13,7 @@ import time
 import unittest
 
 import data_set
-from data_set import DataSetTest
-
-
-def children(parent):
-    found = []
-    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
-            if int(path.read_text().rsplit(")", 1)[1].split()[1]) == parent:
-                found.append(int(path.parent.name))
-        except OSError:
-            pass  # it has ended
-    return found
+from data_set import DataSetTest, children, processor_time
 
 
 class Plans(DataSetTest):
@@ -78,6 +66,33 @@ draw:
         self.assertIn("--shard", self.make("plan.yaml", "out2", "--shard", "3/2", code=2).stderr)
         self.run_tool("dataset", "plan.yaml", code=2)
 
+    def test_a_request_file_keeps_its_own_keys_to_itself(self):
+        (self.folder / "request.yaml").write_text("seed: 7\nscenes: 5\nparts: [{model: box.stl, count: 2}]\nsolver: {type: bullet}\n")
+        (self.folder / "plan.yaml").write_text("seed: 3\nscenes: 1\nrequest: request.yaml\n")
+        done = self.make("plan.yaml", "out")
+        self.assertEqual([line.split(" of ")[0] for line in done.stderr.splitlines()],
+                         ["bin_scenes: note: 'seed'", "bin_scenes: note: 'scenes'"])
+        self.assertEqual(json.loads((self.folder / "out/scenes/scene_000000/scene.json").read_text())["seed"], 3)
+
+    def test_what_bop_cannot_hold_is_refused_before_the_first_scene(self):
+        one, other = "{name: a, width: 32, height: 24}", "{name: b, model: laser_line, width: 32, height: 24}"
+        lines = self.errors("""scenes: 2
+outputs: [json, bop]
+request: {parts: [{model: box.stl, count: 1}], sensors: [%s]}
+draw:
+  sensors: {choice: [[%s], [%s, {name: b, width: 32, height: 24}]]}
+  sensors[0].model: {choice: [ideal, laser_line]}
+""" % (one, one, one))
+        for line, words in ((5, "same number of images"), (6, "laser_line")):
+            self.assertEqual(len([t for t in lines if "bad.yaml:%d: " % line in t and words in t]), 1, "\n".join(lines))
+        lines = self.errors("scenes: 2\noutputs: [shards]\nrequest: {parts: [{model: box.stl, count: 1}], sensors: [%s]}\n" % other)
+        self.assertIn("laser_line", lines[0])
+
+    def test_a_disk_that_is_too_small_is_told_before_the_first_scene(self):
+        done = self.make(self.plan(scenes=900_000_000), "out", code=3)
+        self.assertRegex(done.stderr, r"need about [\d.]+ GB, [\d.]+ GB are free")
+        self.assertEqual(list((self.folder / "out/scenes").iterdir()), [])
+
     def test_draws_follow_their_distributions(self):
         self.make(self.plan(scenes=12, outputs="json"), "out", "--workers", 2)
         frictions, counts, distances = set(), [], []
@@ -103,7 +118,7 @@ class Repeatability(DataSetTest):
         for i, share in enumerate(shares):
             self.make(plan, share, "--shard", "%d/3" % i, "--workers", 1)
         self.run_tool("dataset", "merge", *shares[:2], "--out", "merged", code=1)
-        self.kill_at_random(5, 0.15, "dataset", "merge", *shares, "--out", "merged")
+        self.kill_at_random(5, 0.05, "dataset", "merge", *shares, "--out", "merged")
         self.run_tool("dataset", "merge", *shares, "--out", "merged")
         self.assert_same("one", "merged")
 
@@ -114,18 +129,20 @@ class Repeatability(DataSetTest):
         self.make(plan, "full")
         self.assert_same("one", "full")
 
-        self.kill_at_random(8, 0.6, "dataset", plan, "--out", "killed", "--workers", 2)
+        self.kill_at_random(8, 0.5, "dataset", plan, "--out", "killed", "--workers", 2)
         self.make(plan, "killed", "--resume")
         self.assert_same("one", "killed")
         self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "killed").stdout)
 
-    def kill_at_random(self, kills, longest, *words):
-        """SIGKILL for the process, or for one of its workers, at random instants."""
+    def kill_at_random(self, kills, whole, *words):
+        """SIGKILL for the process, or for one of its workers, at instants drawn from `whole` processor seconds."""
         dice = random.Random(7)
         for _ in range(kills):
             process = subprocess.Popen(self.command(*words), cwd=self.folder, stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)
-            time.sleep(dice.uniform(0.02, longest))
+            limit = dice.uniform(0.0, whole)
+            while process.poll() is None and processor_time(process.pid) < limit:
+                time.sleep(0.002)
             victims = [process.pid] + children(process.pid)
             try:
                 os.kill(dice.choice(victims), signal.SIGKILL)

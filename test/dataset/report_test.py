@@ -3,8 +3,10 @@
 
     report_test.py TOOL [--keep PNG]
 """
+import os
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import unittest
@@ -21,10 +23,10 @@ CHROMIUM = shutil.which("chromium")
 
 
 class Report(DataSetTest):
-    def browse(self, *options):
+    def browse(self, *options, at=""):
         command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
                    "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=8000",
-                   "--user-data-dir=%s" % (self.folder / "profile"), *options, "file://%s" % (self.folder / "out/report.html")]
+                   "--user-data-dir=%s" % (self.folder / "profile"), *options, "file://%s%s" % (self.folder / "out/report.html", at)]
         return subprocess.run(command, capture_output=True, text=True, timeout=300)
 
     def make_report(self):
@@ -44,7 +46,7 @@ class Report(DataSetTest):
     @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
     def test_it_opens_in_a_browser_without_a_network(self):
         done, _ = self.make_report()
-        dom = self.browse("--dump-dom").stdout
+        dom = self.browse("--dump-dom", at="#three").stdout  # scrolled to the 3-D view
         self.assertIn('data-ready="yes"', dom, "the page's script did not reach its end")
         self.assertEqual(len(re.findall(r'<svg viewBox="0 0 330', dom)), 6)
         self.assertGreater(len(re.findall(r"<figcaption>scene \d+", dom)), 2)
@@ -53,6 +55,26 @@ class Report(DataSetTest):
             self.assertRegex(dom, r'data-drawn="\d+"')
         if KEEP:
             self.browse("--window-size=1240,2300", "--screenshot=%s" % KEEP)
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_it_opens_with_ten_thousand_scenes(self):
+        self.make(self.plan(scenes=2, outputs="json, bop"), "out")
+        with sqlite3.connect(self.folder / "out/index.sqlite") as index:
+            index.executemany("insert into heaps select ?, state, attempts, wall_s, cpu_s, memory_mb, stages_ms, made_at "
+                              "from heaps where heap = 1", [(i,) for i in range(2, 10_000)])
+            index.executemany("insert into scenes select ?, ?, state, verdict, path, sha256, summary from scenes where scene = 1",
+                              [(i, i) for i in range(2, 10_000)])
+        picture = self.folder / "out/bop/train/000001/gray/000000.png"
+        for scene in range(2, 10_000):
+            folder = self.folder / ("out/bop/train/%06d/gray" % scene)
+            folder.mkdir(parents=True)
+            os.link(picture, folder / "000000.png")
+        self.run_tool("report", "out")
+        self.assertLess((self.folder / "out/report.html").stat().st_size, 5_000_000)
+        dom = self.browse("--dump-dom").stdout
+        self.assertIn('data-ready="yes"', dom, "the page's script did not reach its end")
+        self.assertRegex(dom, r"\d{3} of 10000 scenes, first 60 shown")
+        self.assertEqual(len(re.findall("<figcaption>", dom)), 60)
 
 
 if __name__ == "__main__":

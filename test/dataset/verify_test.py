@@ -165,6 +165,20 @@ class Verify(DataSetTest):
                 self.assertIn("\n" + check + ": ", "\n" + found)
         self.assertEqual(sorted(set(names) - {check for check, _ in CORRUPTIONS}), ["shard_size"])
 
+    def test_a_share_is_judged_by_what_belongs_to_it(self):
+        plan = self.plan(scenes=4)
+        self.make(plan, "share", "--shard", "1/2")
+        self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "share").stdout)
+        (self.folder / "share/samples/000001/000001_000000.gt.json").write_text("[]")
+        self.assertIn("file_size: share/samples/000001", self.run_tool("dataset", "verify", "share", code=1).stdout)
+        self.make(plan, "share", "--shard", "0/2")
+        shutil.rmtree(self.folder / "share/scenes/scene_000002")
+        self.assertIn("scene_there: share/scenes/scene_000002", self.run_tool("dataset", "verify", "share", code=1).stdout)
+        self.run_tool("dataset", "merge", "share", "--out", "merged", code=None)
+        self.make(plan, "other", "--shard", "0/2")
+        self.run_tool("dataset", "merge", "other", "--out", "half", code=1)
+        self.assertIn("nothing is known of heap 1", self.run_tool("dataset", "verify", "half", code=1).stdout)
+
     def test_what_is_no_data_set_is_refused(self):
         (self.folder / "empty").mkdir()
         self.assertIn("is no data set", self.run_tool("dataset", "verify", "empty", code=2).stderr)

@@ -54,9 +54,10 @@ class Plan {
   double tolerance = 0.0015;         ///< m, bop: depth behind the measured surface up to which a part is visible
   Depletion depletion;
   std::vector<PlanObject> objects;
-  Request reference;   ///< the template, nothing drawn
-  std::string text;    ///< of the file
-  std::string sha256;  ///< of everything that decides the scenes: text, template and models
+  Request reference;               ///< the template, nothing drawn
+  std::vector<std::string> notes;  ///< what the reader decided and its user should know
+  std::string text;                ///< of the file
+  std::string sha256;              ///< of everything that decides the scenes: text, template and models
 
   std::size_t scenes() const { return heaps * (depletion.steps + 1); }
   bool wants(const std::string& format) const;

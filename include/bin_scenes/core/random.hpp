@@ -10,24 +10,24 @@
 namespace bin_scenes {
 
 /// What a stream of random numbers is for; streams of one scene are independent of each other.
-enum class Stream : std::uint64_t { pour = 1, sensor = 2, noise = 3, probe = 4 };
+enum class Stream : std::uint64_t { pour = 1, sensor = 2, noise = 3, probe = 4, plan = 5 };
 
 /// SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators"), keyed by
 /// (seed, scene index, stream). Seed 0 is a seed like any other.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t index, Stream stream);
-  /// An own stream for a piece of the work (a sensor, a row of its image): pieces may then be done in any order. Does not
-  /// move this one.
+  /// An own stream for a piece of the work (a sensor, a row of its image): pieces may then be done in any order. Does
+  /// not move this one.
   Random of_piece(std::uint64_t piece) const;
 
   std::uint64_t next();
-  double uniform();                             ///< [0, 1), 53 bits
-  double uniform(double lower, double upper);   ///< [lower, upper)
-  std::uint64_t below(std::uint64_t count);     ///< 0 .. count-1, unbiased; count > 0
-  double normal();                              ///< mean 0, standard deviation 1 (Box-Muller)
-  void normals(double& a, double& b);           ///< two of them for the price of one
-  Quat orientation();                           ///< uniform on SO(3) (Shoemake 1992, "Uniform random rotations")
+  double uniform();                            ///< [0, 1), 53 bits
+  double uniform(double lower, double upper);  ///< [lower, upper)
+  std::uint64_t below(std::uint64_t count);    ///< 0 .. count-1, unbiased; count > 0
+  double normal();                             ///< mean 0, standard deviation 1 (Box-Muller)
+  void normals(double& a, double& b);          ///< two of them for the price of one
+  Quat orientation();                          ///< uniform on SO(3) (Shoemake 1992, "Uniform random rotations")
 
  private:
   explicit Random(std::uint64_t state) : state_(state) {}
