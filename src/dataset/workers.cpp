@@ -2,7 +2,6 @@
 
 #include "bin_scenes/core/error.hpp"
 
-#include <malloc.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -23,18 +22,7 @@ namespace {
 constexpr std::size_t most_deaths = 10;  ///< of workers on one heap
 constexpr int patience_ms = 250;         ///< between two looks at the clock
 
-/// A scene's images are megabytes each. Without this, the C library gives them back to the kernel after every scene,
-/// which then clears the same pages again: an eighth of a scene's time.
-void keep_memory() {
-  constexpr int most_of_a_block = 32 << 20, most_free = 1 << 30, at_once = 64 << 20;  // bytes
-  mallopt(M_ARENA_MAX, 1);
-  mallopt(M_MMAP_THRESHOLD, most_of_a_block);
-  mallopt(M_TRIM_THRESHOLD, most_free);
-  mallopt(M_TOP_PAD, at_once);
-}
-
 [[noreturn]] void serve(int socket, std::size_t threads, const std::function<nlohmann::json(std::size_t)>& work) {
-  keep_memory();
   // The cores are shared by processes: in each, work that could use all cores keeps to its share.
   const tbb::global_control share(tbb::global_control::max_allowed_parallelism, std::max<std::size_t>(1, threads));
   std::uint64_t heap = 0;

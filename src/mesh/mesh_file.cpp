@@ -257,6 +257,7 @@ void put(std::string& to, const T* from, std::size_t count) {
 }
 template <class T>
 void take(const std::string& from, std::size_t& offset, T* to, std::size_t count) {
+  if (count == 0) return;  // an empty vector has no place to copy to
   std::memcpy(static_cast<void*>(to), from.data() + offset, count * sizeof(T));
   offset += count * sizeof(T);
 }

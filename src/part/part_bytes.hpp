@@ -53,6 +53,12 @@ class ByteReader {
     get_raw(&value, sizeof value);
   }
   void get(Vec3& v) { get_raw(v.data(), 3 * sizeof(double)); }
+  void get(bool& value) {  // a bool of any other byte would be neither true nor false
+    std::uint8_t byte = 0;
+    get(byte);
+    ok_ = ok_ && byte <= 1;
+    value = byte == 1;
+  }
   void get(std::string& text) {
     text.resize(count(1));
     get_raw(text.data(), text.size());

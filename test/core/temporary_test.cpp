@@ -1,11 +1,40 @@
 #include "bin_scenes/core/temporary.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
+
+namespace {
+/// What was synced, and whether the final name was there already then.
+struct Sync {
+  std::string path;
+  bool named;
+};
+std::vector<Sync> syncs;
+std::string watched;  ///< the final name
+
+void note(int descriptor) {
+  char path[4096] = {};
+  if (readlink(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), path, sizeof path - 1) > 0)
+    syncs.push_back({path, std::filesystem::exists(watched)});
+}
+}  // namespace
+
+// The library calls these instead of those of the system.
+extern "C" int fsync(int descriptor) {
+  note(descriptor);
+  return static_cast<int>(syscall(SYS_fsync, descriptor));
+}
+extern "C" int syncfs(int descriptor) noexcept {
+  note(descriptor);
+  return static_cast<int>(syscall(SYS_syncfs, descriptor));
+}
 
 namespace bin_scenes {
 namespace {
@@ -86,6 +115,24 @@ TEST_F(TemporaryTest, ADirectoryThatSteppedAsideComesBackIfItsSuccessorNeverCame
   remove_leftovers(dir.string());
   EXPECT_EQ(text("scene/scene.json"), "whole");
   EXPECT_EQ(entries(), 1u);
+}
+
+// Else a loss of power leaves the name with nothing behind it.
+TEST_F(TemporaryTest, ContentsAreOnTheDiskBeforeTheNameAndTheNameBeforeItReturns) {
+  for (const int files : {1, 30}) {
+    watched = (dir / ("scene" + std::to_string(files))).string();
+    syncs.clear();
+    Temporary folder(watched);
+    const std::string hidden = folder.path();
+    fs::create_directory(hidden);
+    for (int i = 0; i < files; ++i) std::ofstream(hidden + "/" + std::to_string(i)) << "whole";
+    folder.commit();
+    ASSERT_GE(syncs.size(), 2u);
+    EXPECT_EQ(syncs.front().path, hidden);
+    for (std::size_t i = 0; i + 1 < syncs.size(); ++i) EXPECT_FALSE(syncs[i].named) << syncs[i].path;
+    EXPECT_EQ(syncs.back().path, dir.string());
+    EXPECT_TRUE(syncs.back().named);
+  }
 }
 
 TEST_F(TemporaryTest, TwoOfOneTargetDoNotMeet) {

@@ -40,6 +40,16 @@ TEST(Memory, ScenesAreSeenAtOnceAsFarAsTheirImagesFit) {
   EXPECT_EQ(scenes_seen_at_once(seen, one), 3u);
 }
 
+TEST(Memory, GrowsWithScenesThatWaitToBeJudgedButNotWithoutBound) {
+  Request one = request(100), ten = one, many = one;
+  ten.scenes = 10;
+  many.scenes = 200'000'000;
+  EXPECT_GT(estimate_memory(ten, {}), estimate_memory(one, {}));
+  EXPECT_LT(estimate_memory(many, {}), 20.0 * estimate_memory(one, {})) << "scenes are made one after the other";
+  ten.memory_budget = 0.5 * (estimate_memory(one, {}) + estimate_memory(ten, {}));
+  EXPECT_THROW(estimate_memory(ten, {}), Error);
+}
+
 /// Bullet keeps contacts by pairs of hulls: a heap of concave parts takes far more than one of boxes.
 TEST(Memory, CountsHulls) {
   const auto grows_by = [](const PartModelPtr& part) {

@@ -91,6 +91,18 @@ TEST_F(CacheTest, AFileUnderAnotherNameIsNotTrusted) {
   EXPECT_FALSE(cache_.read("field", "b"));
 }
 
+// Opening a pipe that nobody writes to waits for ever; the time limit of the test would tell.
+TEST_F(CacheTest, APipeInTheCacheIsPassedOverAtOnceAndReplaced) {
+  const Bytes bytes = {1, 2, 3};
+  cache_.write("field", "key", bytes);
+  const fs::path place = file();
+  fs::remove(place);
+  ASSERT_EQ(mkfifo(place.c_str(), 0600), 0);
+  EXPECT_FALSE(cache_.read("field", "key"));
+  cache_.write("field", "key", bytes);
+  EXPECT_EQ(cache_.read("field", "key"), bytes);
+}
+
 TEST_F(CacheTest, CanBeSwitchedOff) {
   cache_.write("field", "key", {1});
   setenv("BIN_SCENES_CACHE", "off", 1);

@@ -28,7 +28,7 @@ DEBIAN = {
 }
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
-        "catkin-lint",
+        "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
         "glslang-tools",  # rosdep has no key of it; where it is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
         "libjs-three",  # for reports; without it they have no 3-D view
@@ -64,7 +64,8 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "bench", "ros", "ros_pcl", "ros_tests"})
+                         {"build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "bench", "fuzz", "ros",
+                          "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
 

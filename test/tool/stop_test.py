@@ -52,18 +52,20 @@ def requests(folder):
     sphere_stl(folder / "fine.stl", 200, bumps=0.05)
     sphere_stl(folder / "bumpy.stl", 24, bumps=0.15)
     overlap = "bin: {floor: true}\npour: {pattern: given}\nparts:\n  - {model: ball.stl, unit: m, count: %d, poses: [%s]}\n"
-    poses = ", ".join(["[%.4f, %.4f, 0.1, 0, 0, 0, 1]" % (1e-4 * (i % 100), 1e-4 * (i // 100)) for i in range(5000)])
+    poses = ", ".join(["[%.4f, %.4f, 0.1, 0, 0, 0, 1]" % (1e-4 * (i % 100), 1e-4 * (i // 100)) for i in range(20000)])
     heap = "bin: {inner_size: [0.3, 0.3, 0.3]}\nparts: [{model: %s, unit: m, count: %d}]\n"
     return {
         "parsing": ("seed: 1\nparts:\n" + "  - {model: ball.stl, unit: m}\n" * 60000, [], False),
         "loading": (heap % ("fine.stl", 3), [], True),
         "decomposition": (heap % ("bumpy.stl", 3) + "solver: {type: bullet}\n", [], True),
-        "overlap, sphere": (overlap % (5000, poses), ["--solver", "sphere", "--set", "solver.sphere.device=cpu"], False),
-        "overlap, bullet": (overlap % (5000, poses), ["--solver", "bullet"], False),
+        "overlap, sphere": (overlap % (20000, poses), ["--solver", "sphere", "--set", "solver.sphere.device=cpu"], False),
+        "overlap, bullet": (overlap % (20000, poses), ["--solver", "bullet"], False),
         "many scenes": (heap % ("ball.stl", 20), ["--scenes", "200000000", "--solver", "bullet"], False),
         "judging": (heap % ("fine.stl", 30), ["--solver", "sphere", "--seconds", "0.05"], False),
         "rendering": (heap % ("ball.stl", 60), ["--solver", "bullet", "--formats", "png,bop", "--seconds", "0.1", "--set",
                       "sensors=[{name: a, width: 1600, height: 1200}]"], False),
+        "writing": (heap % ("ball.stl", 5), ["--scenes", "500", "--solver", "bullet", "--formats", "png,pcd,bop", "--seconds",
+                    "0.01", "--set", "sensors=[{name: a, width: 640, height: 480}]"], False),
         "shaders": (heap % ("ball.stl", 5), ["--solver", "sphere", "--set", "solver.sphere.device=gpu"], True),
         "thesis": (heap % ("ball.stl", 5), ["--solver", "sphere", "--set", "solver.preset=thesis"], True),
     }
@@ -84,6 +86,12 @@ def of_session(session):
     return found
 
 
+def obey_signals():
+    """A shell that starts this test in the background has it ignore SIGINT, and its children with it."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def stop_once(tool, folder, name, request, options, cold, rng):
     (folder / "request.yaml").write_text(request)
     out = folder / "out"
@@ -93,7 +101,7 @@ def stop_once(tool, folder, name, request, options, cold, rng):
         shutil.rmtree(folder / "cold", ignore_errors=True)
     process = subprocess.Popen([tool, "generate", "request.yaml", "--out", "out"] + options, cwd=folder,
                                env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.PIPE, text=True, start_new_session=True)
+                               stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=obey_signals)
     time.sleep(0.05 + rng.random() ** 2 * 6.0)  # the handler is there; the middle of some phase, mostly an early one
     number = rng.choice([signal.SIGINT, signal.SIGTERM])
     begin = time.monotonic()
@@ -122,7 +130,7 @@ def stop_once(tool, folder, name, request, options, cold, rng):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tool", type=os.path.abspath)
-    parser.add_argument("--signals", type=int, default=10)
+    parser.add_argument("--signals", type=int, default=11)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--report", action="store_true")
     options = parser.parse_args()
