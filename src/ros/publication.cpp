@@ -93,14 +93,17 @@ Publication::Publication(const ros::NodeHandle& node, const Settings& settings, 
 }
 
 Publication::~Publication() {
-  again_.stop();
   thread_.stop();
+  again_.stop();
 }
 
 void Publication::set_publish_rate(double rate) {
-  again_.stop();
-  if (!(rate > 0.0)) return;
-  again_ = node_.createWallTimer(ros::WallDuration(1.0 / rate), [this](const ros::WallTimerEvent&) { publish_again(); });
+  thread_.post([this, rate] {  // where the timer is served: it may be at work
+    again_.stop();
+    if (!(rate > 0.0)) return;
+    const auto tick = [this](const ros::WallTimerEvent&) { publish_again(); };
+    again_ = node_.createWallTimer(ros::WallDuration(1.0 / rate), tick);
+  });
 }
 
 /// Which of the sensors somebody listens to. Those whose topics have yet to be made have no listeners.
