@@ -21,7 +21,7 @@ set xrange [0:180]
 set yrange [0:*]
 set format y '%.2f'
 set xtics 30
-set key inside center top
+set key inside right top
 plot pi / 40 * sin(pi * x / 180) with lines linecolor rgb '#999999' dashtype 2 title 'at random', \
   for [i=1:words(shapes)] table using 'tilt_deg':(only('shape', word(shapes, i), 'tilt_share')) with linespoints linetype i title word(shapes, i)
 unset multiplot

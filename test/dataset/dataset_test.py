@@ -89,7 +89,11 @@ draw:
         self.assertIn("laser_line", lines[0])
 
     def test_a_disk_that_is_too_small_is_told_before_the_first_scene(self):
-        done = self.make(self.plan(scenes=900_000_000), "out", code=3)
+        (self.folder / "plan.yaml").write_text("""scenes: 100000
+outputs: [png, bop, shards]
+request: {parts: [{model: box.stl, count: 1}], sensors: [{name: camera, width: 4000, height: 3000}]}
+""")
+        done = self.make("plan.yaml", "out", code=3)
         self.assertRegex(done.stderr, r"need about [\d.]+ GB, [\d.]+ GB are free")
         self.assertEqual(list((self.folder / "out/scenes").iterdir()), [])
 
