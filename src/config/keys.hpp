@@ -37,6 +37,21 @@ inline Names<SphereSettings::Device> names(SphereSettings::Device) {
           {"gpu", SphereSettings::Device::gpu}};
 }
 
+template <class Visitor>
+void visit(Visitor& v, Motion& motion) {
+  v.field({"times", "s", "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu"}, motion.times);
+  v.field({"poses", "m",
+           "where it is then, from where it stood, in the axes that the bin had; it goes smoothly from one to the next; a "
+           "bin ends upright. Poses of parts stay those in the bin"},
+          motion.poses);
+  v.field({"shake", "m", "amplitude of a sine along the axes"}, motion.shake);
+  v.field({"tilt", "rad", "amplitude of a sine of turns about the axes"}, motion.tilt);
+  v.field({"frequency", "Hz", "of shake and tilt, which swell up over their first period and fade over their last"},
+          motion.frequency);
+  v.field({"belt", "m/s", "velocity of the surface of a part that itself stays: a conveyor"}, motion.belt);
+  v.field({"seconds", "s", "how long shake, tilt and belt go on"}, motion.seconds);
+}
+
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.
 struct BinKeys {
   bool floor = false, none = false;
@@ -59,6 +74,10 @@ void visit(Visitor& v, Bin& bin) {
   v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)"}, bin.friction);
   v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin"}, bin.restitution);
   v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
+  v.section({"motion", "",
+             "path of the bin, begun when all parts are in and slow; then the heap settles again",
+             bin.motion.any()},
+            bin.motion);
   v.bin_kind(bin, kind);
 }
 
@@ -95,6 +114,10 @@ void visit(Visitor& v, PartLine& part) {
           part.velocities);
   v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
   v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
+  v.section({"motion", "",
+             "path of a fixed part that nothing stops: a pusher, a conveyor",
+             part.motion.any()},
+            part.motion);
 }
 
 template <class Visitor>

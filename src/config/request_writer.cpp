@@ -20,6 +20,7 @@ class KeyWriter {
   }
   template <class Struct>
   void section(const Key& key, Struct& value) {
+    if (!key.written) return;
     text += start(key) + ":\n";
     indent_ += 2;
     visit(*this, value);

@@ -58,8 +58,10 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
   Request next = request;
   next.pour.pattern = Pour::Pattern::given;
   next.seconds = seconds;
+  next.bin.motion = {};  // it is over
   for (std::size_t line = 0; line < next.parts.size(); ++line) {
     PartLine& part_line = next.parts[line];
+    part_line.motion = {};
     part_line.poses.clear();
     part_line.velocities.clear();
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {

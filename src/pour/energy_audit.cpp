@@ -55,9 +55,14 @@ DisjointSets EnergyAudit::groups(const std::vector<Reach>& reaches) const {
   return groups;
 }
 
-void EnergyAudit::look(double time, const std::vector<BodyState>& states) {
+void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool driven) {
   const double seconds = time - last_;
   last_ = time;
+  if (driven) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (bodies_[b].in && states[b].pose.finite()) enter(b, states[b]);
+    return;
+  }
   std::vector<Reach> reaches;
   bool gained = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

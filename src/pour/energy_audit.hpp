@@ -29,8 +29,9 @@ class EnergyAudit {
   /// A body comes in, or is put elsewhere: with this state it begins anew.
   void enter(std::size_t body, const BodyState& state);
   void leave(std::size_t body) { bodies_[body].in = false; }
-  /// Bodies that never came in are left out, whatever their states.
-  void look(double time, const std::vector<BodyState>& states);
+  /// Bodies that never came in are left out, whatever their states. `driven`: something that follows a path may have
+  /// worked on them since the last look, and all begin anew.
+  void look(double time, const std::vector<BodyState>& states, bool driven = false);
 
   const EnergyReport& worst() const { return worst_; }
   std::vector<Flag> flags() const;

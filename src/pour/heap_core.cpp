@@ -29,6 +29,7 @@ HeapCore::HeapCore(std::shared_ptr<const PourPlan> plan, Solver& solver, std::si
   make_world(entering);
   const bool enters = enter(0);
   begin(!enters && all_slow() ? Stage::hold : Stage::pour);
+  if (plan_->request.pour.pattern == Pour::Pattern::given) begin_motion();
 }
 
 HeapCore::~HeapCore() {
@@ -60,6 +61,7 @@ void HeapCore::set_solver_phase() {
 }
 
 void HeapCore::start_clock() {
+  course_begun_ -= time_;
   time_ = 0.0;
   settling_.start_clock();
   rest_ = RestWatch(states_.size());
@@ -93,17 +95,6 @@ void HeapCore::remove(std::size_t body) {
   waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), body), waiting_.end());
   place_[body] = Place::removed;
   states_[body] = {Pose::none(), {}};
-}
-
-void HeapCore::set_gravity(const Vec3& gravity) {
-  states();
-  auto plan = std::make_shared<PourPlan>(*plan_);
-  plan->request.gravity = plan->world.gravity = gravity;
-  audit_.reset();
-  plan_ = std::move(plan);
-  solver_.remove_world(id_);
-  make_world(!waiting_.empty());
-  begin(waiting_.empty() ? Stage::hold : Stage::pour);
 }
 
 void HeapCore::recover() {
@@ -218,7 +209,7 @@ void HeapCore::update_rest() {
     rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
                {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
-  audit_->look(time_, states_);
+  audit_->look(time_, states_, follows());
   fresh_ = true;
 }
 
@@ -311,12 +302,14 @@ void HeapCore::cut_walls() {
 void HeapCore::look() {
   update_rest();
   insert_waiting();
+  if (follows() && !end_motion()) return;
   const Stage before = settling_.stage();
   if (!settling_.look(*this, time_) || settling_.done()) return;
   set_solver_phase();
   if (before != Stage::pour) return;
   if (walls_raised_) cut_walls();
   rest_ = RestWatch(states_.size());  // parts that rested on coarse samples or leant on a cut wall may move again
+  begin_motion();
 }
 
 bool HeapCore::over() const {

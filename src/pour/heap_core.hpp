@@ -46,6 +46,9 @@ class HeapCore final : private HeapView {
   /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice.
   void look();
   void update_rest();  ///< rest and escape alone, at the end of a set time
+  /// Whether bin or parts follow a motion now: then follow() comes before each step.
+  bool follows() const { return course_ == Course::under_way; }
+  void follow(double seconds);  ///< puts them where they are, with their velocities of the next `seconds`
   bool over() const;
   Progress progress() const;
 
@@ -57,6 +60,7 @@ class HeapCore final : private HeapView {
 
  private:
   enum class Place { waiting, in, escaped, no_room, removed };
+  enum class Course { ahead, under_way, over };  ///< of the given motions
 
   void make_world(bool raised_walls);
   void begin(Stage stage);
@@ -69,6 +73,10 @@ class HeapCore final : private HeapView {
   void start_rain();
   void insert_waiting();
   void cut_walls();
+  double motion_seconds() const;
+  void put_on_path(double t, double dt, bool ends);
+  void begin_motion();
+  bool end_motion();  ///< if it is over; what moved settles again
   PartState state_of(std::size_t body) const;
   bool outside(const Vec3& center) const;
   bool slow(std::size_t body) const;
@@ -97,6 +105,8 @@ class HeapCore final : private HeapView {
   std::uint64_t earlier_steps_ =
       0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
   bool fresh_ = false, walls_raised_ = false;
+  Course course_ = Course::ahead;
+  double course_begun_ = 0.0;  ///< s
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies that have not entered, next one first

@@ -78,6 +78,10 @@ class Run {
     if (tracing_) steps = std::min(steps, next_sample(group.clock) - group.clock);
     double seconds = static_cast<double>(steps) * step_;
     for (const Running& r : group.running) seconds = std::min(seconds, r.heap->time_left());
+    for (const Running& r : group.running)
+      if (r.heap->follows()) seconds = std::min(seconds, step_);
+    for (Running& r : group.running)
+      if (r.heap->follows() && seconds > 0.0) r.heap->follow(seconds);
     group.under_way = steps_in(seconds, step_).count();
     if (group.under_way > 0) group.seconds = solver_.begin(group.ids(), seconds);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -148,7 +149,33 @@ void check_surface(const std::string& key, const Surface& surface) {
   at_least(key + ".roughness", surface.roughness, 0.0, 1.0, "0.1 is polished, 0.4 machined, 1 matte");
 }
 
+void check_motion(const std::string& key, const Motion& motion) {
+  if (motion.times.size() != motion.poses.size()) {
+    refuse(key + ".times", "has " + std::to_string(motion.times.size()) + " times for " +
+                               std::to_string(motion.poses.size()) + " poses", "give one time a pose");
+  }
+  for (std::size_t i = 0; i < motion.times.size(); ++i) {
+    const std::string item = "[" + std::to_string(i) + "]";
+    above(key + ".times" + item, motion.times[i], i == 0 ? 0.0 : motion.times[i - 1], 1e5, "s, ascending");
+    check_pose(key + ".poses" + item, motion.poses[i]);
+  }
+  const auto vector = [&](const char* name, const Vec3& value, double most, const char* unit) {
+    if (!value.allFinite()) refuse(key + name, "is not finite", "give three finite numbers");
+    at_least(key + name, value.norm(), 0.0, most, unit);
+  };
+  vector(".shake", motion.shake, 100.0, "m");
+  vector(".tilt", motion.tilt, M_PI, "rad");
+  vector(".belt", motion.belt, 100.0, "m/s");
+  above(key + ".frequency", motion.frequency, 0.0, 100.0, "Hz");
+  above(key + ".seconds", motion.seconds, 0.0, 1e5, "simulated seconds");
+}
+
 void check_bin(const Bin& bin) {
+  check_motion("bin.motion", bin.motion);
+  if (!bin.motion.belt.isZero()) refuse("bin.motion.belt", "is of parts only", "make the conveyor a fixed part");
+  if (!bin.motion.poses.empty() && bin.motion.poses.back().orientation.vec().norm() > 1e-6) {
+    refuse("bin.motion.poses", "does not end upright", "turn the bin back, or turn gravity instead");
+  }
   check_surface("bin.surface", bin.surface);
   if (bin.kind == Bin::Kind::box) {
     for (int i = 0; i < 3; ++i) {
@@ -195,6 +222,8 @@ void check_part(const std::string& key, const PartLine& line, Pour::Pattern patt
     if (!v.linear.allFinite() || !v.angular.allFinite()) refuse(where, "is not finite", "give six finite numbers");
     at_least(where, std::max(v.linear.norm(), v.angular.norm()), 0.0, 1e4, "m/s and rad/s");
   }
+  check_motion(key + ".motion", line.motion);
+  if (line.motion.any() && !line.fixed) refuse(key + ".motion", "is of a part that is not fixed", "set fixed: true");
   if (line.poses.empty() && line.fixed) {
     refuse(key + ".poses", "is missing for a fixed part", "say where it stands: [[x, y, z, qx, qy, qz, qw]]");
   }

@@ -23,6 +23,8 @@ bin:
   wall_thickness: 0.004
   friction: 0.4
   restitution: 0.2
+  motion: {times: [1, 2.5], poses: [[0, 0, 0.1], [0.2, 0, 0]], shake: [0.01, 0, 0], tilt: [0, 0.1, 0], frequency: 4,
+           seconds: 3}
 gravity: [0.1, 0, -9.80665]
 parts:
   - model: bolt.stl
@@ -42,6 +44,7 @@ parts:
     mass: 0.02
     poses: [[0, 0, 0.5]]
     fixed: true
+    motion: {belt: [0.3, 0, 0]}
 pour:
   pattern: given
   drop_height: 0.03
@@ -86,6 +89,12 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.bin.wall_thickness, 0.004);
   EXPECT_EQ(r.bin.friction, 0.4);
   EXPECT_EQ(r.bin.restitution, 0.2);
+  EXPECT_EQ(r.bin.motion.times, (std::vector<double>{1.0, 2.5}));
+  EXPECT_EQ(r.bin.motion.poses.at(1).position, Vec3(0.2, 0, 0));
+  EXPECT_EQ(r.bin.motion.shake, Vec3(0.01, 0, 0));
+  EXPECT_EQ(r.bin.motion.tilt, Vec3(0, 0.1, 0));
+  EXPECT_EQ(r.bin.motion.frequency, 4.0);
+  EXPECT_EQ(r.bin.motion.seconds, 3.0);
   EXPECT_EQ(r.gravity, Vec3(0.1, 0, -9.80665));
   ASSERT_EQ(r.parts.size(), 2u);
   const PartLine& p = r.parts[0];
@@ -107,6 +116,7 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_FALSE(r.parts[1].unit);
   EXPECT_EQ(r.parts[1].mass, 0.02);
   EXPECT_TRUE(r.parts[1].fixed);
+  EXPECT_EQ(r.parts[1].motion.belt, Vec3(0.3, 0, 0));
   EXPECT_EQ(r.pour.pattern, Pour::Pattern::given);
   EXPECT_EQ(r.pour.drop_height, 0.03);
   EXPECT_EQ(r.pour.grid_spacing, 1.25);

@@ -2,8 +2,7 @@
 ///
 ///     cancel_moments_test [--moments N] [--seed S]
 ///
-/// Each has to end by Error(cancelled). How long that took is printed: wall time, so look at it on an idle machine. As a
-/// test only one that never ends fails, by the test's time limit.
+/// Each has to end by Error(cancelled). How long that took is printed: wall time, so look at it on an idle machine.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/generate/generator.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/motion.hpp"
 #include "bin_scenes/scene/sensor_models.hpp"
 
 #include <array>
@@ -42,6 +43,7 @@ struct Bin {
   double friction = 0.5;                     ///< pair coefficient = sqrt(part * bin)
   double restitution = 0.0;                  ///< pair coefficient = the larger of the two
   Surface surface;
+  Motion motion;                             ///< of the bin and its frame; poses stay those in the bin
 };
 
 /// One line of `parts`: `count` copies of one model.
@@ -59,8 +61,9 @@ struct PartLine {
   std::optional<double> thickness;  ///< m: gives an open surface this wall thickness instead of refusing it
   std::vector<Pose> poses;          ///< given start poses of the model frame in the bin frame; size = count or empty
   std::vector<Twist> velocities;    ///< given start velocities; empty = at rest
-  bool fixed = false;               ///< an obstacle: stays at its given pose
+  bool fixed = false;               ///< an obstacle: stays at its given pose, or follows its motion
   Surface surface;
+  Motion motion;                    ///< of a fixed part, from its given pose
 };
 
 struct Pour {

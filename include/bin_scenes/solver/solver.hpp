@@ -23,7 +23,7 @@ struct BodyDef {
   double mass = 1.0;         ///< kg; > 0. Inertia follows from the part's mass properties
   double friction = 0.5;     ///< pair = sqrt(a*b)
   double restitution = 0.0;  ///< pair = max(a, b)
-  bool fixed = false;        ///< never moves; infinite mass
+  bool fixed = false;        ///< infinite mass: goes on with the velocity it was inserted with, whatever touches it
 };
 
 struct BodyState {
@@ -40,6 +40,24 @@ struct WorldDef {
   double wall_height =
       0.0;  ///< m above the floor up to which box walls reach; pour extends them above bin.inner_size.z
   Vec3 gravity = Vec3(0, 0, -9.81);
+};
+
+/// Motion of the frame that poses are told in, which is the bin's: what moves with the bin feels it (bin axes, SI).
+struct Frame {
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< that of the earth, less the acceleration of the frame's origin
+  Vec3 spin = Vec3::Zero(), spin_rate = Vec3::Zero();  ///< rad/s, rad/s2
+
+  bool turns() const { return !spin.isZero() || !spin_rate.isZero(); }
+  /// What a point at `x` that moves with `v` in the frame is accelerated by, beside gravity: by the change of the spin,
+  /// Coriolis and centrifugal.
+  Vec3 acceleration(const Vec3& x, const Vec3& v) const {
+    return -spin_rate.cross(x) - 2.0 * spin.cross(v) - spin.cross(spin.cross(x));
+  }
+  /// What a body that turns with `w` in the frame changes it by (rad/s2), beside its own gyroscopic term.
+  Vec3 angular_acceleration(const Vec3& w, const Mat3& inertia, const Mat3& inverse_inertia) const {
+    const Vec3 whole = w + spin;
+    return -spin_rate - spin.cross(w) - inverse_inertia * (whole.cross(inertia * whole) - w.cross(inertia * w));
+  }
 };
 
 using WorldId = std::size_t;
@@ -74,6 +92,9 @@ class Solver {
   virtual WorldId add_world(const WorldDef& def) = 0;
   virtual void remove_world(WorldId world) = 0;
 
+  /// How the frame moves from now on, until it is told anew. All bodies wake. Solvers that cannot do it throw an input
+  /// Error.
+  virtual void set_frame(WorldId world, const Frame& frame);
   /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
   /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.

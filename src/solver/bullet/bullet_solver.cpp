@@ -37,6 +37,7 @@ class BulletSolver : public Solver {
 
   void remove_world(WorldId world) override { worlds_.erase(world); }
 
+  void set_frame(WorldId world, const Frame& frame) override { at(world).set_frame(frame); }
   void insert(WorldId world, std::size_t body, const BodyState& state) override { at(world).insert(body, state); }
   void remove(WorldId world, std::size_t body) override { at(world).remove(body); }
   /// The same shapes and contacts serve all phases; only who sleeps is a matter.

@@ -97,6 +97,10 @@ void DynamicsWorld::integrateTransforms(btScalar dt) {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
     const Motion& motion = *static_cast<const Motion*>(body.getUserPointer());
+    if (body.isKinematicObject()) {  // along its path, as far as this step goes
+      body.proceedToTransform(moved(motion.start, body.getLinearVelocity() * dt, rotation(body.getAngularVelocity() * dt)));
+      continue;
+    }
     if (body.isStaticOrKinematicObject()) continue;
     if (!body.isActive()) {
       body.setWorldTransform(motion.start);  // it may have fallen asleep since

@@ -45,6 +45,7 @@ ATTRIBUTE_ALIGNED16(class) DynamicsWorld : public btDiscreteDynamicsWorld {
   void performDiscreteCollisionDetection() override;
 
  protected:
+  void saveKinematicState(btScalar) override {}  ///< what follows a path has the velocity it was given
   void predictUnconstraintMotion(btScalar dt) override;
   void integrateTransforms(btScalar dt) override;
 };

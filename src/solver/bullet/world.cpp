@@ -78,16 +78,6 @@ btDefaultCollisionConstructionInfo pools_for(std::size_t bodies) {
 
 }  // namespace
 
-struct World::Body {
-  const BodyDef* def = nullptr;
-  PartShapePtr shape;
-  Motion motion;
-  std::unique_ptr<btRigidBody> rigid;  ///< none while absent
-  BodyState last;                      ///< what an absent body had last
-  bool frozen = false;                 ///< asleep as Bullet cannot have it: alone, in the midst of what moves
-  btTransform woke_at;                 ///< or went on from since
-};
-
 World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSource& shapes)
     : def_(def),
       settings_(settings),
@@ -181,13 +171,19 @@ btTransform World::body_transform(const Body& body, const Pose& pose) const {
 
 void World::insert(std::size_t index, const BodyState& state) {
   Body& body = *bodies_[index];
+  const bool driven = body.def->fixed && !(state.velocity.linear.isZero() && state.velocity.angular.isZero());
+  if (driven && body.rigid && body.rigid->isKinematicObject()) {  // further on its path: its contacts stay
+    body.rigid->setWorldTransform(body_transform(body, state.pose));
+    drive(body, state);
+    return;
+  }
   if (body.rigid) {
     world_.removeRigidBody(body.rigid.get());
     body.rigid.reset();
   }
   const BodyDef& def = *body.def;
   btRigidBody::btRigidBodyConstructionInfo info(def.fixed ? 0.0 : def.mass, nullptr, body.shape->shape.get(),
-                                                to_bt(body.motion.inertia));
+                                                def.fixed ? btVector3(0, 0, 0) : to_bt(body.motion.inertia));
   info.m_startWorldTransform = body_transform(body, state.pose);
   info.m_friction = def.friction;
   info.m_restitution = def.restitution;
@@ -202,6 +198,11 @@ void World::insert(std::size_t index, const BodyState& state) {
     body.rigid->setAngularVelocity(to_bt(state.velocity.angular));
   }
   if (!def.fixed) body.rigid->setUserIndex(static_cast<int>(index));
+  if (driven) {
+    body.rigid->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    body.rigid->forceActivationState(DISABLE_DEACTIVATION);
+    drive(body, state);
+  }
   body.frozen = false;
   body.woke_at = info.m_startWorldTransform;
   world_.addRigidBody(body.rigid.get());
@@ -317,7 +318,11 @@ void World::step(double seconds) {
   world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / ContactSolver::sweeps + n - 1) / n);
   for (int k = 0; k < n; ++k) {
     stop_if_cancelled();
+    const bool turns = frame_.turns();
+    if (turns) turn_with_bin(seconds / n);
+    if (turns) spin_with_bin(0.5 * seconds / n);
     world_.stepSimulation(seconds / n, 0);
+    if (turns) spin_with_bin(0.5 * seconds / n);
     if (by_touch_) wake_touched();
     count();
   }

@@ -32,6 +32,7 @@ class World {
 
   void insert(std::size_t body, const BodyState& state);
   void remove(std::size_t body);
+  void set_frame(const Frame& frame);
   void begin(const Phase& phase);
   /// Each step is cut so that the fastest part moves a small share of its size at once.
   void advance(const Steps& steps);
@@ -46,20 +47,33 @@ class World {
   std::vector<Flag> flags() const;
 
  private:
-  struct Body;
+  struct Body {
+    const BodyDef* def = nullptr;
+    PartShapePtr shape;
+    Motion motion;
+    std::unique_ptr<btRigidBody> rigid;  ///< none while absent
+    BodyState last;                      ///< what an absent body had last
+    bool frozen = false;                 ///< asleep as Bullet cannot have it: alone, in the midst of what moves
+    btTransform woke_at;                 ///< or went on from since
+  };
+
   void add_static(btCollisionShape* shape, const btTransform& pose);
   void add_walls(double wall_height);
   void step(double seconds);
   int cuts(double dt) const;
   void freeze(Body& body);
   void thaw(Body& body);
+  void drive(Body& body, const BodyState& state);
   Body* body_of(const btCollisionObject* object) const;
   void wake_touched();
+  void turn_with_bin(double dt);
+  void spin_with_bin(double dt);
   void count();
   btTransform body_transform(const Body& body, const Pose& pose) const;
 
   WorldDef def_;
   BulletSettings settings_;
+  Frame frame_;
   double scale_ = 1.0;  ///< units per metre
   int shortening_ = 1;  ///< steps of time_step_ for one of the settings: small parts need short ones
   double time_step_;    ///< s

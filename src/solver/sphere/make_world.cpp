@@ -91,8 +91,9 @@ void place(World& world, std::size_t body, const BodyState& state) {
   Body& b = world.bodies[body];
   b.q = state.pose.orientation.cast<float>().normalized();
   b.x = state.pose.position.cast<float>() + b.q * world.shapes[b.shape]->center;
-  b.v = b.inverse_mass > 0 ? Vec3f(state.velocity.linear.cast<float>()) : Vec3f(Vec3f::Zero());
-  b.w = b.inverse_mass > 0 ? Vec3f(state.velocity.angular.cast<float>()) : Vec3f(Vec3f::Zero());
+  b.v = state.velocity.linear.cast<float>();
+  b.w = state.velocity.angular.cast<float>();
+  b.driven = b.inverse_mass == 0 && !(b.v.isZero() && b.w.isZero());
   b.present = true;
   b.asleep = false;
   b.still = 0;

@@ -86,6 +86,13 @@ class SphereSolver final : public Solver {
     *slots_[id] = Slot{};
   }
 
+  void set_frame(WorldId id, const Frame& frame) override {
+    World& world = slots_[id]->world;
+    world.frame = frame;
+    world.gravity = frame.gravity.cast<float>();
+    for (Body& b : world.bodies) wake(b);
+  }
+
   void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slots_[id]->world, body, state); }
 
   void remove(WorldId id, std::size_t body) override {

@@ -98,11 +98,12 @@ struct Body {
   Mat3f world_inverse_inertia = Mat3f::Zero();
   // Bookkeeping.
   bool present = false, asleep = false;
+  bool driven = false;  ///< fixed, and moves on a given path
   float still = 0;  ///< s within rest_move of the reference pose
   Vec3f still_x = Vec3f::Zero();
   Quatf still_q = Quatf::Identity();
 
-  bool moves() const { return present && !asleep && inverse_mass > 0; }
+  bool moves() const { return present && !asleep && (inverse_mass > 0 || driven); }
 };
 
 constexpr int max_contacts = 8;                ///< per pair, after reduction; with more, faces on each other sway
@@ -166,6 +167,7 @@ struct World {
   float wall_top = 0;
   float ground_friction = 0.5f, ground_restitution = 0;
   Vec3f gravity = Vec3f(0, 0, -9.81f);
+  Frame frame;                            ///< how the bin turns; its gravity is the one above
   bool fine = false;                      ///< fine samples instead of coarse ones
   Stiffness stiffness = Stiffness::soft;  ///< of contacts
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake

@@ -157,7 +157,7 @@ void find_pairs(World& world) {
     b.world_inverse_inertia =
         b.inverse_mass > 0 ? Mat3f(b.rotation * b.inverse_inertia * b.rotation.transpose()) : Mat3f(Mat3f::Zero());
     boxes.push_back(bounds_of(world, i));
-    if (b.moves() && near_ground(world, boxes.back())) found.emplace_back(i, ground);
+    if (b.moves() && !b.driven && near_ground(world, boxes.back())) found.emplace_back(i, ground);
   }
   const float width = strip_width(boxes);
   for (std::uint32_t k = 0; k < boxes.size(); ++k) {
@@ -174,6 +174,7 @@ void find_pairs(World& world) {
     if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
     const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
     if (!a.moves() && !b.moves()) return;
+    if (a.inverse_mass == 0 && b.inverse_mass == 0) return;  // on their paths
     if (world.settings.oriented_boxes && boxes_apart(world, a, b, p.margin + r.margin)) return;
     found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
   };

@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
+#include "solver/sphere/passes/turning_bin.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <tbb/blocked_range.h>
@@ -145,8 +146,10 @@ void ContactSolver::prepare() {
 /// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
 void ContactSolver::accelerate() {
   const Quad gain = padded(h_ * world_.gravity);
+  if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
+    if (motion.inverse_mass() == 0) continue;  // on a path
     motion.v += gain;
     if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
       continue;  // 1e-4 rad a sub-step: the term is rounding
@@ -310,7 +313,7 @@ void ContactSolver::move() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
     motion.moved += h_ * motion.v;
-    if (free_[i]) motion.moved -= parabola;  // nothing touches it: exactly the parabola
+    if (free_[i] && motion.inverse_mass() > 0) motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h_ * motion.w;
     Quatf& q = world_.bodies[bodies_[i]].q;
     q = integrated(q, vector_of(motion.w), h_);
