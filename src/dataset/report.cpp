@@ -47,6 +47,17 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
+/// Grey images of sensors are dim, as only highlights come near to white: all but the brightest hundredth fills the
+/// range.
+void brighten(std::vector<std::uint8_t>& shades) {
+  if (shades.empty()) return;
+  std::vector<std::uint8_t> sorted = shades;
+  const auto bright = sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
+  std::nth_element(sorted.begin(), bright, sorted.end());
+  const unsigned most = std::max<unsigned>(*bright, 1);
+  for (std::uint8_t& shade : shades) shade = static_cast<std::uint8_t>(std::min(255u, shade * 255u / most));
+}
+
 /// A picture of the first sensor, made small; empty if the data set has none.
 std::string small_picture(const DataFolder& folder, std::size_t scene) {
   std::vector<fs::path> candidates;
@@ -69,11 +80,12 @@ std::string small_picture(const DataFolder& folder, std::size_t scene) {
           for (int dx = 0; dx < step; ++dx)
             sum += image.samples[static_cast<std::size_t>(
                 ((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
-        // Fewer shades pack better; nobody sees it at this size.
-        small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step) & 0xf0u));
+        small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step)));
       }
     }
   }
+  brighten(small);
+  for (std::uint8_t& shade : small) shade &= 0xf0u;  // fewer shades pack better; nobody sees it at this size
   return base64(png8(width, height, image.channels, small));
 }
 

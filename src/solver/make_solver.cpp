@@ -4,14 +4,7 @@
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
-#include "bin_scenes/core/error.hpp"
-
 namespace bin_scenes {
-
-void Solver::set_frame(WorldId, const Frame&) {
-  throw input_error("motion is not simulated by " + name(), "solver",
-                    "use type bullet, or sphere on the CPU without preset thesis");
-}
 
 namespace {
 

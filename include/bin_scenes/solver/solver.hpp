@@ -6,6 +6,7 @@
 /// A world knows bodies, walls, gravity; pouring and rest are the business of pour/.
 #pragma once
 
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/report.hpp"
 #include "bin_scenes/scene/request.hpp"
@@ -94,7 +95,10 @@ class Solver {
 
   /// How the frame moves from now on, until it is told anew. All bodies wake. Solvers that cannot do it throw an input
   /// Error.
-  virtual void set_frame(WorldId world, const Frame& frame);
+  virtual void set_frame(WorldId /*world*/, const Frame& /*frame*/) {
+    throw input_error("motion is not simulated by " + name(), "solver",
+                      "use type bullet, or sphere on the CPU without preset thesis");
+  }
   /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
   /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.
