@@ -72,6 +72,7 @@ struct Heap {
       state.pose.position = Vec3(along(spread), along(spread), 0.03 + 0.5 * spread + along(0.5 * spread));
       state.velocity.linear = Vec3(along(0.2), along(0.2), along(0.2));
       state.velocity.angular = Vec3(along(3), along(3), along(3));
+      if (def.bodies[i].fixed) state.velocity = {};  // one that moves on a path is the CPU's alone
       sphere::place(w, i, state);
     }
     return w;
