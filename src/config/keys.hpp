@@ -39,11 +39,15 @@ inline Names<SphereSettings::Device> names(SphereSettings::Device) {
 
 template <class Visitor>
 void visit(Visitor& v, Motion& motion) {
-  v.field({"times", "s", "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu"}, motion.times);
-  v.field({"poses", "m",
-           "where it is then, from where it stood, in the axes that the bin had; it goes smoothly from one to the next; a "
-           "bin ends upright. Poses of parts stay those in the bin"},
-          motion.poses);
+  v.field(
+      {"times", "s",
+       "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu"},
+      motion.times);
+  v.field(
+      {"poses", "m",
+       "where it is then, from where it stood, in the axes that the bin had; it goes smoothly from one to the next; a "
+       "bin ends upright. Poses of parts stay those in the bin"},
+      motion.poses);
   v.field({"shake", "m", "amplitude of a sine along the axes"}, motion.shake);
   v.field({"tilt", "rad", "amplitude of a sine of turns about the axes"}, motion.tilt);
   v.field({"frequency", "Hz", "of shake and tilt, which swell up over their first period and fade over their last"},
@@ -74,8 +78,7 @@ void visit(Visitor& v, Bin& bin) {
   v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)"}, bin.friction);
   v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin"}, bin.restitution);
   v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
-  v.section({"motion", "",
-             "path of the bin, begun when all parts are in and slow; then the heap settles again",
+  v.section({"motion", "", "path of the bin, begun when all parts are in and slow; then the heap settles again",
              bin.motion.any()},
             bin.motion);
   v.bin_kind(bin, kind);
@@ -114,9 +117,7 @@ void visit(Visitor& v, PartLine& part) {
           part.velocities);
   v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
   v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
-  v.section({"motion", "",
-             "path of a fixed part that nothing stops: a pusher, a conveyor",
-             part.motion.any()},
+  v.section({"motion", "", "path of a fixed part that nothing stops: a pusher, a conveyor", part.motion.any()},
             part.motion);
 }
 
@@ -224,17 +225,19 @@ void visit(Visitor& v, SphereSettings& s) {
            "while pouring; more = faster, contacts are less exact"},
           s.recycle);
   v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more"}, s.coarse_samples);
-  v.field({"fine_samples", "",
-           "surface samples per part while settling; thin parts get more; more = less penetration, linear cost; 0 = the "
-           "coarse ones"},
-          s.fine_samples);
+  v.field(
+      {"fine_samples", "",
+       "surface samples per part while settling; thin parts get more; more = less penetration, linear cost; 0 = the "
+       "coarse ones"},
+      s.fine_samples);
   v.field({"field_cell", "",
            "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube"},
           s.field_cell);
-  v.field({"device", "",
-           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
-           "measured on a card. Scenes repeat bit for bit on the same class of device"},
-          s.device);
+  v.field(
+      {"device", "",
+       "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
+       "measured on a card. Scenes repeat bit for bit on the same class of device"},
+      s.device);
 }
 
 template <class Visitor>

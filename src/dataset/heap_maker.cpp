@@ -156,8 +156,7 @@ std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attemp
 void HeapMaker::write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
                             std::size_t scene, WholeFolders& folders) {
   // The folder with scene.json gets its name last: where it is, everything is.
-  if (plan_.wants("bop"))
-    folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
+  if (plan_.wants("bop")) folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
   if (plan_.wants("shards"))
     folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());

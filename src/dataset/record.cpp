@@ -23,10 +23,14 @@ double tilt_of(const nlohmann::json& q) {
 }  // namespace
 
 nlohmann::json json_of(const HeapRecord& record) {
-  nlohmann::json json = {
-      {"heap", record.heap},           {"accepted", record.accepted},       {"wall_s", record.wall_s},
-      {"cpu_s", record.cpu_s},         {"memory_mb", record.memory_mb},
-      {"stages_ms", record.stages_ms}, {"scenes", nlohmann::json::array()}, {"rejected", nlohmann::json::array()}};
+  nlohmann::json json = {{"heap", record.heap},
+                         {"accepted", record.accepted},
+                         {"wall_s", record.wall_s},
+                         {"cpu_s", record.cpu_s},
+                         {"memory_mb", record.memory_mb},
+                         {"stages_ms", record.stages_ms},
+                         {"scenes", nlohmann::json::array()},
+                         {"rejected", nlohmann::json::array()}};
   for (const SceneRecord& scene : record.scenes)
     json["scenes"].push_back(
         {{"scene", scene.scene}, {"path", scene.path}, {"sha256", scene.sha256}, {"summary", scene.summary}});

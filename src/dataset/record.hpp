@@ -24,9 +24,9 @@ struct RejectedRecord {
 
 struct HeapRecord {
   std::size_t heap = 0;
-  bool accepted = false;  ///< else every attempt was rejected
-  double wall_s = 0.0;    ///< negative: not known, since it was found on the disk
-  double cpu_s = 0.0;     ///< of all threads of the worker
+  bool accepted = false;   ///< else every attempt was rejected
+  double wall_s = 0.0;     ///< negative: not known, since it was found on the disk
+  double cpu_s = 0.0;      ///< of all threads of the worker
   double memory_mb = 0.0;  ///< resident memory of the worker after the heap
   std::map<std::string, double> stages_ms;
   std::vector<SceneRecord> scenes;

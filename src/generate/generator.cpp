@@ -168,12 +168,13 @@ void Generator::generate(const Request& request, const Options& options, const s
     solver = make_solver(request, parts, solver_reason);
   }
 
-  Finishing finishing([&](Result& result) { state_->finish(result, request, parts, bin_model, state_->sensors, options); },
-                      [&](Result&& result) {
-                        reporter.handed_on();
-                        done(std::move(result));
-                      },
-                      state_->at_once);
+  Finishing finishing(
+      [&](Result& result) { state_->finish(result, request, parts, bin_model, state_->sensors, options); },
+      [&](Result&& result) {
+        reporter.handed_on();
+        done(std::move(result));
+      },
+      state_->at_once);
 
   const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;
@@ -203,7 +204,8 @@ Heap Generator::heap(const Request& request, const RunHooks& hooks) {
   return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
 }
 
-std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<PartLine>& lines, const RunHooks& hooks) {
+std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<PartLine>& lines,
+                                           const RunHooks& hooks) {
   const CancelScope scope(hooks.cancel);
   Request all = heap.request();
   for (const PartLine& line : lines) {

@@ -13,8 +13,9 @@ struct ShaderSource {
   std::vector<std::string> files;  ///< by the source number of #line
 };
 
-/// With BIN_SCENES_SHUFFLE=1 in the environment, for tests: invocations and groups have other numbers than they would, so
-/// that what one invocation does before its neighbour is done after it. A pass that lacks a barrier then gives other bits.
+/// With BIN_SCENES_SHUFFLE=1 in the environment, for tests: invocations and groups have other numbers than they would,
+/// so that what one invocation does before its neighbour is done after it. A pass that lacks a barrier then gives other
+/// bits.
 ShaderSource read_shader(const std::string& file, const Defines& defines);
 
 /// Replaces "<source number>:<line>" (Mesa) and "<source number>(<line>)" (NVIDIA) by "<file>:<line>".

@@ -68,7 +68,7 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   char* at = std::copy(header.begin(), header.end(), bytes.get());
   const std::vector<std::array<float, 3>> positions = points_of(image);
   for (std::size_t i = 0; i < points; ++i, at += point_bytes) {
-    const Point point = {positions[i], image.normal[i], image.intensity[i], image.label[i]};
+    const Point point = {positions[i], normal_at(image, i), image.intensity[i], image.label[i]};
     std::memcpy(at, &point, sizeof(Point));
     at[sizeof(Point)] = static_cast<char>(image.validity[i]);
   }

@@ -91,6 +91,18 @@ std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double
   return samples;
 }
 
+/// Three channels of 8 bits: n = value / 127.5 - 1; black where there is nothing.
+std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals) {
+  std::vector<std::uint8_t> samples;
+  samples.reserve(3 * normals.size());
+  for (const auto& normal : normals) {
+    for (const float n : normal) {
+      samples.push_back(std::isnan(n) ? std::uint8_t{0} : static_cast<std::uint8_t>(std::lround(127.5f * (n + 1.0f))));
+    }
+  }
+  return samples;
+}
+
 void write_pngs(const std::string& directory, const RangeImage& image) {
   const Sensor& sensor = image.sensor;
   const std::string base = (std::filesystem::path(directory) / sensor.name).string();
@@ -101,6 +113,7 @@ void write_pngs(const std::string& directory, const RangeImage& image) {
               image.truth_depth.empty()
                   ? depth
                   : png16(sensor.width, sensor.height, counted_depth(image.truth_depth, sensor.depth_scale)));
+  write_bytes(base + "_truth_normal.png", png8(sensor.width, sensor.height, 3, counted_normals(image.seen_normal())));
   write_bytes(base + "_labels.png", png16(sensor.width, sensor.height, image.seen_label()));
   write_bytes(base + "_validity.png", png8(image.width, image.height, 1, image.validity));
   write_bytes(base + ".png", png8(image.width, image.height, 3, shaded_picture(image)));

@@ -2,12 +2,12 @@
 /// format version, so reading only guards against running over the end.
 #pragma once
 
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/part/convex_hulls.hpp"
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/samples.hpp"
 #include "bin_scenes/part/spheres.hpp"
-#include "bin_scenes/mesh/mesh_loader.hpp"
 
 #include <cstring>
 #include <string>

@@ -9,9 +9,9 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double earth = 9.81;        ///< m/s2
-constexpr double allowed = 1e-3;      ///< share of kinetic energy: the goal for force-free tumbling
-constexpr double touching = 0.02;     ///< of the diagonal: parts nearer than this may have touched
+constexpr double earth = 9.81;     ///< m/s2
+constexpr double allowed = 1e-3;   ///< share of kinetic energy: the goal for force-free tumbling
+constexpr double touching = 0.02;  ///< of the diagonal: parts nearer than this may have touched
 
 }  // namespace
 
@@ -73,8 +73,8 @@ void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool d
     const double way = std::max(0.5 * (before.speed + now.speed) * seconds, (now.center - before.center).norm());
     const double gain = now.kinetic - before.kinetic + now.potential - before.potential -
                         allowed * std::max(now.kinetic, before.kinetic);
-    reaches.push_back({b, 0.5 * (before.center + now.center),
-                       part.radius() + 0.5 * way + 0.5 * touching * part.diagonal(), gain});
+    reaches.push_back(
+        {b, 0.5 * (before.center + now.center), part.radius() + 0.5 * way + 0.5 * touching * part.diagonal(), gain});
     gained |= gain > worst_.gain * world_.bodies[b].mass * gravity_ * part.diagonal();
     before = now;
   }

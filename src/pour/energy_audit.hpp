@@ -6,9 +6,9 @@
 ///
 ///     gain of part i = min(E_i now - E_i before, sum of the same over its group) / (m_i g d_i)
 ///
-/// with E the kinetic and potential energy, m the mass, g gravity, d the diagonal of its bounding box: 1 throws the part
-/// up by its own size. What rounding does to fast parts is allowed for; so is what friction's and rotation's integration
-/// may err by, which is a share of the kinetic energy.
+/// with E the kinetic and potential energy, m the mass, g gravity, d the diagonal of its bounding box: 1 throws the
+/// part up by its own size. What rounding does to fast parts is allowed for; so is what friction's and rotation's
+/// integration may err by, which is a share of the kinetic energy.
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"

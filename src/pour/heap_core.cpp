@@ -48,6 +48,8 @@ void HeapCore::make_world(bool raised_walls) {
   id_ = solver_.add_world(def);
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
+  // A solver that moves nothing says so now, and not when all has been poured.
+  if (motion_seconds() > 0.0) solver_.set_frame(id_, Frame{def.gravity, Vec3::Zero(), Vec3::Zero()});
 }
 
 void HeapCore::begin(Stage stage) {

@@ -23,8 +23,8 @@ Twist velocity_at(const Motion& motion, double t) {
           turn_between(before.orientation, after.orientation) / (2.0 * moment)};
 }
 
-/// What a bin's motion is to those in it over the step of `dt` seconds from t on: changes are those of the whole step, so
-/// that the steps add up to the path; the rest is as in its middle.
+/// What a bin's motion is to those in it over the step of `dt` seconds from t on: changes are those of the whole step,
+/// so that the steps add up to the path; the rest is as in its middle.
 Frame frame_at(const Motion& motion, const Vec3& gravity, double t, double dt) {
   const Twist begin = velocity_at(motion, t), end = velocity_at(motion, t + dt);
   const Quat into_bin = motion.at(t + 0.5 * dt).orientation.conjugate();

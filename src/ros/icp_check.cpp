@@ -35,9 +35,9 @@ struct LabelledPoint {
   std::uint32_t label;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
-POINT_CLOUD_REGISTER_POINT_STRUCT(LabelledPoint,
-                                  (float, x, x)(float, y, y)(float, z, z)(float, normal_x, normal_x)(
-                                      float, normal_y, normal_y)(float, normal_z, normal_z)(std::uint32_t, label, label))
+POINT_CLOUD_REGISTER_POINT_STRUCT(LabelledPoint, (float, x, x)(float, y, y)(float, z, z)(float, normal_x, normal_x)(
+                                                     float, normal_y, normal_y)(float, normal_z,
+                                                                                normal_z)(std::uint32_t, label, label))
 
 namespace {
 
@@ -178,7 +178,7 @@ class IcpCheck {
 
   void check(const sensor_msgs::PointCloud2& message) {
     pcl::PointCloud<LabelledPoint> cloud;
-    pcl::fromROSMsg(message, cloud);  // no field needs another name
+    pcl::fromROSMsg(message, cloud);     // no field needs another name
     std::map<int, Cloud::Ptr> segments;  // by part id
     for (const LabelledPoint& p : cloud) {
       if (p.label == 0 || !std::isfinite(p.z)) continue;

@@ -98,7 +98,7 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
     for (int column = 0; column < image.width; ++column) {
       const std::size_t pixel = std::size_t(row) * image.width + column;
       const auto& p = points[pixel];
-      const auto& n = image.normal[pixel];
+      const auto n = normal_at(image, pixel);
       const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
       std::memcpy(out, &point, sizeof point);
       out += sizeof point;

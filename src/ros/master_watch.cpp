@@ -75,8 +75,8 @@ void register_everything() {
   }
 
   ros::ServiceManager& services = *ros::ServiceManager::instance();
-  const std::string address = "rosrpc://" + ros::network::getHost() + ":" +
-                              std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  const std::string address =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   names.clear();
   {
     const boost::mutex::scoped_lock lock(services_mutex_of(services));

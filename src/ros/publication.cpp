@@ -111,9 +111,8 @@ std::vector<bool> Publication::wanted(const std::vector<Sensor>& sensors) const 
   std::vector<bool> wanted;
   for (const Sensor& sensor : sensors) {
     const std::string space = topic::of_sensor("", sensor.name, sensors.size());
-    wanted.push_back(std::any_of(sensors_.begin(), sensors_.end(), [&](const auto& topics) {
-      return topics->space == space && topics->wanted();
-    }));
+    wanted.push_back(std::any_of(sensors_.begin(), sensors_.end(),
+                                 [&](const auto& topics) { return topics->space == space && topics->wanted(); }));
   }
   return wanted;
 }
@@ -142,7 +141,8 @@ bin_scenes_msgs::Scene Publication::show(MadeScene made) {
     // What may fail comes first: the scene before is there until this one is whole.
     Shown next{std::move(made), {}, {}};
     make_images(next);  // for those who came since look()
-    next.messages = scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
+    next.messages =
+        scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
     shown_ = std::move(next);
     set_topics(shown_->made.scene.sensors);
     shown_sensors_ = shown_->made.scene.sensors.size();

@@ -42,12 +42,12 @@ class SceneJobs {
 
   /// For diagnostics.
   struct Status {
-    std::size_t jobs = 0;       ///< that wait or run
-    std::string running;        ///< name of the job, ""
-    double running_s = 0.0;     ///< s since it began
+    std::size_t jobs = 0;                                            ///< that wait or run
+    std::string running;                                             ///< name of the job, ""
+    double running_s = 0.0;                                          ///< s since it began
     std::size_t made = 0, failed = 0, cancelled = 0, set_apart = 0;  ///< jobs that ended, since the start
     std::size_t set_apart_in_a_row = 0;
-    std::size_t ahead = 0;      ///< scenes that wait for next_scene
+    std::size_t ahead = 0;                ///< scenes that wait for next_scene
     std::string device, solver, verdict;  ///< of the last scene
     bool accepted = true;
   };

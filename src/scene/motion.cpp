@@ -36,8 +36,8 @@ Pose on_path(const Motion& motion, double t) {
   while (k + 2 < count && t >= time(k + 1)) ++k;
   const double span = time(k + 1) - time(k), s = std::clamp((t - time(k)) / span, 0.0, 1.0);
   const double rise = s * s * (3.0 - 2.0 * s);
-  const Coordinates at = (1.0 - rise) * knots[k] + rise * knots[k + 1] +
-                         span * s * (1.0 - s) * ((1.0 - s) * slope(k) - s * slope(k + 1));
+  const Coordinates at =
+      (1.0 - rise) * knots[k] + rise * knots[k + 1] + span * s * (1.0 - s) * ((1.0 - s) * slope(k) - s * slope(k + 1));
   Pose pose;
   pose.position = at.head<3>();
   pose.orientation.coeffs() = at.tail<4>().normalized();
@@ -54,8 +54,7 @@ double Motion::duration() const {
 Pose Motion::at(double t) const {
   Pose pose = times.empty() ? Pose() : on_path(*this, t);
   if ((shake.isZero() && tilt.isZero()) || t <= 0.0 || t >= seconds) return pose;
-  const double sine =
-      smooth(t * frequency) * smooth((seconds - t) * frequency) * std::sin(2.0 * M_PI * frequency * t);
+  const double sine = smooth(t * frequency) * smooth((seconds - t) * frequency) * std::sin(2.0 * M_PI * frequency * t);
   pose.position += sine * shake;
   if (!tilt.isZero())
     pose.orientation = Quat(Eigen::AngleAxisd(sine * tilt.norm(), tilt.normalized())) * pose.orientation;

@@ -151,8 +151,10 @@ void check_surface(const std::string& key, const Surface& surface) {
 
 void check_motion(const std::string& key, const Motion& motion) {
   if (motion.times.size() != motion.poses.size()) {
-    refuse(key + ".times", "has " + std::to_string(motion.times.size()) + " times for " +
-                               std::to_string(motion.poses.size()) + " poses", "give one time a pose");
+    refuse(
+        key + ".times",
+        "has " + std::to_string(motion.times.size()) + " times for " + std::to_string(motion.poses.size()) + " poses",
+        "give one time a pose");
   }
   for (std::size_t i = 0; i < motion.times.size(); ++i) {
     const std::string item = "[" + std::to_string(i) + "]";

@@ -3,6 +3,9 @@
 #include "bin_scenes/sensor/resolve.hpp"
 #include "core/in_parallel.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace bin_scenes {
 
 namespace {
@@ -14,6 +17,11 @@ std::array<float, 3> on_ray(const RangeImage& image, const Lens& lens, std::size
 }
 
 }  // namespace
+
+std::array<float, 3> normal_at(const RangeImage& image, std::size_t pixel) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  return std::isnan(image.depth[pixel]) ? std::array<float, 3>{nan, nan, nan} : image.normal[pixel];
+}
 
 std::array<float, 3> point_at(const RangeImage& image, int column, int row) {
   const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row);

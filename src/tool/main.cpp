@@ -36,8 +36,9 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--trace", o.trace, "CSV file with pose and velocity of each part over simulated time");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
-  app.add_flag("--verify", o.verify,
-               "read scenes that are there already and make those anew whose files have changed (else only sizes count)");
+  app.add_flag(
+      "--verify", o.verify,
+      "read scenes that are there already and make those anew whose files have changed (else only sizes count)");
   app.add_flag("--verbose", o.verbose, "stage times and counters of each scene");
 }
 
@@ -70,7 +71,8 @@ int run(int argc, char** argv) {
   SensorOptions sensor_options;
   CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
   sensor_app->add_option("SENSOR", sensor_options.sensor, "name of a preset, or a file of sensor keys")->required();
-  sensor_app->add_option("--plot", sensor_options.plot, "SVG file: predicted noise over distance, incidence and albedo");
+  sensor_app->add_option("--plot", sensor_options.plot,
+                         "SVG file: predicted noise over distance, incidence and albedo");
   sensor_app->add_flag("--json", sensor_options.json, "as JSON");
 
   DatasetOptions dataset_options;
@@ -90,11 +92,14 @@ int run(int argc, char** argv) {
   submit_app->add_flag("--slurm", submit_options.slurm, "by an array job of Slurm")->required();
   submit_app->add_option("PLAN", submit_options.plan, "plan of the data set")->required();
   submit_app->add_option("--out", submit_options.out, "directory of the data set, seen by all nodes")->required();
-  submit_app->add_option("--shares", submit_options.shares, "tasks of the array job")->check(CLI::Range(1, 100000))
+  submit_app->add_option("--shares", submit_options.shares, "tasks of the array job")
+      ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  submit_app->add_option("--cpus", submit_options.cpus, "cores, and workers, a task")->check(CLI::Range(1, 1024))
+  submit_app->add_option("--cpus", submit_options.cpus, "cores, and workers, a task")
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  submit_app->add_option("--sbatch", submit_options.sbatch, "further option of sbatch, such as --sbatch=--partition=long");
+  submit_app->add_option("--sbatch", submit_options.sbatch,
+                         "further option of sbatch, such as --sbatch=--partition=long");
 
   ReportOptions report_options;
   CLI::App* report_app = app.add_subcommand("report", "a data set as one HTML page");

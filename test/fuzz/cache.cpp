@@ -32,18 +32,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   cache.write("kind", "key", contents);
   if (data[0] % 2 == 1) {
     for (const auto& entry : std::filesystem::directory_iterator(cache.directory()))
-      std::ofstream(entry.path(), std::ios::binary).write(reinterpret_cast<const char*>(contents.data()),
-                                                          static_cast<std::streamsize>(contents.size()));
+      std::ofstream(entry.path(), std::ios::binary)
+          .write(reinterpret_cast<const char*>(contents.data()), static_cast<std::streamsize>(contents.size()));
   }
   const std::optional<CachedBytes> bytes = cache.read("kind", "key");
   if (!bytes) return 0;
   switch (data[0] / 2 % 6) {
-    case 0: read_back<Mesh>(*bytes); break;
-    case 1: read_back<LoadedMesh>(*bytes); break;
-    case 2: read_back<DistanceField>(*bytes); break;
-    case 3: read_back<SampleSet>(*bytes); break;
-    case 4: read_back<SphereSet>(*bytes); break;
-    default: read_back<ConvexHulls>(*bytes);
+    case 0:
+      read_back<Mesh>(*bytes);
+      break;
+    case 1:
+      read_back<LoadedMesh>(*bytes);
+      break;
+    case 2:
+      read_back<DistanceField>(*bytes);
+      break;
+    case 3:
+      read_back<SampleSet>(*bytes);
+      break;
+    case 4:
+      read_back<SphereSet>(*bytes);
+      break;
+    default:
+      read_back<ConvexHulls>(*bytes);
   }
   return 0;
 }

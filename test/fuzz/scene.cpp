@@ -1,5 +1,5 @@
-/// scene.json, as `pour.scene` and a resumed job read it. What is read is written and read again, and has to be the same
-/// scene.
+/// scene.json, as `pour.scene` and a resumed job read it. What is read is written and read again, and has to be the
+/// same scene.
 #include "bin_scenes/output/scene_writer.hpp"
 #include "fuzz.hpp"
 

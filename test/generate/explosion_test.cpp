@@ -81,9 +81,8 @@ TEST(Explosion, APinThatItsEyeThrowsAboutIsFlaggedAndBeyondTheLimitSetApart) {
         ++thrown;
         EXPECT_EQ(report.energy.part, 1);
         EXPECT_FALSE(report.accepted);
-        EXPECT_TRUE(std::any_of(report.reasons.begin(), report.reasons.end(), [](const std::string& reason) {
-          return reason.find("energy") != std::string::npos;
-        }));
+        EXPECT_TRUE(std::any_of(report.reasons.begin(), report.reasons.end(),
+                                [](const std::string& reason) { return reason.find("energy") != std::string::npos; }));
       });
     }
   }

@@ -35,7 +35,13 @@ TEST_F(Images, TruthStandsBesideWhatWasMeasured) {
   image.truth_label = image.label;
   image.truth_label[7] = 3;
   image.label[1] = 0;
+  image.normal[7] = {0.28f, 0.0f, -0.96f};  // of what it missed, too
+  image.normal[8] = {NAN, NAN, NAN};
   write_pngs(dir.string(), image);
+  const Png normals = read_png(path("left_truth_normal.png"));
+  EXPECT_EQ(normals.channels, 3);
+  const std::vector<std::uint16_t> of_two(normals.samples.begin() + 21, normals.samples.begin() + 27);
+  EXPECT_EQ(of_two, (std::vector<std::uint16_t>{163, 128, 5, 0, 0, 0}));  // 127.5 (n + 1), rounded; nothing there
   EXPECT_EQ(read_png(path("left_depth.png")).at(7, 0), 0);
   EXPECT_EQ(read_png(path("left_truth_depth.png")).at(7, 0), 9000);
   EXPECT_EQ(read_png(path("left_labels.png")).samples, image.truth_label);

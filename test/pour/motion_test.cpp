@@ -63,14 +63,33 @@ double sliding_amplitude(const Motion& motion) {
   constexpr double dt = 1e-5;
   double x = 0.0, v = 0.0, most = 0.0;
   for (double t = 0.0; t < motion.duration() + 0.5; t += dt) {
-    const double push = -(motion.at(t + dt).position.x() - 2.0 * motion.at(t).position.x() +
-                          motion.at(t - dt).position.x()) / dt;
+    const double push =
+        -(motion.at(t + dt).position.x() - 2.0 * motion.at(t).position.x() + motion.at(t - dt).position.x()) / dt;
     const double grip = mu * g * dt, free = v + push;
     v = std::abs(free) <= grip ? 0.0 : free - std::copysign(grip, free);
     x += v * dt;
     most = std::max(most, std::abs(x));
   }
   return most;
+}
+
+// Known from the request alone: nothing is poured before it is said.
+TEST(MotionRefused, ByASolverThatCannotMoveAnything) {
+  const std::vector<PartModelPtr> parts = {PartModel::from_mesh(box_mesh(Vec3::Constant(edge)), "box")};
+  Request request;
+  PartLine line;
+  line.model = "box";
+  request.parts.push_back(line);
+  request.bin.motion.shake = Vec3(0.01, 0, 0);
+  request.solver.preset = SolverSettings::Preset::thesis;
+  std::string reason;
+  const auto solver = make_solver(request, parts, reason);
+  double simulated = 0.0;
+  RunHooks hooks;
+  hooks.trace_rate = 200.0;
+  hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { simulated = time; };
+  EXPECT_THROW(pour(request, parts, *solver, {0}, hooks), Error);
+  EXPECT_EQ(simulated, 0.0);
 }
 
 TEST_P(MotionTest, ABlockOnAShakenFloorSlipsOnceItsAccelerationExceedsFriction) {
@@ -87,31 +106,35 @@ TEST_P(MotionTest, ABlockOnAShakenFloorSlipsOnceItsAccelerationExceedsFriction) 
     double most = 0.0;
     for (const BodyState& state : track) most = std::max(most, std::abs(state.pose.position.x()));
     const double expected = sliding_amplitude(motion);
-    if (share < 1.0) EXPECT_LT(most, 2e-4);
-    else EXPECT_NEAR(most, expected, 0.05 * expected);
+    if (share < 1.0)
+      EXPECT_LT(most, 2e-4);
+    else
+      EXPECT_NEAR(most, expected, 0.05 * expected);
   }
 }
 
 TEST_P(MotionTest, ABlockOnATiltedFloorSlidesBeyondTheAngleOfFrictionAlone) {
   for (const double degrees : {22.0, 35.0}) {  // atan(0.5) is 26.6 degrees
     request.bin.motion.times = {0.5, 0.8, 1.3};
-    request.bin.motion.poses = {{Vec3::Zero(), turn(degrees, Vec3::UnitY())},
-                                {Vec3::Zero(), turn(degrees, Vec3::UnitY())},
-                                Pose()};
+    request.bin.motion.poses = {
+        {Vec3::Zero(), turn(degrees, Vec3::UnitY())}, {Vec3::Zero(), turn(degrees, Vec3::UnitY())}, Pose()};
     track.clear();
     times.clear();
     const Scene scene = run();
     EXPECT_TRUE(scene.report.at_rest);
     const double way = scene.parts[0].pose.position.x();
-    if (degrees < 26.0) EXPECT_LT(std::abs(way), 1e-3);
-    else EXPECT_GT(way, 0.05);
+    if (degrees < 26.0)
+      EXPECT_LT(std::abs(way), 1e-3);
+    else
+      EXPECT_GT(way, 0.05);
   }
 }
 
 TEST_P(MotionTest, WhatIsCarriedGentlyAndSetDownStaysWhereItLies) {
   add(Vec3::Constant(edge), Vec3(0.3 * edge, 0, 1.5 * edge));
   request.bin.motion.times = {1.0, 2.0, 3.0};
-  request.bin.motion.poses = {{Vec3(0, 0, 0.3), Quat::Identity()}, {Vec3(0.5, 0.2, 0.3), Quat::Identity()},
+  request.bin.motion.poses = {{Vec3(0, 0, 0.3), Quat::Identity()},
+                              {Vec3(0.5, 0.2, 0.3), Quat::Identity()},
                               {Vec3(0.5, 0.2, 0), Quat::Identity()}};
   const Scene scene = run();
   EXPECT_TRUE(scene.report.at_rest);
@@ -129,8 +152,8 @@ TEST_P(MotionTest, AFreeBodyInABinThatTurnsFliesStraightSeenFromOutside) {
   request.parts[0].velocities = {{velocity, spin}};
   request.seconds = 0.8;
   request.bin.motion.times = {0.3, 0.6, 0.9};
-  request.bin.motion.poses = {{Vec3(0.05, 0, 0.1), turn(30, Vec3(1, 2, 0).normalized())},
-                              {Vec3(0, 0.1, 0), turn(-20, Vec3::UnitZ())}, Pose()};
+  request.bin.motion.poses = {
+      {Vec3(0.05, 0, 0.1), turn(30, Vec3(1, 2, 0).normalized())}, {Vec3(0, 0.1, 0), turn(-20, Vec3::UnitZ())}, Pose()};
   run();
   for (const double t : {0.2, 0.5, 0.8}) {
     const BodyState& seen = at(t);

@@ -19,8 +19,8 @@ struct Motion {
   double seconds = 1.0;       ///< of shake, tilt and belt
 
   bool any() const { return !times.empty() || !shake.isZero() || !tilt.isZero() || !belt.isZero(); }
-  double duration() const;   ///< s; 0: it does not move
-  Pose at(double t) const;   ///< displacement t seconds (any number) after the beginning
+  double duration() const;  ///< s; 0: it does not move
+  Pose at(double t) const;  ///< displacement t seconds (any number) after the beginning
 };
 
 }  // namespace bin_scenes

@@ -20,8 +20,8 @@ const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
 
 /// Optical surface of a part or the bin. Affects intensity, noise, drop-out and saturation of sensors, not physics.
 struct Surface {
-  double albedo = 0.5;     ///< share of the light sent back, 0..1; dark parts are noisier and drop out
-  double gloss = 0.0;      ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
+  double albedo = 0.5;  ///< share of the light sent back, 0..1; dark parts are noisier and drop out
+  double gloss = 0.0;  ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
   double roughness = 0.4;  ///< width of the mirrored lobe, 0..1; smaller = narrower and brighter highlights
 };
 
@@ -43,19 +43,19 @@ struct Bin {
   double friction = 0.5;                     ///< pair coefficient = sqrt(part * bin)
   double restitution = 0.0;                  ///< pair coefficient = the larger of the two
   Surface surface;
-  Motion motion;                             ///< of the bin and its frame; poses stay those in the bin
+  Motion motion;  ///< of the bin and its frame; poses stay those in the bin
 };
 
 /// One line of `parts`: `count` copies of one model.
 struct PartLine {
-  std::string model;           ///< path as written by the user
-  std::string path;            ///< resolved absolute path; filled by the reader
-  std::string sha256;          ///< of the file's bytes as the reader saw them; empty: not known
-  std::optional<Unit> unit;    ///< none: metres, unless the size is implausible for the bin (an error)
-  double scale = 1.0;          ///< multiplies the model after the unit
+  std::string model;         ///< path as written by the user
+  std::string path;          ///< resolved absolute path; filled by the reader
+  std::string sha256;        ///< of the file's bytes as the reader saw them; empty: not known
+  std::optional<Unit> unit;  ///< none: metres, unless the size is implausible for the bin (an error)
+  double scale = 1.0;        ///< multiplies the model after the unit
   std::size_t count = 1;
-  std::optional<double> density;    ///< kg/m3; default 1000 if mass is not given either
-  std::optional<double> mass;       ///< kg, of one part
+  std::optional<double> density;  ///< kg/m3; default 1000 if mass is not given either
+  std::optional<double> mass;     ///< kg, of one part
   double friction = 0.5;
   double restitution = 0.1;
   std::optional<double> thickness;  ///< m: gives an open surface this wall thickness instead of refusing it
@@ -63,7 +63,7 @@ struct PartLine {
   std::vector<Twist> velocities;    ///< given start velocities; empty = at rest
   bool fixed = false;               ///< an obstacle: stays at its given pose, or follows its motion
   Surface surface;
-  Motion motion;                    ///< of a fixed part, from its given pose
+  Motion motion;  ///< of a fixed part, from its given pose
 };
 
 struct Pour {
@@ -80,13 +80,13 @@ struct Pour {
     probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
   };
   Finish finish = Finish::probed;
-  double drop_height = 0.02;     ///< m, rain: free fall of a part's lowest point onto the heap; higher = harder impacts
-  double grid_spacing = 1.1;     ///< grid: cell edge / bounding diameter of the largest part
-  std::string scene;             ///< given: path of a scene.json to continue from
-  double limit = 20.0;           ///< s of simulated time after which a scene that still moves ends, not at rest
-  double rest_window = 0.25;     ///< s of simulated time over which no part may move
-  double rest_move = 1e-3;       ///< largest displacement over the window / part diagonal that counts as rest
-  double rest_turn = 1e-2;       ///< largest turn over the window (rad) that counts as rest
+  double drop_height = 0.02;  ///< m, rain: free fall of a part's lowest point onto the heap; higher = harder impacts
+  double grid_spacing = 1.1;  ///< grid: cell edge / bounding diameter of the largest part
+  std::string scene;          ///< given: path of a scene.json to continue from
+  double limit = 20.0;        ///< s of simulated time after which a scene that still moves ends, not at rest
+  double rest_window = 0.25;  ///< s of simulated time over which no part may move
+  double rest_move = 1e-3;    ///< largest displacement over the window / part diagonal that counts as rest
+  double rest_turn = 1e-2;    ///< largest turn over the window (rad) that counts as rest
 };
 
 const char* name_of(Pour::Finish finish);
@@ -97,28 +97,28 @@ const char* name_of(SolverType type);
 /// Settings of Bullet. Lengths are in part sizes where noted: Bullet simulates a scaled world.
 struct BulletSettings {
   double time_step = 1.0 / 240.0;  ///< s; larger = faster, but thin parts interlock
-  bool cut_steps = true;           ///< shorter steps for small or fast parts; false = such parts may pass through others
-  int iterations = 40;             ///< contact sweeps a step, two a sub-step, and as many relaxing sweeps; more =
-                                   ///< stiffer piles, linear cost
-  double margin = 0.005;           ///< collision margin / part diagonal, inside the hulls; smaller = slower, exacter
-  bool sleeping = true;            ///< islands at rest cost nothing
-  double hull_error = 0.01;        ///< largest surface error of the convex decomposition / part diagonal
+  bool cut_steps = true;     ///< shorter steps for small or fast parts; false = such parts may pass through others
+  int iterations = 40;       ///< contact sweeps a step, two a sub-step, and as many relaxing sweeps; more =
+                             ///< stiffer piles, linear cost
+  double margin = 0.005;     ///< collision margin / part diagonal, inside the hulls; smaller = slower, exacter
+  bool sleeping = true;      ///< islands at rest cost nothing
+  double hull_error = 0.01;  ///< largest surface error of the convex decomposition / part diagonal
   double hull_volume_error = 0.05;  ///< largest excess volume of all hulls together / volume
-  int max_hulls = 64;              ///< largest number of hulls per part; cost of a touching pair grows with its square
+  int max_hulls = 64;               ///< largest number of hulls per part; cost of a touching pair grows with its square
 };
 
 /// The sphere solver as the thesis describes it; preset `thesis`.
 struct ThesisSettings {
-  double time_step = 0.01;       ///< s
-  int sub_steps = 1;             ///< whole steps of time_step / sub_steps each
-  int iterations = 10;           ///< impulse/velocity passes per step; 5 or 10 in the thesis
-  double bias = 0.2;             ///< beta, 0.1 .. 0.3: share of the penetration turned into velocity per step
-  double slop = 0.01;            ///< penetration that is tolerated / sphere radius
-  double rest_velocity = 0.0;    ///< m/s below which restitution is 0; 0 = 2 g dt
-  int voxels = 10;               ///< voxels along the part's longest side
-  double tightness = 1.0;        ///< voxel pitch / sphere diameter; < 1 = overlapping spheres, smoother surface
-  std::vector<double> radii;     ///< / the part's longest side, largest first, instead of voxels; large spheres fill the
-                                 ///< inside, the smallest the surface
+  double time_step = 0.01;     ///< s
+  int sub_steps = 1;           ///< whole steps of time_step / sub_steps each
+  int iterations = 10;         ///< impulse/velocity passes per step; 5 or 10 in the thesis
+  double bias = 0.2;           ///< beta, 0.1 .. 0.3: share of the penetration turned into velocity per step
+  double slop = 0.01;          ///< penetration that is tolerated / sphere radius
+  double rest_velocity = 0.0;  ///< m/s below which restitution is 0; 0 = 2 g dt
+  int voxels = 10;             ///< voxels along the part's longest side
+  double tightness = 1.0;      ///< voxel pitch / sphere diameter; < 1 = overlapping spheres, smoother surface
+  std::vector<double> radii;   ///< / the part's longest side, largest first, instead of voxels; large spheres fill the
+                               ///< inside, the smallest the surface
   bool modified_normals = true;  ///< face spheres carry the true surface's normal
   int grid_size = 128;           ///< cells per axis of the collision grid
   double cell_size = 1.0;        ///< cell edge / largest sphere diameter, >= 1
@@ -128,15 +128,15 @@ struct ThesisSettings {
 /// The default sphere solver: surface samples of one part against the distance field of the other.
 struct SphereSettings {
   double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger = faster, thin parts interlock
-  bool cut_steps = true;           ///< shorter steps for small or fast parts; false = such parts may pass through others
-  double step_fall = 1.8e-3;       ///< with cut_steps: way that the smallest part falls from rest in one step at most /
-                                   ///< its diagonal; more = longer steps for small parts, which sink in further
-  int sub_steps = 2;               ///< contact solves per time step; more = stiffer piles, linear cost
-  double recycle = 1e-3;           ///< contacts of a pair are reused until it moved so far / diagonal of the smallest part,
-                                   ///< three times as far while pouring; more = faster, contacts are less exact
-  int coarse_samples = 200;        ///< per part while pouring; thin parts get more
-  int fine_samples = 1000;         ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
-  double field_cell = 0.004;       ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
+  bool cut_steps = true;      ///< shorter steps for small or fast parts; false = such parts may pass through others
+  double step_fall = 1.8e-3;  ///< with cut_steps: way that the smallest part falls from rest in one step at most /
+                              ///< its diagonal; more = longer steps for small parts, which sink in further
+  int sub_steps = 2;          ///< contact solves per time step; more = stiffer piles, linear cost
+  double recycle = 1e-3;      ///< contacts of a pair are reused until it moved so far / diagonal of the smallest part,
+                              ///< three times as far while pouring; more = faster, contacts are less exact
+  int coarse_samples = 200;   ///< per part while pouring; thin parts get more
+  int fine_samples = 1000;    ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
+  double field_cell = 0.004;  ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
   /// Where it runs. automatic: on the CPU, until the GPU form has been measured on a card; gpu: the same passes as GL
   /// compute, many times slower on a software GL.
   enum class Device { automatic, cpu, gpu } device = Device::automatic;
@@ -175,16 +175,16 @@ struct Projector {
   std::optional<Pose> pose;  ///< optical frame in the bin frame; none: from baseline
   double baseline = 0.2;     ///< m along the camera's x, turned towards the middle of the bin; longer = less noise and
                              ///< wider shadows
-  int width = 1280, height = 800;       ///< pixels
-  double fov = 0.7;                     ///< horizontal field of view (rad)
-  std::array<double, 5> distortion{};   ///< plumb_bob k1 k2 p1 p2 k3
+  int width = 1280, height = 800;      ///< pixels
+  double fov = 0.7;                    ///< horizontal field of view (rad)
+  std::array<double, 5> distortion{};  ///< plumb_bob k1 k2 p1 p2 k3
 };
 
 /// laser_line: a sheet of light, the y-z plane of its frame, along z.
 struct Laser {
   std::optional<Pose> pose;  ///< in the bin frame; none: from baseline
   double baseline = 0.2;     ///< m along the camera's x, turned towards the middle of the bin
-  double width_mm = 0.3;     ///< of the line on the surface (mm, between the points of 1/e^2); wider = more speckle noise
+  double width_mm = 0.3;  ///< of the line on the surface (mm, between the points of 1/e^2); wider = more speckle noise
 };
 
 /// laser_line: how camera and laser move over the bin together; their poses are those at the middle of the way.
@@ -198,24 +198,24 @@ struct Scan {
 struct Sensor {
   std::string name = "camera";
   SensorModel model = SensorModel::ideal;
-  std::string preset;           ///< name of the preset the values come from; read by config/, has no effect of its own
+  std::string preset;  ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
-  double fov = 0.75;            ///< horizontal field of view (rad); sets the intrinsics unless K is given
-  std::vector<double> k;        ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
+  double fov = 0.75;                   ///< horizontal field of view (rad); sets the intrinsics unless K is given
+  std::vector<double> k;               ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
   std::array<double, 5> distortion{};  ///< plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole
-  std::optional<Pose> pose;     ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
+  std::optional<Pose> pose;        ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
   double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
-  Projector projector;          ///< structured_light, stereo
-  Laser laser;                  ///< laser_line
-  Scan scan;                    ///< laser_line
-  ImagerSettings imager;        ///< structured_light, laser_line, stereo: the camera's chip
+  Projector projector;    ///< structured_light, stereo
+  Laser laser;            ///< laser_line
+  Scan scan;              ///< laser_line
+  ImagerSettings imager;  ///< structured_light, laser_line, stereo: the camera's chip
   StructuredLightSettings structured_light;
   LaserLineSettings laser_line;
   StereoSettings stereo;
   TimeOfFlightSettings time_of_flight;
-  bool noise = true;            ///< false: every random effect is off; geometry (shadow, field of view) stays
-  double depth_scale = 1e-4;    ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
+  bool noise = true;          ///< false: every random effect is off; geometry (shadow, field of view) stays
+  double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };
 
 /// Limits of an accepted scene; the report names those that were exceeded.
@@ -229,7 +229,7 @@ struct Acceptance {
 struct Request {
   std::uint64_t seed = 0;
   std::size_t scenes = 1;
-  std::size_t first = 0;       ///< index of the first scene; scene i comes from (seed, i) alone
+  std::size_t first = 0;  ///< index of the first scene; scene i comes from (seed, i) alone
   Bin bin;
   Vec3 gravity = Vec3(0.0, 0.0, -9.81);
   std::vector<PartLine> parts;

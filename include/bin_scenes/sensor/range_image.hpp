@@ -19,21 +19,27 @@ struct RangeImage {
   // Measured; NaN / 0 where it is not valid.
   std::vector<float> depth;                  ///< z along the optical axis (m); NaN = invalid
   std::vector<std::uint16_t> label;          ///< 0 = background or bin, part id + 1 otherwise
-  std::vector<std::array<float, 3>> normal;  ///< true normal of the surface there, towards the camera; NaN = invalid
   std::vector<float> intensity;              ///< 0..1; of the ideal model the cosine of incidence
   std::vector<std::uint8_t> validity;        ///< of Validity
   std::vector<std::array<float, 3>> points;  ///< measured points (m), if they do not lie on the rays of their pixels
 
-  // True, of the camera's own view, sensor.width * sensor.height; empty where it equals what was measured.
+  /// True normal of what a pixel sees, measured or not, towards the camera; NaN = nothing there.
+  std::vector<std::array<float, 3>> normal;
+
+  // True, of the camera's own view, sensor.width * sensor.height; empty where it equals what stands above.
   std::vector<float> truth_depth;
   std::vector<std::uint16_t> truth_label;
+  std::vector<std::array<float, 3>> truth_normal;
   const std::vector<float>& seen_depth() const { return truth_depth.empty() ? depth : truth_depth; }
+  const std::vector<std::array<float, 3>>& seen_normal() const { return truth_normal.empty() ? normal : truth_normal; }
   const std::vector<std::uint16_t>& seen_label() const { return truth_label.empty() ? label : truth_label; }
 
   std::vector<std::size_t> visible, total;  ///< true pixels per part id: seen, and seen if it were alone
   std::vector<Silhouette> silhouettes;      ///< by part id: the pixels of `total`
 };
 
+/// Normal of what was measured at a pixel; NaN where depth is.
+std::array<float, 3> normal_at(const RangeImage& image, std::size_t pixel);
 /// Measured point of a pixel in the optical frame (m); NaN where depth is.
 std::array<float, 3> point_at(const RangeImage& image, int column, int row);
 /// The same for a whole image: what it costs to remove a lens's distortion is spent on all cores.

@@ -22,9 +22,8 @@ Random random_of(const Draw& draw) {
 void add_truth(RangeImage& image, View&& view) {
   image.truth_depth.resize(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
-  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
-    std::copy_n(&view.depth[row * width], width, &image.truth_depth[row * width]);
-  });
+  in_parallel(static_cast<std::size_t>(view.lens.height),
+              [&](std::size_t row) { std::copy_n(&view.depth[row * width], width, &image.truth_depth[row * width]); });
   image.truth_label = std::move(view.label);
 }
 
@@ -46,7 +45,6 @@ RangeImage image_of(View&& view, Measurement&& measured) {
       image.validity[i] = static_cast<std::uint8_t>(measured.validity[i]);
       image.depth[i] = static_cast<float>(measured.depth[i]);
       image.label[i] = valid ? image.truth_label[i] : std::uint16_t{0};
-      if (!valid) image.normal[i] = {nan, nan, nan};
     }
   });
   return image;
@@ -106,6 +104,7 @@ RangeImage measure_laser_line(const Scenery& scenery, View&& view, const Sensor&
   }
   image.intensity = std::move(profiles.intensity);
   image.points = std::move(profiles.points);
+  image.truth_normal = std::move(view.normal);  // the others are of profiles, not of the camera's image
   add_truth(image, std::move(view));
   return image;
 }

@@ -98,7 +98,8 @@ void DynamicsWorld::integrateTransforms(btScalar dt) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
     const Motion& motion = *static_cast<const Motion*>(body.getUserPointer());
     if (body.isKinematicObject()) {  // along its path, as far as this step goes
-      body.proceedToTransform(moved(motion.start, body.getLinearVelocity() * dt, rotation(body.getAngularVelocity() * dt)));
+      body.proceedToTransform(
+          moved(motion.start, body.getLinearVelocity() * dt, rotation(body.getAngularVelocity() * dt)));
       continue;
     }
     if (body.isStaticOrKinematicObject()) continue;

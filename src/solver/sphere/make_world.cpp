@@ -68,9 +68,8 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
   w.cold_steps = w.settings.cold_steps;
-  w.cuts = w.settings.cut_steps
-               ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall)
-               : 1;
+  w.cuts =
+      w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
   return w;

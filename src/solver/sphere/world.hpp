@@ -99,7 +99,7 @@ struct Body {
   // Bookkeeping.
   bool present = false, asleep = false;
   bool driven = false;  ///< fixed, and moves on a given path
-  float still = 0;  ///< s within rest_move of the reference pose
+  float still = 0;      ///< s within rest_move of the reference pose
   Vec3f still_x = Vec3f::Zero();
   Quatf still_q = Quatf::Identity();
 

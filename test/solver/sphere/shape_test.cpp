@@ -1,6 +1,6 @@
+#include "solver/sphere/shapes/shape.hpp"
 #include "bin_scenes/part/part_model.hpp"
 #include "part/shapes.hpp"
-#include "solver/sphere/shapes/shape.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

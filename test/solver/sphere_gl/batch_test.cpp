@@ -5,9 +5,9 @@
 #include "bin_scenes/pour/pour.hpp"
 #include "pour/settling.hpp"
 #include "solver/fixture.hpp"
-#include "solver/sphere_gl/handful.hpp"
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
+#include "solver/sphere_gl/handful.hpp"
 
 #include <gtest/gtest.h>
 

@@ -236,8 +236,7 @@ std::vector<int> owners(const ManifoldImage& image, const gpu::SphereProgress& p
   std::vector<int> count(image.contacts.size(), 0);
   for (const gpu::SpherePair& pair : image.pairs) {
     const gpu::SphereManifold& m = image.manifolds[pair.slot];
-    for (std::uint32_t k = 0, at = m.state.w; k < m.state.x; ++k, at = image.contacts[at].next)
-      ++count.at(at);
+    for (std::uint32_t k = 0, at = m.state.w; k < m.state.x; ++k, at = image.contacts[at].next) ++count.at(at);
   }
   for (const std::uint32_t place : free_places(image.contacts, progress)) ++count.at(place);
   return count;

@@ -35,10 +35,11 @@ constexpr int bounce_sweeps = 12;            ///< a face that strikes flat share
 template <class Work>
 void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), [&, flag = cancel_flag()](const auto& range) {
-      const CancelScope scope(flag);
-      for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task),
+                      [&, flag = cancel_flag()](const auto& range) {
+                        const CancelScope scope(flag);
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+                      });
   });
 }
 
