@@ -73,12 +73,16 @@ class LaunchTest(LaunchTestCase):
     def test_record(self):
         with Launched("bin_scenes.launch"):
             doors = Doors()
-            with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded")):
+            with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded")) as recorder:
                 wait_until(self.recorder_listens, 60)
                 scene = doors.scene(CAMERA)
                 time.sleep(1.0)
-        name, = glob.glob(os.path.join(self.folder.name, "recorded*.bag"))
-        with rosbag.Bag(name) as bag:
+        pattern = os.path.join(self.folder.name, "recorded*.bag")
+        try:
+            wait_until(lambda: glob.glob(pattern), 20)  # roslaunch may end before rosbag has closed its file
+        except AssertionError:
+            self.fail("no bag among %s; the recorder said:\n%s" % (os.listdir(self.folder.name), recorder.output()))
+        with rosbag.Bag(glob.glob(pattern)[0]) as bag:
             found = bag.get_type_and_topic_info().topics
             for topic in ("/scene", "/markers", "/points", "/depth/image_rect", "/depth/camera_info", "/labels/image_raw",
                           "/validity/image_raw", "/acquisition_done", "/tf", "/tf_static"):

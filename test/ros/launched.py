@@ -27,6 +27,7 @@ class Launched:
         return self
 
     def output(self):
+        """What it has said; whole once it has ended."""
         self.said.seek(0)
         return self.said.read()
 
