@@ -136,6 +136,18 @@ FolderLock::~FolderLock() {
   ::close(descriptor_);
 }
 
+std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts) {
+  std::set<std::size_t> heaps;
+  for (const char* below : {"scenes", "set_apart"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.root / below)) {
+      std::size_t scene = 0;
+      if (std::sscanf(entry.path().filename().c_str(), "scene_%zu", &scene) == 1)
+        heaps.insert(scene / (facts.steps + 1));
+    }
+  }
+  return heaps;
+}
+
 void remove_leftovers(const DataFolder& folder) {
   for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "samples", "shards"})
     remove_leftovers((folder.root / below).string());

@@ -16,6 +16,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace bin_scenes {
@@ -64,6 +65,9 @@ class FolderLock {
  private:
   int descriptor_;
 };
+
+/// Heaps of which there is a folder, whole or not: what a start has to look through, however many a plan asks for.
+std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts);
 
 /// Removes what killed processes left half-written.
 void remove_leftovers(const DataFolder& folder);

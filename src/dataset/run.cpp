@@ -29,8 +29,11 @@ std::string in_gigabytes(double bytes) {
 /// Heaps of this share that are done; the index is put right where it and the disk differ.
 std::set<std::size_t> reconcile(const DataFolder& folder, const DataSetFacts& facts, SceneIndex& index,
                                 const RunOptions& options) {
-  std::set<std::size_t> known = index.heaps(), done;
-  for (std::size_t heap = options.shard; heap < facts.heaps; heap += options.shards) {
+  const std::set<std::size_t> known = index.heaps();
+  std::set<std::size_t> seen = heaps_in(folder, facts), done;
+  seen.insert(known.begin(), known.end());
+  for (const std::size_t heap : seen) {
+    if (heap >= facts.heaps || heap % options.shards != options.shard) continue;
     stop_if_cancelled();
     const auto record = found_on_disk(folder, facts, heap);
     if (record) done.insert(heap);

@@ -89,7 +89,8 @@ draw:
         self.assertIn("laser_line", lines[0])
 
     def test_a_disk_that_is_too_small_is_told_before_the_first_scene(self):
-        (self.folder / "plan.yaml").write_text("""scenes: 100000
+        # A billion scenes: what is looked through before is what is there, not what is asked for.
+        (self.folder / "plan.yaml").write_text("""scenes: 1000000000
 outputs: [png, bop, shards]
 request: {parts: [{model: box.stl, count: 1}], sensors: [{name: camera, width: 4000, height: 3000}]}
 """)
