@@ -17,8 +17,9 @@ namespace {
 constexpr int longest_wait_s = 600;  // software OpenGL on a busy machine takes minutes for a large step
 
 Error lost(const std::string& what) {
+  Device::current().lose();
   return environment_error("the OpenGL device " + what, Device::current().renderer(),
-                           "start again; solver.sphere.device: cpu needs no such device");
+                           "make the scene again, from its parts on; solver.sphere.device: cpu needs no such device");
 }
 
 /// Behind what passes wrote there.
@@ -161,6 +162,7 @@ void ReadBack::request(const std::vector<Range>& ranges) {
   ++traffic().barriers;
   traffic().bytes_read_back += sum;
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!fence_) throw lost("has lost its work");
   glFlush();
 }
 

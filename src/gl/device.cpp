@@ -181,7 +181,12 @@ struct Device::State {
   DeviceInfo info;
   std::string vendor;
   Limits limits;
+  bool lost = false;
 };
+
+namespace {
+thread_local Device* current_here = nullptr;
+}
 
 Device::Device() : state_(std::make_unique<State>()) {
   std::vector<Candidate> list = candidates();
@@ -224,15 +229,30 @@ Device::Device() : state_(std::make_unique<State>()) {
   state_->limits.storage_bytes = get(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   state_->limits.groups_per_axis =
       static_cast<int>(limit([](GLint64* value) { glGetInteger64i_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, value); }));
+  current_here = this;
 }
 
 Device::~Device() {
+  if (current_here == this) current_here = nullptr;
   close(state_->context);
 }
 
-Device& Device::current() {
-  thread_local Device device;
+std::shared_ptr<Device> Device::shared() {
+  thread_local std::shared_ptr<Device> device;
+  if (device && (!device->try_make_current() || glGetGraphicsResetStatus() != GL_NO_ERROR)) device->lose();
+  if (!device || device->lost()) device = std::make_shared<Device>();
   return device;
+}
+
+Device& Device::current() {
+  return current_here ? *current_here : *shared();
+}
+
+void Device::lose() {
+  state_->lost = true;
+}
+bool Device::lost() const {
+  return state_->lost;
 }
 
 std::string Device::renderer() const {
@@ -251,8 +271,14 @@ const Limits& Device::limits() const {
   return state_->limits;
 }
 
+bool Device::try_make_current() noexcept {
+  if (!eglMakeCurrent(state_->context.display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context.context)) return false;
+  current_here = this;
+  return true;
+}
+
 void Device::make_current() {
-  if (!eglMakeCurrent(state_->context.display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context.context))
+  if (!try_make_current())
     throw environment_error(std::string("the OpenGL context can not be made current: ") + egl_error(),
                             state_->info.name, "one thread owns a device; use it from the thread that made it");
 }

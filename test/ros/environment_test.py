@@ -85,6 +85,28 @@ class EnvironmentTest(NodeTestCase):
             self.assertTrue(response.success, response.message)
             self.assertIn("llvmpipe", response.scene.report.device)
 
+    def test_opengl_that_is_lost_in_the_middle_costs_that_scene_and_no_other(self):
+        gpu = SceneRequest(yaml=ONE, set=["solver.sphere.device=gpu"])
+        with tempfile.TemporaryDirectory() as folder:
+            lose = os.path.join(folder, "lose")
+            with Process(rospy.get_param("/node"), "__name:=bin_scenes", BIN_SCENES_GL="software",
+                         LD_PRELOAD=rospy.get_param("/lost_gl"), LOSE_GL=lose):
+                doors = Doors()
+                whole = doors.generate(gpu)
+                self.assertTrue(whole.success, whole.message)
+                poses = [part.pose for part in whole.scene.parts]
+                for _ in range(2):
+                    open(lose, "w").close()
+                    response = doors.generate(gpu)
+                    self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.ENVIRONMENT))
+                    self.assertIn("lost", response.message)
+                    self.assertFalse(os.path.exists(lose))
+                    self.assertEqual(doors.latched().header.stamp, whole.scene.header.stamp)
+                    whole = doors.generate(gpu)
+                    self.assertTrue(whole.success, whole.message)
+                    self.assertEqual([part.pose for part in whole.scene.parts], poses)
+                self.assertTrue(doors.generate(SceneRequest(yaml=ONE)).success)
+
 
 if __name__ == "__main__":
     rospy.init_node("environment_test", anonymous=True)

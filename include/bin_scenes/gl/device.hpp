@@ -9,9 +9,9 @@ namespace bin_scenes::gl {
 
 /// One EGL device as doctor lists it.
 struct DeviceInfo {
-  std::string name;       ///< EGL vendor / DRM node
-  bool software = false;  ///< EGL_MESA_device_software
-  bool usable = false;    ///< a 4.5 core context could be made
+  std::string name;                       ///< EGL vendor / DRM node
+  bool software = false;                  ///< EGL_MESA_device_software
+  bool usable = false;                    ///< a 4.5 core context could be made
   std::string renderer, version, detail;  ///< GL_RENDERER, GL_VERSION; what failed if not usable
 };
 
@@ -20,7 +20,8 @@ struct Limits {
   long long storage_bytes = 0;
 };
 
-/// Owns the context; made current on the thread that constructs it, which then owns all GL calls.
+/// Owns the context; made current on the thread that constructs it, which then owns all GL calls. Objects on it are
+/// deleted while it is current: who has some keeps the device, and makes it current before they go.
 class Device {
  public:
   /// Prefers hardware; software devices only if nothing else works or BIN_SCENES_GL=software; surfaceless Mesa last.
@@ -30,15 +31,20 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// The process-wide device of this thread, made on first use.
+  /// The device of this thread, made on first use, and anew once it is lost.
+  static std::shared_ptr<Device> shared();
+  /// The one that is current on this thread, else shared().
   static Device& current();
 
   std::string renderer() const;  ///< GL_RENDERER
   std::string vendor() const;
-  std::string version() const;   ///< GL_VERSION, with the driver's
-  bool software() const;         ///< llvmpipe, softpipe, swrast
+  std::string version() const;  ///< GL_VERSION, with the driver's
+  bool software() const;        ///< llvmpipe, softpipe, swrast
   const Limits& limits() const;
-  void make_current();
+  void make_current();  ///< throws an environment Error
+  bool try_make_current() noexcept;
+  void lose();  ///< said by who finds that its work is gone: what is on it cannot be used any more
+  bool lost() const;
 
   static std::vector<DeviceInfo> enumerate();
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 
 namespace bin_scenes {
@@ -42,22 +43,27 @@ struct Flight {
 };
 
 /// What the device can do of it.
-Capacity fitting(Capacity capacity) {
-  if (gl::Device::current().software()) capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
+Capacity fitting(Capacity capacity, const gl::Device& device) {
+  if (device.software()) capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
   return capacity;
 }
 
 class GlSphereSolver final : public Solver {
  public:
-  GlSphereSolver(const SphereSettings& settings, const Capacity& capacity)
-      : settings_(settings), bodies_(capacity.bodies), shapes_(settings), batch_(fitting(capacity)) {}
+  GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
+      : device_(std::move(device)),
+        settings_(settings),
+        bodies_(capacity.bodies),
+        shapes_(settings),
+        batch_(fitting(capacity, *device_)) {}
+  ~GlSphereSolver() override { device_->try_make_current(); }
 
   WorldId add_world(const WorldDef& def) override {
     if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())
       throw input_error("the sphere solver takes up to " + std::to_string(most_gl_bodies()) +
                             " bodies per world on the GPU, asked for " + std::to_string(def.bodies.size()),
                         "solver.sphere.device", "set solver.sphere.device: cpu");
-    gl::Device::current().make_current();
+    device_->make_current();
     const gl::TrafficCount count(profile_);
     Resident r;
     r.bodies = def.bodies.size();
@@ -114,7 +120,7 @@ class GlSphereSolver final : public Solver {
   }
 
   double begin(const std::vector<WorldId>& ids, double seconds) override {
-    gl::Device::current().make_current();
+    device_->make_current();
     const gl::TrafficCount count(profile_);
     const Steps steps = steps_in(seconds, settings_.time_step);
     if (steps.count() == 0) return 0.0;
@@ -133,7 +139,7 @@ class GlSphereSolver final : public Solver {
   }
 
   void finish(const std::vector<WorldId>& ids) override {
-    gl::Device::current().make_current();
+    device_->make_current();
     const gl::TrafficCount count(profile_);
     const auto at = std::find_if(flights_.begin(), flights_.end(), [&](const Flight& f) { return f.ids == ids; });
     if (at == flights_.end()) return;
@@ -166,14 +172,14 @@ class GlSphereSolver final : public Solver {
   }
 
   std::size_t worlds_at_once() const override {
-    const std::size_t most = gl::Device::current().software() ? 4 : 256;
+    const std::size_t most = device_->software() ? 4 : 256;
     return std::clamp<std::size_t>(most * SPHERE_MAX_BODIES / std::max<std::size_t>(bodies_, 1), 1, most);
   }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
   std::vector<Flag> flags(WorldId id) const override { return sphere::flags_of(world(id).world); }
   std::string name() const override { return "sphere"; }
-  std::string device() const override { return gl::Device::current().renderer(); }
+  std::string device() const override { return device_->renderer(); }
 
   const Profile& profile() const override {
     batch_.timer().collect(profile_, true);
@@ -188,7 +194,7 @@ class GlSphereSolver final : public Solver {
 
   /// How its world's contacts are to be solved.
   void tell(Resident& r) const {
-    if (gl::Device::current().software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
+    if (device_->software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
     tell_phase(r.world, r.progress);
   }
 
@@ -296,6 +302,7 @@ class GlSphereSolver final : public Solver {
     }
   }
 
+  std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
   SphereSettings settings_;
   std::size_t bodies_;  ///< expected in a world
   sphere::ShapeCache shapes_;
@@ -318,13 +325,14 @@ std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, co
   if (!(settings.time_step > 0))
     throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
   constexpr int blocks = 16;  // of find_contacts, the most of all passes; OpenGL 4.5 promises 8
-  if (gl::Device::current().limits().storage_blocks < blocks) {
-    throw environment_error("the device has " + std::to_string(gl::Device::current().limits().storage_blocks) +
+  const std::shared_ptr<gl::Device> device = gl::Device::shared();
+  device->make_current();
+  if (device->limits().storage_blocks < blocks) {
+    throw environment_error("the device has " + std::to_string(device->limits().storage_blocks) +
                                 " storage blocks a shader, the solver needs " + std::to_string(blocks),
-                            gl::Device::current().renderer(), "use solver.sphere.device: cpu");
+                            device->renderer(), "use solver.sphere.device: cpu");
   }
-  gl::Device::current().make_current();
-  return std::make_unique<GlSphereSolver>(settings, capacity);
+  return std::make_unique<GlSphereSolver>(device, settings, capacity);
 }
 
 }  // namespace bin_scenes

@@ -30,6 +30,7 @@ VoxelOptions voxels_of(const PartModel& part, const ThesisSettings& settings) {
 }  // namespace
 
 struct ThesisSolver::State {
+  std::shared_ptr<gl::Device> device = gl::Device::shared();  ///< first: what is on it goes before it
   ThesisSettings settings;
   thesis::Capacity capacity;
   thesis::Passes passes;
@@ -40,6 +41,7 @@ struct ThesisSolver::State {
   explicit State(const ThesisSettings& given) : settings(given) {
     capacity.contacts = static_cast<std::size_t>(std::max(1, given.contacts_per_sphere));
   }
+  ~State() { device->try_make_current(); }
 
   thesis::World& world(WorldId id) {
     const auto found = worlds.find(id);
@@ -54,8 +56,7 @@ struct ThesisSolver::State {
   std::vector<std::vector<thesis::World*>> split(const std::vector<thesis::World*>& all) const;
 };
 
-ThesisSolver::ThesisSolver(const ThesisSettings& settings)
-    : state_((gl::Device::current().make_current(), std::make_unique<State>(settings))) {}
+ThesisSolver::ThesisSolver(const ThesisSettings& settings) : state_(std::make_unique<State>(settings)) {}
 ThesisSolver::~ThesisSolver() = default;
 
 WorldId ThesisSolver::add_world(const WorldDef& def) {
@@ -107,7 +108,7 @@ bool ThesisSolver::set_phase(WorldId, const Phase&) {
 }
 
 double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
-  gl::Device::current().make_current();
+  state_->device->make_current();
   const gl::TrafficCount count(state_->profile);
   const Steps steps = steps_in(seconds, step_size());
   std::vector<thesis::World*> worlds;
@@ -127,7 +128,7 @@ double ThesisSolver::advance(const std::vector<WorldId>& ids, double seconds) {
 
 /// Worlds together as long as no buffer grows beyond half of what the driver allows; alone if need be.
 std::vector<std::vector<thesis::World*>> ThesisSolver::State::split(const std::vector<thesis::World*>& all) const {
-  const auto limit = static_cast<std::size_t>(gl::Device::current().limits().storage_bytes) / 2;
+  const auto limit = static_cast<std::size_t>(device->limits().storage_bytes) / 2;
   std::vector<std::vector<thesis::World*>> batches;
   std::size_t used = 0;
   for (thesis::World* world : all) {
@@ -215,7 +216,7 @@ const Profile& ThesisSolver::profile() const {
   return state_->profile;
 }
 std::string ThesisSolver::device() const {
-  return gl::Device::current().renderer();
+  return state_->device->renderer();
 }
 
 std::vector<Flag> ThesisSolver::flags(WorldId id) const {
