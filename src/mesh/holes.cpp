@@ -104,6 +104,7 @@ void fill_with_fan(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
 
 Closed close_holes(Mesh& mesh, double max_perimeter) {
   constexpr std::size_t longest_for_least_area = 600;  // a second or so
+  std::size_t looks = 30'000'000;  // from covers at triangles, a second or so: a soup of triangles stays as it is
   const auto loops = boundary_loops(mesh);
   Closed closed;
   if (loops.empty()) return closed;
@@ -119,9 +120,11 @@ Closed close_holes(Mesh& mesh, double max_perimeter) {
     }
   }
   for (const auto& loop : loops) {
+    const bool small = perimeter(mesh, loop) <= max_perimeter;
+    if (!small && looks < labels.of_triangle.size()) continue;
     const std::size_t vertices = mesh.vertices.size(), triangles = mesh.triangles.size();
     loop.size() <= longest_for_least_area ? fill_with_least_area(mesh, loop) : fill_with_fan(mesh, loop);
-    if (perimeter(mesh, loop) <= max_perimeter) {
+    if (small) {
       ++closed.small;
       continue;
     }
@@ -131,6 +134,7 @@ Closed close_holes(Mesh& mesh, double max_perimeter) {
     }
     const bool hidden = std::all_of(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(triangles),
                                     mesh.triangles.end(), [&](const Triangle& t) {
+                                      looks -= std::min(looks, others.size());
                                       const Vec3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
                                       return winding(mesh, others, sum / 3.0) > 0.5;
                                     });

@@ -11,6 +11,7 @@ namespace bin_scenes::repair {
 
 std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
   std::size_t inserted = 0;
+  std::size_t looks = 100'000'000;  // at vertices, half a second or so: a soup of triangles stays as it is
   // Each pass splits a triangle along one of its edges; the pieces' other edges get their turn in the next pass.
   // Splitting adds no vertices, so the passes end; the bound only guards against rounding.
   for (int pass = 0; pass < 100; ++pass) {
@@ -44,7 +45,7 @@ std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
       auto candidate = std::lower_bound(rim.begin(), rim.end(), lower,
                                         [&](std::uint32_t v, double x) { return mesh.vertices[v].x() < x; });
       std::vector<std::pair<double, std::uint32_t>> on_edge;
-      for (; candidate != rim.end() && mesh.vertices[*candidate].x() <= upper; ++candidate) {
+      for (; looks > 0 && candidate != rim.end() && mesh.vertices[*candidate].x() <= upper; ++candidate, --looks) {
         if (*candidate == a || *candidate == b || *candidate == c) continue;
         const Vec3 to = mesh.vertices[*candidate] - start;
         const double way = to.dot(along) / length;

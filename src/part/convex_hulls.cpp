@@ -10,6 +10,7 @@
 #include "core/in_parallel.hpp"
 #include "hacd_partition.hpp"
 #include "plane_cuts.hpp"
+#include "shells.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -196,7 +197,9 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
       judge({convex_hull(mesh.vertices, more * options.max_vertices)}, nullptr);
     }
   }
-  if (!best.met && options.max_hulls > 1) {
+  // Each shell is a piece at least: of far more than may be kept, merging would choose between millions of pairs.
+  const std::size_t most_pieces = static_cast<std::size_t>(spare) * static_cast<std::size_t>(options.max_hulls);
+  if (!best.met && options.max_hulls > 1 && shells_of(mesh).count <= most_pieces) {
     const double diagonal = mesh.bounds().diagonal();
     const Protrusion protrusion(query);
     const SolidMeasure measure{protrusion, [&](const Vec3& p) { return protrusion.inside(p); }};
@@ -213,7 +216,7 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     };
     double limit = first_limit * options.max_error * diagonal;
     for (int i = 0; i < tries; ++i) {
-      const int count = try_pieces(plane_cut_pieces(mesh, measure, limit, spare * options.max_hulls), limit);
+      const int count = try_pieces(plane_cut_pieces(mesh, measure, limit, static_cast<int>(most_pieces)), limit);
       // More pieces than may be kept do not help.
       if (best.met || count >= options.max_hulls) break;
       // What sticks out adds to the volume in proportion.

@@ -2,14 +2,16 @@
 
 #include "shells.hpp"
 
-#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
+#include "mesh/contained.hpp"
 
 #include <HACD/hacdHACD.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <map>
+#include <string>
 #include <tuple>
 
 namespace bin_scenes {
@@ -133,7 +135,7 @@ Thinned thin(const Mesh& mesh) {
 }
 
 /// HACD's cluster of every triangle; empty if HACD gives up.
-std::vector<long> run_hacd(const Mesh& mesh, int count) {
+std::vector<long> clusters(const Mesh& mesh, int count) {
   std::vector<HACD::Vec3<HACD::Real>> points;
   std::vector<HACD::Vec3<long>> triangles;
   for (const Vec3& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
@@ -152,12 +154,25 @@ std::vector<long> run_hacd(const Mesh& mesh, int count) {
   hacd.SetAddFacesPoints(true);
   hacd.SetAddExtraDistPoints(true);
   hacd.SetAddNeighboursDistPoints(true);
-  hacd.SetCallBack([](const char*, double, double, std::size_t) {
-    stop_if_cancelled();
-    return true;
-  });
   if (!hacd.Compute() || hacd.GetPartition() == nullptr) return {};
   return {hacd.GetPartition(), hacd.GetPartition() + triangles.size()};
+}
+
+/// The same in a child: HACD crashes on some meshes of many shells.
+std::vector<long> run_hacd(const Mesh& mesh, int count) {
+  ContainedLimits limits;
+  limits.cpu_seconds = 30;  // thirty times what it takes
+  limits.bytes = std::size_t{1} << 30;
+  const Contained child = run_contained(
+      [&] {
+        const std::vector<long> found = clusters(mesh, count);
+        return std::string(reinterpret_cast<const char*>(found.data()), found.size() * sizeof(long));
+      },
+      limits);
+  if (!child.finished || child.output.size() != mesh.triangles.size() * sizeof(long)) return {};
+  std::vector<long> found(mesh.triangles.size());
+  std::memcpy(found.data(), child.output.data(), child.output.size());
+  return found;
 }
 
 double signed_volume(const Mesh& mesh) {

@@ -150,8 +150,14 @@ class SphereGrid {
 
 }  // namespace
 
+// Shells within shells have more surface than anybody needs to see: a part with six times its box's has 500,000.
+constexpr double most_points = 1e6;
+
 std::vector<SurfacePoint> dense_surface_points(const Mesh& mesh, double step) {
   std::vector<SurfacePoint> points;
+  double twice_area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) twice_area += mesh.area_vector(t).norm();
+  step = std::max(step, std::sqrt(0.5 * twice_area / most_points));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 area = mesh.area_vector(t);
     if (!(area.norm() > 0)) continue;

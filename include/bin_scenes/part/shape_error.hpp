@@ -29,7 +29,7 @@ struct SurfacePoint {
   double weight;  ///< share of the area (m2)
 };
 
-/// Points on every triangle, corners included, at most `step` apart.
+/// Points on every triangle, corners included, at most `step` apart; a million of them beside the corners at most.
 std::vector<SurfacePoint> dense_surface_points(const Mesh& mesh, double step);
 
 /// Volume of the union of hulls (m3); by counting, within about 0.5 %, where there is more than one.
