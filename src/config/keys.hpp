@@ -233,11 +233,11 @@ void visit(Visitor& v, SphereSettings& s) {
   v.field({"field_cell", "",
            "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube"},
           s.field_cell);
-  v.field(
-      {"device", "",
-       "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: the CPU, until the GPU form has been "
-       "measured on a card. Scenes repeat bit for bit on the same class of device"},
-      s.device);
+  v.field({"device", "",
+           "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: what needs less time for a standard "
+           "heap, "
+           "measured once. Scenes repeat bit for bit on the same class of device"},
+          s.device);
 }
 
 template <class Visitor>

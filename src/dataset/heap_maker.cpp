@@ -112,6 +112,9 @@ std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attemp
   std::vector<std::string> reasons;
   try {
     request = plan_.request(heap, attempt, [&](const PartLine& line) { return volume_of(line); });
+    // What is the faster device differs between machines, and with it the scenes would.
+    SphereSettings::Device& device = request->solver.sphere.device;
+    if (device == SphereSettings::Device::automatic) device = SphereSettings::Device::cpu;
     auto before = Clock::now();
     Heap pile = generator_.heap(*request);
     record.stages_ms["load"] += ms_since(before);

@@ -1,6 +1,7 @@
 #include "bin_scenes/solver/bullet_solver.hpp"
 #include "bin_scenes/solver/solver.hpp"
 #include "bin_scenes/solver/thesis_solver.hpp"
+#include "solver/device_choice.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
@@ -8,19 +9,20 @@ namespace bin_scenes {
 
 namespace {
 
-/// Whether the sphere solver's passes run on the GPU; says why. `auto` means the CPU until figures of a card show where
-/// the GPU form is the faster one.
-bool on_gpu(const SphereSettings& settings, std::string& reason) {
-  if (settings.device != SphereSettings::Device::automatic) return settings.device == SphereSettings::Device::gpu;
-  reason += "; on the CPU: the GPU form has not been measured on a card (solver.sphere.device: gpu takes it)";
-  return false;
+/// Whether the sphere solver's passes run on the GPU; says why.
+bool on_gpu(const Request& request, std::string& reason) {
+  const SphereSettings::Device asked = request.solver.sphere.device;
+  if (asked != SphereSettings::Device::automatic) return asked == SphereSettings::Device::gpu;
+  const DeviceChoice choice = choose_device(request);
+  reason += "; " + choice.reason;
+  return choice.gpu;
 }
 
 std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason) {
   const SolverSettings& settings = request.solver;
   if (settings.preset == SolverSettings::Preset::thesis) return std::make_unique<ThesisSolver>(settings.thesis);
   const std::size_t bodies = request.part_count() + (request.bin.kind == Bin::Kind::mesh ? 1 : 0);
-  if (!on_gpu(settings.sphere, reason)) return make_sphere_solver(settings.sphere);
+  if (!on_gpu(request, reason)) return make_sphere_solver(settings.sphere);
   sphere_gl::Capacity capacity;
   capacity.bodies = bodies;
   return make_gl_sphere_solver(settings.sphere, capacity);

@@ -3,6 +3,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
+#include "solver/device_choice.hpp"
 #include "tool/commands.hpp"
 
 #include <unistd.h>
@@ -46,6 +47,28 @@ bool report_devices() {
     line("gl", false, error.problem(), "install libegl1 and libgl1-mesa-dri, or the GPU's own driver");
     return false;
   }
+}
+
+std::string in_ms(const StepTimes& t) {
+  std::ostringstream text;
+  text.precision(3);
+  text << 1e3 * t.few_s << " ms alone, " << 1e3 * t.together_s << " ms among " << DeviceFigures::worlds << "; of "
+       << DeviceFigures::many << " parts " << 1e3 * t.many_s << " ms";
+  return text.str();
+}
+
+/// What `auto` decides by.
+void report_choice() {
+  const auto figures = device_figures();
+  if (!figures) {
+    line("auto", true, "takes sphere on the CPU: there is no GPU with OpenGL 4.5");
+    return;
+  }
+  line("auto", true, "takes sphere on the device that needs less time for a step of the standard heap");
+  std::printf("%-9s      %zu parts on the CPU (%s): %s\n", "", DeviceFigures::few, figures->cpu.c_str(),
+              in_ms(figures->on_cpu).c_str());
+  std::printf("%-9s      %zu parts on the GPU (%s): %s\n", "", DeviceFigures::few, figures->gpu.c_str(),
+              in_ms(figures->on_gpu).c_str());
 }
 
 PartModelPtr box(double edge) {
@@ -118,7 +141,7 @@ void report_cache() {
 
 int doctor() {
   const bool gl = report_devices();
-  line("auto", true, "takes sphere on the CPU: the GPU form has not been measured on a card");
+  report_choice();
   test_solver("bullet", SolverType::bullet, SolverSettings::Preset::standard);
   test_solver("sphere", SolverType::sphere, SolverSettings::Preset::standard);
   test_solver("sphere/thesis", SolverType::sphere, SolverSettings::Preset::thesis);

@@ -137,7 +137,7 @@ struct SphereSettings {
   int coarse_samples = 200;   ///< per part while pouring; thin parts get more
   int fine_samples = 1000;    ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
   double field_cell = 0.004;  ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
-  /// Where it runs. automatic: on the CPU, until the GPU form has been measured on a card; gpu: the same passes as GL
+  /// Where it runs. automatic: where a standard heap takes less time, measured once; gpu: the same passes as GL
   /// compute, many times slower on a software GL.
   enum class Device { automatic, cpu, gpu } device = Device::automatic;
 };

@@ -1,0 +1,46 @@
+/// On which device the sphere solver runs if a request leaves it open: where a standard heap took less time.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace bin_scenes {
+
+/// Wall time of one step of a heap of `few` and of `many` parts alone, and of one of `few` parts among `worlds` that
+/// are advanced together.
+struct StepTimes {
+  double few_s = 0.0, many_s = 0.0, together_s = 0.0;
+};
+
+/// What was measured on this machine.
+struct DeviceFigures {
+  static constexpr std::size_t few = 64, many = 512, worlds = 64;
+  std::string cpu, gpu;  ///< names
+  StepTimes on_cpu, on_gpu;
+};
+
+struct DeviceChoice {
+  bool gpu = false;
+  std::string reason;  ///< with the figures that decided
+};
+
+/// By the measured steps: a power law over parts between few and many, continued beyond them; of several scenes, as
+/// many are advanced together as were measured. The GPU is taken if it needs less than 0.8 times as long, so that noise
+/// in near ties does not decide.
+DeviceChoice choose_device(const DeviceFigures& figures, std::size_t parts, std::size_t scenes);
+
+/// The same for a request on this machine. Measures at the first need of a device and driver, then reads the figures
+/// from the cache. Without a GPU nothing is measured, and no OpenGL context is made where no device file is found.
+DeviceChoice choose_device(const Request& request);
+
+/// Measured now, on the device that OpenGL gives, whatever it is. Throws an environment Error without one.
+/// @param share  of the standard size: tests measure less
+DeviceFigures measure_devices(double share = 1.0);
+
+/// Those of the GPU of this machine, from the cache if they are there; none without a GPU.
+std::optional<DeviceFigures> device_figures();
+
+}  // namespace bin_scenes

@@ -1,0 +1,73 @@
+// What `auto` makes of measured figures, and that they can be measured.
+#include "solver/device_choice.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/solver/solver.hpp"
+
+#include <gtest/gtest.h>
+
+namespace bin_scenes {
+namespace {
+
+DeviceFigures figures() {
+  DeviceFigures f;
+  f.cpu = "a processor";
+  f.gpu = "a card";
+  f.on_cpu = {1e-3, 8e-3, 0.5e-3};     // in proportion to the parts; two cores
+  f.on_gpu = {4e-3, 4e-3, 4e-3 / 64};  // fills up by worlds and parts
+  return f;
+}
+
+TEST(DeviceChoice, GoesByPartsAndScenes) {
+  EXPECT_FALSE(choose_device(figures(), 64, 1).gpu);    // 1 against 4 ms
+  EXPECT_TRUE(choose_device(figures(), 512, 1).gpu);    // 8 against 4 ms
+  EXPECT_TRUE(choose_device(figures(), 64, 64).gpu);    // 0.5 against 0.06 ms
+  EXPECT_FALSE(choose_device(figures(), 8, 2).gpu);     // 0.06 against 2 ms
+  EXPECT_TRUE(choose_device(figures(), 65536, 1).gpu);  // 1,024 against 64 ms
+}
+
+TEST(DeviceChoice, ASlowerGpuIsNotTaken) {
+  DeviceFigures slow = figures();
+  slow.on_gpu = {1.0, 8.0, 0.9};
+  for (const std::size_t parts : {1, 64, 512, 65536})
+    for (const std::size_t scenes : {1, 64, 100000}) EXPECT_FALSE(choose_device(slow, parts, scenes).gpu);
+  slow.on_gpu = slow.on_cpu;  // nor one as fast: noise would decide
+  EXPECT_FALSE(choose_device(slow, 512, 1).gpu);
+}
+
+TEST(DeviceChoice, SaysTheFigures) {
+  const std::string reason = choose_device(figures(), 512, 1).reason;
+  EXPECT_NE(reason.find("on the GPU: a step of 512 parts takes about 8 ms on the CPU, 4 ms on the GPU"),
+            std::string::npos)
+      << reason;
+}
+
+TEST(DeviceChoice, WhatTheGpuCannotDoStaysOnTheCpu) {
+  Request request;
+  request.parts.emplace_back();
+  request.bin.motion.shake = Vec3(0.01, 0, 0);
+  EXPECT_EQ(choose_device(request).reason, "on the CPU: motion is not simulated on the GPU");
+}
+
+TEST(DeviceChoice, SoftwareOpenGlIsNoGpu) {
+  std::string reason;
+  Request request;
+  request.parts.emplace_back();
+  const auto solver = make_solver(request, {}, reason);
+  EXPECT_EQ(solver->device().find("llvmpipe"), std::string::npos);
+  EXPECT_NE(reason.find("on the CPU: "), std::string::npos) << reason;
+}
+
+TEST(DeviceChoice, MeasuresBothDevices) {
+  const DeviceFigures measured = measure_devices(1.0 / 16);
+  for (const StepTimes& t : {measured.on_cpu, measured.on_gpu}) {
+    EXPECT_GT(t.few_s, 0.0);
+    EXPECT_GT(t.many_s, t.few_s);
+    EXPECT_GT(t.together_s, 0.0);
+  }
+  EXPECT_FALSE(measured.cpu.empty());
+  EXPECT_FALSE(measured.gpu.empty());
+}
+
+}  // namespace
+}  // namespace bin_scenes
