@@ -154,17 +154,17 @@ void ContactSolver::accelerate() {
     motion.v += gain;
     if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
       continue;  // 1e-4 rad a sub-step: the term is rounding
-    // Double precision: single would let |L| creep by a thousandth in ten thousand sub-steps.
+    // Only the change is turned back to world axes: turning all of the spin would let |L| creep by a thousandth in ten
+    // thousand sub-steps of single precision.
     const Body& b = world_.bodies[bodies_[i]];
-    const Mat3 r = b.q.cast<double>().normalized().toRotationMatrix();
-    const Mat3 inertia = b.inertia.cast<double>(), inverse = b.inverse_inertia.cast<double>();
-    const Vec3 w0 = r.transpose() * vector_of(motion.w).cast<double>();
-    Vec3 w = w0;
+    const Mat3f r = b.q.toRotationMatrix();
+    const Vec3f before = r.transpose() * vector_of(motion.w);
+    Vec3f change = Vec3f::Zero();
     for (int k = 0; k < 6; ++k) {
-      const Vec3 mid = 0.5 * (w0 + w);
-      w = w0 - h_ * (inverse * mid.cross(inertia * mid));
+      const Vec3f mid = before + 0.5f * change;
+      change = -h_ * (b.inverse_inertia * mid.cross(b.inertia * mid));
     }
-    motion.w = padded((r * w).cast<float>());
+    motion.w += padded(r * change);
   }
 }
 
