@@ -56,8 +56,8 @@
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
 // lists of those near a point (EdgeGrid).
-// Normal cone of a node (w, bits) or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are;
-// 0 = all directions, SPHERE_AXIS = one axis with its spread in w.
+// Normal cone of a node or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are; 0 = all
+// directions, SPHERE_AXIS = one axis.
 #define SPHERE_AXIS 7u
 
 #define SPHERE_GROUND 0xffffffffu   // body index of the bin's walls and floor
@@ -174,6 +174,11 @@ struct SphereShape {
   uvec4 grid;        // values along x, y, z; first value
 };
 
+struct SphereNode {
+  vec3 place;        // body axes; or a vector of a normal cone
+  uint cone;         // of a node; of an axis the bits of its spread (rad)
+};
+
 struct SphereCluster {
   vec4 ball;         // of the nodes and of the edges that start there
   uvec4 edges;       // first, end (of the part)
@@ -221,6 +226,7 @@ static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "
 static_assert(sizeof(SphereProgress) == 160, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
+static_assert(sizeof(SphereNode) == 16, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");

@@ -16,6 +16,10 @@
 #define SPHERE_MOST_ROUNDS 64  // of coloring that have dispatches of their own
 
 // What a pass over bodies, pairs or manifolds does.
+#define CUT_MEASURE 0u
+#define CUT_SET 1u
+#define LIST_COUNT 0u
+#define LIST_PLACE 1u
 #define COLOR_BEGIN 0u
 #define COLOR_BID 1u
 #define COLOR_TAKE 2u
@@ -45,6 +49,7 @@ struct SphereLarge {
 
 struct SphereBox {
   vec4 center, half_size;  // as struct Box of shaders/sphere/box.h
+  ivec4 cell;              // shaders/sphere/large/cell.h
 };
 
 struct SphereMotion {  // since contacts were found
@@ -60,7 +65,7 @@ GPU_STRUCTS_END
 
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
-static_assert(sizeof(SphereBox) == 32 && sizeof(SphereMotion) == 32 && sizeof(SphereWork) == 16, "std430");
+static_assert(sizeof(SphereBox) == 48 && sizeof(SphereMotion) == 32 && sizeof(SphereWork) == 16, "std430");
 static_assert(sizeof(SphereLarge) == 80 + 16 * (SPHERE_MOST_ROUNDS + 1 + SPHERE_COLORS) + 8 * SPHERE_COLORS, "std430");
 }  // namespace bin_scenes::gpu
 #endif

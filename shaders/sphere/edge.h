@@ -45,7 +45,7 @@ bool descend(Field field, vec3 p, vec3 q, float radius, out vec3 point, out vec3
 
 // The k-th bound of an edge's normal cone.
 vec3 bound_of(SphereSamples other, uvec4 edge, uint k) {
-  return nodes[other.nodes.x + (edge.z >> 3) + k].xyz;
+  return nodes[other.nodes.x + (edge.z >> 3) + k].place;
 }
 
 // Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
@@ -78,7 +78,7 @@ bool cross_edges(SphereSamples other, Field field, vec3 p, vec3 q, inout vec3 po
   uvec2 list = edges_near(other, field, from);
   for (uint k = list.x; k < list.y; ++k) {
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
-    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r;
+    vec3 r = nodes[other.nodes.x + edge.x].place, v = nodes[other.nodes.x + edge.y].place - r;
     float s, t;
     if (!nearest_points(u, uu, v, p - r, s, t) || s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
     vec3 on_u = p + s * u, between = on_u - (r + t * v);
@@ -104,7 +104,7 @@ bool passes_edge(SphereSamples other, Field field, vec3 point, vec3 direction, v
   for (uint k = list.x; k < list.y; ++k) {
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
     if (uintBitsToFloat(edge.w) <= 0.0) continue;  // not sharp
-    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = point - r;
+    vec3 r = nodes[other.nodes.x + edge.x].place, v = nodes[other.nodes.x + edge.y].place - r, w = point - r;
     float s, t;
     if (!nearest_points(direction, 1.0, v, w, s, t) || abs(s) > field.cell || t < 0.0 || t > 1.0) continue;
     float way = length(w + s * direction - t * v);
@@ -136,7 +136,7 @@ uint ways_out_at_edge(SphereSamples other, Field field, vec3 point, out vec4 way
     uvec4 edge = edges[other.nodes.z + edge_word(other.blocks.y, k)];
     float size = uintBitsToFloat(edge.w);
     if (size <= 0.0) continue;  // not sharp
-    vec3 r = nodes[other.nodes.x + edge.x].xyz, v = nodes[other.nodes.x + edge.y].xyz - r, w = point - r;
+    vec3 r = nodes[other.nodes.x + edge.x].place, v = nodes[other.nodes.x + edge.y].place - r, w = point - r;
     float t = dot(w, v) / dot(v, v);
     if (t * size < -flush || (t - 1.0) * size > flush) continue;  // another edge's, or a corner's that is not convex
     vec3 off = w - t * v;

@@ -13,7 +13,7 @@ layout(std430, binding = BIND_PLANES) readonly buffer Planes { SpherePlane plane
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) readonly buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
-layout(std430, binding = BIND_NODES) readonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = BIND_NODES) readonly buffer Nodes { SphereNode nodes[]; };
 layout(std430, binding = BIND_EDGES) readonly buffer Edges { uvec4 edges[]; };
 layout(std430, binding = BIND_CLUSTERS) readonly buffer Clusters { SphereCluster clusters[]; };
 layout(std430, binding = BIND_FIELDS) readonly buffer Fields { float fields[]; };
@@ -36,7 +36,8 @@ uint world_index, clusters_tested, nodes_tested;
 
 SphereSamples samples_of(uint body) {
   uint shape = bodies[body].ids.x;
-  return progress[world_index].fine != 0u ? shapes[shape].fine : shapes[shape].coarse;
+  if (progress[world_index].fine != 0u) return shapes[shape].fine;
+  return shapes[shape].coarse;
 }
 
 // Of a body of this world.
@@ -73,7 +74,7 @@ float error_of(Field field) {
 }
 
 vec3 carry(View view, uint node) {
-  return view.to_field * nodes[view.samples.nodes.x + node].xyz + view.field_offset;
+  return view.to_field * nodes[view.samples.nodes.x + node].place + view.field_offset;
 }
 
 void emit_from(View view, vec3 point, vec3 gradient, float distance, uint feature) {
@@ -98,7 +99,7 @@ bool is_crossed(View view, vec3 point, uint cone, vec3 away) {
   uint bounds = cone & 7u;
   if (bounds == SPHERE_AXIS) return false;
   for (uint i = 0u; i < bounds; ++i) {
-    vec3 along = view.to_field * nodes[view.samples.nodes.x + (cone >> 3) + i].xyz, normal;
+    vec3 along = view.to_field * nodes[view.samples.nodes.x + (cone >> 3) + i].place, normal;
     if (dot(along, away) > -LEANS || !passes_edge(view.other, view.field, point, along, away, normal)) continue;
     vec3 pressed = -(normal * view.to_field);
     if (turn_into_cone(cone, view.samples.nodes.x, pressed, NEARLY_ALL)) return true;
@@ -160,7 +161,7 @@ void test_node(View view, uint node) {
   Solid other = Solid(false, view.field, NO_PLANE, 0.0);
   slide(view.samples, view.own, view.to_field, view.field_offset, node, other, point, gradient, distance);
   if (distance < view.margin)
-    offer(view, point, gradient, distance, floatBitsToUint(nodes[view.samples.nodes.x + node].w), node);
+    offer(view, point, gradient, distance, nodes[view.samples.nodes.x + node].cone, node);
 }
 
 // Where edges are nearly parallel, or end, one dips below the other by less than the grid can tell.
@@ -263,7 +264,7 @@ void test_ground(SpherePair pair, float margin) {
       uint node = c * SPHERE_CLUSTER + thread % SPHERE_CLUSTER;
       if (node >= samples.nodes.y) continue;
       ++nodes_tested;
-      vec3 arm = ra * nodes[samples.nodes.x + node].xyz, away;
+      vec3 arm = ra * nodes[samples.nodes.x + node].place, away;
       vec3 point = position + arm;
       float distance = plane_distance(plane, world.ground.z, point, away) - samples.size.x;
       if (distance > margin + samples.size.w) continue;

@@ -1,5 +1,5 @@
 /// Drivers are lenient, each in its own way: what Mesa takes another may refuse. So every shader goes through the
-/// reference compiler of the language, which needs no device.
+/// reference compiler of the language and the validator of its binary form, which need no device.
 #include "gl/shader_source.hpp"
 
 #include "bin_scenes/gl/program.hpp"
@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace bin_scenes::gl {
@@ -16,25 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the reference compiler says against a shader, if anything.
+/// What the reference compiler says against a shader, or the validator of SPIR-V against what it becomes, if anything.
 std::string complaints(const fs::path& file, const Defines& defines = {}) {
   const ShaderSource source = read_shader(file.string(), defines);
-  char name[] = "/tmp/bin_scenes_glslang_XXXXXX";
-  const int log = mkstemp(name);
+  char folder[] = "/tmp/bin_scenes_glslang_XXXXXX";
+  if (!mkdtemp(folder)) return "no folder for temporary files";
+  const std::string log = std::string(folder) + "/log", binary = std::string(folder) + "/binary";
   const std::string stage = file.extension().string().substr(1);
-  FILE* compiler = popen((GLSLANG " --stdin -S " + stage + " > " + name).c_str(), "w");
+  FILE* compiler = popen((GLSLANG " -G --amb --aml --stdin -S " + stage + " -o " + binary + " > " + log).c_str(), "w");
   fwrite(source.text.data(), 1, source.text.size(), compiler);
-  const int code = pclose(compiler);
-  std::string said;
-  FILE* in = fdopen(log, "r");
-  for (int c; (c = fgetc(in)) != EOF;) said += static_cast<char>(c);
-  fclose(in);
-  fs::remove(name);
+  int code = pclose(compiler);
+  if (code == 0) code = std::system((SPIRV_VAL " --target-env opengl4.5 " + binary + " >> " + log + " 2>&1").c_str());
+  std::ifstream in(log);
+  const std::string said((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  fs::remove_all(folder);
   return code == 0 ? "" : file.string() + ", exit code " + std::to_string(code) + ":\n" + said;
 }
 
 TEST(ReferenceCompiler, TakesEveryShader) {
-  if (!fs::exists(GLSLANG)) GTEST_SKIP() << "no glslangValidator here: apt-get install glslang-tools";
+  if (!fs::exists(GLSLANG) || !fs::exists(SPIRV_VAL))
+    GTEST_SKIP() << "no glslangValidator and spirv-val here: apt-get install glslang-tools spirv-tools";
   const fs::path directory = shader_directory(), broken = "test/broken.comp";
   int shaders = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {

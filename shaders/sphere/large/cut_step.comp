@@ -17,7 +17,7 @@ layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 #include "sphere/cut.h"
 #include "sphere/large/large_world.h"
 
-uniform bool counting;
+uniform uint stage;  // CUT_MEASURE, CUT_SET
 
 void main() {
   uint i = thread_index();
@@ -27,7 +27,7 @@ void main() {
     if (i == 0u) large.awake = uint(awake);
     return;
   }
-  if (counting) {
+  if (stage == CUT_MEASURE) {
     if (i >= world.bodies.y || !moves(world.bodies.x + i)) return;
     vec2 speeds = speeds_of(world.bodies.x + i);
     atomicMax(large.speed, floatBitsToUint(speeds.x));

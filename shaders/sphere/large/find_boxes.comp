@@ -29,7 +29,7 @@ void main() {
   time_step = progress[large_world].time_step;
   uint body = world.bodies.x + i;
   Box box = box_of(world, body);
-  boxes[i] = SphereBox(box.center, box.half_size);
+  boxes[i] = SphereBox(box.center, box.half_size, ivec4(0));
   if (present(body)) tensors[body] = tensor_of(body);
   work[i] = SphereWork(uint[2](0xffffffffu, 0xffffffffu), 0u, 0u);
   if (box.half_size.w == 0.0) return;

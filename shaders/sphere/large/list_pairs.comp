@@ -30,14 +30,14 @@ layout(std430, binding = BIND_PAIR_STARTS) readonly buffer PairStarts { uint pai
 #include "sphere/large/large_world.h"
 #include "sphere/large/cell.h"
 
-uniform bool counting;
+uniform uint stage;  // LIST_COUNT, LIST_PLACE
 
 SphereWorld world;
 uint own, count, first;  // body; pairs found, and where they go
 SphereBox own_box;
 
 void add(uint b) {
-  if (!counting) pairs[first + count] = SpherePair(world.bodies.x + own, b, NO_SLOT, 0u);
+  if (stage == LIST_PLACE) pairs[first + count] = SpherePair(world.bodies.x + own, b, NO_SLOT, 0u);
   ++count;
 }
 
@@ -50,13 +50,13 @@ void test(uint j) {
 }
 
 void test_cells() {
-  ivec3 middle = cell_of(own_box);
+  ivec3 middle = own_box.cell.xyz;
   for (int k = 0; k < 27; ++k) {
     ivec3 cell = middle + ivec3(k % 3, k / 3 % 3, k / 9) - 1;
     uint bucket = bucket_of(cell);
     for (uint at = cell_starts[bucket]; at < cell_starts[bucket + 1u]; ++at) {
       uint j = sorted[at];
-      if (cell_of(boxes[j]) == cell) test(j);  // another cell may share the bucket
+      if (boxes[j].cell.xyz == cell) test(j);  // another cell may share the bucket
     }
   }
   for (uint k = 0u; k < large.big; ++k) test(sorted[world.bodies.y - 1u - k]);
@@ -101,7 +101,7 @@ void main() {
   world = worlds[large_world];
   if (idle()) return;
   uint bodies_in_world = world.bodies.y;
-  if (!counting && pair_starts[bodies_in_world] > world.pairs.y) {
+  if (stage == LIST_PLACE && pair_starts[bodies_in_world] > world.pairs.y) {
     if (own == 0u) {
       progress[large_world].need = pair_starts[bodies_in_world];
       progress[large_world].overflow = SPHERE_PAIR_OVERFLOW;
@@ -113,16 +113,16 @@ void main() {
   uvec2 old = range_of(world.bodies.x + own, page);
   own_box = boxes[own];
   count = 0u;
-  first = counting ? 0u : list + pair_starts[own];
+  first = stage == LIST_COUNT ? 0u : list + pair_starts[own];
   if (own_box.half_size.x >= 0.0) {
-    if (fits_cell(own_box))
+    if (own_box.cell.w == 1)
       test_cells();
     else
       for (uint j = own + 1u; j < bodies_in_world; ++j) test(j);
     if (own_box.half_size.w == 2.0) add(SPHERE_GROUND);
   }
   add_waiting(old, old_list);
-  if (counting) {
+  if (stage == LIST_COUNT) {
     pair_counts[own] = count;
     return;
   }

@@ -10,7 +10,7 @@ layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progres
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
-layout(std430, binding = BIND_BOXES) readonly buffer Boxes { SphereBox boxes[]; };
+layout(std430, binding = BIND_BOXES) buffer Boxes { SphereBox boxes[]; };
 layout(std430, binding = BIND_CELL_COUNTS) buffer CellCounts { uint cell_counts[]; };
 layout(std430, binding = BIND_CELL_STARTS) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430, binding = BIND_SORTED) writeonly buffer Sorted { uint sorted[]; };
@@ -19,22 +19,23 @@ layout(std430, binding = BIND_SORTED) writeonly buffer Sorted { uint sorted[]; }
 #include "sphere/large/large_world.h"
 #include "sphere/large/cell.h"
 
-uniform bool counting;
+uniform uint stage;  // LIST_COUNT, LIST_PLACE
 
 void main() {
   uint i = thread_index();
   if (idle()) return;
   SphereWorld world = worlds[large_world];
-  if (!counting && i == 0u) take_back_places(world, large_world);
+  if (stage == LIST_PLACE && i == 0u) take_back_places(world, large_world);
   if (i >= world.bodies.y) return;
   SphereBox box = boxes[i];
   if (box.half_size.x < 0.0) return;  // absent
-  if (!fits_cell(box)) {
-    if (!counting) sorted[world.bodies.y - 1u - atomicAdd(large.big, 1u)] = i;
+  if (stage == LIST_COUNT) boxes[i].cell = box.cell = cell_of(box);
+  if (box.cell.w == 0) {
+    if (stage == LIST_PLACE) sorted[world.bodies.y - 1u - atomicAdd(large.big, 1u)] = i;
     return;
   }
-  uint bucket = bucket_of(cell_of(box));
-  if (counting)
+  uint bucket = bucket_of(box.cell.xyz);
+  if (stage == LIST_COUNT)
     atomicAdd(cell_counts[bucket], 1u);
   else
     sorted[cell_starts[bucket] + atomicAdd(cell_counts[bucket], 0xffffffffu) - 1u] = i;  // leaves the counts at 0

@@ -18,11 +18,6 @@ inline gpu::vec3 three(const sphere::Vec3f& v) {
 inline gpu::vec4 vec4(const sphere::Quatf& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
-inline float float_of(std::uint32_t word) {
-  float f;
-  std::memcpy(&f, &word, sizeof f);
-  return f;
-}
 inline std::uint32_t word_of(float f) {
   std::uint32_t word;
   std::memcpy(&word, &f, sizeof word);

@@ -81,23 +81,23 @@ void LargePasses::indirect(const gl::Program& pass, std::size_t arguments) {
 
 void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()>& bind_first) {
   set_world(world);
-  const auto bodies = [&](const gl::Program& pass, int counting) {
-    pass.set("counting", counting);
+  const auto bodies = [&](const gl::Program& pass, unsigned stage) {
+    pass.set("stage", stage);
     over_bodies(pass, world);
   };
   const auto sum = [&](const gl::Buffer<gpu::uint>& counts, gl::Buffer<gpu::uint>& starts, std::size_t count) {
     prefix_sum_.run(counts, starts, count);
     bind_first();
   };
-  bodies(cut_step_, 1);
-  bodies(cut_step_, 0);
+  bodies(cut_step_, CUT_MEASURE);
+  bodies(cut_step_, CUT_SET);
   over_bodies(find_boxes_, world);
-  bodies(sort_bodies_, 1);
+  bodies(sort_bodies_, LIST_COUNT);
   sum(cell_counts_, cell_starts_, buckets_for(world.bodies));
-  bodies(sort_bodies_, 0);
-  bodies(list_pairs_, 1);
+  bodies(sort_bodies_, LIST_PLACE);
+  bodies(list_pairs_, LIST_COUNT);
   sum(pair_counts_, pair_starts_, world.bodies);
-  bodies(list_pairs_, 0);
+  bodies(list_pairs_, LIST_PLACE);
   over_bodies(adopt_pairs_, world);
   gl::dispatch_groups(end_pairs_, 1);
 }
@@ -137,10 +137,10 @@ void LargePasses::sweep(unsigned kind, const LargeWorld& world) {
 /// The device knows in which step a world is no longer cold, the host learns it later.
 void LargePasses::sweeps(unsigned kind, const LargeWorld& world) {
   for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
-    for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0 : 1);
+    for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0u : 1u);
     sweep(i == 0 && kind == SWEEP_PUSH ? SWEEP_FIRST_PUSH : kind, world);
   }
-  for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0);
+  for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0u);
 }
 
 void LargePasses::solve(const LargeWorld& world) {

@@ -20,15 +20,15 @@ std::uint32_t append(gl::Buffer<T>& buffer, std::size_t& count, const T* values,
 }
 
 /// Puts the vectors of a normal cone behind the nodes; returns how the pass finds them.
-gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::vec4>& nodes) {
+gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::SphereNode>& nodes) {
   static_assert(sphere::Cone::max_bounds < SPHERE_AXIS, "three bits tell how many");
   const auto at = static_cast<gpu::uint>(nodes.size()) << 3;
   if (cone.bounds > 0) {
-    for (int i = 0; i < cone.bounds; ++i) nodes.push_back(vec4(cone.bound[i]));
+    for (int i = 0; i < cone.bounds; ++i) nodes.push_back({three(cone.bound[i]), 0});
     return at | static_cast<gpu::uint>(cone.bounds);
   }
   if (cone.axis.isZero()) return 0;
-  nodes.push_back(vec4(cone.axis, cone.spread));
+  nodes.push_back({three(cone.axis), word_of(cone.spread)});
   return at | SPHERE_AXIS;
 }
 
@@ -54,9 +54,9 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
     throw input_error("a part has " + std::to_string(samples.nodes.size()) + " contact samples, the GPU takes " +
                           std::to_string(SPHERE_MAX_CLUSTERS * SPHERE_CLUSTER),
                       "solver.sphere", "lower solver.sphere.fine_samples, or set solver.sphere.device: cpu");
-  std::vector<gpu::vec4> nodes;
-  for (const sphere::Vec3f& node : samples.nodes) nodes.push_back(vec4(node));
-  for (std::size_t i = 0; i < samples.cones.size(); ++i) nodes[i].w = float_of(add_cone(samples.cones[i], nodes));
+  std::vector<gpu::SphereNode> nodes;
+  for (const sphere::Vec3f& node : samples.nodes) nodes.push_back({three(node), 0});
+  for (std::size_t i = 0; i < samples.cones.size(); ++i) nodes[i].cone = add_cone(samples.cones[i], nodes);
   std::vector<gpu::uvec4> edges;
   for (const sphere::Edge& edge : samples.edges)
     edges.push_back({edge.a, edge.b, add_cone(edge.cone, nodes), word_of(edge.sharp ? edge.length : -edge.length)});
