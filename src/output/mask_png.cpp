@@ -173,7 +173,7 @@ Bytes mask_png(int width, int height, const MaskBox& box) {
   runs.run(0, row * static_cast<std::size_t>(box.top));
   for (int y = 0; y < box.height; ++y) {
     runs.run(0, 1 + static_cast<std::size_t>(box.left));
-    const std::uint8_t* at = &box.inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width)];
+    const std::uint8_t* at = box.inside.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width);
     const std::uint8_t* const end = at + box.width;
     while (at < end) {
       const std::uint8_t* const next = std::find(at, end, static_cast<std::uint8_t>(!*at));
