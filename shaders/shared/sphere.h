@@ -2,6 +2,7 @@
 // Indices of pairs and manifold slots count within their world, so that a world's regions can be moved whole.
 #ifndef SHARED_SPHERE_H
 #define SHARED_SPHERE_H
+#include "shared/sphere/constants.h"
 #include "shared/types.h"
 
 // Binding numbers; the same buffer has the same number in every pass.
@@ -33,17 +34,12 @@
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
-#define SPHERE_MAX_CONTACTS 8       // per pair, after reduction
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
 #define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
-#define SPHERE_CLUSTER 16           // nodes
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
-#define SPHERE_MAX_WAYS 4           // out of a point near sharp edges
-#define SPHERE_EDGE_BLOCK 4u        // cells of the field on a side of a block of edges
-#define SPHERE_EDGE_REACH 3.0       // cells: edges within it of a point are in the list of its block
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
 // Sweeps of the solve over all manifolds.
@@ -58,12 +54,7 @@
 // lists of those near a point (EdgeGrid).
 // Normal cone of a node or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are; 0 = all
 // directions, SPHERE_AXIS = one axis.
-#define SPHERE_AXIS 7u
 
-#define SPHERE_GROUND 0xffffffffu   // body index of the bin's walls and floor
-#define SPHERE_SIDE_B 0x80000000u   // feature: sample of b against the field of a
-#define SPHERE_EDGE 0x40000000u     // feature: edge, not node
-#define SPHERE_PLANE 0x1000000u     // feature of a ground contact: node + plane times this
 
 // SphereState.flags.x
 #define SPHERE_PRESENT 1u

@@ -30,7 +30,9 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs
 #include "sphere/oriented_box.h"
 #include "sphere/box.h"
 #include "sphere/pair_job.h"
-#include "sphere/cut.h"
+#include "shared/language.h"
+#include "shared/sphere/cut.h"
+#include "sphere/speed.h"
 
 shared vec4 box_center[SPHERE_MAX_BODIES];
 shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box

@@ -2,6 +2,8 @@
 // bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of(), placement_of() and
 // sphere/contact_place.h.
 
+#include "shared/sphere/choice.h"
+
 const float FAR = 3.4e38;
 
 shared SphereContact old[SPHERE_MAX_CONTACTS];
@@ -117,8 +119,7 @@ uint depth_key(float separation) {
   return (bits & 0x80000000u) != 0u ? bits : ~(bits | 0x80000000u);
 }
 
-// The deepest, then again and again the one farthest from those chosen, in position and normal alike, deep ones
-// preferred; contacts of the last step have a small advantage, so that the choice does not flicker.
+// The few candidates that stand for all (shared/sphere/choice.h).
 uint reduce(float size, float soon) {
   uint key = 0u, best = 0u;
   for (uint k = 0u; k < mine; ++k) {
@@ -137,16 +138,12 @@ uint reduce(float size, float soon) {
     for (uint k = 0u; k < mine; ++k) {
       SphereCandidate c = candidates[candidate_place(k)];
       if (c.normal.w < 0.0) continue;
-      float apart = min(c.normal.w, length(c.on_a.xyz - on_a) + 0.3 * size * length(c.normal.xyz - normal));
-      if (apart < 1e-3 * size) apart = -1.0;  // a twin of a chosen one
+      float apart = min(c.normal.w, way_between(c.on_a.xyz, c.normal.xyz, on_a, normal, size));
+      if (apart < TWIN * size) apart = -1.0;
       candidates[candidate_place(k)].normal.w = apart;
       if (apart < 0.0) continue;
-      // Depth counts like distance, seen through a long lens: an overlap matters before the spread of the manifold. A
-      // gap counts by what it is wider than the least: of faces that are about to meet, all is as far away.
-      float gap = max(0.0, c.on_a.w - max(0.0, chosen_on_a[0].w));
-      // What is farther off gets the places that are left.
-      float worth = 1.0 / (1.0 + max(0.0, gap - soon) / (1e-4 * size));
-      float score = worth * (apart + 8.0 * max(0.0, -c.on_a.w) - 20.0 * gap + 0.05 * size * float(c.feature.y));
+      float gap = gap_of(c.on_a.w, chosen_on_a[0].w);
+      float score = worth_of(gap, soon, size) * (apart + advantage_of(c.on_a.w, gap, c.feature.y != 0u, size));
       uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
       if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
         key = value;
@@ -179,7 +176,7 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
         bool field_of_a = (old[k].feature & SPHERE_SIDE_B) != 0u;
         vec3 normal = old[k].normal.xyz;
         if (!field_of_a) normal = (ground ? normal : rb * normal) * ra;
-        if (dot(normal, chosen_normal[n].xyz) < 0.9) continue;
+        if (dot(normal, chosen_normal[n].xyz) < ALIKE) continue;
         chosen_source[n] = k;
         nearest = way;
       }
@@ -224,10 +221,10 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
   if (lost) any_lost = 1u;
   atomicAdd(found_count, mine);
   float size = size_of(pair);
-  // A gap that may close before contacts are found anew; what is fast may meet all that is within its way.
-  float soon = 1e-3 * size + max(0.0, way_of(world, pair) - settings.margin * size);
+  // What is fast may meet all that is within its way.
+  float soon = SOON * size + max(0.0, way_of(world, pair) - settings.margin * size);
   uint count = reduce(size, soon);
-  carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
+  carry_forces(count, spacing_of(samples_of(pair.a)), ra, rb, ground);
   if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
     return;

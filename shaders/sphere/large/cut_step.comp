@@ -14,7 +14,9 @@ layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shape
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 
 #include "sphere/body.h"
-#include "sphere/cut.h"
+#include "shared/language.h"
+#include "shared/sphere/cut.h"
+#include "sphere/speed.h"
 #include "sphere/large/large_world.h"
 
 uniform uint stage;  // CUT_MEASURE, CUT_SET

@@ -26,12 +26,7 @@ struct Slot {
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
 };
 
-// Of the fastest part in one step: parts would fly through each other, and contacts would pull at levers that have long
-// turned away.
-constexpr float longest_way = 1.0f;    ///< thicknesses of the thinnest part
-constexpr float longest_turn = 0.4f;   ///< rad; beyond, also
-constexpr float turn_of_a_cut = 0.1f;  ///< rad: keeps a tumbling part's energy and angular momentum
-constexpr float most_cuts = 64.0f;
+#include "shared/sphere/cut.h"
 
 int cuts_of_fast(const World& world) {
   if (!world.settings.cut_steps) return 1;
@@ -41,9 +36,7 @@ int cuts_of_fast(const World& world) {
     way = std::max(way, (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius) * world.whole_step);
     turn = std::max(turn, b.w.norm() * world.whole_step);
   }
-  float cuts = std::max(1.0f, way / (longest_way * world.thinnest));
-  if (turn > longest_turn) cuts = std::max(cuts, turn / turn_of_a_cut);
-  return static_cast<int>(std::ceil(std::min(cuts, most_cuts)));
+  return static_cast<int>(cuts_of(way, turn, world.thinnest));
 }
 
 void step_in_cuts(World& world) {

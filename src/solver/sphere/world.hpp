@@ -106,8 +106,8 @@ struct Body {
   bool moves() const { return present && !asleep && (inverse_mass > 0 || driven); }
 };
 
-constexpr int max_contacts = 8;                ///< per pair, after reduction; with more, faces on each other sway
-constexpr std::uint32_t ground = 0xffffffffu;  ///< body index of the bin's walls and floor
+constexpr int max_contacts = SPHERE_MAX_CONTACTS;
+constexpr std::uint32_t ground = SPHERE_GROUND;  ///< body index of the bin's walls and floor
 
 /// One contact point of a manifold. Anchors are in body frames, so that a recycled contact follows both bodies.
 struct Contact {

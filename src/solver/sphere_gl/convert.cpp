@@ -1,17 +1,10 @@
 #include "solver/sphere_gl/convert.hpp"
 
-#include "solver/sphere/passes/edge_contact.hpp"
-
 #include <cmath>
 
 namespace bin_scenes::sphere_gl {
 
 using namespace sphere;
-
-static_assert(max_contacts == SPHERE_MAX_CONTACTS, "the pass keeps as many as the twin");
-static_assert(WaysOut::most == SPHERE_MAX_WAYS && EdgeGrid::block == SPHERE_EDGE_BLOCK &&
-                  EdgeGrid::reach == static_cast<float>(SPHERE_EDGE_REACH),
-              "edges are looked up as in the twin");
 
 namespace {
 

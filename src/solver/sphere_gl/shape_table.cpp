@@ -49,7 +49,6 @@ gpu::vec4 mixed(const sphere::Mat3f& m) {
 }  // namespace
 
 gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
-  static_assert(sphere::cluster_size == SPHERE_CLUSTER, "clusters of the twin are those of the pass");
   if (samples.clusters.size() > SPHERE_MAX_CLUSTERS)
     throw input_error("a part has " + std::to_string(samples.nodes.size()) + " contact samples, the GPU takes " +
                           std::to_string(SPHERE_MAX_CLUSTERS * SPHERE_CLUSTER),

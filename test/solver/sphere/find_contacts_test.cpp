@@ -2,6 +2,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "boxes.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/passes/reduce.hpp"
 
 #include <gtest/gtest.h>
 
@@ -253,7 +254,7 @@ TEST(NarrowPhase, WhatHasNoWayBackIsNoContact) {
   seam.bounds = 2;
   seam.bound[0] = Vec3f::UnitX();
   seam.bound[1] = -Vec3f::UnitX();
-  ASSERT_TRUE(seam.middle().isZero());
+  ASSERT_TRUE(middle_of(seam).isZero());
   std::fill(shape.coarse.cones.begin(), shape.coarse.cones.end(), seam);
   for (Edge& each : shape.coarse.edges) each.cone = seam;
   World world = world_of_boxes(shape, 2);
@@ -262,6 +263,28 @@ TEST(NarrowPhase, WhatHasNoWayBackIsNoContact) {
   find_contacts(world);
   for (const Manifold& m : world.manifolds)
     for (const Contact& c : m.contacts) EXPECT_LT(std::abs(c.normal.x()), 0.1f);
+}
+
+// Where coarse samples give way to fine ones, the same number is another point.
+TEST(NarrowPhase, ForcesGoByPlaceWhereNumbersMeanOtherPoints) {
+  Manifold old;
+  old.contacts.resize(1);
+  old.contacts[0].feature = 5;
+  old.contacts[0].normal = Vec3f::UnitZ();
+  old.contacts[0].normal_force = 3;
+  std::vector<Contact> fresh(2);
+  fresh[0].feature = 5;
+  fresh[0].anchor_a = Vec3f(0.02f, 0, 0);
+  fresh[1].feature = 9;
+  fresh[1].anchor_a = Vec3f(1e-4f, 0, 0);
+  for (Contact& c : fresh) c.normal = Vec3f::UnitZ();
+  for (const bool found : {false, true}) {
+    old.found = found;
+    std::vector<Contact> warm = fresh;
+    carry_forces(old, warm, 1e-3f);
+    EXPECT_EQ(warm[found ? 0 : 1].normal_force, 3);
+    EXPECT_EQ(warm[found ? 1 : 0].normal_force, 0);
+  }
 }
 
 TEST(NarrowPhase, ContactsOfAFaceOnAFaceSpanTheFace) {

@@ -1,5 +1,5 @@
-#include "box_mesh.hpp"
 #include "solver/sphere/shapes/sharp_edges.hpp"
+#include "box_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,11 +68,11 @@ TEST(StraightenedEdges, ArePressedBetweenTheirFaces) {
     const Vec3 side = Vec3(middle.x(), middle.y(), 0).normalized();
     for (const Vec3& inside : {Vec3(0, 0, up), side, Vec3(side + up * Vec3::UnitZ()).normalized()}) {
       Vec3f direction = inside.cast<float>();
-      ASSERT_TRUE(edge.cone.restrict(direction));
+      ASSERT_TRUE(turn_into_cone(edge.cone, direction, LEAST_LEFT));
       EXPECT_LT((direction.cast<double>() - inside).norm(), 1e-4);
     }
     Vec3f below = Vec3f(0, 0, static_cast<float>(-up));
-    EXPECT_FALSE(edge.cone.restrict(below) && below.dot(side.cast<float>()) < 0.99f);
+    EXPECT_FALSE(turn_into_cone(edge.cone, below, LEAST_LEFT) && below.dot(side.cast<float>()) < 0.99f);
   }
 }
 

@@ -190,7 +190,7 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
 
 /// World frame, half way through the step; local_normal is in the frame of the body whose field gave it.
 Vec3f normal_of(const World& world, const Manifold& m, const Contact& c) {
-  const std::uint32_t body = c.feature & sphere::side_b ? m.a : m.b;
+  const std::uint32_t body = c.feature & SPHERE_SIDE_B ? m.a : m.b;
   return body == ground ? c.local_normal
                         : Vec3f(sphere::Placement(world, world.bodies[body]).rotation * c.local_normal);
 }

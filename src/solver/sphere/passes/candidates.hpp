@@ -10,8 +10,6 @@
 
 namespace bin_scenes::sphere {
 
-constexpr std::uint32_t side_b = 1u << 31, edge_bit = 1u << 30;  ///< of Contact::feature
-
 /// A point where two surfaces are close, before reduction. Everything in the frame of `a`.
 struct Candidate {
   Vec3f on_a, on_b;  ///< nearest points

@@ -1,9 +1,7 @@
-/// The directions in which a point of a part's surface can be pressed: its normal cone. The grid of a distance field
-/// rounds edges off, so within a cell of one its gradient leans over; of two parts whose edges lie flush it would press
-/// one sideways off the other. What the point of the sample's own surface cannot feel is taken out of the gradient.
+/// Normal cones: what shared/sphere/cone.h says of them, in C++.
 #pragma once
 
-#include "solver/sphere/math.hpp"
+#include "solver/sphere/shared_code.hpp"
 
 #include <array>
 
@@ -20,16 +18,6 @@ struct Cone {
   std::array<Vec3f, max_bounds> bound =
       filled();  ///< the cone is { n : n . bound <= 0 for every bound }; unit vectors along the surface
 
-  bool all() const { return bounds == 0 && axis.isZero(); }
-  /// What leans over more than 84 degrees does not press.
-  static constexpr float least_left = 0.1f;
-
-  /// Turns a unit direction into the cone; false if less than `least` of it is left there (cosine of the turn).
-  bool restrict(Vec3f& direction, float least = least_left) const;
-
-  /// Unit direction in the middle of the cone; 0 of a cone of all directions.
-  Vec3f middle() const;
-
  private:
   static std::array<Vec3f, max_bounds> filled() {
     std::array<Vec3f, max_bounds> zeros;
@@ -37,5 +25,21 @@ struct Cone {
     return zeros;
   }
 };
+
+inline uint bounds_of(const Cone& cone) {
+  if (cone.bounds > 0) return static_cast<uint>(cone.bounds);
+  return cone.axis.isZero() ? 0u : SPHERE_AXIS;
+}
+inline const Vec3f& bound_at(const Cone& cone, uint i) {
+  return cone.bound[i];
+}
+inline const Vec3f& axis_of(const Cone& cone) {
+  return cone.axis;
+}
+inline float spread_of(const Cone& cone) {
+  return cone.spread;
+}
+
+#include "shared/sphere/cone.h"
 
 }  // namespace bin_scenes::sphere

@@ -16,7 +16,6 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-constexpr float soon_share = 1e-3f;         ///< d: a gap that may close before contacts are found anew; see reduce.hpp
 constexpr std::size_t pairs_per_task = 16;  ///< fewer = more handing over; more = threads wait for the last one
 
 Contact contact_of(const Candidate& c, const Placement& a, const Placement* b) {
@@ -27,7 +26,7 @@ Contact contact_of(const Candidate& c, const Placement& a, const Placement* b) {
   const Vec3f on_b = a.x + a.rotation * c.on_b;
   contact.anchor_b = b ? Vec3f(b->rotation.transpose() * (on_b - b->x)) : on_b;
   // The normal turns with the body whose field it comes from.
-  const bool field_of_a = c.feature & side_b;
+  const bool field_of_a = c.feature & SPHERE_SIDE_B;
   contact.local_normal = field_of_a ? c.normal : b ? Vec3f(b->rotation.transpose() * contact.normal) : contact.normal;
   return contact;
 }
@@ -55,7 +54,7 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
 
 /// How far apart the points of a contact are where the bodies are (m).
 float separation(const Contact& c, const Body& a, const Body* b) {
-  const bool field_of_a = c.feature & side_b;
+  const bool field_of_a = c.feature & SPHERE_SIDE_B;
   const Vec3f normal = field_of_a ? Vec3f(a.rotation * c.local_normal)
                        : b        ? Vec3f(b->rotation * c.local_normal)
                                   : c.local_normal;
@@ -104,14 +103,13 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
     // What is fast may meet all that is within its way.
-    const float soon = world.settings.soonest_first
-                           ? soon_share * size + std::max(0.0f, way - world.settings.margin * size)
-                           : std::numeric_limits<float>::infinity();
+    const float soon = world.settings.soonest_first ? SOON * size + std::max(0.0f, way - world.settings.margin * size)
+                                                    : std::numeric_limits<float>::infinity();
     reduce(candidates, m, size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();
     for (const int i : chosen) fresh.push_back(contact_of(candidates[i], there_a, there_b ? &*there_b : nullptr));
-    carry_forces(m.contacts, fresh, world.samples(a).spacing);
+    carry_forces(m, fresh, world.samples(a).spacing);
     m.contacts.assign(fresh.begin(), fresh.end());
     m.found = true;
     m.found_x = pose.x;

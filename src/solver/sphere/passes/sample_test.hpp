@@ -11,16 +11,17 @@ namespace bin_scenes::sphere {
 /// Whose samples are tested, and where they lie in the frame of the field.
 struct View {
   const Samples& samples;
-  const Field& own;      ///< of the samples' body
   const Samples& other;  ///< of the field's body
+  const Field& own;      ///< of the samples' body
   const Field& field;
-  const Carry& to_field;
-  const Carry* to_a;  ///< from the field's frame to that of the pair's first body; null: it is the same
-  float margin;       ///< up to which distance (m)
-  bool way_back;      ///< Settings::way_back
+  const Carry &to_field, &to_a;  ///< to_a: from the field's frame to that of the pair's first body
+  std::uint32_t side;            ///< SPHERE_SIDE_B: the field's frame is that of the first body
+  float margin;                  ///< up to which distance (m)
+  bool way_back;                 ///< Settings::way_back
+  Candidates& found;             ///< what touches is added
 };
 
-/// Bounding spheres first. What touches is added to `out`.
-void test_samples(const View& view, Counters& counters, Candidates& out);
+/// Bounding spheres first.
+void test_samples(const View& view, Counters& counters);
 
 }  // namespace bin_scenes::sphere

@@ -40,7 +40,7 @@ struct Ball {
   float radius = 0;
 };
 
-constexpr int cluster_size = 16, clusters_at_once = 8;
+constexpr int cluster_size = SPHERE_CLUSTER, clusters_at_once = 8;
 
 /// Nodes at one resolution.
 struct Samples {

@@ -40,14 +40,14 @@ void for_each_block(const Samples& samples, const Edge& edge, const Field& field
 
 }  // namespace
 
-std::pair<const std::uint32_t*, const std::uint32_t*> EdgeGrid::near(const Field& field, const Vec3f& point) const {
-  if (first.empty()) return {nullptr, nullptr};
+std::pair<std::uint32_t, std::uint32_t> EdgeGrid::near(const Field& field, const Vec3f& point) const {
+  if (first.empty()) return {0, 0};
   const Vec3f g = (point - field.origin) * field.inverse_cell;
   const auto block_at = [](float x, int nodes) {
     return static_cast<int>(std::min(std::max(x, 0.0f), static_cast<float>(nodes) - 1.001f)) / block;
   };
   const int at = block_at(g.x(), field.nx) + row * block_at(g.y(), field.ny) + slice * block_at(g.z(), field.nz);
-  return {edges.data() + first[at], edges.data() + first[at + 1]};
+  return {first[at], first[at + 1]};
 }
 
 EdgeGrid make_edge_grid(const Samples& samples, const Field& field) {

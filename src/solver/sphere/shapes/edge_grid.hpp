@@ -12,15 +12,15 @@ namespace bin_scenes::sphere {
 struct Samples;
 
 struct EdgeGrid {
-  static constexpr int block = 4;       ///< cells of the field on a side
-  static constexpr float reach = 3.0f;  ///< cells: edges within it of a point are in the list of its block
+  static constexpr int block = SPHERE_EDGE_BLOCK;
+  static constexpr float reach = SPHERE_EDGE_REACH;
 
   int row = 0, slice = 0;            ///< blocks along x, and of a layer along x and y
   std::vector<std::uint32_t> first;  ///< by block, x fastest: where its list begins; one more at the end
   std::vector<std::uint32_t> edges;  ///< the lists, each in ascending order
 
-  /// The list at `point` (of the field's frame, anywhere), as two pointers. Empty without a grid.
-  std::pair<const std::uint32_t*, const std::uint32_t*> near(const Field& field, const Vec3f& point) const;
+  /// The list at `point` (of the field's frame, anywhere): first and end of it in `edges`. Empty without a grid.
+  std::pair<std::uint32_t, std::uint32_t> near(const Field& field, const Vec3f& point) const;
 };
 
 /// Empty for a ball.

@@ -9,13 +9,6 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Corner values around a point of the grid, and where in the cell it lies.
-struct Cell {
-  float c0, c1, c2, c3, c4, c5, c6, c7;  ///< x fastest, then y, then z
-  float u, v, w;
-  float outside;  ///< way from the point to the grid (m)
-};
-
 /// A field's numbers as plain scalars, which a compiler can keep in registers over a loop.
 struct Grid {
   float ox, oy, oz, inverse_cell, cell, padding;
@@ -62,22 +55,6 @@ inline Cell locate(const Grid& f, float px, float py, float pz) {
   return cell;
 }
 
-inline float mix(float a, float b, float t) {
-  return a + (b - a) * t;
-}
-
-inline float value(const Cell& c) {
-  const float x0 = mix(c.c0, c.c1, c.u), x1 = mix(c.c2, c.c3, c.u);
-  const float x2 = mix(c.c4, c.c5, c.u), x3 = mix(c.c6, c.c7, c.u);
-  return mix(mix(x0, x1, c.v), mix(x2, x3, c.v), c.w);
-}
-
-/// Value on the grid, or a lower bound beyond it.
-inline float distance_of(const Grid& f, const Cell& c, float value) {
-  const float beyond = std::max(value, c.outside + f.padding);
-  return c.outside > 0 ? beyond : value;
-}
-
 template <int N>
 inline void sample_all(const Field& f, const Carry& carry, const Points<N>& in, Points<N>& out, float* distances) {
   const Mat3f& r = carry.rotation;
@@ -98,7 +75,7 @@ inline void sample_all(const Field& f, const Carry& carry, const Points<N>& in, 
 #pragma GCC ivdep  // distances and values do not overlap
   for (int i = 0; i < N; ++i) {
     const Cell c = locate(grid, x[i], y[i], z[i]);
-    distances[i] = distance_of(grid, c, value(c));
+    distances[i] = bounded(c, value_in(c), grid.padding);
   }
 }
 
@@ -108,29 +85,13 @@ float Field::sample(const Vec3f& point) const {
   if (ball > 0) return point.norm() - ball;
   const Grid grid(*this);
   const Cell c = locate(grid, point.x(), point.y(), point.z());
-  return distance_of(grid, c, value(c));
+  return bounded(c, value_in(c), padding);
 }
 
 float Field::sample(const Vec3f& point, Vec3f& gradient) const {
-  if (ball > 0) {
-    const float distance = point.norm();
-    gradient = distance > 0 ? Vec3f(point / distance) : Vec3f(Vec3f::UnitZ());
-    return distance - ball;
-  }
+  if (ball > 0) return distance_to_ball(ball, point, gradient);
   const Grid grid(*this);
-  const Cell c = locate(grid, point.x(), point.y(), point.z());
-  const float x0 = mix(c.c0, c.c1, c.u), x1 = mix(c.c2, c.c3, c.u);
-  const float x2 = mix(c.c4, c.c5, c.u), x3 = mix(c.c6, c.c7, c.u);
-  const float y0 = mix(x0, x1, c.v), y1 = mix(x2, x3, c.v);
-  const float dx0 = mix(c.c1 - c.c0, c.c3 - c.c2, c.v), dx1 = mix(c.c5 - c.c4, c.c7 - c.c6, c.v);
-  gradient = Vec3f(mix(dx0, dx1, c.w), mix(x1 - x0, x3 - x2, c.w), y1 - y0);
-  const float length = gradient.norm();
-  // On the medial axis the slopes of both sides cancel: out is then away from the centre of mass.
-  if (length > 1e-3f * cell)  // differences of neighbours: a slope of 1 is one cell
-    gradient /= length;
-  else
-    gradient = point.squaredNorm() > 0 ? Vec3f(point.normalized()) : Vec3f(Vec3f::UnitZ());
-  return distance_of(grid, c, mix(y0, y1, c.w));
+  return distance_in(locate(grid, point.x(), point.y(), point.z()), cell, padding, point, gradient);
 }
 
 BIN_SCENES_WIDE

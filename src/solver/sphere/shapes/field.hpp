@@ -2,7 +2,7 @@
 /// bunch of points for their distances alone. The bunch is what nearly all tests are, and most of them end there.
 #pragma once
 
-#include "solver/sphere/math.hpp"
+#include "solver/sphere/shared_code.hpp"
 
 namespace bin_scenes::sphere {
 
@@ -37,9 +37,20 @@ struct Field {
   /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
   float sample(const Vec3f& point, Vec3f& gradient) const;
   float sample(const Vec3f& point) const;
-  /// m: no way within the part is longer.
-  float span() const { return ball > 0 ? 2 * ball : cell * Eigen::Vector3i(nx, ny, nz).cast<float>().norm(); }
 };
+
+inline float sample_field(const Field& field, const Vec3f& point, Vec3f& gradient) {
+  return field.sample(point, gradient);
+}
+inline float sample_field(const Field& field, const Vec3f& point) {
+  return field.sample(point);
+}
+/// m: no way within the part is longer.
+inline float span_of(const Field& f) {
+  return f.ball > 0 ? 2 * f.ball : f.cell * Eigen::Vector3i(f.nx, f.ny, f.nz).cast<float>().norm();
+}
+
+#include "shared/sphere/field.h"
 
 /// Carries N points into the field's frame and samples it there: bit for bit what one point after the other gives.
 void sample(const Field& field, const Carry& carry, const Points<8>& points, Points<8>& carried, float* distances);

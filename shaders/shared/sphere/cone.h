@@ -1,0 +1,52 @@
+// The directions in which a point of a part's surface can be pressed: its normal cone. Before it: Cone, bounds_of(cone),
+// bound_at(cone, i), axis_of(cone), spread_of(cone).
+//
+// The grid of a distance field rounds edges off, so within a cell of one its gradient leans over; of two parts whose
+// edges lie flush it would press one sideways off the other. What the point of the sample's own surface cannot feel is
+// taken out of the gradient.
+
+const float LEAST_LEFT = 0.1f;  // of a unit direction: what leans over more than 84 degrees does not press
+const int CONE_SWEEPS = 8;      // of cyclic projection; two suffice where the bounds are perpendicular
+
+// Turns a unit direction into the cone; false if less than `least` of it is left there (cosine of the turn).
+INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
+  uint bounds = bounds_of(cone);
+  if (bounds == 0u) return true;
+  if (bounds == SPHERE_AXIS) {
+    vec3 axis = axis_of(cone);
+    float spread = spread_of(cone), along = dot(axis, direction);
+    if (along < LEAST_LEFT) return false;
+    vec3 across = direction - along * axis;
+    float side = length(across);
+    if (atan(side, along) <= spread) return true;
+    vec3 turned = cos(spread) * axis + sin(spread) / side * across;
+    if (dot(turned, direction) < least) return false;
+    direction = turned;
+    return true;
+  }
+  vec3 n = direction;
+  for (int sweep = 0; sweep < CONE_SWEEPS; ++sweep) {
+    float outside = 0.0f;
+    for (uint i = 0u; i < bounds; ++i) {
+      vec3 bound = bound_at(cone, i);
+      float over = dot(n, bound);
+      if (over <= 0.0f) continue;
+      outside = max(outside, over);
+      n -= over * bound;
+    }
+    if (outside < 1e-5f) break;
+  }
+  float left = length(n);
+  if (left < least) return false;  // not the cosine of n / left: far outside, n may lie askew yet, and is short
+  direction = n / left;
+  return true;
+}
+
+// Unit direction in the middle of the cone; 0 of a cone of all directions.
+INLINE vec3 middle_of(IN(Cone) cone) {
+  uint bounds = bounds_of(cone);
+  if (bounds == SPHERE_AXIS) return axis_of(cone);
+  vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+  for (uint i = 0u; i < bounds; ++i) sum -= bound_at(cone, i);
+  return unit(sum);
+}

@@ -1,0 +1,190 @@
+// Contacts at sharp edges (Macklin et al. 2020, "Local optimization for robust signed distance field collision"). The
+// grid of a distance field rounds them off: within a cell of one its gradient leans over, by up to half the angle between
+// the faces, and its depth is of neither face. Where an edge of one part meets an edge or a corner of the other, both are
+// taken from the edges themselves.
+//
+// Before it: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m; sharp: two faces meet
+// there, into which the first two bounds of the cone point), edge_at(samples, e), and edges_near(samples, field, point):
+// a Range of listed_edge(samples, k).
+
+// Deepest point of the field along the edge from p to q, whose ends both rise away from its inside; false if there is
+// none. `lowest_end`: of both ends' distances (m): what is no deeper needs no contact of its own.
+INLINE bool descend(IN(Field) field, IN(vec3) p, IN(vec3) q, IN(vec3) gradient_p, IN(vec3) gradient_q, float lowest_end,
+                    INOUT(vec3) point, INOUT(vec3) gradient, INOUT(float) distance) {
+  // Regula falsi on the slope along the edge, which is monotonic where the other surface is convex.
+  vec3 along = q - p;
+  float s0 = dot(gradient_p, along), s1 = dot(gradient_q, along), t0 = 0.0f, t1 = 1.0f;
+  if (s0 >= 0.0f || s1 <= 0.0f) return false;
+  for (int i = 0; i < 6; ++i) {
+    // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
+    float t = (i & 1) == 1 ? 0.5f * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
+    point = p + t * along;
+    distance = sample_field(field, point, gradient);
+    float slope = dot(gradient, along);
+    if (slope < 0.0f) {
+      t0 = t;
+      s0 = slope;
+    } else {
+      t1 = t;
+      s1 = slope;
+    }
+    if (t1 - t0 < 0.02f) break;
+  }
+  return distance < lowest_end;
+}
+
+// Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
+// stand for such edges. `uu`: square of u's length.
+INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(float) s, OUT(float) t) {
+  const float as_parallel = 3e-4f;  // square of the sine
+  float uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
+  s = (uv * vw - vv * uw) / det;
+  t = (uu * vw - uv * uw) / det;
+  return det >= as_parallel * uu * vv;
+}
+
+// Whether an edge can be pressed along a normal, where `away` is the way out of its part, roughly.
+INLINE bool presses_between(IN(Edge) edge, IN(vec3) normal, IN(vec3) away) {
+  const float least_along = 0.3f;  // of the normal along `away`, which may lean, but not to the other side
+  const float most_beyond = 0.1f;  // of the normal beyond the faces of the edge: 6 degrees
+  if (dot(normal, away) < least_along) return false;
+  return bounds_of(edge.cone) == 0u ||
+         max(dot(normal, bound_at(edge.cone, 0u)), dot(normal, bound_at(edge.cone, 1u))) <= most_beyond;
+}
+
+// Normal of two directions, on the side of `away`.
+INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
+  vec3 normal = unit(cross(u, v));
+  if (dot(normal, away) < 0.0f) normal = -normal;
+  return normal;
+}
+
+// Where the edge from p to q crosses one of the other part: depth and direction are those of the nearest such edge,
+// along the common normal of both, if both can be pressed along it. `point`, `gradient`, `distance` are the field's
+// answer, and are replaced; all is left as it was, and false, if there is none.
+INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(vec3) point,
+                        INOUT(vec3) gradient, INOUT(float) distance) {
+  vec3 u = q - p, from = point, out_of = gradient;
+  float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(distance), SPHERE_EDGE_REACH * field.cell);
+  bool found = false;
+  Range list = edges_near(other, field, from);
+  for (uint k = list.first; k < list.end; ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r;
+    float s, t;
+    if (!nearest_points(u, uu, v, p - r, s, t) || s < 0.0f || s > 1.0f || t < 0.0f || t > 1.0f) continue;
+    vec3 on_u = p + s * u, apart = on_u - (r + t * v);
+    float way = length(apart);
+    if (way >= nearest) continue;
+    vec3 normal = common_normal(u, v, out_of);
+    if (!presses_between(edge, normal, out_of)) continue;
+    nearest = way;
+    point = on_u;
+    gradient = normal;
+    distance = dot(apart, normal);
+    found = true;
+  }
+  return found;
+}
+
+// Whether a line through a point along a unit direction crosses a sharp edge of the other part within a cell, which can
+// be pressed along the `normal` of both. `away`: the way out of the other part, roughly.
+INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) direction, IN(vec3) away,
+                        INOUT(vec3) normal) {
+  float nearest = field.cell;
+  bool found = false;
+  Range list = edges_near(other, field, point);
+  for (uint k = list.first; k < list.end; ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    if (edge.sharp == 0u) continue;
+    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
+    float s, t;
+    if (!nearest_points(direction, 1.0f, v, w, s, t) || abs(s) > field.cell || t < 0.0f || t > 1.0f) continue;
+    float way = length(w + s * direction - t * v);
+    if (way >= nearest) continue;
+    vec3 across = common_normal(direction, v, away);
+    if (!presses_between(edge, across, away)) continue;
+    nearest = way;
+    normal = across;
+    found = true;
+  }
+  return found;
+}
+
+// A way out of a part: unit direction, and m to its surface (negative inside).
+struct WayOut {
+  vec3 away;
+  float distance;
+};
+
+// The shortest first.
+struct WaysOut {
+  uint count;
+  WayOut way[SPHERE_MAX_WAYS];
+};
+
+// The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
+// each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
+INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+  const float like = 0.95f;  // cosine of normals that count as of one face
+  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
+  // the face behind it.
+  float flush = 0.002f * field.cell;
+  WaysOut ways;
+  ways.count = 0u;
+  float way_of[SPHERE_MAX_WAYS];  // to the edge that each is of
+  float nearest = field.cell;
+  WayOut outside;
+  outside.away = vec3(0.0f, 0.0f, 0.0f);
+  outside.distance = 0.0f;
+  Range list = edges_near(other, field, point);
+  for (uint k = list.first; k < list.end; ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    if (edge.sharp == 0u) continue;
+    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
+    float t = dot(w, v) / dot(v, v);
+    // Another edge's, or a corner's that is not convex all round.
+    if (t * length_of(edge) < -flush || (t - 1.0f) * length_of(edge) > flush) continue;
+    vec3 off = w - t * v;
+    float way = length(off);
+    if (way >= field.cell) continue;
+    vec3 into_1 = bound_at(edge.cone, 0u), into_2 = bound_at(edge.cone, 1u);
+    WayOut faces[2];
+    faces[0].away = common_normal(v, into_1, -into_2);
+    faces[1].away = common_normal(v, into_2, -into_1);
+    for (uint f = 0u; f < 2u; ++f) {
+      faces[f].distance = dot(off, faces[f].away);
+      uint i = 0u;
+      while (i < ways.count && dot(ways.way[i].away, faces[f].away) < like) ++i;
+      if (i == SPHERE_MAX_WAYS || (i < ways.count && way_of[i] <= way)) continue;
+      ways.way[i] = faces[f];
+      way_of[i] = way;
+      ways.count = max(ways.count, i + 1u);
+    }
+    if (way >= nearest) continue;
+    nearest = way;
+    if (faces[0].distance >= faces[1].distance && dot(off, into_1) >= 0.0f) {  // above a face
+      outside = faces[0];
+    } else if (faces[1].distance >= faces[0].distance && dot(off, into_2) >= 0.0f) {
+      outside = faces[1];
+    } else {
+      outside.away = unit(off);
+      if (way <= 0.0f) outside.away = unit(faces[0].away + faces[1].away);
+      outside.distance = way;
+    }
+  }
+  bool inside = true;
+  for (uint i = 0u; i < ways.count; ++i) inside = inside && ways.way[i].distance <= flush;
+  if (!inside) {
+    ways.way[0] = outside;
+    ways.count = 1u;
+    return ways;
+  }
+  for (uint i = 1u; i < ways.count; ++i)
+    for (uint k = i; k > 0u && ways.way[k].distance > ways.way[k - 1u].distance; --k) {
+      WayOut longer = ways.way[k - 1u];
+      ways.way[k - 1u] = ways.way[k];
+      ways.way[k] = longer;
+    }
+  return ways;
+}

@@ -1,0 +1,65 @@
+// The rim of a wall against the field of a part that lies across it: a line passes between the part's nodes. One
+// candidate for each place along it where it is nearest, or deepest. Before it: slide.h.
+
+const int RIM_ROUNDS = 8;  // each takes a third off where the nearest place may be
+
+// Places i from first to last stand at i times step_size (m) along the line.
+struct Rim {
+  vec3 start;  // of the line, from the part's centre, bin frame
+  vec3 along;
+  float step_size;
+  int first, last;
+};
+
+// False if no part of that radius, at `position`, comes within the margin. `top`: height of the rim.
+INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius, float margin, float face_spacing,
+                     INOUT(Rim) rim) {
+  vec3 up = vec3(0.0f, 0.0f, 1.0f), normal = normal_of(plane);
+  float face = dot(normal, position) - offset_of(plane), above = dot(position, up) - top;
+  float reach = radius + margin, near = reach * reach - face * face - above * above;
+  if (!is_wall(plane) || near <= 0.0f || face_spacing <= 0.0f) return false;
+  rim.along = cross(normal, up);
+  rim.start = offset_of(plane) * normal + top * up - position;
+  rim.step_size = face_spacing;
+  float middle = dot(rim.along, position), half_length = sqrt(near);
+  rim.first = int(floor((middle - half_length) / face_spacing));
+  rim.last = int(ceil((middle + half_length) / face_spacing));
+  return true;
+}
+
+// In the frame of the part.
+INLINE vec3 on_rim(IN(Rim) rim, IN(mat3) rotation, float t) { return turned_back(rotation, rim.start + t * rim.along); }
+
+INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i) {
+  return sample_field(field, on_rim(rim, rotation, rim.step_size * float(i)));
+}
+
+// Whether the rim touches the part around place i, by the distances there and at the places beside it; where (t, and
+// `point` in the frame of the part), and the part's field there.
+INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, float before, float here,
+                      float after, float margin, INOUT(float) t, INOUT(vec3) point, INOUT(vec3) gradient,
+                      INOUT(float) distance) {
+  const float least_out = -0.1f;  // the way out of the rim is upwards, off the wall, or between the two
+  // Or an end of where it lies along a face.
+  bool nearest = here <= before && here <= after && (here < before || here < after);
+  if (!nearest || here - rim.step_size >= margin) return false;
+  float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
+  for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
+    float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;
+    if (sample_field(field, on_rim(rim, rotation, t0)) <= sample_field(field, on_rim(rim, rotation, t1)))
+      upper = t1;
+    else
+      lower = t0;
+  }
+  t = 0.5f * (lower + upper);
+  point = on_rim(rim, rotation, t);
+  distance = sample_field(field, point, gradient);
+  vec3 way_out = -(rotation * gradient);
+  return distance < margin && dot(way_out, vec3(0.0f, 0.0f, 1.0f)) >= least_out &&
+         dot(way_out, normal_of(plane)) >= least_out;
+}
+
+// Number of what touches around place i of the rim of plane k.
+INLINE uint rim_feature(int i, uint k) {
+  return SPHERE_SIDE_B | ((uint(i + 0x400000) & 0x7fffffu) + k * SPHERE_PLANE);
+}

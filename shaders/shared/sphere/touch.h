@@ -1,0 +1,161 @@
+// From a sample near another part to a candidate for a contact. Before it: edge.h, slide.h, radius_of(samples), and View:
+// samples, other (those of the field's body), own (field of the samples' body), field; to_field, to_a (Carry: from the
+// samples' frame to the field's, and from there to that of the pair's first body, the same if side is SPHERE_SIDE_B);
+// margin (m: up to which distance); way_back. Also emit(view, on_a, normal, separation, feature), all in the frame of a.
+
+const float NEARLY_ALL = 0.99f;  // of an exact way out a cone must leave: 8 degrees
+const float LEANS = 0.02f;       // sine of the angle by which a face leans against an edge that dips below it
+
+// Of the grid where it bends (m).
+INLINE float error_of(IN(Field) field) { return field.ball > 0.0f ? 0.0f : 0.5f * field.cell; }
+
+// How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
+// been inside; negative if it is not, for as long as `reach`.
+INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float distance, float reach) {
+  float least = 0.25f * field.cell, t = 0.0f, before = distance;
+  bool inside = distance < 0.0f;
+  while (t < reach) {
+    float way = max(abs(before), least);
+    t += way;
+    float now = sample_field(field, point + t * along);
+    if (now >= 0.0f && inside) return t - way * now / (now - before);
+    inside = inside || now < 0.0f;
+    before = now;
+  }
+  return -1.0f;
+}
+
+INLINE void emit_from(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, uint feature) {
+  vec3 surface = point - radius_of(view.samples) * away;
+  if (view.side == 0u)
+    emit(view, view.to_a.rotation * surface + view.to_a.offset, -(view.to_a.rotation * away), distance, feature);
+  else
+    emit(view, surface - distance * away, away, distance, feature | view.side);
+}
+
+// Turns a way out so that the sample is pressed within its cone; false if less than `least` of it is left.
+INLINE bool turn(IN(View) view, IN(Cone) cone, INOUT(vec3) away, float least) {
+  vec3 pressed = -turned_back(view.to_field.rotation, away);
+  if (!turn_into_cone(cone, pressed, least)) return false;
+  away = -(view.to_field.rotation * pressed);
+  return true;
+}
+
+// A candidate, if the sample's own surface can be pressed against the way out: `least` of it must be left.
+INLINE bool press(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature,
+                  float least) {
+  vec3 turned = away;
+  if (!turn(view, cone, turned, least)) return false;
+  emit_from(view, point, turned, distance, feature);
+  return true;
+}
+
+// A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
+// presses along the normal of both edges, and two such nodes, one on each, would hold each other like a wedge.
+INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) away) {
+  uint bounds = bounds_of(cone);
+  if (bounds == SPHERE_AXIS) return false;
+  for (uint i = 0u; i < bounds; ++i) {
+    vec3 along = view.to_field.rotation * bound_at(cone, i), normal;
+    if (dot(along, away) > -LEANS || !passes_edge(view.other, view.field, point, along, away, normal)) continue;
+    if (turn(view, cone, normal, NEARLY_ALL)) return true;
+  }
+  return false;
+}
+
+// Near a sharp edge ways out are exact: what presses against none of them does not press there. Turned into the cone,
+// the way out past an edge held up what leant on it from the side.
+INLINE bool offer_at_edge(IN(View) view, IN(vec3) point, IN(Cone) cone, uint feature) {
+  // Which of two faces it presses against is not known.
+  if (radius_of(view.samples) > 0.0f || bounds_of(cone) == 0u) return false;
+  WaysOut ways = ways_out_at_edge(view.other, view.field, point);
+  bool out_there = false;
+  for (uint i = 0u; i < ways.count; ++i) {
+    vec3 away = ways.way[i].away, turned = away;
+    float distance = ways.way[i].distance;
+    // Half a cell beyond is outside, unless this is a seam between shells that touch.
+    if (sample_field(view.field, point + (0.5f * view.field.cell - distance) * away) < 0.3f * view.field.cell) continue;
+    out_there = true;
+    if (!turn(view, cone, turned, NEARLY_ALL) || is_crossed(view, point, cone, away)) continue;
+    emit_from(view, point, turned, distance, feature);
+    break;
+  }
+  return out_there;
+}
+
+// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts that
+// lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
+// another. It goes back through its own body, along the middle of its cone, to the face it comes out of: for at most
+// four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in through that
+// face.
+INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) cone, uint feature) {
+  bool deep = distance < -2.0f * view.field.cell;
+  vec3 back = -(view.to_field.rotation * middle_of(cone)), away;
+  float way = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
+  if (way < 0.0f) return;
+  if (deep) {
+    float ahead = way_out(view.field, point, -back, distance, way);
+    if (ahead >= 0.0f && ahead < way) return;
+  }
+  sample_field(view.field, point + way * back, away);
+  float behind = -way * dot(back, away);
+  if (behind <= 0.0f) press(view, point, away, behind, cone, feature, LEAST_LEFT);
+}
+
+INLINE void offer(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
+  if (offer_at_edge(view, point, cone, feature)) return;
+  if (press(view, point, away, distance, cone, feature, LEAST_LEFT)) return;
+  if (view.way_back && distance < error_of(view.field)) offer_back(view, point, distance, cone, feature);
+}
+
+// Whether a node that the field is `distance` from may touch.
+INLINE bool node_may_touch(IN(View) view, float distance) {
+  return distance < view.margin + sag_of(view.samples);
+}
+
+INLINE void touch_with_node(IN(View) view, uint node, IN(vec3) at, IN(vec3) gradient_there, float distance_there) {
+  vec3 point = at, gradient = gradient_there;
+  float distance = distance_there;
+  slide(view.samples, view.own, view.to_field, node, solid_of(view.field), point, gradient, distance);
+  if (distance < view.margin) offer(view, point, gradient, distance, cone_at(view.samples, node), node);
+}
+
+// By the distances of its ends: it falls by no more than the way.
+INLINE bool edge_may_touch(IN(View) view, IN(Edge) edge, float distance_p, float distance_q) {
+  return 0.5f * (distance_p + distance_q - length_of(edge)) < view.margin;
+}
+
+// Where edges are nearly parallel, or end, one dips below the other by less than the grid can tell.
+INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
+  return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
+}
+
+// An edge e from p to q, in the field's frame; gradients and distances there.
+INLINE void touch_with_edge(IN(View) view, uint e, IN(vec3) p, IN(vec3) q, IN(vec3) gradient_p, IN(vec3) gradient_q,
+                            float distance_p, float distance_q) {
+  IN(Edge) edge = edge_at(view.samples, e);
+  uint feature = e | SPHERE_EDGE;
+  vec3 point, gradient;
+  float distance;
+  if (descend(view.field, p, q, gradient_p, gradient_q, min(distance_p, distance_q), point, gradient, distance)) {
+    bool crossed = cross_edges(view.other, view.field, p, q, point, gradient, distance);
+    if (distance >= view.margin) return;
+    if (!crossed || !press(view, point, gradient, distance, edge.cone, feature, LEAST_LEFT))
+      offer(view, point, gradient, distance, edge.cone, feature);
+    return;
+  }
+  for (int end = 0; end < 2; ++end) {
+    point = p;
+    gradient = gradient_p;
+    distance = distance_p;
+    if (end == 1) {
+      point = q;
+      gradient = gradient_q;
+      distance = distance_q;
+    }
+    if (!may_cross(view, edge, distance)) continue;
+    if (!cross_edges(view.other, view.field, p, q, point, gradient, distance)) continue;
+    if (distance < view.margin) press(view, point, gradient, distance, edge.cone, feature, NEARLY_ALL);
+    return;
+  }
+}

@@ -1,0 +1,41 @@
+/// What the code that is compiled as GLSL, too (shaders/shared/sphere), needs in C++: GLSL's names for Eigen's types
+/// and functions.
+#pragma once
+
+#include "shared/language.h"
+#include "shared/sphere/constants.h"
+#include "solver/sphere/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace bin_scenes::sphere {
+
+using vec3 = Vec3f;
+using mat3 = Mat3f;
+using uint = std::uint32_t;
+using std::abs, std::ceil, std::cos, std::floor, std::max, std::min, std::sin, std::sqrt;
+
+inline float atan(float y, float x) {
+  return std::atan2(y, x);
+}
+inline float dot(const vec3& a, const vec3& b) {
+  return a.dot(b);
+}
+inline float length(const vec3& v) {
+  return v.norm();
+}
+inline vec3 cross(const vec3& a, const vec3& b) {
+  return a.cross(b);
+}
+/// Of 0: 0.
+inline vec3 unit(const vec3& v) {
+  return v.normalized();
+}
+/// By the transpose: back out of the frame that m carries into.
+inline vec3 turned_back(const mat3& m, const vec3& v) {
+  return m.transpose() * v;
+}
+
+}  // namespace bin_scenes::sphere
