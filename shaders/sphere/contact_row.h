@@ -1,4 +1,4 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, struct
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, `aimed`, struct
 // Side and shared/rotation.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
@@ -46,6 +46,23 @@ float mass_along(vec3 direction, Row row, Side a, Side b) {
 // gains energy. The point goes with the sample, the normal with the field.
 const float least_turn = 1e-5;  // rad; below, a lever moves by less than contacts overlap
 
+// Way of a point of the body since contacts were found, to first order in the turn.
+vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
+float separation_of(Row row, Side a, Side b) {
+  return row.separation + dot(way_of(b, row.rb) - way_of(a, row.ra), row.normal);
+}
+
+// Levers of one common point where the bodies are now.
+void aim(SphereContact c, Side a, Side b, inout Row row) {
+  vec3 x_a = a.position + a.moved, x_b = b.position + b.moved;
+  vec3 on_a = x_a + rotate(a.now, c.anchor_a), on_b = x_b + rotate(b.now, c.anchor_b);
+  vec3 between = on_b - on_a, middle = on_a + 0.5 * between;
+  row.ra = middle - x_a;
+  row.rb = middle - x_b;
+  row.separation = 0.0;
+  row.separation = dot(between, row.normal) - separation_of(row, a, b);
+}
+
 Row row_of(SphereContact c, Side a, Side b) {
   Row row;
   row.ra = rotate(a.orientation, c.anchor_a);
@@ -61,6 +78,7 @@ Row row_of(SphereContact c, Side a, Side b) {
   }
   row.approach = c.normal.w;
   row.impulse = c.force;
+  if (aimed) aim(c, a, b, row);
   return row;
 }
 
@@ -73,11 +91,13 @@ float speed_at_blow(Row row, Side a, Side b) {
   return speed < 0.0 ? -sqrt(max(square, 0.0)) : speed;
 }
 
-void prepare(uint at, Side a, Side b) {
+// Returns whether the contact is struck.
+bool prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
   contacts[at].normal.w = speed_at_blow(row, a, b);
   contacts[at].force = vec4(kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
+  return contacts[at].normal.w <= -settings.restitution_speed;
 }
 
 void warm_start(uint at, inout Side a, inout Side b) {
@@ -93,12 +113,6 @@ void resist(vec3 axis, float speed, float most, inout Side a, inout Side b) {
   float moment = k > 0.0 ? clamp(speed / k, -most, most) : 0.0;
   a.w -= moment * turn_a;
   b.w += moment * turn_b;
-}
-
-// Way of a point of the body since contacts were found, to first order in the turn.
-vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
-float separation_of(Row row, Side a, Side b) {
-  return row.separation + dot(way_of(b, row.rb) - way_of(a, row.ra), row.normal);
 }
 
 // Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly (implicit spring of frequency

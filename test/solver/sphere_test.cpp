@@ -1,6 +1,7 @@
 #include "pour/settling.hpp"
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/hard_contacts.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
@@ -212,6 +213,7 @@ TEST(SphereSwing, OfAWheelOnItsFaceBesideAWallIsLost) {
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);
 

@@ -92,6 +92,8 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.x = state.pose.position.cast<float>() + b.q * world.shapes[b.shape]->center;
   b.v = state.velocity.linear.cast<float>();
   b.w = state.velocity.angular.cast<float>();
+  b.x_rest.setZero();
+  b.v_rest.setZero();
   b.driven = b.inverse_mass == 0 && !(b.v.isZero() && b.w.isZero());
   b.present = true;
   b.asleep = false;
@@ -138,7 +140,8 @@ BodyState state_of(const World& world, std::size_t body) {
     return state;
   }
   state.pose.orientation = b.q.cast<double>().normalized();
-  state.pose.position = b.x.cast<double>() - state.pose.orientation * world.shapes[b.shape]->center.cast<double>();
+  state.pose.position = b.x.cast<double>() + b.x_rest.cast<double>() -
+                        state.pose.orientation * world.shapes[b.shape]->center.cast<double>();
   state.velocity = {b.v.cast<double>(), b.w.cast<double>()};
   return state;
 }

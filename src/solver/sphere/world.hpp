@@ -93,6 +93,7 @@ struct Body {
   float friction = 0.5f, restitution = 0;
   // What the solver touches.
   Vec3f x = Vec3f::Zero(), v = Vec3f::Zero(), w = Vec3f::Zero();
+  Vec3f x_rest = Vec3f::Zero(), v_rest = Vec3f::Zero();  ///< what x and v are too coarse for: math.hpp, add_exactly
   Quatf q = Quatf::Identity();
   Mat3f rotation = Mat3f::Identity();  ///< of q when contacts were found
   Mat3f world_inverse_inertia = Mat3f::Zero();

@@ -25,8 +25,9 @@ struct alignas(64) Motion {
 struct ContactRows {
   LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
   LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
-  LaneVec ra, rb;                       ///< from the centres of mass, world frame; hold for a whole time step (m)
-  Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
+  LaneVec ra, rb;  ///< from the centres of mass to one common point, world frame; hold for a step, or for a sub-step
+                   ///< of what is struck (m)
+  Lanes normal_mass{}, tangent_mass{};                 ///< effective (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
   Lanes separation{};                                  ///< when contacts were found (m)
   Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
@@ -42,7 +43,7 @@ struct Bundle {
   int lanes = 0;  ///< in use
   int color = 0;
   bool paired = false;        ///< solved together with the next one, which is of the same color
-  bool striking = false;      ///< some contact closes at Settings::restitution_speed
+  LaneMask strikes{};         ///< some contact closes at Settings::restitution_speed
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
@@ -141,6 +142,10 @@ void make_bundles(const World& world, const Blocks& blocks, std::size_t block, s
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
+/// Levers, gaps and inertia of manifolds that are struck, of where their bodies are now: with those of half way through
+/// the step a blow would turn each of two bodies about a lever that is up to half a step's way off, and change their
+/// common angular momentum.
+void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows);
 /// Back into the contacts, as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 
