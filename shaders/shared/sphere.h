@@ -57,6 +57,7 @@
 #define SWEEP_RELAX 3u
 #define SWEEP_BOUNCE 4u
 #define SPHERE_BOUNCE_SWEEPS 12u
+#define SPHERE_FORCE_GROWTH 1.5  // force_growth
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
 // lists of those near a point (EdgeGrid).
@@ -204,7 +205,7 @@ struct SphereContact {
   uint feature;
   vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: in the solve, speed at which the two meet
   vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
-                     // 1 once it has pressed
+                     // the normal one that the sub-step began with, its sign set (also of 0) once the contact has pressed
 };
 
 struct SphereCandidate {

@@ -96,12 +96,32 @@ bool prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
   contacts[at].normal.w = speed_at_blow(row, a, b);
-  contacts[at].force = vec4(kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
+  vec3 impulse = kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2));
+  contacts[at].force = vec4(impulse, impulse.x);
   return contacts[at].normal.w <= -settings.restitution_speed;
+}
+
+bool has_pressed(vec4 impulse) { return (floatBitsToUint(impulse.w) & 0x80000000u) != 0u; }
+
+// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
+float blow_speed() {
+  float falls = 4.0 * sub_step() * length(world.gravity.xyz);
+  return falls > 0.0 ? min(falls, settings.restitution_speed) : settings.restitution_speed;
+}
+
+// A force may grow by half in a sub-step, and by what stops that speed. Beyond, the impulse was that of a blow: it is
+// over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
+// thrown up.
+void forget_blow(inout Row row, Side a, Side b) {
+  float most = SPHERE_FORCE_GROWTH * abs(row.impulse.w) + blow_speed() * mass_along(row.normal, row, a, b);
+  if (row.impulse.x > most) row.impulse.xyz *= most / row.impulse.x;
 }
 
 void warm_start(uint at, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
+  forget_blow(row, a, b);
+  uint pressed = floatBitsToUint(row.impulse.w) & 0x80000000u;
+  contacts[at].force = vec4(row.impulse.xyz, uintBitsToFloat(floatBitsToUint(row.impulse.x) | pressed));
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
 }
@@ -134,7 +154,7 @@ void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
   float total = max(row.impulse.x - mass * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
   apply(row, (total - row.impulse.x) * row.normal, a, b);
   contacts[at].force.x = total;
-  if (total > 0.0) contacts[at].force.w = 1.0;
+  if (total > 0.0) contacts[at].force.w = uintBitsToFloat(floatBitsToUint(row.impulse.w) | 0x80000000u);
 }
 
 void solve_friction(uint at, float friction, inout Side a, inout Side b) {
@@ -153,7 +173,7 @@ void solve_friction(uint at, float friction, inout Side a, inout Side b) {
 // Whether a contact was struck fast enough to bounce: pressed, or closed by a blow that its neighbours took.
 bool struck(Row row, Side a, Side b) {
   if (row.approach > -settings.restitution_speed) return false;
-  return row.impulse.w > 0.0 || separation_of(row, a, b) < -row.approach * sub_step();
+  return has_pressed(row.impulse) || separation_of(row, a, b) < -row.approach * sub_step();
 }
 
 void bounce(uint at, float restitution, inout Side a, inout Side b) {
@@ -170,6 +190,7 @@ void bounce(uint at, float restitution, inout Side a, inout Side b) {
 bool keep_force(uint at, bool bounced, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   if (bounced && struck(row, a, b)) row.impulse = vec4(0.0);
+  forget_blow(row, a, b);
   vec3 friction = row.impulse.y * tangent_1(row.normal) + row.impulse.z * tangent_2(row.normal);
   contacts[at].force = vec4(row.impulse.x, friction) / sub_step();
   return row.impulse.x > 0.0;

@@ -172,7 +172,7 @@ bool bounces(uint o) {
   bool any = false;
   FOR_CONTACTS(at, pair.slot) {
     Row row = row_of(contacts[at], a, b);
-    any = any || row.impulse.w > 0.0 && struck(row, a, b);
+    any = any || has_pressed(row.impulse) && struck(row, a, b);
   }
   if (any) manifolds[world.pairs.x + pair.slot].state.y = SPHERE_BOUNCES;
   return any;

@@ -97,21 +97,4 @@ inline Rebound pile_up_cubes(Lab lab, int count) {
   return out;
 }
 
-/// A coin that rolls round on its rim, tilted by 0.5 rad, with its centre at rest: time until it lies, s. A prism of 64
-/// sides stands for it.
-inline double coin_settles(Lab lab, double limit = 3.0) {
-  const double radius = 0.012, thickness = 0.002, tilt = 0.5;
-  const PartModelPtr coin = PartModel::from_mesh(prism_mesh(64, radius, -0.5 * thickness, 0.5 * thickness), "coin");
-  const Quat tilted(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
-  const Vec3 to_contact = tilted * Vec3(0, -radius, -0.5 * thickness);
-  const auto body = lab.place(coin, Vec3(0, 0, -to_contact.z()), tilted, material(0.5));
-  const double precession = std::sqrt(4.0 * g / (radius * std::sin(tilt)));  // of a thin disk
-  lab.start(body).velocity.angular = precession * std::sin(tilt) * to_contact.normalized();
-  while (lab.time() < limit) {
-    lab.simulate(0.01);
-    if (lab.state(body).velocity.angular.norm() < 0.5 && lab.center(body).z() < 0.6 * thickness) break;
-  }
-  return lab.time();
-}
-
 }  // namespace bin_scenes::testing

@@ -34,4 +34,20 @@ TEST_P(HardContacts, ABlowKeepsTheAngularMomentum) {
   EXPECT_LT(sum / 60.0, 1.5e-3);
 }
 
+// The last one falls at 4.9 m/s. When the impulse of a blow lived on as a force, the pile threw it back at 0.54 to
+// 0.67 m/s and fell over, with any number of sub-steps.
+TEST_P(HardContacts, CubesThatFallOnEachOtherDoNotRebound) {
+  const Rebound pile = pile_up_cubes(lab(), 5);
+  EXPECT_LT(pile.speed, 0.35);
+  EXPECT_LT(pile.aside, 0.4);
+  EXPECT_GT(pile.height, 0.95);
+}
+
+TEST_P(HardContacts, ACubeDoesNotReboundFromATenthOfItsMass) {
+  const Rebound heavy = strike_light_cube(lab(), 10.0);
+  EXPECT_LT(heavy.speed, 0.3);
+  EXPECT_LT(heavy.aside, 0.15);
+  EXPECT_GT(heavy.height, 0.95);
+}
+
 }  // namespace bin_scenes::testing

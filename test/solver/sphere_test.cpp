@@ -165,6 +165,26 @@ TEST(SphereBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
   EXPECT_LT(ride(Lab(sphere_default.make())), 3e-3);
 }
 
+// It rebounded at 1.9 m/s and squeezed the light one out. A sixth of the light one's edge is what the sweeps of one
+// step leave to the next.
+TEST(SphereMasses, AThousandTimesAsHeavyNeitherReboundsNorSqueezesOut) {
+  for (const double mass : {100.0, 1000.0}) {
+    const Rebound heavy = strike_light_cube(Lab(sphere_default.make()), mass);
+    EXPECT_LT(heavy.speed, 0.3) << mass;
+    EXPECT_LT(heavy.aside, 0.05) << mass;
+    EXPECT_GT(heavy.height, 0.8) << mass;
+  }
+}
+
+// The error of a pile falls with the sub-steps.
+TEST(SphereMasses, APileReboundsLessInShorterSubSteps) {
+  SphereSettings fine;
+  fine.sub_steps = 32;
+  const Rebound pile = pile_up_cubes(Lab(make_sphere_solver(fine)), 5);
+  EXPECT_LT(pile.speed, 0.15);
+  EXPECT_LT(pile.aside, 0.1);
+}
+
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }

@@ -158,6 +158,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
     c.gap = c.separation;
+    c.lasting = c.normal_impulse;
     set_masses(bundle, inverse_masses, c);
     c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
     bundle.strikes |= c.approach <= -world.settings.restitution_speed;

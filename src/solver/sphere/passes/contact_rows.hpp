@@ -20,6 +20,8 @@ struct alignas(64) Motion {
   float inverse_mass() const { return v[3]; }
 };
 
+constexpr float force_growth = 1.5f;  ///< more = heaps rebound, less = loads of a deep heap are found later
+
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
@@ -31,10 +33,20 @@ struct ContactRows {
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
   Lanes separation{};                                  ///< when contacts were found (m)
   Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
+  Lanes lasting{};             ///< normal impulse that the sub-step began with (N s)
   Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
 };
 
 using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
+
+/// A force may grow by half in a sub-step, and by what stops `speed` (m/s). Beyond, the impulse was that of a blow: it
+/// is over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
+/// thrown up.
+inline void forget_blow(ContactRows& c, float speed) {
+  const Lanes most = force_growth * c.lasting + speed * c.normal_mass;
+  const Lanes share = c.normal_impulse > most ? most / c.normal_impulse : all_lanes(1);
+  for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
+}
 
 /// Eight manifolds of one color. Empty lanes name the ground for both bodies.
 struct Bundle {

@@ -71,6 +71,7 @@ class ContactSolver {
         bodies_(blocks.bodies(block)),
         settings_(world.settings),
         h_(world.sub_step()),
+        blow_speed_(world.blow_speed()),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
@@ -120,6 +121,7 @@ class ContactSolver {
   const Slice bodies_;
   const Settings& settings_;
   const float h_;
+  const float blow_speed_;  ///< m/s
   const Softness& softness_;
   const Spring spring_;
   bool friction_holds_ = true;
@@ -188,7 +190,9 @@ void ContactSolver::warm_start() {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-      const ContactRows& c = rows_[i];
+      ContactRows& c = rows_[i];
+      forget_blow(c, blow_speed_);
+      c.lasting = c.normal_impulse;
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }
@@ -424,6 +428,7 @@ void ContactSolver::restitute() {
 }
 
 void ContactSolver::finish() {
+  for (ContactRows& c : rows_) forget_blow(c, blow_speed_);
   for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = world_.bodies[bodies_[i]];
