@@ -106,20 +106,21 @@ bool has_pressed(vec4 impulse) { return (floatBitsToUint(impulse.w) & 0x80000000
 // Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
 float blow_speed() {
   float falls = 4.0 * sub_step() * length(world.gravity.xyz);
-  return falls > 0.0 ? min(falls, settings.restitution_speed) : settings.restitution_speed;
+  return falls > 0.0 ? falls : settings.restitution_speed;
 }
 
 // A force may grow by half in a sub-step, and by what stops that speed. Beyond, the impulse was that of a blow: it is
 // over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
-// thrown up.
-void forget_blow(inout Row row, Side a, Side b) {
+// thrown up. What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+void forget_blow(float restitution, inout Row row, Side a, Side b) {
+  if (restitution > 0.0 && row.approach <= -settings.restitution_speed) return;
   float most = SPHERE_FORCE_GROWTH * abs(row.impulse.w) + blow_speed() * mass_along(row.normal, row, a, b);
   if (row.impulse.x > most) row.impulse.xyz *= most / row.impulse.x;
 }
 
-void warm_start(uint at, inout Side a, inout Side b) {
+void warm_start(uint at, float restitution, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
-  forget_blow(row, a, b);
+  forget_blow(restitution, row, a, b);
   uint pressed = floatBitsToUint(row.impulse.w) & 0x80000000u;
   contacts[at].force = vec4(row.impulse.xyz, uintBitsToFloat(floatBitsToUint(row.impulse.x) | pressed));
   vec3 normal = row.normal;
@@ -187,10 +188,10 @@ void bounce(uint at, float restitution, inout Side a, inout Side b) {
 }
 
 // Back to forces; returns whether the contact presses. A blow is over: it must not warm-start the next step.
-bool keep_force(uint at, bool bounced, Side a, Side b) {
+bool keep_force(uint at, float restitution, bool bounced, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   if (bounced && struck(row, a, b)) row.impulse = vec4(0.0);
-  forget_blow(row, a, b);
+  forget_blow(restitution, row, a, b);
   vec3 friction = row.impulse.y * tangent_1(row.normal) + row.impulse.z * tangent_2(row.normal);
   contacts[at].force = vec4(row.impulse.x, friction) / sub_step();
   return row.impulse.x > 0.0;

@@ -5,6 +5,7 @@
 // Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and
 // sphere/body.h.
 
+#include "sphere/ball.h"
 #include "sphere/placement.h"
 
 SphereWorld world;
@@ -65,6 +66,11 @@ Side side_of(uint body) {
 // way through the step a blow would turn each of two bodies about a lever that is up to half a step's way off.
 bool aimed = false;
 
+// Not with a ball: the point where it touches does not turn with it.
+bool aims(SpherePair pair) {
+  return manifolds[world.pairs.x + pair.slot].state.y != 0u && !is_ball(pair.a) && !is_ball(pair.b);
+}
+
 Side aimed_side_of(uint body) {
   Side s = side_of(body);
   if (!aimed || s.inverse_mass == 0.0) return s;
@@ -106,8 +112,6 @@ void prepare_manifold(uint o) {
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
 
-#include "sphere/ball.h"
-
 vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 
 // Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
@@ -147,10 +151,11 @@ void solve_manifold(uint o, uint kind, float h) {
   SpherePair pair = pair_at(o);
   uint blow = manifolds[world.pairs.x + pair.slot].state.y;
   if (kind == SWEEP_BOUNCE && blow != SPHERE_BOUNCES) return;
-  aimed = blow != 0u;
+  aimed = aims(pair);
   Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   if (kind == SWEEP_WARM_START) {
-    FOR_CONTACTS(at, pair.slot) warm_start(at, a, b);
+    float restitution = restitution_of(pair);
+    FOR_CONTACTS(at, pair.slot) warm_start(at, restitution, a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
   } else {
@@ -166,8 +171,8 @@ void solve_manifold(uint o, uint kind, float h) {
 // Whether a contact of the manifold is to bounce.
 bool bounces(uint o) {
   SpherePair pair = pair_at(o);
-  aimed = manifolds[world.pairs.x + pair.slot].state.y != 0u;
-  if (!aimed || restitution_of(pair) == 0.0) return false;
+  if (restitution_of(pair) == 0.0) return false;
+  aimed = aims(pair);
   Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   bool any = false;
   FOR_CONTACTS(at, pair.slot) {
@@ -182,10 +187,11 @@ void keep_forces(uint o) {
   SpherePair pair = pair_at(o);
   uint blow = manifolds[world.pairs.x + pair.slot].state.y;
   bool bounced = blow == SPHERE_BOUNCES;
-  aimed = blow != 0u;
+  aimed = aims(pair);
   Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   uint presses = 0u;
-  FOR_CONTACTS(at, pair.slot) if (keep_force(at, bounced, a, b)) presses = 1u;
+  float restitution = restitution_of(pair);
+  FOR_CONTACTS(at, pair.slot) if (keep_force(at, restitution, bounced, a, b)) presses = 1u;
   manifolds[world.pairs.x + pair.slot].state.y = presses;
 }
 

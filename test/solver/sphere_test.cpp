@@ -157,6 +157,11 @@ TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);
 }
 
+TEST(SphereStacks, AHouseOfCardsStands) {
+  EXPECT_LT(card_house_drift(Lab(sphere_default.make()), phases::pour), 5e-3);
+  EXPECT_LT(card_house_drift(Lab(sphere_default.make()), phases::hold), 1e-3);
+}
+
 TEST(SphereBall, KeepsItsEnergyWhereNothingIsLostInABounce) {
   EXPECT_LT(elastic_change(Lab(sphere_default.make())), 5e-4);
 }

@@ -47,9 +47,9 @@ struct Settings {
   float max_load_effort = 8;     ///< largest effort for that load; higher = a heavy part among light ones costs more
   float default_mass_ratio = 8;  ///< of parts for which the default sweeps suffice; they grow with its square root;
                                  ///< higher = what is heavy rebounds from what is light, and squeezes it out
-  float max_mass_effort = 16;   ///< largest factor on sweeps for that
-  float tower_effort = 0.16f;   ///< effort of a tower of n parts / n^1.5; lower = twenty cubes sway and never rest
-  float max_tower_effort = 60;  ///< largest effort of a tower, of about 50 parts; higher = piles of sheets cost more
+  float max_mass_effort = 16;    ///< largest factor on sweeps for that
+  float tower_effort = 0.16f;    ///< effort of a tower of n parts / n^1.5; lower = twenty cubes sway and never rest
+  float max_tower_effort = 60;   ///< largest effort of a tower, of about 50 parts; higher = piles of sheets cost more
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< while parts move: damps rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< while the heap is pressed: leaves no overlap
   /// While the heap is probed: no compliance; 1/160 of the overlap is removed in a sub-step. Stiff contacts press
@@ -201,7 +201,7 @@ struct World {
   /// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
   float blow_speed() const {
     const float falls = 4.0f * sub_step() * gravity.norm();
-    return falls > 0 ? std::min(falls, settings.restitution_speed) : settings.restitution_speed;
+    return falls > 0 ? falls : settings.restitution_speed;
   }
   /// Sweeps of the next step before bodies move.
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }

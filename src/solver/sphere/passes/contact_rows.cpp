@@ -142,6 +142,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.friction[lane] = world.grip * m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
+    bundle.aimed[lane] = rolls ? 0 : -1;
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
@@ -163,13 +164,14 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
     bundle.strikes |= c.approach <= -world.settings.restitution_speed;
   }
+  bundle.aimed &= bundle.strikes;
 }
 
 BIN_SCENES_WIDE
 void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows) {
   const Ways ways = ways_of(bundle, motions);
   for (int lane = 0; lane < bundle.lanes; ++lane) {
-    if (!bundle.strikes[lane]) continue;
+    if (!bundle.aimed[lane]) continue;
     const Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Place a(&world.bodies[m.a], motions[bundle.a[lane]]);
     const Place b(m.b == ground ? nullptr : &world.bodies[m.b], motions[bundle.b[lane]]);
@@ -188,7 +190,7 @@ void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
   const Velocities velocities = velocities_of(bundle, motions);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     set_masses(bundle, velocities.inverse_mass_a + velocities.inverse_mass_b, rows[i]);
-    rows[i].separation = bundle.strikes ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
+    rows[i].separation = bundle.aimed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
   }
 }
 

@@ -39,15 +39,6 @@ struct ContactRows {
 
 using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
 
-/// A force may grow by half in a sub-step, and by what stops `speed` (m/s). Beyond, the impulse was that of a blow: it
-/// is over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
-/// thrown up.
-inline void forget_blow(ContactRows& c, float speed) {
-  const Lanes most = force_growth * c.lasting + speed * c.normal_mass;
-  const Lanes share = c.normal_impulse > most ? most / c.normal_impulse : all_lanes(1);
-  for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
-}
-
 /// Eight manifolds of one color. Empty lanes name the ground for both bodies.
 struct Bundle {
   LaneBodies a{}, b{};
@@ -56,6 +47,7 @@ struct Bundle {
   int color = 0;
   bool paired = false;        ///< solved together with the next one, which is of the same color
   LaneMask strikes{};         ///< some contact closes at Settings::restitution_speed
+  LaneMask aimed{};           ///< strikes, and no ball is in it: the point where a ball touches does not turn with it
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
@@ -63,6 +55,17 @@ struct Bundle {
 
   std::uint32_t rows() const { return last - first; }
 };
+
+/// A force may grow by half in a sub-step, and by what stops `speed` (m/s). Beyond, the impulse was that of a blow: it
+/// is over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
+/// thrown up.
+/// What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+inline void forget_blow(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
+  const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
+  const Lanes most = force_growth * c.lasting + speed * c.normal_mass;
+  const Lanes share = (c.normal_impulse > most) & ~bounces ? most / c.normal_impulse : all_lanes(1);
+  for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
+}
 
 /// The velocities of a bundle's bodies, in registers while its contacts are solved.
 struct Velocities {

@@ -191,7 +191,7 @@ void ContactSolver::warm_start() {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
       ContactRows& c = rows_[i];
-      forget_blow(c, blow_speed_);
+      forget_blow(c, bundle, blow_speed_, settings_.restitution_speed);
       c.lasting = c.normal_impulse;
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
@@ -336,7 +336,7 @@ void ContactSolver::sweep(bool push, bool first) {
 
 void ContactSolver::aim() {
   for (Bundle& bundle : bundles_)
-    if (any(bundle.strikes)) sphere::aim(world_, motions_, bundle, rows_);
+    if (any(bundle.aimed)) sphere::aim(world_, motions_, bundle, rows_);
 }
 
 float ContactSolver::speed(std::size_t body) const {
@@ -428,7 +428,9 @@ void ContactSolver::restitute() {
 }
 
 void ContactSolver::finish() {
-  for (ContactRows& c : rows_) forget_blow(c, blow_speed_);
+  for (const Bundle& bundle : bundles_)
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+      forget_blow(rows_[i], bundle, blow_speed_, settings_.restitution_speed);
   for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = world_.bodies[bodies_[i]];
