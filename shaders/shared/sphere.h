@@ -42,6 +42,10 @@
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
+// SphereManifold.state.y in the solve; else 0.
+#define SPHERE_BOUNCES 1u
+#define SPHERE_STRIKES 2u  // and does not bounce, or not yet
+
 // Sweeps of the solve over all manifolds.
 #define SWEEP_WARM_START 0u
 #define SWEEP_FIRST_PUSH 1u
@@ -49,6 +53,7 @@
 #define SWEEP_RELAX 3u
 #define SWEEP_BOUNCE 4u
 #define SPHERE_BOUNCE_SWEEPS 12u
+#define SPHERE_FORCE_GROWTH 1.5  // force_growth
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
 // lists of those near a point (EdgeGrid).
@@ -131,6 +136,7 @@ struct SphereState {
   vec4 spin;         // rad/s
   vec4 still_position;     // pose from which rest is judged; w: s spent near it
   vec4 still_orientation;
+  vec4 position_rest, velocity_rest;  // what position and velocity are too coarse for: add_exactly
   uvec4 flags;       // bits; label of the island
 };
 
@@ -182,7 +188,7 @@ struct SpherePair {
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, presses (in the solve: bounces), found, place of the first contact
+  uvec4 state;       // contacts, presses (in the solve: SPHERE_STRIKES or SPHERE_BOUNCES), found, place of the first contact
   vec3 found_position;     // of b in the frame of a when contacts were found
   uint solved;             // contacts solved in this step: the first ones
   vec4 found_orientation;
@@ -195,7 +201,7 @@ struct SphereContact {
   uint feature;
   vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: in the solve, speed at which the two meet
   vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
-                     // 1 once it has pressed
+                     // the normal one that the sub-step began with, its sign set (also of 0) once the contact has pressed
 };
 
 struct SphereCandidate {
@@ -215,7 +221,7 @@ GPU_STRUCTS_END
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
 static_assert(sizeof(SphereProgress) == 160, "std430");
-static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 112 && sizeof(SphereTensor) == 80, "std430");
+static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereNode) == 16, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");

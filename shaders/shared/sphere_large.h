@@ -31,6 +31,7 @@
 #define MANIFOLDS_PREPARE 5u  // behind the sweeps
 #define MANIFOLDS_STRIKE 6u
 #define MANIFOLDS_KEEP 7u
+#define MANIFOLDS_NOTE 8u
 #define SLEEP_NOTE 0u
 #define SLEEP_MARK 1u
 #define SLEEP_SETTLE 2u

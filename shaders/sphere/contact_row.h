@@ -1,4 +1,4 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, struct
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, `aimed`, struct
 // Side and shared/rotation.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
@@ -46,6 +46,23 @@ float mass_along(vec3 direction, Row row, Side a, Side b) {
 // gains energy. The point goes with the sample, the normal with the field.
 const float least_turn = 1e-5;  // rad; below, a lever moves by less than contacts overlap
 
+// Way of a point of the body since contacts were found, to first order in the turn.
+vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
+float separation_of(Row row, Side a, Side b) {
+  return row.separation + dot(way_of(b, row.rb) - way_of(a, row.ra), row.normal);
+}
+
+// Levers of one common point where the bodies are now.
+void aim(SphereContact c, Side a, Side b, inout Row row) {
+  vec3 x_a = a.position + a.moved, x_b = b.position + b.moved;
+  vec3 on_a = x_a + rotate(a.now, c.anchor_a), on_b = x_b + rotate(b.now, c.anchor_b);
+  vec3 between = on_b - on_a, middle = on_a + 0.5 * between;
+  row.ra = middle - x_a;
+  row.rb = middle - x_b;
+  row.separation = 0.0;
+  row.separation = dot(between, row.normal) - separation_of(row, a, b);
+}
+
 Row row_of(SphereContact c, Side a, Side b) {
   Row row;
   row.ra = rotate(a.orientation, c.anchor_a);
@@ -61,6 +78,7 @@ Row row_of(SphereContact c, Side a, Side b) {
   }
   row.approach = c.normal.w;
   row.impulse = c.force;
+  if (aimed) aim(c, a, b, row);
   return row;
 }
 
@@ -73,15 +91,38 @@ float speed_at_blow(Row row, Side a, Side b) {
   return speed < 0.0 ? -sqrt(max(square, 0.0)) : speed;
 }
 
-void prepare(uint at, Side a, Side b) {
+// Returns whether the contact is struck.
+bool prepare(uint at, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   vec3 t1 = tangent_1(row.normal), t2 = tangent_2(row.normal), friction = row.impulse.yzw;
   contacts[at].normal.w = speed_at_blow(row, a, b);
-  contacts[at].force = vec4(kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2)), 0.0);
+  vec3 impulse = kept * sub_step() * vec3(row.impulse.x, dot(friction, t1), dot(friction, t2));
+  contacts[at].force = vec4(impulse, impulse.x);
+  return contacts[at].normal.w <= -settings.restitution_speed;
 }
 
-void warm_start(uint at, inout Side a, inout Side b) {
+bool has_pressed(vec4 impulse) { return (floatBitsToUint(impulse.w) & 0x80000000u) != 0u; }
+
+// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
+float blow_speed() {
+  float falls = 4.0 * sub_step() * length(world.gravity.xyz);
+  return falls > 0.0 ? falls : settings.restitution_speed;
+}
+
+// A force may grow by half in a sub-step, and by what stops that speed. Beyond, the impulse was that of a blow: it is
+// over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
+// thrown up. What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+void forget_blow(float restitution, inout Row row, Side a, Side b) {
+  if (restitution > 0.0 && row.approach <= -settings.restitution_speed) return;
+  float most = SPHERE_FORCE_GROWTH * abs(row.impulse.w) + blow_speed() * mass_along(row.normal, row, a, b);
+  if (row.impulse.x > most) row.impulse.xyz *= most / row.impulse.x;
+}
+
+void warm_start(uint at, float restitution, inout Side a, inout Side b) {
   Row row = row_of(contacts[at], a, b);
+  forget_blow(restitution, row, a, b);
+  uint pressed = floatBitsToUint(row.impulse.w) & 0x80000000u;
+  contacts[at].force = vec4(row.impulse.xyz, uintBitsToFloat(floatBitsToUint(row.impulse.x) | pressed));
   vec3 normal = row.normal;
   apply(row, row.impulse.x * normal + row.impulse.y * tangent_1(normal) + row.impulse.z * tangent_2(normal), a, b);
 }
@@ -93,12 +134,6 @@ void resist(vec3 axis, float speed, float most, inout Side a, inout Side b) {
   float moment = k > 0.0 ? clamp(speed / k, -most, most) : 0.0;
   a.w -= moment * turn_a;
   b.w += moment * turn_b;
-}
-
-// Way of a point of the body since contacts were found, to first order in the turn.
-vec3 way_of(Side s, vec3 r) { return s.moved + cross(s.turned, r); }
-float separation_of(Row row, Side a, Side b) {
-  return row.separation + dot(way_of(b, row.rb) - way_of(a, row.ra), row.normal);
 }
 
 // Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly (implicit spring of frequency
@@ -120,7 +155,7 @@ void solve_normal(uint at, float h, bool push, inout Side a, inout Side b) {
   float total = max(row.impulse.x - mass * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
   apply(row, (total - row.impulse.x) * row.normal, a, b);
   contacts[at].force.x = total;
-  if (total > 0.0) contacts[at].force.w = 1.0;
+  if (total > 0.0) contacts[at].force.w = uintBitsToFloat(floatBitsToUint(row.impulse.w) | 0x80000000u);
 }
 
 void solve_friction(uint at, float friction, inout Side a, inout Side b) {
@@ -139,7 +174,7 @@ void solve_friction(uint at, float friction, inout Side a, inout Side b) {
 // Whether a contact was struck fast enough to bounce: pressed, or closed by a blow that its neighbours took.
 bool struck(Row row, Side a, Side b) {
   if (row.approach > -settings.restitution_speed) return false;
-  return row.impulse.w > 0.0 || separation_of(row, a, b) < -row.approach * sub_step();
+  return has_pressed(row.impulse) || separation_of(row, a, b) < -row.approach * sub_step();
 }
 
 void bounce(uint at, float restitution, inout Side a, inout Side b) {
@@ -153,9 +188,10 @@ void bounce(uint at, float restitution, inout Side a, inout Side b) {
 }
 
 // Back to forces; returns whether the contact presses. A blow is over: it must not warm-start the next step.
-bool keep_force(uint at, bool bounced, Side a, Side b) {
+bool keep_force(uint at, float restitution, bool bounced, Side a, Side b) {
   Row row = row_of(contacts[at], a, b);
   if (bounced && struck(row, a, b)) row.impulse = vec4(0.0);
+  forget_blow(restitution, row, a, b);
   vec3 friction = row.impulse.y * tangent_1(row.normal) + row.impulse.z * tangent_2(row.normal);
   contacts[at].force = vec4(row.impulse.x, friction) / sub_step();
   return row.impulse.x > 0.0;

@@ -20,8 +20,8 @@ layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
 
 shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
 shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
-shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found
-shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then
+shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed when the sub-step began
+shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce;
 
@@ -94,6 +94,8 @@ void main() {
     barrier();
     sweep(SWEEP_WARM_START, h);
     for (uint i = 0u; i < sweeps; ++i) sweep(i == 0u ? SWEEP_FIRST_PUSH : SWEEP_PUSH, h);
+    FOR_OWN_MANIFOLDS(o) note_sliding(o);
+    barrier();
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
     for (uint i = 0u; i < relaxing; ++i) sweep(SWEEP_RELAX, h);

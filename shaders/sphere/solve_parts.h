@@ -1,9 +1,11 @@
 // Bodies and manifolds in the solve: what one invocation does with one of them. Whoever includes this says where
 // velocities lie: velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is
-// near), moved_of(i) (since contacts were found), turned_of(i) (rotation vector, since then), i counted in the world.
+// near), moved_of(i) (since contacts were found; w: speed when the sub-step began), turned_of(i) (rotation vector, since
+// then; w: 1 = a contact slips), i counted in the world.
 // Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and
 // sphere/body.h.
 
+#include "sphere/ball.h"
 #include "sphere/placement.h"
 
 SphereWorld world;
@@ -32,18 +34,20 @@ void take_sub_step_of(uint w, uint k) {
 struct Side {
   vec3 v, w, moved, turned, position;
   vec3 ahead, ahead_turn;  // from the step's start to half way through it (m, rad)
-  vec4 orientation;
+  vec4 orientation, now;   // when contacts were found, and after the turn since
   float inverse_mass;
   vec3 tensor, tensor_mixed;
 };
 
+const vec4 no_turn = vec4(0.0, 0.0, 0.0, 1.0);
+
 Side side_of(uint body) {
-  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0),
-                0.0, vec3(0.0), vec3(0.0));
+  Side s = Side(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), no_turn, no_turn, 0.0,
+                vec3(0.0), vec3(0.0));
   if (body == SPHERE_GROUND) return s;
   uint i = body - world.bodies.x;
   s.position = states[body].position.xyz;
-  s.orientation = tensors[body].orientation;
+  s.orientation = s.now = tensors[body].orientation;
   s.inverse_mass = velocity_of(i).w;
   if (s.inverse_mass == 0.0) return s;
   s.v = velocity_of(i).xyz;
@@ -55,6 +59,28 @@ Side side_of(uint body) {
   s.turned = turned_of(i).xyz;
   s.tensor = tensors[body].diagonal.xyz;
   s.tensor_mixed = tensors[body].mixed.xyz;
+  return s;
+}
+
+// The same of a manifold that is struck: its levers, gaps and inertia are of where its bodies are now. With those of half
+// way through the step a blow would turn each of two bodies about a lever that is up to half a step's way off.
+bool aimed = false;
+
+// Not with a ball: the point where it touches does not turn with it.
+bool aims(SpherePair pair) {
+  return manifolds[world.pairs.x + pair.slot].state.y != 0u && !is_ball(pair.a) && !is_ball(pair.b);
+}
+
+Side aimed_side_of(uint body) {
+  Side s = side_of(body);
+  if (!aimed || s.inverse_mass == 0.0) return s;
+  s.now = normalize(quat_multiply(quat_of_turn(s.turned), s.orientation));
+  uint shape = bodies[body].ids.x;
+  mat3 r = rotation_of(s.now);
+  mat3 t = r * symmetric(shapes[shape].inverse_inertia, shapes[shape].inverse_inertia_mixed) * transpose(r);
+  t *= bodies[body].material.x;
+  s.tensor = vec3(t[0][0], t[1][1], t[2][2]);
+  s.tensor_mixed = vec3(t[0][1], t[0][2], t[1][2]);
   return s;
 }
 
@@ -77,14 +103,14 @@ SpherePair pair_at(uint o) { return pairs[list + order[world.pairs.x + o]]; }
 
 void prepare_manifold(uint o) {
   SpherePair pair = pair_at(o);
+  aimed = false;
   Side a = side_of(pair.a), b = side_of(pair.b);
-  FOR_CONTACTS(at, pair.slot) prepare(at, a, b);
-  manifolds[world.pairs.x + pair.slot].state.y = 0u;
+  bool strikes = false;
+  FOR_CONTACTS(at, pair.slot) strikes = prepare(at, a, b) || strikes;
+  manifolds[world.pairs.x + pair.slot].state.y = strikes ? SPHERE_STRIKES : 0u;
   spin_of(pair.a - world.bodies.x).w = 1.0;  // all that come here write the same
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
-
-#include "sphere/ball.h"
 
 vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
 
@@ -123,10 +149,13 @@ void resist_turn(SpherePair pair, inout Side a, inout Side b) {
 
 void solve_manifold(uint o, uint kind, float h) {
   SpherePair pair = pair_at(o);
-  if (kind == SWEEP_BOUNCE && manifolds[world.pairs.x + pair.slot].state.y == 0u) return;
-  Side a = side_of(pair.a), b = side_of(pair.b);
+  uint blow = manifolds[world.pairs.x + pair.slot].state.y;
+  if (kind == SWEEP_BOUNCE && blow != SPHERE_BOUNCES) return;
+  aimed = aims(pair);
+  Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   if (kind == SWEEP_WARM_START) {
-    FOR_CONTACTS(at, pair.slot) warm_start(at, a, b);
+    float restitution = restitution_of(pair);
+    FOR_CONTACTS(at, pair.slot) warm_start(at, restitution, a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_CONTACTS(at, pair.slot) bounce(at, restitution_of(pair), a, b);
   } else {
@@ -143,34 +172,82 @@ void solve_manifold(uint o, uint kind, float h) {
 bool bounces(uint o) {
   SpherePair pair = pair_at(o);
   if (restitution_of(pair) == 0.0) return false;
-  Side a = side_of(pair.a), b = side_of(pair.b);
+  aimed = aims(pair);
+  Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   bool any = false;
   FOR_CONTACTS(at, pair.slot) {
     Row row = row_of(contacts[at], a, b);
-    any = any || row.impulse.w > 0.0 && struck(row, a, b);
+    any = any || has_pressed(row.impulse) && struck(row, a, b);
   }
-  if (any) manifolds[world.pairs.x + pair.slot].state.y = 1u;
+  if (any) manifolds[world.pairs.x + pair.slot].state.y = SPHERE_BOUNCES;
   return any;
 }
 
 void keep_forces(uint o) {
   SpherePair pair = pair_at(o);
-  bool bounced = manifolds[world.pairs.x + pair.slot].state.y == 1u;
-  Side a = side_of(pair.a), b = side_of(pair.b);
+  uint blow = manifolds[world.pairs.x + pair.slot].state.y;
+  bool bounced = blow == SPHERE_BOUNCES;
+  aimed = aims(pair);
+  Side a = aimed_side_of(pair.a), b = aimed_side_of(pair.b);
   uint presses = 0u;
-  FOR_CONTACTS(at, pair.slot) if (keep_force(at, bounced, a, b)) presses = 1u;
+  float restitution = restitution_of(pair);
+  FOR_CONTACTS(at, pair.slot) if (keep_force(at, restitution, bounced, a, b)) presses = 1u;
   manifolds[world.pairs.x + pair.slot].state.y = presses;
+}
+
+// Bodies with a contact that has all the friction that its force allows.
+void note_sliding(uint o) {
+  SpherePair pair = pair_at(o);
+  float friction = friction_of(pair);
+  bool slips = false;
+  FOR_CONTACTS(at, pair.slot) {
+    vec3 impulse = contacts[at].force.xyz;
+    float most = friction * impulse.x;
+    slips = slips || most > 0.0 && dot(impulse.yz, impulse.yz) > 0.999 * most * most;
+  }
+  if (!slips) return;
+  turned_of(pair.a - world.bodies.x).w = 1.0;  // all that come here write the same
+  if (pair.b != SPHERE_GROUND) turned_of(pair.b - world.bodies.x).w = 1.0;
+}
+
+// Of a body, turns counted at its radius.
+float speed_of(uint i) {
+  float radius = shapes[bodies[world.bodies.x + i].ids.x].box_center.w;
+  return sqrt(dot(velocity_of(i).xyz, velocity_of(i).xyz) + radius * radius * dot(spin_of(i).xyz, spin_of(i).xyz));
+}
+
+// sum += change, and what single precision is too coarse for stays in `rest` for the next time.
+void add_exactly(vec3 change, inout vec3 sum, inout vec3 rest) {
+  dvec3 exact = dvec3(sum) + (dvec3(rest) + dvec3(change));
+  sum = vec3(exact);
+  rest = vec3(exact - dvec3(sum));
 }
 
 void integrate_velocity(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;
   uint body = world.bodies.x + i;
-  velocity_of(i).xyz += h * world.gravity.xyz;
+  moved_of(i).w = speed_of(i);
+  turned_of(i).w = 0.0;
+  vec3 v = velocity_of(i).xyz, rest = states[body].velocity_rest.xyz;
+  add_exactly(h * world.gravity.xyz, v, rest);
+  velocity_of(i).xyz = v;
+  states[body].velocity_rest.xyz = rest;
   spin_of(i).xyz = gyrated(spin_of(i).xyz, states[body].orientation, shapes[bodies[body].ids.x], h);
 }
 
+// Mean speed of a sub-step / speed at its end, of a body that friction brakes all the while: 1 of what is struck, or as
+// slow as it is braked in a sub-step.
+float mean_speed(uint i) {
+  float before = moved_of(i).w, after = speed_of(i);
+  return after > 0.5 * before && after < 2.0 * before ? 0.5 * (before / after + 1.0) : 1.0;
+}
+
+// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's way
+// too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
 void integrate_position(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;
+  float slow = 4.0 * h * length(world.gravity.xyz);  // stops within a few sub-steps
+  if (turned_of(i).w == 1.0 && moved_of(i).w > slow) h *= mean_speed(i);
   moved_of(i).xyz += h * velocity_of(i).xyz;
   // Touched by nothing: exactly the parabola.
   if (spin_of(i).w == 0.0) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;
@@ -183,7 +260,10 @@ void integrate_position(uint i, float h) {
 bool keep_body(uint i) {
   if (velocity_of(i).w == 0.0) return false;
   uint body = world.bodies.x + i;
-  states[body].position.xyz += moved_of(i).xyz;
+  vec3 position = states[body].position.xyz, rest = states[body].position_rest.xyz;
+  add_exactly(moved_of(i).xyz, position, rest);
+  states[body].position.xyz = position;
+  states[body].position_rest.xyz = rest;
   states[body].velocity.xyz = velocity_of(i).xyz;
   states[body].spin.xyz = spin_of(i).xyz;
   return spin_of(i).w == 0.0;

@@ -1,6 +1,7 @@
 #include "bin_scenes/solver/bullet_solver.hpp"
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/hard_contacts.hpp"
 
 namespace bin_scenes::testing {
 
@@ -51,6 +52,7 @@ TEST(BulletBlows, ThatFollowEachOtherInAStepGainNoEnergy) {
 INSTANTIATE_TEST_SUITE_P(Bullet, ClosedForms, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Stacks, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Extremes, ::testing::Values(bullet_default), name);
+INSTANTIATE_TEST_SUITE_P(Bullet, HardContacts, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, CoarseSteps, ::testing::Values(bullet_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, UncutSteps, ::testing::Values(bullet_uncut), name);
 

@@ -63,12 +63,12 @@ struct Slide {
   double speed;  ///< left over, m/s
 };
 /// A flat box that friction stops: v0^2 / (2 mu g), straight on.
-inline Slide slide(Lab lab) {
-  lab.def().bin.friction = 0.45;
-  const auto body = lab.place(box({0.05, 0.04, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(0.2));
+inline Slide slide(Lab lab, double friction_of_bin = 0.45, double friction_of_box = 0.2) {
+  lab.def().bin.friction = friction_of_bin;
+  const auto body = lab.place(box({0.05, 0.04, 0.01}), Vec3(0, 0, 0.005), Quat::Identity(), material(friction_of_box));
   lab.start(body).velocity.linear = Vec3(0.8, 0.6, 0.0);
   lab.simulate(1.0);
-  const double mu = 0.3, expected = 1.0 / (2.0 * mu * g);  // sqrt(0.45 * 0.2)
+  const double mu = std::sqrt(friction_of_bin * friction_of_box), expected = 1.0 / (2.0 * mu * g);
   const Vec3 way = lab.center(body);
   return {std::abs(way.head<2>().norm() / expected - 1.0),
           std::abs(std::atan2(way.y(), way.x()) - std::atan2(0.6, 0.8)), lab.state(body).velocity.linear.norm()};

@@ -1,6 +1,7 @@
 #include "pour/settling.hpp"
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
+#include "solver/hard_contacts.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
@@ -156,12 +157,37 @@ TEST(SphereStacks, OfOtherBoxesStandWhereTheyWerePut) {
   for (const double drift : brick_stack_drifts([] { return Lab(sphere_default.make()); }, 5.0)) EXPECT_LT(drift, 5e-3);
 }
 
+TEST(SphereStacks, AHouseOfCardsStands) {
+  EXPECT_LT(card_house_drift(Lab(sphere_default.make()), phases::pour), 5e-3);
+  EXPECT_LT(card_house_drift(Lab(sphere_default.make()), phases::hold), 1e-3);
+}
+
 TEST(SphereBall, KeepsItsEnergyWhereNothingIsLostInABounce) {
   EXPECT_LT(elastic_change(Lab(sphere_default.make())), 5e-4);
 }
 
 TEST(SphereBall, OnAPlateRollsAsFastAsThePlateTakesIt) {
   EXPECT_LT(ride(Lab(sphere_default.make())), 3e-3);
+}
+
+// It rebounded at 1.9 m/s and squeezed the light one out. A sixth of the light one's edge is what the sweeps of one
+// step leave to the next.
+TEST(SphereMasses, AThousandTimesAsHeavyNeitherReboundsNorSqueezesOut) {
+  for (const double mass : {100.0, 1000.0}) {
+    const Rebound heavy = strike_light_cube(Lab(sphere_default.make()), mass);
+    EXPECT_LT(heavy.speed, 0.3) << mass;
+    EXPECT_LT(heavy.aside, 0.05) << mass;
+    EXPECT_GT(heavy.height, 0.8) << mass;
+  }
+}
+
+// The error of a pile falls with the sub-steps.
+TEST(SphereMasses, APileReboundsLessInShorterSubSteps) {
+  SphereSettings fine;
+  fine.sub_steps = 32;
+  const Rebound pile = pile_up_cubes(Lab(make_sphere_solver(fine)), 5);
+  EXPECT_LT(pile.speed, 0.15);
+  EXPECT_LT(pile.aside, 0.1);
 }
 
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
@@ -212,6 +238,7 @@ TEST(SphereSwing, OfAWheelOnItsFaceBesideAWallIsLost) {
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);
 

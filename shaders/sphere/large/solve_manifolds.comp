@@ -70,6 +70,8 @@ void main() {
     solve_manifold(o, stage, sub_step());
   else if (stage == MANIFOLDS_PREPARE)
     prepare_manifold(o);
+  else if (stage == MANIFOLDS_NOTE)
+    note_sliding(o);
   else if (stage == MANIFOLDS_KEEP)
     keep_forces(o);
   else if (bounces(o))

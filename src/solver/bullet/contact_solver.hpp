@@ -56,6 +56,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
     btScalar distance;  ///< where bodies were at detection
     btScalar approach;  ///< normal velocity before its first push, negative
     bool pushed;
+    btScalar lasting;  ///< normal impulse that the sub-step began with
   };
   /// Way and turn of a solver body from where it was at detection.
   struct Way {
@@ -72,6 +73,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   enum class Sweep { first_push, push, relax };
 
   void begin();
+  void forget_blows(btScalar speed);
   void warm_start();
   void sweep(btScalar h, Sweep kind);
   void resist_turn(int first, int last);

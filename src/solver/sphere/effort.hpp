@@ -10,6 +10,10 @@ namespace bin_scenes::sphere {
 /// Effort of the heap that this world will become, when all parts that find room are in.
 int effort_to_come(const World& world, const WorldDef& def);
 
+/// Sweeps that parts of unequal masses ask for, times the default: a sweep passes on as much of a blow as the light
+/// part that carries it can.
+int effort_of_masses(const World& world);
+
 /// Effort of the heap as it lies now.
 int effort_of(const World& world);
 

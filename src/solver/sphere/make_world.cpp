@@ -72,6 +72,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
       w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
+  w.mass_effort = effort_of_masses(w);
   return w;
 }
 
@@ -92,6 +93,8 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.x = state.pose.position.cast<float>() + b.q * world.shapes[b.shape]->center;
   b.v = state.velocity.linear.cast<float>();
   b.w = state.velocity.angular.cast<float>();
+  b.x_rest.setZero();
+  b.v_rest.setZero();
   b.driven = b.inverse_mass == 0 && !(b.v.isZero() && b.w.isZero());
   b.present = true;
   b.asleep = false;
@@ -138,7 +141,8 @@ BodyState state_of(const World& world, std::size_t body) {
     return state;
   }
   state.pose.orientation = b.q.cast<double>().normalized();
-  state.pose.position = b.x.cast<double>() - state.pose.orientation * world.shapes[b.shape]->center.cast<double>();
+  state.pose.position = b.x.cast<double>() + b.x_rest.cast<double>() -
+                        state.pose.orientation * world.shapes[b.shape]->center.cast<double>();
   state.velocity = {b.v.cast<double>(), b.w.cast<double>()};
   return state;
 }

@@ -17,4 +17,12 @@ inline Quatf integrated(const Quatf& q, const Vec3f& w, float h) {
   return (Quatf(std::cos(0.5f * angle), s * w.x(), s * w.y(), s * w.z()) * q).normalized();
 }
 
+/// sum += change, and what single precision is too coarse for stays in `rest` for the next time: a part at 1,000 m/s, a
+/// kilometre away, moves by 40 mm in a step that is cut, and is rounded to 0.06 mm.
+inline void add_exactly(const Vec3f& change, Vec3f& sum, Vec3f& rest) {
+  const Vec3 exact = sum.cast<double>() + (rest.cast<double>() + change.cast<double>());
+  sum = exact.cast<float>();
+  rest = (exact - sum.cast<double>()).cast<float>();
+}
+
 }  // namespace bin_scenes::sphere

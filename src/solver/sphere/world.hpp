@@ -45,6 +45,9 @@ struct Settings {
                                  ///< thickness of the thinnest part; higher = thin parts sink into each other
   float loaded_part_sag = 0.1f;  ///< the same of each part under the load above it; higher = light parts sink in
   float max_load_effort = 8;     ///< largest effort for that load; higher = a heavy part among light ones costs more
+  float default_mass_ratio = 8;  ///< of parts for which the default sweeps suffice; they grow with its square root;
+                                 ///< higher = what is heavy rebounds from what is light, and squeezes it out
+  float max_mass_effort = 16;    ///< largest factor on sweeps for that
   float tower_effort = 0.16f;    ///< effort of a tower of n parts / n^1.5; lower = twenty cubes sway and never rest
   float max_tower_effort = 60;   ///< largest effort of a tower, of about 50 parts; higher = piles of sheets cost more
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< while parts move: damps rocking
@@ -93,6 +96,7 @@ struct Body {
   float friction = 0.5f, restitution = 0;
   // What the solver touches.
   Vec3f x = Vec3f::Zero(), v = Vec3f::Zero(), w = Vec3f::Zero();
+  Vec3f x_rest = Vec3f::Zero(), v_rest = Vec3f::Zero();  ///< what x and v are too coarse for: math.hpp, add_exactly
   Quatf q = Quatf::Identity();
   Mat3f rotation = Mat3f::Identity();  ///< of q when contacts were found
   Mat3f world_inverse_inertia = Mat3f::Zero();
@@ -175,6 +179,7 @@ struct World {
   bool forgets = false;                   ///< the next step starts without remembered forces
   int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
+  int mass_effort = 1;                    ///< least factor on sweeps, for parts of unequal masses
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while no part is fast
   int cuts = 1;                           ///< steps for one time step of the request; more than 1 for small parts
@@ -191,8 +196,13 @@ struct World {
   int refinement() const {
     return stiffness == Stiffness::soft ? effort * softness().refinement : softness().refinement;
   }
-  int sweep_effort() const { return stiffness == Stiffness::soft ? 1 : effort; }
+  int sweep_effort() const { return std::max(mass_effort, stiffness == Stiffness::soft ? 1 : effort); }
   int sub_steps() const { return settings.sub_steps * refinement(); }
+  /// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
+  float blow_speed() const {
+    const float falls = 4.0f * sub_step() * gravity.norm();
+    return falls > 0 ? falls : settings.restitution_speed;
+  }
   /// Sweeps of the next step before bodies move.
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Sweeps after bodies move. Rigid contacts push slowly, so that one sweep removes the remaining velocity. With none,

@@ -20,7 +20,8 @@ gpu::SphereBody to_gpu(const Body& body, std::uint32_t shape, std::uint32_t worl
 
 gpu::SphereState state_of(const Body& b) {
   const std::uint32_t flags = (b.present ? SPHERE_PRESENT : 0u) | (b.asleep ? SPHERE_ASLEEP : 0u);
-  return {vec4(b.x), vec4(b.q), vec4(b.v), vec4(b.w), vec4(b.still_x, b.still), vec4(b.still_q), {flags, 0, 0, 0}};
+  return {vec4(b.x),       vec4(b.q),      vec4(b.v),      vec4(b.w),       vec4(b.still_x, b.still),
+          vec4(b.still_q), vec4(b.x_rest), vec4(b.v_rest), {flags, 0, 0, 0}};
 }
 
 void read_state(const gpu::SphereState& state, Body& b) {
@@ -31,6 +32,8 @@ void read_state(const gpu::SphereState& state, Body& b) {
   b.still_x = vec3(state.still_position);
   b.still = state.still_position.w;
   b.still_q = quat(state.still_orientation);
+  b.x_rest = vec3(state.position_rest);
+  b.v_rest = vec3(state.velocity_rest);
   b.present = state.flags.x & SPHERE_PRESENT;
   b.asleep = state.flags.x & SPHERE_ASLEEP;
 }

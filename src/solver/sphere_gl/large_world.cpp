@@ -156,6 +156,7 @@ void LargePasses::solve(const LargeWorld& world) {
     bodies(BODIES_VELOCITIES);
     sweep(SWEEP_WARM_START, world);
     sweeps(SWEEP_PUSH, world);
+    over_manifolds(MANIFOLDS_NOTE);
     bodies(BODIES_POSITIONS);
     if (world.rigid)
       sweep(SWEEP_RELAX, world);

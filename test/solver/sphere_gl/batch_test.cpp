@@ -239,9 +239,9 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   solver->set_phase(id, phases::settle);
   // Of each sweep those of four colors that are wider than a group, of one more that might be, and of all the rest.
   constexpr unsigned a_sweep = 6;
-  // 71 of a step, and of each sub-step velocities, positions, and sweeps: warm start, and what follows it.
+  // 71 of a step, and of each sub-step velocities, what slides, positions, and sweeps: warm start, and what follows it.
   const auto expected = [](unsigned sub_steps, unsigned sweeps) {
-    return 71u + sub_steps * (2u + a_sweep * (1u + sweeps));
+    return 71u + sub_steps * (3u + a_sweep * (1u + sweeps));
   };
   const auto step = [&] { return asked_for(*solver, {id}, solver->step_size()).dispatches; };
   solver->advance({id}, 2 * solver->step_size());  // lists grow

@@ -68,6 +68,33 @@ Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& b
                         bundle.inverse_inertia_b * moment_b);
 }
 
+/// What follows from levers, normals and inertia.
+void set_masses(const Bundle& bundle, Lanes inverse_masses, ContactRows& c) {
+  c.moment_a = cross(c.ra, c.normal);
+  c.moment_b = cross(c.rb, c.normal);
+  c.turn_a = bundle.inverse_inertia_a * c.moment_a;
+  c.turn_b = bundle.inverse_inertia_b * c.moment_b;
+  c.normal_mass = effective_mass(c.normal, inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
+  // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
+  c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
+                       tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
+}
+
+/// Where a body is in the midst of the step.
+struct Place {
+  Vec3f x = Vec3f::Zero();
+  Mat3f rotation = Mat3f::Identity(), inverse_inertia = Mat3f::Zero();
+
+  Place(const Body* body, const Motion& motion) {
+    if (!body) return;
+    x = body->x + Vec3f(motion.moved[0], motion.moved[1], motion.moved[2]);
+    rotation = integrated(Quatf::Identity(), Vec3f(motion.turned[0], motion.turned[1], motion.turned[2]), 1.0f)
+                   .toRotationMatrix() *
+               body->rotation;
+    if (motion.inverse_mass() > 0) inverse_inertia = rotation * body->inverse_inertia * rotation.transpose();
+  }
+};
+
 }  // namespace
 
 void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
@@ -115,6 +142,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.friction[lane] = world.grip * m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
+    bundle.aimed[lane] = rolls ? 0 : -1;
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
@@ -131,16 +159,38 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows[i];
     c.gap = c.separation;
-    c.moment_a = cross(c.ra, c.normal);
-    c.moment_b = cross(c.rb, c.normal);
-    c.turn_a = bundle.inverse_inertia_a * c.moment_a;
-    c.turn_b = bundle.inverse_inertia_b * c.moment_b;
-    c.normal_mass = effective_mass(c.normal, inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
-    // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
-    c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
-                         tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
+    c.lasting = c.normal_impulse;
+    set_masses(bundle, inverse_masses, c);
     c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
-    bundle.striking |= any(c.approach <= -world.settings.restitution_speed);
+    bundle.strikes |= c.approach <= -world.settings.restitution_speed;
+  }
+  bundle.aimed &= bundle.strikes;
+}
+
+BIN_SCENES_WIDE
+void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows) {
+  const Ways ways = ways_of(bundle, motions);
+  for (int lane = 0; lane < bundle.lanes; ++lane) {
+    if (!bundle.aimed[lane]) continue;
+    const Manifold& m = world.manifolds[bundle.manifold[lane]];
+    const Place a(&world.bodies[m.a], motions[bundle.a[lane]]);
+    const Place b(m.b == ground ? nullptr : &world.bodies[m.b], motions[bundle.b[lane]]);
+    bundle.inverse_inertia_a.set(lane, a.inverse_inertia);
+    bundle.inverse_inertia_b.set(lane, b.inverse_inertia);
+    for (std::uint32_t k = 0; k < m.solved; ++k) {
+      const Contact& c = m.contacts[k];
+      ContactRows& row = rows[bundle.first + k];
+      const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b.x + b.rotation * c.anchor_b;
+      const Vec3f between = on_b - on_a, middle = on_a + 0.5f * between;
+      row.gap[lane] = between.dot(c.normal);
+      row.ra.set(lane, middle - a.x);
+      row.rb.set(lane, middle - b.x);
+    }
+  }
+  const Velocities velocities = velocities_of(bundle, motions);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
+    set_masses(bundle, velocities.inverse_mass_a + velocities.inverse_mass_b, rows[i]);
+    rows[i].separation = bundle.aimed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
   }
 }
 

@@ -20,16 +20,20 @@ struct alignas(64) Motion {
   float inverse_mass() const { return v[3]; }
 };
 
+constexpr float force_growth = 1.5f;  ///< more = heaps rebound, less = loads of a deep heap are found later
+
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
   LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
   LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
-  LaneVec ra, rb;                       ///< from the centres of mass, world frame; hold for a whole time step (m)
-  Lanes normal_mass{}, tangent_mass{};  ///< effective (kg)
+  LaneVec ra, rb;  ///< from the centres of mass to one common point, world frame; hold for a step, or for a sub-step
+                   ///< of what is struck (m)
+  Lanes normal_mass{}, tangent_mass{};                 ///< effective (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
   Lanes separation{};                                  ///< when contacts were found (m)
   Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
+  Lanes lasting{};             ///< normal impulse that the sub-step began with (N s)
   Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
 };
 
@@ -42,7 +46,8 @@ struct Bundle {
   int lanes = 0;  ///< in use
   int color = 0;
   bool paired = false;        ///< solved together with the next one, which is of the same color
-  bool striking = false;      ///< some contact closes at Settings::restitution_speed
+  LaneMask strikes{};         ///< some contact closes at Settings::restitution_speed
+  LaneMask aimed{};           ///< strikes, and no ball is in it: the point where a ball touches does not turn with it
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
@@ -50,6 +55,17 @@ struct Bundle {
 
   std::uint32_t rows() const { return last - first; }
 };
+
+/// A force may grow by half in a sub-step, and by what stops `speed` (m/s). Beyond, the impulse was that of a blow: it
+/// is over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
+/// thrown up.
+/// What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+inline void forget_blow(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
+  const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
+  const Lanes most = force_growth * c.lasting + speed * c.normal_mass;
+  const Lanes share = (c.normal_impulse > most) & ~bounces ? most / c.normal_impulse : all_lanes(1);
+  for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
+}
 
 /// The velocities of a bundle's bodies, in registers while its contacts are solved.
 struct Velocities {
@@ -141,6 +157,10 @@ void make_bundles(const World& world, const Blocks& blocks, std::size_t block, s
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
+/// Levers, gaps and inertia of manifolds that are struck, of where their bodies are now: with those of half way through
+/// the step a blow would turn each of two bodies about a lever that is up to half a step's way off, and change their
+/// common angular momentum.
+void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows);
 /// Back into the contacts, as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 

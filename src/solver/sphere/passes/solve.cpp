@@ -55,6 +55,8 @@ Vec3f vector_of(Quad q) {
 struct Scratch {
   std::vector<Motion> motions;  ///< of the block's bodies, and behind them of all that does not move
   std::vector<char> free;       ///< bodies that nothing is near
+  std::vector<char> slides;     ///< bodies with a contact that slips; and behind them what does not move
+  std::vector<float> speeds;    ///< of bodies when the sub-step begins (m/s), turns counted at their radius
   std::vector<Bundle> bundles;  ///< in order of color
   std::vector<ContactRows> rows;
 };
@@ -69,11 +71,14 @@ class ContactSolver {
         bodies_(blocks.bodies(block)),
         settings_(world.settings),
         h_(world.sub_step()),
+        blow_speed_(world.blow_speed()),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         free_(scratch.free),
+        slides_(scratch.slides),
+        speeds_(scratch.speeds),
         bundles_(scratch.bundles),
         rows_(scratch.rows) {}
 
@@ -85,9 +90,11 @@ class ContactSolver {
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
   void sweep(bool push, bool first);
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
-  void move();       ///< positions
-  void restitute();  ///< Newton's restitution
-  void finish();     ///< back into bodies and contacts
+  void note_sliding();  ///< bodies that friction brakes
+  void aim();           ///< levers of what is struck
+  void move();          ///< positions
+  void restitute();     ///< Newton's restitution
+  void finish();        ///< back into bodies and contacts
 
  private:
   void prepare_motions();
@@ -98,6 +105,8 @@ class ContactSolver {
     Lanes friction;
   };
   Swept begin(const Bundle& bundle, bool push, bool first);
+  float speed(std::size_t body) const;
+  float mean_speed(std::size_t body) const;
   void look(const Bundle& bundle);
   void solve_normal(ContactRows& c, Velocities& u, bool push) const;
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
@@ -112,12 +121,15 @@ class ContactSolver {
   const Slice bodies_;
   const Settings& settings_;
   const float h_;
+  const float blow_speed_;  ///< m/s
   const Softness& softness_;
   const Spring spring_;
   bool friction_holds_ = true;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
+  std::vector<char>& slides_;
+  std::vector<float>& speeds_;
   std::vector<Bundle>& bundles_;
   std::vector<ContactRows>& rows_;
 };
@@ -125,6 +137,8 @@ class ContactSolver {
 void ContactSolver::prepare_motions() {
   motions_.assign(bodies_.size() + 1, Motion{});
   free_.assign(bodies_.size(), 1);
+  slides_.assign(bodies_.size() + 1, 0);
+  speeds_.assign(bodies_.size(), 0.0f);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& b = world_.bodies[bodies_[i]];
     motions_[i].v = padded(b.v, b.inverse_mass);
@@ -146,17 +160,20 @@ void ContactSolver::prepare() {
 /// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
 /// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
 void ContactSolver::accelerate() {
-  const Quad gain = padded(h_ * world_.gravity);
+  const Vec3f gain = h_ * world_.gravity;
   if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
     if (motion.inverse_mass() == 0) continue;  // on a path
-    motion.v += gain;
+    speeds_[i] = speed(i);
+    Body& b = world_.bodies[bodies_[i]];
+    Vec3f v = vector_of(motion.v);
+    add_exactly(gain, v, b.v_rest);
+    motion.v = padded(v, motion.inverse_mass());
     if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
       continue;  // 1e-4 rad a sub-step: the term is rounding
     // Only the change is turned back to world axes: turning all of the spin would let |L| creep by a thousandth in ten
     // thousand sub-steps of single precision.
-    const Body& b = world_.bodies[bodies_[i]];
     const Mat3f r = b.q.toRotationMatrix();
     const Vec3f before = r.transpose() * vector_of(motion.w);
     Vec3f change = Vec3f::Zero();
@@ -173,7 +190,9 @@ void ContactSolver::warm_start() {
   for (const Bundle& bundle : bundles_) {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-      const ContactRows& c = rows_[i];
+      ContactRows& c = rows_[i];
+      forget_blow(c, bundle, blow_speed_, settings_.restitution_speed);
+      c.lasting = c.normal_impulse;
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
     }
@@ -248,6 +267,12 @@ LaneMask rubs(const ContactRows& c) {
   return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
 }
 
+/// Which contacts press and have all the friction that their force allows.
+LaneMask slip(const ContactRows& c, Lanes friction) {
+  const Lanes most = friction * c.normal_impulse;
+  return (most > 0.0f) & (c.t1_impulse * c.t1_impulse + c.t2_impulse * c.t2_impulse > 0.999f * most * most);
+}
+
 /// Coulomb's cone: both directions at once.
 void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
@@ -309,15 +334,49 @@ void ContactSolver::sweep(bool push, bool first) {
   }
 }
 
+void ContactSolver::aim() {
+  for (Bundle& bundle : bundles_)
+    if (any(bundle.aimed)) sphere::aim(world_, motions_, bundle, rows_);
+}
+
+float ContactSolver::speed(std::size_t body) const {
+  const Motion& motion = motions_[body];
+  const float radius = world_.shapes[world_.bodies[bodies_[body]].shape]->radius;
+  return std::sqrt(vector_of(motion.v).squaredNorm() + radius * radius * vector_of(motion.w).squaredNorm());
+}
+
+/// Mean speed of a sub-step / speed at its end, of a body that friction brakes all the while: 1 of what is struck, or
+/// as slow as it is braked in a sub-step.
+float ContactSolver::mean_speed(std::size_t body) const {
+  const float before = speeds_[body], after = speed(body);
+  return after > 0.5f * before && after < 2.0f * before ? 0.5f * (before / after + 1.0f) : 1.0f;
+}
+
+void ContactSolver::note_sliding() {
+  std::fill(slides_.begin(), slides_.end(), 0);
+  const float slow = 4.0f * h_ * world_.gravity.norm();  // stops within a few sub-steps
+  if (std::all_of(speeds_.begin(), speeds_.end(), [&](float speed) { return speed <= slow; })) return;
+  for (const Bundle& bundle : bundles_) {
+    LaneMask slips{};
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) slips |= slip(rows_[i], bundle.friction);
+    for (int lane = 0; any(slips) && lane < bundle.lanes; ++lane)
+      if (slips[lane]) slides_[bundle.a[lane]] = slides_[bundle.b[lane]] = 1;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) slides_[i] &= speeds_[i] > slow;
+}
+
+/// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's
+/// way too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
 void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
-    motion.moved += h_ * motion.v;
+    const float h = slides_[i] ? h_ * mean_speed(i) : h_;
+    motion.moved += h * motion.v;
     if (free_[i] && motion.inverse_mass() > 0) motion.moved -= parabola;  // nothing touches it: exactly the parabola
-    motion.turned += h_ * motion.w;
+    motion.turned += h * motion.w;
     Quatf& q = world_.bodies[bodies_[i]].q;
-    q = integrated(q, vector_of(motion.w), h_);
+    q = integrated(q, vector_of(motion.w), h);
   }
 }
 
@@ -355,7 +414,7 @@ void ContactSolver::restitute() {
   static thread_local std::vector<Bounce> blows;
   blows.clear();
   for (const Bundle& bundle : bundles_)
-    if (bundle.striking)
+    if (any(bundle.strikes))
       if (const LaneMask lanes = bouncing(bundle); any(lanes)) blows.push_back({&bundle, lanes});
   for (int k = 0; k < bounce_sweeps; ++k)
     for (const Bounce& b : blows) bounce(*b.bundle, b.lanes);
@@ -369,12 +428,15 @@ void ContactSolver::restitute() {
 }
 
 void ContactSolver::finish() {
+  for (const Bundle& bundle : bundles_)
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+      forget_blow(rows_[i], bundle, blow_speed_, settings_.restitution_speed);
   for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = world_.bodies[bodies_[i]];
     b.v = vector_of(motions_[i].v);
     b.w = vector_of(motions_[i].w);
-    b.x += vector_of(motions_[i].moved);
+    add_exactly(vector_of(motions_[i].moved), b.x, b.x_rest);
   }
 }
 
@@ -383,13 +445,16 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   static thread_local Scratch scratch;
   ContactSolver solver(world, blocks, block, scratch);
   solver.prepare();
+  solver.aim();
   for (int k = 0; k < world.sub_steps(); ++k) {
     solver.hold_by_friction(k >= world.slip_sub_steps());
     solver.accelerate();
     stop_if_cancelled();
     solver.warm_start();
     for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
+    solver.note_sliding();
     solver.move();
+    solver.aim();
     for (int i = 0; i < world.relaxing_sweeps(); ++i) solver.sweep(false, i == 0);
   }
   solver.restitute();

@@ -1,0 +1,129 @@
+/// Contacts that are hard to solve: fast, uneven in mass, sharp or tight. As numbers, like closed_form_scenes.hpp.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "solver/closed_form_scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::testing {
+
+/// A box thrown down a kilometre of air at 1,000 m/s, for one second.
+inline Fall long_flight(Lab lab) {
+  lab.def().bin.kind = Bin::Kind::none;
+  const auto body = lab.place(box({0.05, 0.03, 0.02}), Vec3::Zero());
+  const Vec3 start(600.0, 0.0, -800.0);
+  lab.start(body).velocity.linear = start;
+  lab.simulate(1.0);
+  const double t = lab.time();
+  const Vec3 way = t * start - Vec3(0, 0, 0.5 * g * t * t), velocity = start - Vec3(0, 0, g * t);
+  return {(lab.center(body) - way).norm() / way.norm(),
+          (lab.state(body).velocity.linear - velocity).norm() / velocity.norm()};
+}
+
+/// Two bricks that tumble, of unequal mass, strike each other off centre: change of the angular momentum about the
+/// common centre of mass / sum of its parts at the start.
+inline double spin_gained_in_a_blow(Lab lab, std::uint64_t seed) {
+  Random random(seed, 0, Stream::probe);
+  const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const double restitution = random.uniform(), friction = random.uniform();
+  for (const double side : {-1.0, 1.0}) {
+    const double width = random.uniform(0.02, 0.08);
+    const auto body = lab.place(box({0.1, width, 0.04}), Vec3(0.1 * side, 0, 0) + 0.01 * any(), random.orientation(),
+                                material(friction, restitution, random.uniform(0.1, 1.0)));
+    lab.start(body).velocity = {Vec3(-side, 0, 0) + 0.1 * any(), 5.0 * any()};
+  }
+  double scale = 0.0;
+  const auto total = [&](const std::vector<BodyState>& states) {
+    Vec3 sum = Vec3::Zero();
+    scale = 0.0;
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      const Vec3 momentum = lab.body(b).mass * states[b].velocity.linear, spin = lab.spin(b, states[b]);
+      sum += spin + (states[b].pose * lab.part(b).mass().center).cross(momentum);
+      scale += spin.norm() + lab.part(b).diagonal() * momentum.norm();
+    }
+    return sum;
+  };
+  const Vec3 before = total({lab.start(0), lab.start(1)});
+  const double scale_before = scale;
+  lab.simulate(0.25);
+  return (total(lab.states()) - before).norm() / scale_before;
+}
+
+struct Rebound {
+  double speed;   ///< fastest upwards after the blow, m/s
+  double aside;   ///< farthest that a cube went sideways / edge
+  double height;  ///< least distance of neighbours above each other / edge: below 1 = sunk in
+};
+/// A cube at 3.2 m/s onto a light one that lies on the floor.
+inline Rebound strike_light_cube(Lab lab, double mass) {
+  const double edge = 0.05;
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  const auto light = lab.place(cube, Vec3(0, 0, 0.5 * edge), Quat::Identity(), material(0.5));
+  const auto heavy = lab.place(cube, Vec3(0, 0, 1.7 * edge), Quat::Identity(), material(0.5, 0.0, mass));
+  lab.start(heavy).velocity.linear = Vec3(0, 0, -3.2);
+  Rebound out{0.0, 0.0, 1.0};
+  while (lab.time() < 0.5) {
+    lab.simulate(lab.solver().step_size());
+    out.speed = std::max(out.speed, lab.state(heavy).velocity.linear.z());
+    out.aside = std::max(out.aside, lab.center(light).head<2>().norm() / edge);
+    out.height = std::min(out.height, (lab.center(heavy).z() - lab.center(light).z()) / edge);
+  }
+  return out;
+}
+
+/// Cubes that fall on each other one after the other, without friction.
+inline Rebound pile_up_cubes(Lab lab, int count) {
+  const double edge = 0.05;
+  lab.def().bin.friction = 0.0;
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  for (int i = 0; i < count; ++i)
+    lab.place(cube, Vec3(0, 0, (0.5 + i) * edge + 0.3 * i), Quat::Identity(), material(0.0));
+  Rebound out{0.0, 0.0, 1.0};
+  while (lab.time() < 1.0) {
+    lab.simulate(lab.solver().step_size());
+    for (int i = 0; i < count; ++i) {
+      const BodyState state = lab.state(static_cast<std::size_t>(i));
+      out.speed = std::max(out.speed, state.velocity.linear.z());
+      out.aside = std::max(out.aside, state.pose.position.head<2>().norm() / edge);
+      if (i > 0)
+        out.height = std::min(
+            out.height, (state.pose.position - lab.state(static_cast<std::size_t>(i - 1)).pose.position).z() / edge);
+    }
+  }
+  return out;
+}
+
+/// A house of cards of three levels on friction 0.5, its leaning cards 0.42 rad off the upright: farthest that a card
+/// moves in six seconds / its length.
+inline double card_house_drift(Lab lab, Phase phase) {
+  const double length = 0.09, width = 0.06, thickness = 0.001, lean = 0.42;
+  const double up = 0.5 * (length * std::cos(lean) + thickness * std::sin(lean));   // half a leaning card's height
+  const double out = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean));  // and half of its reach
+  const double pitch = 4.0 * out, level_height = 2.0 * up + thickness;
+  const PartModelPtr card = box({thickness, width, length}), roof = box({0.98 * pitch, width, thickness});
+  lab.def().bin.friction = 0.5;
+  std::vector<Vec3> starts;
+  const auto put = [&](const PartModelPtr& part, const Vec3& at, double turn) {
+    lab.place(part, at, Quat(Eigen::AngleAxisd(turn, Vec3::UnitY())), material(0.5));
+    starts.push_back(at);
+  };
+  for (int level = 0; level < 3; ++level) {
+    const int pairs = 3 - level;
+    const double base = level * level_height, first = -0.5 * (pairs - 1) * pitch;
+    for (int i = 0; i < pairs; ++i)
+      for (const double side : {-1.0, 1.0}) put(card, Vec3(first + i * pitch + side * out, 0, base + up), -side * lean);
+    for (int i = 0; i + 1 < pairs; ++i)
+      put(roof, Vec3(first + (i + 0.5) * pitch, 0, base + 2.0 * up + 0.5 * thickness), 0.0);
+  }
+  lab.begin(phase);
+  lab.simulate(6.0);
+  double most = 0.0;
+  for (std::size_t b = 0; b < starts.size(); ++b) most = std::max(most, (lab.center(b) - starts[b]).norm() / length);
+  return most;
+}
+
+}  // namespace bin_scenes::testing
