@@ -179,7 +179,7 @@ struct World {
   bool forgets = false;                   ///< the next step starts without remembered forces
   int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
-  int mass_effort = 1;                    ///< least factor on sweeps, for parts of unequal masses
+  int mass_effort = 1;                    ///< factor on sweeps of soft contacts, for parts of unequal masses
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while no part is fast
   int cuts = 1;                           ///< steps for one time step of the request; more than 1 for small parts
@@ -196,7 +196,7 @@ struct World {
   int refinement() const {
     return stiffness == Stiffness::soft ? effort * softness().refinement : softness().refinement;
   }
-  int sweep_effort() const { return std::max(mass_effort, stiffness == Stiffness::soft ? 1 : effort); }
+  int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : effort; }
   int sub_steps() const { return settings.sub_steps * refinement(); }
   /// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
   float blow_speed() const {
