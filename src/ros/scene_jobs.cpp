@@ -67,8 +67,8 @@ std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& re
 
 std::shared_ptr<Job> SceneJobs::next(Answer answer) {
   const auto make = [this](const RunHooks& hooks) -> MadeScene {
-    if (!maker_->has_scene()) {
-      throw input_error("there is no scene yet, so that nobody knows what comes next", "next_scene",
+    if (!maker_->has_scene() || maker_->request().parts.empty()) {  // none yet, or cleared
+      throw input_error("there is no scene, so that nobody knows what comes next", "next_scene",
                         "make one first: generate, generate_scene, ~request");
     }
     if (ahead_) return ahead_->take(hooks);

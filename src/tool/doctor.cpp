@@ -39,8 +39,8 @@ bool report_devices() {
     if (device.software()) {
       std::printf(
           "%-9s      advice: this is the CPU; for a GPU install its driver with EGL (in a container: with the "
-          "graphics capability), and unset BIN_SCENES_GL\n",
-          "");
+          "graphics capability)%s\n",
+          "", std::getenv("BIN_SCENES_GL") ? ", and unset BIN_SCENES_GL" : "");
     }
     return true;
   } catch (const Error& error) {

@@ -100,6 +100,10 @@ class HeapTest(NodeTestCase):
             asked = doors.scene(index=[2])
             self.assertEqual(asked.report.state_hash, hashes[1])
             self.assertEqual(doors.pick(ids=[1]).scene.parts[1].state, ScenePart.REMOVED)
+            self.assertTrue(doors.clear().success)
+            after = doors.next()
+            self.assertFalse(after.success)
+            self.assertIn("there is no scene", after.message)
 
     def test_images_of_scenes_to_come_are_made_ahead_too(self):
         ahead, said = Doors("/ahead/"), {}
