@@ -71,7 +71,7 @@ TEST(Explosion, APinThatItsEyeThrowsAboutIsFlaggedAndBeyondTheLimitSetApart) {
       request.parts[0].fixed = true;
       request.parts[1].poses[0].position.z() -= 0.0149;  // its head lies on the eye
       request.parts[1].velocities = {{Vec3::Zero(), turn}};
-      request.accept.energy = 0.2;
+      request.accept.energy = 0.15;
       Generator().generate(request, {}, [&](Generator::Result&& result) {
         const Report& report = result.scene.report;
         const bool flagged = std::any_of(report.flags.begin(), report.flags.end(),
