@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 extern btScalar gContactBreakingThreshold;  // NOLINT: names of Bullet's
 extern btScalar gDeactivationTime;          // NOLINT
@@ -39,13 +40,18 @@ btScalar larger(const btCollisionObject* a, const btCollisionObject* b) {
   return std::max(a->getRestitution(), b->getRestitution());
 }
 
-/// Bullet keeps these per process, not per world. All worlds of this solver want the same, so setting them again and
-/// again is harmless.
+/// Bullet keeps these per process, not per world. All worlds of this solver want the same; other users of Bullet in the
+/// process may have set others. Written only where they differ: worlds of other threads read them.
 void set_globals() {
-  gContactBreakingThreshold = contact_distance;
-  gDeactivationTime = sleep_time;
-  gCalculateCombinedFrictionCallback = geometric_mean;
-  gCalculateCombinedRestitutionCallback = larger;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto set = [](auto& global, auto value) {
+    if (global != value) global = value;
+  };
+  set(gContactBreakingThreshold, static_cast<btScalar>(contact_distance));
+  set(gDeactivationTime, static_cast<btScalar>(sleep_time));
+  set(gCalculateCombinedFrictionCallback, &geometric_mean);
+  set(gCalculateCombinedRestitutionCallback, &larger);
 }
 
 double smallest_diagonal(const WorldDef& def) {
