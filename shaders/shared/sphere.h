@@ -53,7 +53,6 @@
 #define SWEEP_RELAX 3u
 #define SWEEP_BOUNCE 4u
 #define SPHERE_BOUNCE_SWEEPS 12u
-#define SPHERE_FORCE_GROWTH 1.5  // force_growth
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
 // lists of those near a point (EdgeGrid).

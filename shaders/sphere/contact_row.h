@@ -1,5 +1,5 @@
-// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`, `aimed`, struct
-// Side and shared/rotation.h.
+// One contact in the solve. Needs the bindings Settings, Bodies, Contacts, a `world`, `softness`, `grip`, `kept`,
+// `aimed`, struct Side, shared/rotation.h and shared/sphere/blow.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
@@ -103,18 +103,12 @@ bool prepare(uint at, Side a, Side b) {
 
 bool has_pressed(vec4 impulse) { return (floatBitsToUint(impulse.w) & 0x80000000u) != 0u; }
 
-// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
-float blow_speed() {
-  float falls = 4.0 * sub_step() * length(world.gravity.xyz);
-  return falls > 0.0 ? falls : settings.restitution_speed;
-}
-
-// A force may grow by half in a sub-step, and by what stops that speed. Beyond, the impulse was that of a blow: it is
-// over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
-// thrown up. What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+// Takes from an impulse what was a blow (shared/sphere/blow.h). What bounces keeps the impulse of its blow, which the
+// bounce may have to take back, until it has bounced.
 void forget_blow(float restitution, inout Row row, Side a, Side b) {
   if (restitution > 0.0 && row.approach <= -settings.restitution_speed) return;
-  float most = SPHERE_FORCE_GROWTH * abs(row.impulse.w) + blow_speed() * mass_along(row.normal, row, a, b);
+  float speed = blow_speed(sub_step(), length(world.gravity.xyz), settings.restitution_speed);
+  float most = FORCE_GROWTH * abs(row.impulse.w) + speed * mass_along(row.normal, row, a, b);
   if (row.impulse.x > most) row.impulse.xyz *= most / row.impulse.x;
 }
 

@@ -5,6 +5,8 @@
 // Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors, Pairs, Manifolds, Contacts, Order, and
 // sphere/body.h.
 
+#include "shared/language.h"
+#include "shared/sphere/blow.h"
 #include "sphere/ball.h"
 #include "sphere/placement.h"
 
@@ -112,8 +114,6 @@ void prepare_manifold(uint o) {
   if (pair.b != SPHERE_GROUND) spin_of(pair.b - world.bodies.x).w = 1.0;
 }
 
-vec3 unit(vec3 v) { return dot(v, v) > 0.0 ? normalize(v) : vec3(0.0); }
-
 // Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
 // body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
 // (Contensou 1963), and is tipped over its rim by its radius times the force, the moment of rolling friction; a ball
@@ -216,7 +216,8 @@ float speed_of(uint i) {
   return sqrt(dot(velocity_of(i).xyz, velocity_of(i).xyz) + radius * radius * dot(spin_of(i).xyz, spin_of(i).xyz));
 }
 
-// sum += change, and what single precision is too coarse for stays in `rest` for the next time.
+// sum += change, and what single precision is too coarse for stays in `rest` for the next time. In double precision: with
+// the exact sum of floats the layouts of small and of large worlds round apart.
 void add_exactly(vec3 change, inout vec3 sum, inout vec3 rest) {
   dvec3 exact = dvec3(sum) + (dvec3(rest) + dvec3(change));
   sum = vec3(exact);

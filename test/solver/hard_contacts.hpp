@@ -23,12 +23,14 @@ TEST_P(HardContacts, SlidingDistanceFollowsFromGreatFriction) {
   EXPECT_LT(error.speed, 1e-3);
 }
 
-// Struck at levers of half way through the step, 49 of 60 pairs change it by more than 0.2 %, one by 1.1 %.
+// Struck at levers of half way through the step, 49 of 60 pairs change it by more than 0.2 %, one by 1.1 %. Bullet
+// changes it by up to 0.6 %.
 TEST_P(HardContacts, ABlowKeepsTheAngularMomentum) {
+  const double most = GetParam().name == "bullet" ? 7e-3 : 3e-3;
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const double change = spin_gained_in_a_blow(lab(), seed);
-    EXPECT_LT(change, 7e-3) << seed;
+    EXPECT_LT(change, most) << seed;
     sum += change;
   }
   EXPECT_LT(sum / 60.0, 1.5e-3);

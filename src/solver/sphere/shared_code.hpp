@@ -38,4 +38,6 @@ inline vec3 turned_back(const mat3& m, const vec3& v) {
   return m.transpose() * v;
 }
 
+#include "shared/sphere/blow.h"
+
 }  // namespace bin_scenes::sphere

@@ -198,11 +198,6 @@ struct World {
   }
   int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : effort; }
   int sub_steps() const { return settings.sub_steps * refinement(); }
-  /// Speed (m/s) that a force may take from its bodies in the first sub-step of its life: more is a blow.
-  float blow_speed() const {
-    const float falls = 4.0f * sub_step() * gravity.norm();
-    return falls > 0 ? falls : settings.restitution_speed;
-  }
   /// Sweeps of the next step before bodies move.
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Sweeps after bodies move. Rigid contacts push slowly, so that one sweep removes the remaining velocity. With none,

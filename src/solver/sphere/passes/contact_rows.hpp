@@ -20,8 +20,6 @@ struct alignas(64) Motion {
   float inverse_mass() const { return v[3]; }
 };
 
-constexpr float force_growth = 1.5f;  ///< more = heaps rebound, less = loads of a deep heap are found later
-
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
@@ -56,13 +54,11 @@ struct Bundle {
   std::uint32_t rows() const { return last - first; }
 };
 
-/// A force may grow by half in a sub-step, and by what stops `speed` (m/s). Beyond, the impulse was that of a blow: it
-/// is over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
-/// thrown up.
-/// What bounces keeps the impulse of its blow, which the bounce may have to take back, until it has bounced.
+/// Takes from an impulse what was a blow (shared/sphere/blow.h; `speed`: blow_speed()). What bounces keeps the impulse
+/// of its blow, which the bounce may have to take back, until it has bounced.
 inline void forget_blow(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
   const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
-  const Lanes most = force_growth * c.lasting + speed * c.normal_mass;
+  const Lanes most = FORCE_GROWTH * c.lasting + speed * c.normal_mass;
   const Lanes share = (c.normal_impulse > most) & ~bounces ? most / c.normal_impulse : all_lanes(1);
   for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
 }

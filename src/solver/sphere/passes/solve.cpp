@@ -71,7 +71,7 @@ class ContactSolver {
         bodies_(blocks.bodies(block)),
         settings_(world.settings),
         h_(world.sub_step()),
-        blow_speed_(world.blow_speed()),
+        blow_speed_(blow_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
