@@ -29,6 +29,7 @@
 #define BIND_CANDIDATES 20
 #define BIND_COLORS 21
 #define BIND_ORDER 22
+#define BIND_ROWS 31
 
 #define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
@@ -42,16 +43,25 @@
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
-// SphereManifold.state.y in the solve; else 0.
-#define SPHERE_BOUNCES 1u
-#define SPHERE_STRIKES 2u  // and does not bounce, or not yet
+// SphereOrdered.flags.
+#define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
+#define SPHERE_BOUNCES 2u    // and has pressed: it bounces at the end of the step
+#define SPHERE_AIMED 4u      // strikes, and no ball is in it
+#define SPHERE_RESTITUTES 8u // a restitution above 0
+
+// A row, by vec4: lever of a, gap (m); lever of b, effective mass along the normal (kg); normal, scale of its tangent;
+// impulses (normal, two of friction), effective mass along tangents; and of use in a few sweeps only: gap when contacts
+// were found, speed at which the two meet, normal impulse that the sub-step began with, whether the contact has pressed.
+#define SPHERE_ROW_PARTS 5u
+#define SPHERE_ROW_BLOCK 32u  // manifolds whose rows lie side by side, part by part: their invocations' reads are one
 
 // Sweeps of the solve over all manifolds.
 #define SWEEP_WARM_START 0u
 #define SWEEP_FIRST_PUSH 1u
 #define SWEEP_PUSH 2u
-#define SWEEP_RELAX 3u
-#define SWEEP_BOUNCE 4u
+#define SWEEP_FIRST_RELAX 3u
+#define SWEEP_RELAX 4u
+#define SWEEP_BOUNCE 5u
 #define SPHERE_BOUNCE_SWEEPS 12u
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
@@ -68,6 +78,7 @@
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_CONTACT_OVERFLOW 4u
+#define SPHERE_ROW_OVERFLOW 8u
 #define SPHERE_NO_PLACE 0xffffffffu
 
 GPU_STRUCTS_BEGIN
@@ -94,7 +105,7 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 contacts; // first, capacity
+  uvec4 contacts; // first, capacity; rows: first, capacity
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };
@@ -115,7 +126,7 @@ struct SphereProgress {
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
-  uint unused;                               // states, which are of vec4, lie behind it in what is read back
+  uint rows;                                 // of the step
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -187,7 +198,7 @@ struct SpherePair {
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, presses (in the solve: SPHERE_STRIKES or SPHERE_BOUNCES), found, place of the first contact
+  uvec4 state;       // contacts, presses, found, place of the first contact
   vec3 found_position;     // of b in the frame of a when contacts were found
   uint solved;             // contacts solved in this step: the first ones
   vec4 found_orientation;
@@ -198,9 +209,20 @@ struct SphereContact {
   uint next;         // place of the manifold's next contact
   vec3 anchor_b;
   uint feature;
-  vec4 normal;       // from a to b, in the frame of the body whose field gave it; w: in the solve, speed at which the two meet
-  vec4 force;        // on b (N): normal, friction (world axes); in the solve impulses: normal, two of friction, and
-                     // the normal one that the sub-step began with, its sign set (also of 0) once the contact has pressed
+  vec4 normal;       // from a to b, in the frame of the body whose field gave it
+  vec4 force;        // on b (N): normal, friction (world axes)
+};
+
+// A manifold that is solved in this step, in order of color; of a color those with most contacts first. Manifold l of a
+// block of `stride` (SPHERE_ROW_BLOCK, less in the last block of a color) has part p of its row k at
+// row + (k SPHERE_ROW_PARTS + p) stride, row = l + the block's first.
+struct SphereOrdered {
+  uint a, b;         // bodies (of all worlds); b may be SPHERE_GROUND
+  uint slot;         // of the manifold, in the world
+  uint row;          // in the world, counted in vec4
+  uint stride, count;
+  uint flags;
+  float friction;    // where it holds
 };
 
 struct SphereCandidate {
@@ -225,6 +247,7 @@ static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof
 static_assert(sizeof(SphereNode) == 16, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
+static_assert(sizeof(SphereOrdered) == 32, "std430");
 static_assert(sizeof(SphereStatus) == 32, "std430");
 }  // namespace bin_scenes::gpu
 #endif

@@ -24,14 +24,15 @@
 #define COLOR_BID 1u
 #define COLOR_TAKE 2u
 #define COLOR_ORDER 3u
+#define COLOR_JOIN 4u
 #define BODIES_BEGIN 0u
 #define BODIES_VELOCITIES 1u
 #define BODIES_POSITIONS 2u
 #define BODIES_KEEP 3u
-#define MANIFOLDS_PREPARE 5u  // behind the sweeps
-#define MANIFOLDS_STRIKE 6u
-#define MANIFOLDS_KEEP 7u
-#define MANIFOLDS_NOTE 8u
+#define MANIFOLDS_PREPARE 6u  // behind the sweeps
+#define MANIFOLDS_STRIKE 7u
+#define MANIFOLDS_KEEP 8u
+#define MANIFOLDS_NOTE 9u
 #define SLEEP_NOTE 0u
 #define SLEEP_MARK 1u
 #define SLEEP_SETTLE 2u
@@ -45,7 +46,9 @@ struct SphereLarge {
   uvec4 pair_groups, manifold_groups, rest_groups;  // arguments of dispatches over pairs, manifolds, the last colors
   uvec4 round_groups[SPHERE_MOST_ROUNDS + 1];
   uvec4 color_groups[SPHERE_COLORS];
-  uint members[SPHERE_COLORS], next[SPHERE_COLORS];  // of each color: how many; where the next one goes
+  uint starts[SPHERE_COLORS], members_in[SPHERE_COLORS];  // of each color: its first manifold, how many
+  uint members[SPHERE_COLORS * SPHERE_MAX_CONTACTS];      // by color and length: how many, then where the next one goes
+  uint row_count, row_top, unused[2];  // vec4 that rows take, and those given out so far
 };
 
 struct SphereBox {
@@ -67,7 +70,9 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereBox) == 48 && sizeof(SphereMotion) == 32 && sizeof(SphereWork) == 16, "std430");
-static_assert(sizeof(SphereLarge) == 80 + 16 * (SPHERE_MOST_ROUNDS + 1 + SPHERE_COLORS) + 8 * SPHERE_COLORS, "std430");
+static_assert(sizeof(SphereLarge) == 80 + 16 * (SPHERE_MOST_ROUNDS + 1 + SPHERE_COLORS) + 8 * SPHERE_COLORS +
+                                       4 * SPHERE_COLORS * SPHERE_MAX_CONTACTS + 16,
+              "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

@@ -18,21 +18,45 @@ layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[];
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
-layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_ORDER) coherent buffer Order { SphereOrdered order[]; };
 
 shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
-shared uint members[SPHERE_COLORS], starts[SPHERE_COLORS + 1];
+shared uint members[SPHERE_COLORS * SPHERE_MAX_CONTACTS];  // by color and length: how many, then where the next one goes
+shared uint color_members[SPHERE_COLORS], starts[SPHERE_COLORS];
 shared uint left[2];  // uncolored manifolds, take turns
-shared uint contact_count, solved_count;
+shared uint contact_count, solved_count, row_count, row_top;
 
 #define lowest_of(i) lowest[i]
 #define used_low_of(i) used_low[i]
 #define used_high_of(i) used_high[i]
+#define members_of(k) members[k]
+#define members_in(c) color_members[c]
+#define start_of(c) starts[c]
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/contact_place.h"
 #include "sphere/solved_contacts.h"
 #include "sphere/color.h"
+#include "sphere/order.h"
+
+// One invocation: where each color begins.
+void place_colors(SphereWorld world, uint w, uint list, uint count) {
+  uint sum = 0u, colors = 0u;
+  for (uint c = 0u; c < SPHERE_COLORS; ++c) {
+    starts[c] = sum;
+    sum += members_in(c);
+    if (members_in(c) > 0u) colors = c + 1u;
+    color_starts[w * (SPHERE_COLORS + 1u) + c] = starts[c];
+  }
+  color_starts[w * (SPHERE_COLORS + 1u) + SPHERE_COLORS] = sum;
+  progress[w].ordered = sum;
+  progress[w].colors += colors;
+  progress[w].contacts += contact_count;
+  progress[w].contacts_solved += solved_count;
+  progress[w].rows = row_count / SPHERE_ROW_PARTS;
+  if (progress[w].rows > world.contacts.w) progress[w].overflow = SPHERE_ROW_OVERFLOW;
+  put_last_in_order(world, list, count);
+}
 
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
@@ -42,8 +66,8 @@ void main() {
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
   for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) used_low[i] = used_high[i] = 0u;
-  for (uint c = thread; c < SPHERE_COLORS; c += SPHERE_GROUP) members[c] = 0u;
-  if (thread == 0u) contact_count = solved_count = 0u;
+  for (uint k = thread; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_GROUP) members[k] = 0u;
+  if (thread == 0u) contact_count = solved_count = row_count = row_top = 0u;
   if (thread < 2u) left[thread] = 0u;
   barrier();
   uvec2 own_contacts = uvec2(0u);
@@ -68,35 +92,22 @@ void main() {
     for (uint p = thread; p < count; p += SPHERE_GROUP) {
       if (pairs[list + p].color != UNCOLORED) continue;
       uint color = take_color(world, list + p);
-      if (color != UNCOLORED) atomicAdd(members[color], 1u);
+      if (color != UNCOLORED) count_member(world, list + p, color);
     }
     barrier();
   }
 
   memoryBarrierBuffer();
   barrier();
+  count_colors();
+  barrier();
   if (thread == 0u) {
-    uint sum = 0u, colors = 0u;
-    for (uint c = 0u; c < SPHERE_COLORS; ++c) {
-      starts[c] = sum;
-      sum += members[c];
-      if (members[c] > 0u) colors = c + 1u;
-      color_starts[w * (SPHERE_COLORS + 1u) + c] = starts[c];
-    }
-    color_starts[w * (SPHERE_COLORS + 1u) + SPHERE_COLORS] = sum;
-    progress[w].ordered = sum;
-    progress[w].colors += colors;
+    place_colors(world, w, list, count);
     progress[w].coloring_rounds += rounds;
-    progress[w].contacts += contact_count;
-    progress[w].contacts_solved += solved_count;
-    // Manifolds without a color of their own are solved one by one, so their order counts.
-    if (members[LAST_COLOR] > 0u)
-      for (uint p = 0u, at = starts[LAST_COLOR]; p < count; ++p)
-        if (pairs[list + p].color == LAST_COLOR) order[world.pairs.x + at++] = p;
   }
   barrier();
-  for (uint p = thread; p < count; p += SPHERE_GROUP) {
-    uint color = pairs[list + p].color;
-    if (color < LAST_COLOR) order[world.pairs.x + atomicAdd(starts[color], 1u)] = p;
-  }
+  for (uint p = thread; p < count; p += SPHERE_GROUP) put_in_order(world, list + p);
+  memoryBarrierBuffer();
+  barrier();
+  for (uint o = thread; o < starts[LAST_COLOR]; o += SPHERE_GROUP) join_block(world, o);
 }

@@ -12,11 +12,11 @@ layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies
 layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
-layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
-layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
+layout(std430, binding = BIND_ROWS) buffer Rows { vec4 rows[]; };
 
 shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
 shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
@@ -30,11 +30,12 @@ shared uint any_bounce;
 #define moved_of(i) moved[i]
 #define turned_of(i) turned[i]
 #include "sphere/body.h"
-#include "sphere/solve_parts.h"
+#include "sphere/solve_body.h"
+#include "sphere/solve_manifold.h"
 
 uint ordered;
 
-// The manifolds of color c that are this invocation's in every sweep: nobody else touches their contacts. The last color
+// The manifolds of color c that are this invocation's in every sweep: nobody else touches their rows. The last color
 // is that of manifolds which share bodies: one invocation takes them in order.
 uint first_of(uint c) {
   return c < SPHERE_COLORS - 1u ? starts[c] + gl_LocalInvocationIndex : gl_LocalInvocationIndex == 0u ? starts[c] : ordered;
@@ -78,7 +79,6 @@ void main() {
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   ordered = progress[w].ordered;
   take_sub_step_of(w, 0u);
-  list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
   FOR_OWN_BODIES(i) begin_body(i);
@@ -98,7 +98,7 @@ void main() {
     barrier();
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
-    for (uint i = 0u; i < relaxing; ++i) sweep(SWEEP_RELAX, h);
+    for (uint i = 0u; i < relaxing; ++i) sweep(i == 0u ? SWEEP_FIRST_RELAX : SWEEP_RELAX, h);
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

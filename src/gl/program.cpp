@@ -132,9 +132,14 @@ void Program::set(const char* uniform, float value) const {
 }
 
 void barrier(Barrier kind) {
-  if (kind == Barrier::none) return;
-  glMemoryBarrier(kind == Barrier::all ? GL_ALL_BARRIER_BITS : GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  switch (kind) {
+    case Barrier::none: return;
+    case Barrier::storage: glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); break;
+    case Barrier::arguments: glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT); break;
+    case Barrier::all: glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  }
   ++traffic().barriers;
+  if (kind != Barrier::storage) ++traffic().argument_barriers;
 }
 
 std::array<unsigned, 2> folded_groups(std::size_t groups) {

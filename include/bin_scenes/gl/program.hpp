@@ -56,9 +56,10 @@ class Program {
 
 /// What later commands wait for. The safe one is the default.
 enum class Barrier {
-  storage,  ///< later passes see what this one wrote, indirect arguments included
-  none,     ///< the next pass touches nothing this one wrote
-  all       ///< also rendering, textures, copies and read-backs through the API
+  storage,    ///< later passes see what this one wrote
+  arguments,  ///< the same, and their numbers of groups: a GPU's front end waits until the pass has ended
+  none,       ///< the next pass touches nothing this one wrote
+  all         ///< also rendering, textures, copies and read-backs through the API
 };
 void barrier(Barrier kind = Barrier::all);
 

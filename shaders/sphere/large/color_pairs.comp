@@ -14,7 +14,7 @@ layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shape
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_ORDER) writeonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_WORK) buffer Work { SphereWork work[]; };
 
@@ -23,11 +23,17 @@ uniform uint stage, coloring_round;
 #define lowest_of(i) work[i].lowest[coloring_round & 1u]
 #define used_low_of(i) work[i].used_low
 #define used_high_of(i) work[i].used_high
+#define members_of(k) large.members[k]
+#define members_in(c) large.members_in[c]
+#define start_of(c) large.starts[c]
+#define row_count large.row_count
+#define row_top large.row_top
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/contact_place.h"
 #include "sphere/solved_contacts.h"
 #include "sphere/color.h"
+#include "sphere/order.h"
 #include "sphere/large/large_world.h"
 
 // The other rounds' lowest key of both bodies, for the next round.
@@ -57,13 +63,14 @@ void main() {
     if (pairs[p].color != UNCOLORED) return;
     uint color = take_color(world, p);
     if (color != UNCOLORED) {
-      atomicAdd(large.members[color], 1u);
+      count_member(world, p, color);
       return;
     }
     forget_lowest(world, pairs[p]);
     large.round_groups[coloring_round + 1u] = large.pair_groups;  // all write the same
-  } else {
-    uint color = pairs[p].color;
-    if (color < LAST_COLOR) order[world.pairs.x + atomicAdd(large.next[color], 1u)] = thread_index();
+  } else if (stage == COLOR_ORDER) {
+    put_in_order(world, p);
+  } else if (thread_index() < large.starts[LAST_COLOR]) {
+    join_block(world, thread_index());
   }
 }

@@ -1,4 +1,4 @@
-// One invocation: the new list of pairs takes the old one's place, and the passes over pairs learn how many groups.
+// One group: the new list of pairs takes the old one's place, and the passes over pairs learn how many groups.
 #include "shared/sphere_large.h"
 #include "shared/dispatch.h"
 
@@ -14,6 +14,8 @@ layout(std430, binding = BIND_PAIR_STARTS) readonly buffer PairStarts { uint pai
 const uvec4 NONE = uvec4(0u, 1u, 1u, 0u);
 
 void main() {
+  for (uint k = gl_LocalInvocationIndex; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_GROUP)
+    large.members[k] = 0u;
   if (gl_LocalInvocationIndex != 0u) return;
   SphereWorld world = worlds[large_world];
   bool idles = idle();
@@ -26,10 +28,7 @@ void main() {
   large.list = 2u * world.pairs.x + page * world.pairs.y;
   large.pair_groups = uvec4(folded_groups((count + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
   for (uint k = 0u; k <= SPHERE_MOST_ROUNDS; ++k) large.round_groups[k] = NONE;
-  for (uint c = 0u; c < SPHERE_COLORS; ++c) {
-    large.color_groups[c] = NONE;
-    large.members[c] = 0u;
-  }
+  for (uint c = 0u; c < SPHERE_COLORS; ++c) large.color_groups[c] = NONE;
   large.manifold_groups = large.rest_groups = NONE;
   large.bounced = 0u;
 }

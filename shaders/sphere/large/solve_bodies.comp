@@ -11,11 +11,6 @@ layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progres
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
-layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
-layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
-layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
-layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_MOTIONS) buffer Motions { SphereMotion motions[]; };
 
@@ -26,7 +21,7 @@ uniform uint stage;
 #define moved_of(i) motions[i].moved
 #define turned_of(i) motions[i].turned
 #include "sphere/body.h"
-#include "sphere/solve_parts.h"
+#include "sphere/solve_body.h"
 #include "sphere/large/large_world.h"
 
 // What does not move keeps its velocity, and is known by an inverse mass of 0.

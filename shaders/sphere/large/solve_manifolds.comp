@@ -18,11 +18,11 @@ layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies
 layout(std430, binding = BIND_STATES) SHARED buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_TENSORS) readonly buffer Tensors { SphereTensor tensors[]; };
-layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
-layout(std430, binding = BIND_ORDER) readonly buffer Order { uint order[]; };
+layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
+layout(std430, binding = BIND_ROWS) buffer Rows { vec4 rows[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_MOTIONS) SHARED buffer Motions { SphereMotion motions[]; };
 
@@ -34,7 +34,7 @@ uniform uint only_cold;  // a sweep of the first steps of a world
 #define moved_of(i) motions[i].moved
 #define turned_of(i) motions[i].turned
 #include "sphere/body.h"
-#include "sphere/solve_parts.h"
+#include "sphere/solve_manifold.h"
 #include "sphere/large/large_world.h"
 
 uint start_of(uint c) { return color_starts[large_world * (SPHERE_COLORS + 1u) + c]; }
@@ -59,7 +59,6 @@ void main() {
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
   if (only_cold == 1u && progress[large_world].cold_steps == 0u) return;
   take_sub_step_of(large_world, current_sub_step);
-  list = large.list;
 #ifdef REST
   sweep_rest();
 #else

@@ -39,5 +39,6 @@ inline vec3 turned_back(const mat3& m, const vec3& v) {
 }
 
 #include "shared/sphere/blow.h"
+#include "shared/sphere/row.h"
 
 }  // namespace bin_scenes::sphere

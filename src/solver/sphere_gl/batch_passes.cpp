@@ -58,12 +58,13 @@ void Batch::bind() const {
   candidates_.bind(BIND_CANDIDATES);
   colors_.bind(BIND_COLORS);
   order_.bind(BIND_ORDER);
+  rows_.bind(BIND_ROWS);
 }
 
 void Batch::find_pairs() {
   gl::Stage stage(timer_, "find_pairs");
   if (at_turn_) return large_->find_pairs(*at_turn_, [this] { bind_first(); });
-  gl::dispatch_groups(find_pairs_, running_count_);
+  gl::dispatch_groups(find_pairs_, running_count_, gl::Barrier::arguments);
 }
 
 void Batch::find_contacts() {
@@ -112,7 +113,7 @@ std::size_t Batch::bytes() const {
        {&settings_.storage(), &running_.storage(), &worlds_.storage(), &progress_.storage(), &planes_.storage(),
         &bodies_.storage(), &states_.storage(), &tensors_.storage(), &near_.storage(), &ranges_.storage(),
         &pairs_.storage(), &free_.storage(), &manifolds_.storage(), &contacts_.storage(), &jobs_.storage(),
-        &candidates_.storage(), &colors_.storage(), &order_.storage()})
+        &candidates_.storage(), &colors_.storage(), &order_.storage(), &rows_.storage()})
     sum += s->bytes();
   return sum;
 }

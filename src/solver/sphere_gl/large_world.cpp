@@ -75,8 +75,8 @@ void LargePasses::over_bodies(const gl::Program& pass, const LargeWorld& world) 
   gl::dispatch(pass, world.bodies);
 }
 
-void LargePasses::indirect(const gl::Program& pass, std::size_t arguments) {
-  gl::dispatch_indirect(pass, large_.storage(), arguments);
+void LargePasses::indirect(const gl::Program& pass, std::size_t arguments, gl::Barrier after) {
+  gl::dispatch_indirect(pass, large_.storage(), arguments, after);
 }
 
 void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()>& bind_first) {
@@ -99,24 +99,26 @@ void LargePasses::find_pairs(const LargeWorld& world, const std::function<void()
   sum(pair_counts_, pair_starts_, world.bodies);
   bodies(list_pairs_, LIST_PLACE);
   over_bodies(adopt_pairs_, world);
-  gl::dispatch_groups(end_pairs_, 1);
+  gl::dispatch_groups(end_pairs_, 1, gl::Barrier::arguments);
 }
 
 void LargePasses::color_manifolds(const LargeWorld& world) {
   set_world(world);
   color_pairs_.set("stage", COLOR_BEGIN);
-  indirect(color_pairs_, offsetof(gpu::SphereLarge, pair_groups));
+  indirect(color_pairs_, offsetof(gpu::SphereLarge, pair_groups), gl::Barrier::arguments);
   for (unsigned round = 0; round < rounds_; ++round) {
     const std::size_t groups = offsetof(gpu::SphereLarge, round_groups) + round * sizeof(gpu::uvec4);
     color_pairs_.set("coloring_round", round);
-    for (const unsigned stage : {COLOR_BID, COLOR_TAKE}) {
-      color_pairs_.set("stage", stage);
-      indirect(color_pairs_, groups);
-    }
+    color_pairs_.set("stage", COLOR_BID);
+    indirect(color_pairs_, groups);
+    color_pairs_.set("stage", COLOR_TAKE);
+    indirect(color_pairs_, groups, gl::Barrier::arguments);
   }
-  gl::dispatch_groups(order_colors_, 1);
-  color_pairs_.set("stage", COLOR_ORDER);
-  indirect(color_pairs_, offsetof(gpu::SphereLarge, pair_groups));
+  gl::dispatch_groups(order_colors_, 1, gl::Barrier::arguments);
+  for (const unsigned stage : {COLOR_ORDER, COLOR_JOIN}) {
+    color_pairs_.set("stage", stage);
+    indirect(color_pairs_, offsetof(gpu::SphereLarge, pair_groups));
+  }
 }
 
 void LargePasses::over_manifolds(unsigned stage) {
@@ -135,10 +137,10 @@ void LargePasses::sweep(unsigned kind, const LargeWorld& world) {
 }
 
 /// The device knows in which step a world is no longer cold, the host learns it later.
-void LargePasses::sweeps(unsigned kind, const LargeWorld& world) {
+void LargePasses::sweeps(unsigned first, unsigned kind, const LargeWorld& world) {
   for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
     for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0u : 1u);
-    sweep(i == 0 && kind == SWEEP_PUSH ? SWEEP_FIRST_PUSH : kind, world);
+    sweep(i == 0 ? first : kind, world);
   }
   for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0u);
 }
@@ -155,13 +157,13 @@ void LargePasses::solve(const LargeWorld& world) {
     for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("current_sub_step", k);
     bodies(BODIES_VELOCITIES);
     sweep(SWEEP_WARM_START, world);
-    sweeps(SWEEP_PUSH, world);
+    sweeps(SWEEP_FIRST_PUSH, SWEEP_PUSH, world);
     over_manifolds(MANIFOLDS_NOTE);
     bodies(BODIES_POSITIONS);
     if (world.rigid)
-      sweep(SWEEP_RELAX, world);
+      sweep(SWEEP_FIRST_RELAX, world);
     else
-      sweeps(SWEEP_RELAX, world);
+      sweeps(SWEEP_FIRST_RELAX, SWEEP_RELAX, world);
   }
   if (world.restitution) {
     over_manifolds(MANIFOLDS_STRIKE);

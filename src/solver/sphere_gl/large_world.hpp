@@ -54,9 +54,9 @@ class LargePasses {
 
  private:
   void over_bodies(const gl::Program& pass, const LargeWorld& world);
-  void indirect(const gl::Program& pass, std::size_t arguments);
+  void indirect(const gl::Program& pass, std::size_t arguments, gl::Barrier after = gl::Barrier::storage);
   void sweep(unsigned kind, const LargeWorld& world);
-  void sweeps(unsigned kind, const LargeWorld& world);
+  void sweeps(unsigned first, unsigned kind, const LargeWorld& world);
   void over_manifolds(unsigned stage);
   void set_world(const LargeWorld& world) const;
 

@@ -99,7 +99,7 @@ void Passes::detect() {
 }
 
 void Passes::plan() {
-  gl::dispatch_groups(plan_, 1);
+  gl::dispatch_groups(plan_, 1, gl::Barrier::arguments);
 }
 
 void Passes::count_pairs() {

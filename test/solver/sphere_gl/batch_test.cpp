@@ -206,7 +206,7 @@ gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double se
     const gl::Traffic after = gl::traffic();
     if (repeated() > repeated_before) continue;
     return {after.dispatches - before.dispatches, after.barriers - before.barriers,
-            after.bytes_uploaded - before.bytes_uploaded, after.bytes_read_back - before.bytes_read_back};
+            after.argument_barriers - before.argument_barriers, after.bytes_uploaded - before.bytes_uploaded, after.bytes_read_back - before.bytes_read_back};
   }
   ADD_FAILURE() << "lists grow on";
   return {};
@@ -225,6 +225,7 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
     EXPECT_EQ(slice.dispatches, 7u * 5u);
     // A barrier behind each, and one before each copy: progress of three worlds, who runs, settings; one read back.
     EXPECT_EQ(slice.barriers, 7u * 5u + 3u + 2u + 2u);
+    EXPECT_EQ(slice.argument_barriers, 7u) << "how many groups find_contacts has";
     EXPECT_EQ(slice.bytes_uploaded,
               3 * sizeof(gpu::SphereProgress) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));
     EXPECT_EQ(slice.bytes_read_back, 3 * sizeof(gpu::SphereProgress) + (5 + 8 + 11) * sizeof(gpu::SphereState));
@@ -239,9 +240,9 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   solver->set_phase(id, phases::settle);
   // Of each sweep those of four colors that are wider than a group, of one more that might be, and of all the rest.
   constexpr unsigned a_sweep = 6;
-  // 71 of a step, and of each sub-step velocities, what slides, positions, and sweeps: warm start, and what follows it.
+  // 72 of a step, and of each sub-step velocities, what slides, positions, and sweeps: warm start, and what follows it.
   const auto expected = [](unsigned sub_steps, unsigned sweeps) {
-    return 71u + sub_steps * (3u + a_sweep * (1u + sweeps));
+    return 72u + sub_steps * (3u + a_sweep * (1u + sweeps));
   };
   const auto step = [&] { return asked_for(*solver, {id}, solver->step_size()).dispatches; };
   solver->advance({id}, 2 * solver->step_size());  // lists grow

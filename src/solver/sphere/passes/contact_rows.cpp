@@ -8,9 +8,7 @@ namespace {
 
 constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
 
-/// What a body does from the start of a step to the middle of its sub-steps (World::half_way). With levers of the
-/// step's start what hangs gains energy (a yoke on a ridge 8 % a second), with those of the middle of the whole step it
-/// loses as much.
+/// What a body does from the start of a step to the middle of its sub-steps (World::half_way).
 struct Ahead {
   Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
 
@@ -19,9 +17,6 @@ struct Ahead {
     way = world.half_way() * body->v;
     turn = world.half_way() * body->w;
   }
-  bool turns() const { return turn.squaredNorm() > least_turn * least_turn; }
-
-  static constexpr float least_turn = 1e-5f;  ///< rad; below, a lever moves by less than contacts overlap
 };
 
 void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, const Ahead& ahead_a,
@@ -30,13 +25,7 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
   Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
   rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
-  if (ahead_a.turns() || ahead_b.turns()) {  // the point goes with the sample, the normal with the field
-    const Vec3f way =
-        field_of_a ? Vec3f(ahead_b.way + ahead_b.turn.cross(rb)) : Vec3f(ahead_a.way + ahead_a.turn.cross(ra));
-    ra += way - ahead_a.way;
-    rb += way - ahead_b.way;
-    c.normal = (c.normal + (field_of_a ? ahead_a : ahead_b).turn.cross(c.normal)).normalized();
-  }
+  go_half_way(field_of_a, ahead_a.way, ahead_a.turn, ahead_b.way, ahead_b.turn, ra, rb, c.normal);
   const Vec3f t1 = c.normal.unitOrthogonal();
   rows.normal.set(lane, c.normal);
   rows.tangent.set(lane, t1);
@@ -180,11 +169,12 @@ void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
     for (std::uint32_t k = 0; k < m.solved; ++k) {
       const Contact& c = m.contacts[k];
       ContactRows& row = rows[bundle.first + k];
-      const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b.x + b.rotation * c.anchor_b;
-      const Vec3f between = on_b - on_a, middle = on_a + 0.5f * between;
-      row.gap[lane] = between.dot(c.normal);
-      row.ra.set(lane, middle - a.x);
-      row.rb.set(lane, middle - b.x);
+      Vec3f ra, rb;
+      float gap;
+      aim_levers(a.x, a.x + a.rotation * c.anchor_a, b.x, b.x + b.rotation * c.anchor_b, c.normal, ra, rb, gap);
+      row.gap[lane] = gap;
+      row.ra.set(lane, ra);
+      row.rb.set(lane, rb);
     }
   }
   const Velocities velocities = velocities_of(bundle, motions);

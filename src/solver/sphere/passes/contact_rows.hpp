@@ -153,9 +153,7 @@ void make_bundles(const World& world, const Blocks& blocks, std::size_t block, s
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
-/// Levers, gaps and inertia of manifolds that are struck, of where their bodies are now: with those of half way through
-/// the step a blow would turn each of two bodies about a lever that is up to half a step's way off, and change their
-/// common angular momentum.
+/// Levers, gaps and inertia of manifolds that are struck, of where their bodies are now (shared/sphere/row.h).
 void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows);
 /// Back into the contacts, as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);

@@ -1,0 +1,258 @@
+// Manifolds in the solve: what one invocation does with one of them. Whoever includes this says where velocities lie:
+// velocity_of(i) (w: inverse mass, 0 = nothing moves it in this step), spin_of(i) (w: 1 = a contact is near), moved_of(i)
+// (since contacts were found; w: speed when the sub-step began), turned_of(i) (rotation vector, since then; w: 1 = a
+// contact slips), i counted in the world. Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors,
+// Manifolds, Contacts, Order, Rows, and sphere/body.h.
+#include "shared/language.h"
+#include "shared/sphere/blow.h"
+#include "shared/sphere/row.h"
+#include "sphere/ball.h"
+#include "sphere/placement.h"
+#include "sphere/solve_step.h"
+
+// A body as one manifold sees it.
+struct Side {
+  vec3 v, w;
+  float inverse_mass;
+  vec3 tensor, tensor_mixed;
+};
+
+// Of what cannot move nothing is read. Inertia of manifolds that are aimed is of where their bodies are now.
+Side side_of(uint body, bool aimed) {
+  Side s = Side(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+  if (body == SPHERE_GROUND) return s;
+  uint i = body - world.bodies.x;
+  s.inverse_mass = velocity_of(i).w;
+  if (s.inverse_mass == 0.0) return s;
+  s.v = velocity_of(i).xyz;
+  s.w = spin_of(i).xyz;
+  if (!aimed) {
+    s.tensor = tensors[body].diagonal.xyz;
+    s.tensor_mixed = tensors[body].mixed.xyz;
+    return s;
+  }
+  uint shape = bodies[body].ids.x;
+  mat3 r = rotation_of(normalize(quat_multiply(quat_of_turn(turned_of(i).xyz), tensors[body].orientation)));
+  mat3 t = r * symmetric(shapes[shape].inverse_inertia, shapes[shape].inverse_inertia_mixed) * transpose(r);
+  t *= bodies[body].material.x;
+  s.tensor = vec3(t[0][0], t[1][1], t[2][2]);
+  s.tensor_mixed = vec3(t[0][1], t[0][2], t[1][2]);
+  return s;
+}
+
+void keep_side(uint body, Side s) {
+  if (s.inverse_mass == 0.0) return;
+  uint i = body - world.bodies.x;
+  velocity_of(i).xyz = s.v;
+  spin_of(i).xyz = s.w;
+}
+
+// Where a body is: when contacts were found, half way through the step from there, and now.
+struct Place {
+  vec3 position, ahead, ahead_turn, moved, turned;  // m, rad
+  vec4 orientation;
+};
+
+Place place_of(uint body) {
+  Place p = Place(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0));
+  if (body == SPHERE_GROUND) return p;
+  uint i = body - world.bodies.x;
+  p.position = states[body].position.xyz;
+  p.orientation = tensors[body].orientation;
+  if (velocity_of(i).w == 0.0) return p;
+  float ahead = half_way(time_step, sub_step());
+  p.ahead = ahead * tensors[body].velocity.xyz;
+  p.ahead_turn = ahead * tensors[body].spin.xyz;
+  p.moved = moved_of(i).xyz;
+  p.turned = turned_of(i).xyz;
+  return p;
+}
+
+#include "sphere/contact_place.h"
+#include "sphere/contact_row.h"
+
+SphereOrdered ordered_at(uint o) { return order[world.pairs.x + o]; }
+void set_flags(uint o, uint flags) { order[world.pairs.x + o].flags = flags; }
+uint first_row(SphereOrdered m) { return world.contacts.z * SPHERE_ROW_PARTS + m.row; }
+
+// Rows of a manifold.
+#define FOR_ROWS(at, m)                                             \
+  for (uint i = 0u, at = first_row(m); i < m.count; \
+       ++i, at += SPHERE_ROW_PARTS * m.stride)
+// The same, and the contacts that they are of.
+#define FOR_CONTACTS(at, contact, m)                                                                           \
+  for (uint i = 0u, at = first_row(m), contact = first_contact(world, m.slot); i < m.count; \
+       ++i, at += SPHERE_ROW_PARTS * m.stride, contact = next_contact(world, contact))
+
+float friction_of(SphereOrdered m) { return grip * m.friction; }
+bool aimed(SphereOrdered m) { return (m.flags & SPHERE_AIMED) != 0u; }
+bool restitutes(SphereOrdered m) { return (m.flags & SPHERE_RESTITUTES) != 0u; }
+float restitution_of(SphereOrdered m) {
+  return max(bodies[m.a].material.z, m.b == SPHERE_GROUND ? world.ground.y : bodies[m.b].material.z);
+}
+
+bool of_field_of_a(SphereContact c) { return (c.feature & SPHERE_SIDE_B) != 0u; }
+
+// A row from its contact, with the force of the last step as impulse of a sub-step. Returns whether the contact is struck.
+bool prepare_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side a, Side b) {
+  Row row;
+  row.ra = rotate(pa.orientation, c.anchor_a);
+  row.rb = rotate(pb.orientation, c.anchor_b);
+  bool of_a = of_field_of_a(c);
+  row.normal = rotate(of_a ? pa.orientation : pb.orientation, c.normal.xyz);
+  row.gap = dot(pb.position + row.rb - pa.position - row.ra, row.normal);
+  go_half_way(of_a, pa.ahead, pa.ahead_turn, pb.ahead, pb.ahead_turn, row.ra, row.rb, row.normal);
+  float scale = tangent_scale(row.normal), approach = speed_at_blow(row, a, b);
+  row.tangent = tangent_of(row.normal, scale);
+  vec3 friction = c.force.yzw;
+  row.impulse =
+      kept * sub_step() * vec3(c.force.x, dot(friction, row.tangent), dot(friction, cross(row.normal, row.tangent)));
+  rows[at + 2u * stride] = vec4(row.normal, scale);
+  rows[at + 3u * stride].xyz = row.impulse;
+  rows[at + 4u * stride] = vec4(row.gap, approach, row.impulse.x, 0.0);
+  keep_levers(at, stride, row, a, b);
+  return approach <= -settings.restitution_speed;
+}
+
+// Levers, gaps and masses of a manifold that is struck, of where its bodies are now.
+void aim(SphereOrdered m, Side a, Side b) {
+  Place pa = place_of(m.a), pb = place_of(m.b);
+  vec3 x_a = pa.position + pa.moved, x_b = pb.position + pb.moved;
+  vec4 q_a = normalize(quat_multiply(quat_of_turn(pa.turned), pa.orientation));
+  vec4 q_b = normalize(quat_multiply(quat_of_turn(pb.turned), pb.orientation));
+  FOR_CONTACTS(at, contact, m) {
+    Row row = row_at(at, m.stride);
+    SphereContact c = contacts[contact];
+    aim_levers(x_a, x_a + rotate(q_a, c.anchor_a), x_b, x_b + rotate(q_b, c.anchor_b), row.normal, row.ra, row.rb,
+               row.gap);
+    keep_levers(at, m.stride, row, a, b);
+  }
+}
+
+void prepare_manifold(uint o) {
+  SphereOrdered m = ordered_at(o);
+  Side a = side_of(m.a, false), b = side_of(m.b, false);
+  Place pa = place_of(m.a), pb = place_of(m.b);
+  bool strikes = false;
+  FOR_CONTACTS(at, contact, m) strikes = prepare_row(at, m.stride, contacts[contact], pa, pb, a, b) || strikes;
+  bool rolls = is_ball(m.a) || is_ball(m.b);  // the point where a ball touches does not turn with it
+  m.flags = restitution_of(m) > 0.0 ? SPHERE_RESTITUTES : 0u;
+  if (strikes) m.flags |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_AIMED);
+  set_flags(o, m.flags);
+  float other = m.b == SPHERE_GROUND ? world.ground.x : bodies[m.b].material.y;
+  order[world.pairs.x + o].friction = sqrt(bodies[m.a].material.y * other);
+  if (aimed(m)) aim(m, side_of(m.a, true), side_of(m.b, true));
+  spin_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
+  if (m.b != SPHERE_GROUND) spin_of(m.b - world.bodies.x).w = 1.0;
+}
+
+// Gaps of contacts, bodies having moved; to first order in the turns.
+void look(SphereOrdered m, Side a, Side b) {
+  if (aimed(m)) {
+    aim(m, a, b);
+    return;
+  }
+  Place pa = place_of(m.a), pb = place_of(m.b);
+  FOR_ROWS(at, m) {
+    Row row = row_at(at, m.stride);
+    vec3 way = pb.moved + cross(pb.turned, row.rb) - pa.moved - cross(pa.turned, row.ra);
+    rows[at].w = blow_at(at, m.stride).separation + dot(way, row.normal);
+  }
+}
+
+// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
+// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
+// (Contensou 1963), and is tipped over its rim by its radius times the force, the moment of rolling friction; a ball
+// rolls freely. Where contacts lie farther apart, they do it themselves.
+void resist_turn(SphereOrdered m, inout Side a, inout Side b) {
+  float impulse = 0.0;
+  vec3 center = vec3(0.0), normal = vec3(0.0);
+  FOR_ROWS(at, m) {
+    float own = rows[at + 3u * m.stride].x;
+    impulse += own;
+    center += own * rows[at].xyz;
+    normal += own * rows[at + 2u * m.stride].xyz;
+  }
+  if (impulse <= 0.0) return;
+  center /= impulse;
+  normal = unit(normal);
+  vec3 turn = a.w - b.w;
+  float spin = dot(normal, turn);
+  vec3 tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
+  float spread = 0.0, spread_across = 0.0;  // squares of lengths, times impulse
+  FOR_ROWS(at, m) {
+    float own = rows[at + 3u * m.stride].x;
+    vec3 off = rows[at].xyz - center;
+    float side = dot(across, off);
+    spread += own * dot(off, off);
+    spread_across += own * side * side;
+  }
+  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * impulse;
+  if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(m) * impulse, a, b);
+  if (spread_across <= widest && !is_ball(m.a) && !is_ball(m.b))
+    resist(tip_axis, dot(tip_axis, tipping), radius * impulse, a, b);
+}
+
+void solve_manifold(uint o, uint kind, float h) {
+  SphereOrdered m = ordered_at(o);
+  if (kind == SWEEP_BOUNCE && (m.flags & SPHERE_BOUNCES) == 0u) return;
+  Side a = side_of(m.a, aimed(m)), b = side_of(m.b, aimed(m));
+  if (kind == SWEEP_WARM_START) {
+    FOR_ROWS(at, m) warm_start(at, m.stride, restitutes(m), a, b);
+  } else if (kind == SWEEP_BOUNCE) {
+    FOR_ROWS(at, m) bounce(at, m.stride, restitution_of(m), a, b);
+  } else {
+    if (kind == SWEEP_FIRST_PUSH) resist_turn(m, a, b);
+    if (kind == SWEEP_FIRST_RELAX) look(m, a, b);
+    bool push = kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH;
+    FOR_ROWS(at, m) solve_normal(at, m.stride, h, push, a, b);
+    float friction = friction_of(m);
+    FOR_ROWS(at, m) solve_friction(at, m.stride, friction, a, b);
+  }
+  keep_side(m.a, a);
+  if (m.b != SPHERE_GROUND) keep_side(m.b, b);
+}
+
+// Whether a contact of the manifold is to bounce.
+bool bounces(uint o) {
+  SphereOrdered m = ordered_at(o);
+  if (!restitutes(m) || (m.flags & SPHERE_STRIKES) == 0u) return false;
+  bool any = false;
+  FOR_ROWS(at, m) {
+    Blow blow = blow_at(at, m.stride);
+    any = any || blow.pressed == 1.0 && struck(row_at(at, m.stride), blow);
+  }
+  if (any) set_flags(o, m.flags | SPHERE_BOUNCES);
+  return any;
+}
+
+// Impulses back into the contacts, as forces. A blow is over: it must not warm-start the next step.
+void keep_forces(uint o) {
+  SphereOrdered m = ordered_at(o);
+  uint presses = 0u;
+  FOR_CONTACTS(at, contact, m) {
+    Row row = row_at(at, m.stride);
+    Blow blow = blow_at(at, m.stride);
+    if ((m.flags & SPHERE_BOUNCES) != 0u && struck(row, blow)) row.impulse = vec3(0.0);
+    vec3 impulse = without_blow(row, blow, restitutes(m));
+    vec3 friction = impulse.y * row.tangent + impulse.z * cross(row.normal, row.tangent);
+    contacts[contact].force = vec4(impulse.x, friction) / sub_step();
+    if (impulse.x > 0.0) presses = 1u;
+  }
+  manifolds[world.pairs.x + m.slot].state.y = presses;
+}
+
+// Bodies with a contact that has all the friction that its force allows.
+void note_sliding(uint o) {
+  SphereOrdered m = ordered_at(o);
+  float friction = friction_of(m);
+  bool slips = false;
+  FOR_ROWS(at, m) {
+    vec3 impulse = rows[at + 3u * m.stride].xyz;
+    float most = friction * impulse.x;
+    slips = slips || most > 0.0 && dot(impulse.yz, impulse.yz) > 0.999 * most * most;
+  }
+  if (!slips) return;
+  turned_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
+  if (m.b != SPHERE_GROUND) turned_of(m.b - world.bodies.x).w = 1.0;
+}
