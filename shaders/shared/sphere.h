@@ -31,7 +31,10 @@
 #define BIND_ORDER 22
 #define BIND_ROWS 31
 
-#define SPHERE_GROUP 64             // invocations of every pass; one group a world, or a pair of bodies
+#define SPHERE_GROUP 64             // invocations of a group, but where one group takes a world
+#ifndef SPHERE_WORLD_GROUP
+#define SPHERE_WORLD_GROUP 64       // of a group that takes a world: Capacity::world_group
+#endif
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
@@ -41,6 +44,7 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
+#define SPHERE_BOX_QUEUE 3072      // pairs of a world whose oriented boxes wait to be tested; more are tested where they are found
 #define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
 
 // SphereOrdered.flags.

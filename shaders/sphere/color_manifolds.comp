@@ -4,7 +4,7 @@
 // the hash, whatever runs when; an order by index would wait along rows of neighbours. Twin: color_manifolds().
 #include "shared/sphere.h"
 
-layout(local_size_x = SPHERE_GROUP) in;
+layout(local_size_x = SPHERE_WORLD_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
@@ -65,13 +65,13 @@ void main() {
   time_step = progress[w].time_step;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
-  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) used_low[i] = used_high[i] = 0u;
-  for (uint k = thread; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_GROUP) members[k] = 0u;
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) used_low[i] = used_high[i] = 0u;
+  for (uint k = thread; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_WORLD_GROUP) members[k] = 0u;
   if (thread == 0u) contact_count = solved_count = row_count = row_top = 0u;
   if (thread < 2u) left[thread] = 0u;
   barrier();
   uvec2 own_contacts = uvec2(0u);
-  for (uint p = thread; p < count; p += SPHERE_GROUP) {
+  for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
     uvec2 n = contacts_to_solve(world, pairs[list + p]);
     begin_color(list + p, n.y);
     own_contacts += n;
@@ -82,14 +82,14 @@ void main() {
   uint rounds = 0u;
   for (;; ++rounds) {
     uint turn = rounds & 1u;
-    for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) lowest[i] = 0xffffffffu;
+    for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) lowest[i] = 0xffffffffu;
     if (thread == 0u) left[turn ^ 1u] = 0u;
     barrier();
-    for (uint p = thread; p < count; p += SPHERE_GROUP)
+    for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP)
       if (bid(world, list + p)) left[turn] = 1u;
     barrier();
     if (left[turn] == 0u) break;
-    for (uint p = thread; p < count; p += SPHERE_GROUP) {
+    for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
       if (pairs[list + p].color != UNCOLORED) continue;
       uint color = take_color(world, list + p);
       if (color != UNCOLORED) count_member(world, list + p, color);
@@ -106,8 +106,8 @@ void main() {
     progress[w].coloring_rounds += rounds;
   }
   barrier();
-  for (uint p = thread; p < count; p += SPHERE_GROUP) put_in_order(world, list + p);
+  for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) put_in_order(world, list + p);
   memoryBarrierBuffer();
   barrier();
-  for (uint o = thread; o < starts[LAST_COLOR]; o += SPHERE_GROUP) join_block(world, o);
+  for (uint o = thread; o < starts[LAST_COLOR]; o += SPHERE_WORLD_GROUP) join_block(world, o);
 }

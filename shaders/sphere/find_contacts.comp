@@ -103,6 +103,28 @@ void test_edge(View view, uint e) {
   touch_with_edge(view, e, ends.p, ends.q, ends.gradient_p, ends.gradient_q, ends.distance_p, ends.distance_q);
 }
 
+const uint NOT_BEGUN = 0xffffffffu;
+
+// Tests the nodes of the clusters nearby, from the k-th on, and puts edges worth testing into the queue. Stops when that
+// is full, to go on from there: edge `e` of cluster k.
+void test_clusters(View view, inout uint k, inout uint e) {
+  const uint lane = gl_LocalInvocationIndex % SPHERE_CLUSTER;
+  for (; k < near_count; k += SPHERE_GROUP / SPHERE_CLUSTER, e = NOT_BEGUN) {
+    uint c = near_clusters[k], node = c * SPHERE_CLUSTER + lane;
+    uvec4 range = clusters[view.samples.clusters.x + c].edges;
+    if (e == NOT_BEGUN) {
+      if (node < view.samples.nodes.y) test_node(view, node);
+      e = range.x + lane;
+    }
+    for (; e < range.y; e += SPHERE_CLUSTER) {
+      if (!is_worth_testing(view, e)) continue;
+      uint at = atomicAdd(queued, 1u);
+      if (at >= SPHERE_EDGE_QUEUE) return;
+      edge_queue[at] = e;
+    }
+  }
+}
+
 // All invocations; the field of the other body is in use.
 void test_samples(View view) {
   uint thread = gl_LocalInvocationIndex, count = view.samples.clusters.y;
@@ -116,36 +138,35 @@ void test_samples(View view) {
       near_clusters[atomicAdd(near_count, 1u)] = c;
   }
   barrier();
-  const uint lane = thread % SPHERE_CLUSTER;
-  for (uint k = thread / SPHERE_CLUSTER; k < near_count; k += SPHERE_GROUP / SPHERE_CLUSTER) {
-    uint c = near_clusters[k], node = c * SPHERE_CLUSTER + lane;
-    if (node < view.samples.nodes.y) test_node(view, node);
-    uvec4 range = clusters[view.samples.clusters.x + c].edges;
-    for (uint e = range.x + lane; e < range.y; e += SPHERE_CLUSTER) {
-      if (!is_worth_testing(view, e)) continue;
-      uint at = atomicAdd(queued, 1u);
-      if (at < SPHERE_EDGE_QUEUE)
-        edge_queue[at] = e;
-      else
-        test_edge(view, e);
-    }
+  uint k = thread / SPHERE_CLUSTER, e = NOT_BEGUN;
+  bool full = true;
+  while (full) {
+    test_clusters(view, k, e);
+    barrier();
+    full = queued > SPHERE_EDGE_QUEUE;
+    for (uint q = thread; q < min(queued, SPHERE_EDGE_QUEUE); q += SPHERE_GROUP) test_edge(view, edge_queue[q]);
+    barrier();
+    if (thread == 0u) queued = 0u;
+    barrier();
   }
-  barrier();
-  for (uint k = thread; k < min(queued, SPHERE_EDGE_QUEUE); k += SPHERE_GROUP) test_edge(view, edge_queue[k]);
-  barrier();
 }
 
+// The samples of each body against the field of the other, in a loop: compilers put all that is called in place, and of
+// this there is much.
 void test_pair(SpherePair pair, float margin) {
-  uint shape_a = bodies[pair.a].ids.x, shape_b = bodies[pair.b].ids.x;
   Placement a = placement_of(pair.a), b = placement_of(pair.b);
   mat3 b_to_a = transpose(a.rotation) * b.rotation, a_to_b = transpose(b_to_a);
   vec3 b_in_a = (b.position - a.position) * a.rotation, a_in_b = -(a_to_b * b_in_a);
-  SphereSamples samples_a = samples_of(pair.a), samples_b = samples_of(pair.b);
-  Field field_a = field_of(shape_a), field_b = field_of(shape_b);
   Carry from_a = Carry(a_to_b, a_in_b), from_b = Carry(b_to_a, b_in_a);
-  test_samples(View(samples_a, samples_b, field_a, field_b, from_a, from_b, 0u, margin, true));
-  test_samples(View(samples_b, samples_a, field_b, field_a, from_b, from_b, SPHERE_SIDE_B, margin, true));
-  if (gl_LocalInvocationIndex == 0u) count_possible(samples_a.nodes.y + samples_b.nodes.y);
+  for (uint turn = 0u; turn < 2u; ++turn) {
+    bool of_a = turn == 0u;
+    uint own = of_a ? pair.a : pair.b, other = of_a ? pair.b : pair.a;
+    View view = View(samples_of(own), samples_of(other), field_of(bodies[own].ids.x), field_of(bodies[other].ids.x),
+                     from_b, from_b, of_a ? 0u : SPHERE_SIDE_B, margin, true);
+    if (of_a) view.to_field = from_a;
+    test_samples(view);
+    if (gl_LocalInvocationIndex == 0u) count_possible(view.samples.nodes.y);
+  }
 }
 
 bool within_walls(SphereWorld world, vec3 p, float margin) {

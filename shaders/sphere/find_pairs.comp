@@ -4,7 +4,7 @@
 // already: their manifold waits, untouched, until one of them wakes. Twin: find_pairs() and recyclable().
 #include "shared/sphere.h"
 
-layout(local_size_x = SPHERE_GROUP) in;
+layout(local_size_x = SPHERE_WORLD_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
@@ -38,7 +38,8 @@ shared vec4 box_center[SPHERE_MAX_BODIES];
 shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box
 shared uint on_ground[SPHERE_MAX_BODIES];
 shared uint first_pair[SPHERE_MAX_BODIES];
-shared uint partial[SPHERE_GROUP];
+shared uint partial[SPHERE_WORLD_GROUP];
+shared uint box_queue[SPHERE_BOX_QUEUE], queued;
 shared uint free_top, fastest, fastest_turn;  // bits of m/s, rad/s
 
 void find_box(SphereWorld world, uint i) {
@@ -50,20 +51,43 @@ void find_box(SphereWorld world, uint i) {
   on_ground[i] = box.half_size.w == 2.0 ? 1u : 0u;
 }
 
-bool near_each_other(SphereWorld world, uint i, uint j) {
-  return boxes_meet(world.bodies.x + i, Box(box_center[i], box_half[i]), world.bodies.x + j,
-                    Box(box_center[j], box_half[j]));
+bool oriented_boxes_meet(SphereWorld world, uint i, uint j) {
+  return !oriented_boxes_apart(world.bodies.x + i, world.bodies.x + j, box_center[i].w + box_center[j].w);
 }
 
-// Bodies near body i with numbers in word k of its row of bits.
+// Bodies near body i with numbers in word k of its row of bits; those for whose oriented boxes the queue has room are yet
+// to come.
 uint near_word(SphereWorld world, uint i, uint k) {
   uint word = 0u;
-  for (uint j = max(32u * k, i + 1u); j < min(32u * k + 32u, world.bodies.y); ++j)
-    if (near_each_other(world, i, j)) word |= 1u << (j & 31u);
+  for (uint j = max(32u * k, i + 1u); j < min(32u * k + 32u, world.bodies.y); ++j) {
+    if (!upright_boxes_meet(Box(box_center[i], box_half[i]), Box(box_center[j], box_half[j]))) continue;
+    uint at = atomicAdd(queued, 1u);
+    if (at < SPHERE_BOX_QUEUE)
+      box_queue[at] = i << 16 | j;
+    else if (oriented_boxes_meet(world, i, j))
+      word |= 1u << (j & 31u);
+  }
   return word;
 }
 
 uint word_of(SphereWorld world, uint i, uint k) { return world.bodies.w + i * world.bodies.z + k; }
+
+// Upright boxes of every two bodies, then the oriented boxes of those few that meet, by as many invocations as there are.
+void find_near(SphereWorld world) {
+  uint thread = gl_LocalInvocationIndex;
+  for (uint item = thread; item < world.bodies.y * world.bodies.z; item += SPHERE_WORLD_GROUP) {
+    uint i = item / world.bodies.z, k = item % world.bodies.z;
+    near[word_of(world, i, k)] = near_word(world, i, k);
+  }
+  memoryBarrierBuffer();
+  barrier();
+  for (uint q = thread; q < min(queued, SPHERE_BOX_QUEUE); q += SPHERE_WORLD_GROUP) {
+    uint i = box_queue[q] >> 16, j = box_queue[q] & 0xffffu;
+    if (oriented_boxes_meet(world, i, j)) atomicOr(near[word_of(world, i, j >> 5)], 1u << (j & 31u));
+  }
+  memoryBarrierBuffer();
+  barrier();
+}
 
 bool kept(SphereWorld world, uint i, uint b) {
   if (b == SPHERE_GROUND) return on_ground[i] == 1u;
@@ -90,12 +114,12 @@ uint keep_waiting(SphereWorld world, uint i, uint page, uint list) {
 
 // Turns the counts in first_pair into where the pairs of each body begin; returns their sum.
 uint scan_counts(uint count) {
-  uint thread = gl_LocalInvocationIndex, chunk = (count + SPHERE_GROUP - 1u) / SPHERE_GROUP, sum = 0u;
+  uint thread = gl_LocalInvocationIndex, chunk = (count + SPHERE_WORLD_GROUP - 1u) / SPHERE_WORLD_GROUP, sum = 0u;
   for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) sum += first_pair[i];
   partial[thread] = sum;
   barrier();
   uint before = 0u, total = 0u;
-  for (uint k = 0u; k < SPHERE_GROUP; ++k) {
+  for (uint k = 0u; k < SPHERE_WORLD_GROUP; ++k) {
     if (k < thread) before += partial[k];
     total += partial[k];
   }
@@ -138,7 +162,7 @@ void cut_step(SphereWorld world, uint w) {
   bool begins = progress[w].cuts_left == 0u;
   if (gl_LocalInvocationIndex == 0u) fastest = fastest_turn = 0u;
   barrier();
-  for (uint i = gl_LocalInvocationIndex; begins && i < world.bodies.y; i += SPHERE_GROUP) {
+  for (uint i = gl_LocalInvocationIndex; begins && i < world.bodies.y; i += SPHERE_WORLD_GROUP) {
     if (!moves(world.bodies.x + i)) continue;
     vec2 speeds = speeds_of(world.bodies.x + i);
     atomicMax(fastest, floatBitsToUint(speeds.x));
@@ -160,18 +184,14 @@ void main() {
   uint old_list = list_of(world, page), list = list_of(world, page ^ 1u);
 
   cut_step(world, w);
-  for (uint i = thread; i < count; i += SPHERE_GROUP) {
+  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {
     find_box(world, i);
     if (sleeps(world.bodies.x + i)) ++sleepers;
   }
+  if (thread == 0u) queued = 0u;
   barrier();
-  for (uint item = thread; item < count * world.bodies.z; item += SPHERE_GROUP) {
-    uint i = item / world.bodies.z, k = item % world.bodies.z;
-    near[word_of(world, i, k)] = near_word(world, i, k);
-  }
-  memoryBarrierBuffer();
-  barrier();
-  for (uint i = thread; i < count; i += SPHERE_GROUP) first_pair[i] = keep_waiting(world, i, page, old_list);
+  find_near(world);
+  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) first_pair[i] = keep_waiting(world, i, page, old_list);
   if (thread == 0u) free_top = progress[w].free_slots;
   memoryBarrierBuffer();
   barrier();
@@ -187,10 +207,10 @@ void main() {
   if (thread == 0u) take_back_places(world, w);
   memoryBarrierBuffer();
   barrier();
-  for (uint i = thread; i < count; i += SPHERE_GROUP) retire(world, w, i, page, old_list);
+  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) retire(world, w, i, page, old_list);
   memoryBarrierBuffer();
   barrier();
-  for (uint i = thread; i < count; i += SPHERE_GROUP) {
+  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {
     uvec2 old = range_of(world.bodies.x + i, page);
     uint at = first_pair[i], p = old.x;
     for (uint k = 0u; k < world.bodies.z; ++k)

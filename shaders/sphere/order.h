@@ -18,7 +18,7 @@ uint block_of(uint color) { return color == LAST_COLOR ? 1u : SPHERE_ROW_BLOCK; 
 
 // One group: how many manifolds and rows each color has, and where in it those of each length begin.
 void count_colors() {
-  for (uint c = gl_LocalInvocationIndex; c < SPHERE_COLORS; c += SPHERE_GROUP) {
+  for (uint c = gl_LocalInvocationIndex; c < SPHERE_COLORS; c += gl_WorkGroupSize.x) {
     uint count = 0u, sum = 0u, first = 0u, vectors = 0u, block = block_of(c);
     for (uint n = 1u; n <= SPHERE_MAX_CONTACTS; ++n) count += members_of(kind_of(c, n));
     members_in(c) = count;

@@ -16,9 +16,12 @@ bool oriented_boxes_apart(uint a, uint b, float margin) {
   return any(greaterThan(max(gap_a, gap_b), vec3(margin)));
 }
 
+// Of two bodies that nothing moves: not.
+bool upright_boxes_meet(Box a, Box b) {
+  if (any(greaterThan(abs(a.center.xyz - b.center.xyz), a.half_size.xyz + b.half_size.xyz))) return false;
+  return a.half_size.w + b.half_size.w > 0.0;
+}
+
 bool boxes_meet(uint a, Box box_a, uint b, Box box_b) {
-  if (any(greaterThan(abs(box_a.center.xyz - box_b.center.xyz), box_a.half_size.xyz + box_b.half_size.xyz)))
-    return false;
-  if (box_a.half_size.w + box_b.half_size.w == 0.0) return false;
-  return !oriented_boxes_apart(a, b, box_a.center.w + box_b.center.w);
+  return upright_boxes_meet(box_a, box_b) && !oriented_boxes_apart(a, b, box_a.center.w + box_b.center.w);
 }

@@ -2,7 +2,7 @@
 // Gauss-Seidel over the colors of manifolds with the velocities in shared memory. Twin: solve().
 #include "shared/sphere.h"
 
-layout(local_size_x = SPHERE_GROUP) in;
+layout(local_size_x = SPHERE_WORLD_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
@@ -40,11 +40,11 @@ uint ordered;
 uint first_of(uint c) {
   return c < SPHERE_COLORS - 1u ? starts[c] + gl_LocalInvocationIndex : gl_LocalInvocationIndex == 0u ? starts[c] : ordered;
 }
-uint stride_of(uint c) { return c < SPHERE_COLORS - 1u ? SPHERE_GROUP : 1u; }
+uint stride_of(uint c) { return c < SPHERE_COLORS - 1u ? SPHERE_WORLD_GROUP : 1u; }
 #define FOR_OWN_MANIFOLDS(o)                                      \
   for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) \
     for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c))
-#define FOR_OWN_BODIES(i) for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_GROUP)
+#define FOR_OWN_BODIES(i) for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
 
 void begin_body(uint i) {
   uint body = world.bodies.x + i;
@@ -79,7 +79,7 @@ void main() {
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   ordered = progress[w].ordered;
   take_sub_step_of(w, 0u);
-  for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_GROUP)
+  for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_WORLD_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
   FOR_OWN_BODIES(i) begin_body(i);
   barrier();

@@ -4,7 +4,7 @@
 // whoever presses on them awake; by touch what moves on wakes whatever has contacts with it. Ends the step. Twin: update_sleep().
 #include "shared/sphere.h"
 
-layout(local_size_x = SPHERE_GROUP) in;
+layout(local_size_x = SPHERE_WORLD_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
@@ -34,7 +34,7 @@ void main() {
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
-  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) {
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) {
     uint body = world.bodies.x + i;
     if (moves(body)) note_motion(body, w);
     label[i] = i;
@@ -45,7 +45,7 @@ void main() {
   bool by_part = progress[w].sleep == SPHERE_SLEEP_BY_PART, by_touch = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH;
   for (uint round = 0u;; ++round) {
     uint turn = round & 1u;
-    for (uint p = thread; p < count; p += SPHERE_GROUP) {
+    for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
       SpherePair pair = pairs[list + p];
       if (pair.b == SPHERE_GROUND) continue;
       uvec4 manifold = manifolds[world.pairs.x + pair.slot].state;
@@ -67,14 +67,14 @@ void main() {
     }
     barrier();
     if (changed[turn] == 0u) break;
-    for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP) atomicMin(label[i], label[label[i]]);
+    for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) atomicMin(label[i], label[label[i]]);
     if (thread == 0u) changed[turn ^ 1u] = 0u;
     barrier();
   }
-  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
     if ((awake[i] & 1u) != 0u) atomicOr(awake[label[i]], 2u);
   barrier();
-  for (uint i = thread; i < world.bodies.y; i += SPHERE_GROUP)
+  for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
     settle(world.bodies.x + i, world.bodies.x + label[i], awake[label[i]] != 0u, w);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;

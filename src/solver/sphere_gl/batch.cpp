@@ -47,8 +47,16 @@ void move_within(gl::Buffer<T>& buffer, std::size_t from, std::size_t to, std::s
   buffer.storage().copy_from(buffer.storage(), from * sizeof(T), to * sizeof(T), count * sizeof(T));
 }
 
-gl::Program pass(const char* name) {
-  return gl::Program::compute(std::string("sphere/") + name + ".comp");
+gl::Program pass(const char* name, const gl::Defines& defines = {}) {
+  return gl::Program::compute(std::string("sphere/") + name + ".comp", defines);
+}
+
+/// A pass of a group a world. A color of 256 parts has some 70 manifolds, and there are as many bodies as invocations; on
+/// a software device an invocation that waits costs as much as one that works.
+gl::Program world_pass(const char* name, const Capacity& capacity) {
+  std::size_t group = capacity.world_group;
+  if (group == 0) group = gl::Device::current().software() ? SPHERE_WORLD_GROUP : 256;
+  return pass(name, {{"SPHERE_WORLD_GROUP", std::to_string(group)}});
 }
 
 /// What the passes over many groups need to know of a world.
@@ -71,11 +79,11 @@ LargeWorld large_world(const sphere::World& world, std::size_t slot) {
 Batch::Batch(const Capacity& capacity)
     : capacity_(capacity),
       contact_groups_(groups_at_once()),
-      find_pairs_(pass("find_pairs")),
+      find_pairs_(world_pass("find_pairs", capacity)),
       find_contacts_(pass("find_contacts")),
-      color_manifolds_(pass("color_manifolds")),
-      solve_(pass("solve")),
-      update_sleep_(pass("update_sleep")) {
+      color_manifolds_(world_pass("color_manifolds", capacity)),
+      solve_(world_pass("solve", capacity)),
+      update_sleep_(world_pass("update_sleep", capacity)) {
   settings_block_.candidates = static_cast<gpu::uint>(capacity.candidates);
   const std::vector<gpu::SphereCandidate> unused(contact_groups_, gpu::SphereCandidate{});
   at_least(candidates_, unused.size());

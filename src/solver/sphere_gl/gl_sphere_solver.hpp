@@ -14,6 +14,7 @@ struct Capacity {
   std::size_t candidates = 8;      ///< contacts to choose from, per invocation of a group
   std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
   std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
+  std::size_t world_group = 0;     ///< invocations that share such a world; 0: 64 on a software device, else 256
   std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
   std::size_t colors = 32;         ///< of a large world that may have dispatches of their own; others share a group
 };

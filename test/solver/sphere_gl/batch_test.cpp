@@ -112,6 +112,12 @@ TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
   EXPECT_EQ(fallen(2, spread), fallen(2));
 }
 
+TEST(SphereGlBatch, AWorldIsTheSameInAGroupOfAnySize) {
+  Capacity wide;
+  wide.world_group = 256;
+  EXPECT_EQ(fallen(2, wide), fallen(2));
+}
+
 /// Four walls of four rows of bricks, each brick on two: 256 bodies, more than a group holds on a software device, in
 /// islands of 64.
 struct Walls {
