@@ -112,6 +112,7 @@ std::string request_reference() {
       "writes one row a part and sample, `time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: the pose of the model\n"
       "frame and the velocity of the centre of mass, in the bin frame. Samples are taken at the start, at the\n"
       "steps nearest to multiples of 1 / `--trace-rate` (Hz of simulated time, default 100), and at the end.\n"
+      "`--trace FILE.bag` writes the poses as messages on `/tf`, for `rosbag play --clock`.\n"
       "\n"
       "```yaml\n"
       "seed: 7\n"

@@ -1,7 +1,10 @@
-/// Makes `--formats bag` known to the program that this file is linked into (output/scene_writer.hpp).
+/// Makes `--formats bag` (output/scene_writer.hpp) and `--trace FILE.bag` (tool/trace.hpp) known to the program that this
+/// file is linked into.
+#include "bag_trace.hpp"
 #include "bag_writer.hpp"
 
 #include "bin_scenes/output/scene_writer.hpp"
+#include "tool/trace.hpp"
 
 #include <cstdlib>
 
@@ -9,13 +12,30 @@ namespace bin_scenes {
 
 namespace {
 
+// As for any node of ROS: `ROS_NAMESPACE=cell bin_scenes generate ... --formats bag`.
+std::string name_space() {
+  const char* set = std::getenv("ROS_NAMESPACE");
+  return set ? set : "";
+}
+
+class TraceOfTransforms final : public Trace {
+ public:
+  TraceOfTransforms(const std::string& path, const Request& request) : bag_(path, request) {}
+  void add(double time, const std::vector<BodyState>& states) override { bag_.add(time, states); }
+  void finish() override { bag_.finish(); }
+
+ private:
+  BagTrace bag_;
+};
+
 [[maybe_unused]] const bool registered = [] {
   register_bag_writer([](const std::string& path, const Scene& scene, const Request& request,
                          const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
                          const PartModelPtr& bin_model) {
-    // As for any node of ROS: `ROS_NAMESPACE=cell bin_scenes generate ... --formats bag`.
-    const char* name_space = std::getenv("ROS_NAMESPACE");
-    write_bag(path, scene, request, images, parts, bin_model, bag_stamp(scene.index), {}, name_space ? name_space : "");
+    write_bag(path, scene, request, images, parts, bin_model, bag_stamp(scene.index), {}, name_space());
+  });
+  register_bag_trace([](const std::string& path, const Request& request) -> std::unique_ptr<Trace> {
+    return std::make_unique<TraceOfTransforms>(path, request);
   });
   return true;
 }();

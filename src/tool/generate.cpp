@@ -4,7 +4,7 @@
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/scene_store.hpp"
-#include "tool/trace_file.hpp"
+#include "tool/trace.hpp"
 
 #include <sys/time.h>
 #include <unistd.h>
@@ -132,13 +132,13 @@ int generate(const GenerateOptions& options) {
 
   Generator generator;
   ProgressBar bar;
-  std::unique_ptr<TraceFile> trace;
+  std::unique_ptr<Trace> trace;
   Generator::Options run;
   run.render = store.needs_images();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress); };
   if (!options.trace.empty()) {
-    trace = std::make_unique<TraceFile>(options.trace);
+    trace = open_trace(options.trace, request);
     run.hooks.trace_rate = options.trace_rate;
     run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) { trace->add(time, states); };
   }

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 namespace bin_scenes {
 
@@ -16,10 +15,6 @@ Error failed(const std::string& path) {
 }  // namespace
 
 TraceFile::TraceFile(const std::string& path) : path_(path), temporary_(path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw environment_error("the trace cannot be written: it is a directory", path, "name a file for --trace");
-  }
   file_ = std::fopen(temporary_.path().c_str(), "w");
   if (!file_) throw failed(path_);
   std::fputs("time,id,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n", file_);

@@ -414,6 +414,38 @@ class NodeTest(unittest.TestCase):
             info = subprocess.run(["rosbag", "info", path], check=True, capture_output=True, text=True, timeout=60)
             self.assertIn("sensor_msgs/PointCloud2", info.stdout)
 
+    def test_a_trace_as_a_bag_has_the_poses_of_the_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            request = os.path.join(folder, "request.yaml")
+            with open(request, "w") as file:
+                file.write(SMALL.replace("model: ", "model: " + os.environ["BIN_SCENES_MODELS"] + "/"))
+            for name in ("trace.csv", "trace.bag"):
+                subprocess.run([rospy.get_param("/tool"), "generate", request, "--out", os.path.join(folder, "out"),
+                                "--seconds", "0.5", "--trace", os.path.join(folder, name), "--set",
+                                "accept.at_rest=false"], timeout=120)
+            table = {}
+            with open(os.path.join(folder, "trace.csv")) as file:
+                next(file)
+                for line in file:
+                    time_s, part, *values = map(float, line.split(","))
+                    table.setdefault(time_s, {})["part_%04d" % part] = values[:7]
+            sent = []
+            with rosbag.Bag(os.path.join(folder, "trace.bag")) as bag:
+                self.assertEqual(set(bag.get_type_and_topic_info().topics), {"/tf", "/tf_static"})
+                for _, message, stamp in bag.read_messages(topics=["/tf"]):
+                    sent.append((stamp, {t.child_frame_id: t for t in message.transforms}))
+        self.assertEqual(len(sent), len(table))
+        self.assertGreater(len(sent), 40)
+        begin = int(sent[0][0].to_sec())
+        for (stamp, transforms), (time_s, rows) in zip(sent, sorted(table.items())):
+            self.assertAlmostEqual((stamp - rospy.Time(begin)).to_sec(), time_s, places=8)
+            self.assertEqual(set(transforms), set(rows))
+            for frame, values in rows.items():
+                transform = transforms[frame]
+                self.assertEqual((transform.header.frame_id, transform.header.stamp), ("bin", stamp))
+                p, q = transform.transform.translation, transform.transform.rotation
+                np.testing.assert_array_equal([p.x, p.y, p.z, q.x, q.y, q.z, q.w], values)
+
     def test_what_was_never_poured_is_in_no_frame_marker_or_label(self):
         with tempfile.TemporaryDirectory() as folder:
             request = os.path.join(folder, "request.yaml")

@@ -1,0 +1,51 @@
+/// A bag that appears whole or not at all.
+#pragma once
+
+#include "bin_scenes/core/temporary.hpp"
+
+#include <rosbag/bag.h>
+#include <boost/make_shared.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace bin_scenes {
+
+enum class Latch { no, yes };
+
+/// An open bag under a temporary name, which close() renames.
+class SceneBag {
+ public:
+  /// @param name_space of the topics, as of a node: "cell", "/cell/"; those that begin with "/" stay where they are
+  SceneBag(const std::string& path, const std::string& name_space);
+  ~SceneBag();
+  SceneBag(const SceneBag&) = delete;
+  SceneBag& operator=(const SceneBag&) = delete;
+
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message, Latch latch) {
+    namespace traits = ros::message_traits;
+    // The header that a recording would have received from the node.
+    auto header = boost::make_shared<ros::M_string>();
+    (*header)["type"] = traits::datatype<Message>();
+    (*header)["md5sum"] = traits::md5sum<Message>();
+    (*header)["message_definition"] = traits::definition<Message>();
+    (*header)["callerid"] = "/bin_scenes";
+    (*header)["latching"] = latch == Latch::yes ? "1" : "0";
+    bag_->write(topic.front() == '/' ? topic : space_ + "/" + topic, stamp, message, header);
+  }
+
+  void close();
+
+  /// Does `work`; what rosbag throws is an environment Error that names `path`.
+  static void unharmed(const std::string& path, const std::function<void()>& work);
+
+ private:
+  Temporary temporary_;
+  std::string space_;
+  std::unique_ptr<rosbag::Bag> bag_;
+  bool closed_ = false;
+};
+
+}  // namespace bin_scenes
