@@ -421,8 +421,7 @@ class NodeTest(unittest.TestCase):
                 file.write(SMALL.replace("model: ", "model: " + os.environ["BIN_SCENES_MODELS"] + "/"))
             for name in ("trace.csv", "trace.bag"):
                 subprocess.run([rospy.get_param("/tool"), "generate", request, "--out", os.path.join(folder, "out"),
-                                "--seconds", "0.5", "--trace", os.path.join(folder, name), "--set",
-                                "accept.at_rest=false"], timeout=120)
+                                "--seconds", "0.5", "--trace", os.path.join(folder, name)], timeout=120)
             table = {}
             with open(os.path.join(folder, "trace.csv")) as file:
                 next(file)
