@@ -1,5 +1,7 @@
 #include "field_sign.hpp"
 
+#include "ray_parity.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -17,23 +19,6 @@ std::size_t node_index(const DistanceField& field, int x, int y, int z) {
 
 Vec3 node_position(const DistanceField& field, int x, int y, int z) {
   return field.origin + field.cell * Vec3(x, y, z);
-}
-
-/// Every edge is passed as often one way as the other. By a sum of hashes, which comes to zero then, and otherwise in
-/// one of 2^64 cases.
-bool closed(const Mesh& mesh) {
-  std::uint64_t sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = t[k], b = t[(k + 1) % 3];
-      std::uint64_t hash = (std::min(a, b) << 32) | std::max(a, b);
-      hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ULL;  // SplitMix64
-      hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebULL;
-      hash ^= hash >> 31;
-      sum += a < b ? hash : 0 - hash;
-    }
-  }
-  return sum == 0;
 }
 
 /// The sign of a closed mesh, row by row along x: each surface that a row meets changes the winding number by one.

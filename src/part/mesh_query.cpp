@@ -1,5 +1,7 @@
 #include "bin_scenes/part/mesh_query.hpp"
 
+#include "ray_parity.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -112,8 +114,9 @@ struct MeshQuery::Tree {
   std::vector<Node> nodes;
   std::vector<Moments> moments;  // one per node
   std::vector<Corner> corners;   // in leaf order
+  bool is_closed;
 
-  explicit Tree(Mesh source) : mesh(std::move(source)) {
+  explicit Tree(Mesh source) : mesh(std::move(source)), is_closed(closed(mesh)) {
     const std::size_t count = mesh.triangles.size();
     boxes_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
@@ -328,6 +331,32 @@ double MeshQuery::winding(const Vec3& point) const {
     }
   }
   return angle / (4.0 * M_PI);
+}
+
+bool MeshQuery::inside(const Vec3& point) const {
+  if (!tree_->is_closed) return winding(point) > 0.5;
+  const std::vector<Node>& nodes = tree_->nodes;
+  std::array<std::uint32_t, stack_size> stack;
+  std::size_t top = 0;
+  if (!nodes.empty()) stack[top++] = 0;
+  int sum = 0;
+  while (top > 0) {
+    const std::uint32_t index = stack[--top];
+    const Node& node = nodes[index];
+    if (!ray_meets(node.box, point)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Corner& t = tree_->corners[i];
+      const std::optional<int> change = crossing(t.a, t.ab, t.ac, point);
+      if (!change) return winding(point) > 0.5;
+      sum += *change;
+    }
+  }
+  return sum > 0;
 }
 
 double MeshQuery::signed_distance(const Vec3& point) const {

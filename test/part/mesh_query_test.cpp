@@ -57,6 +57,30 @@ double brute_winding(const Mesh& mesh, const Vec3& p) {
   return angle / (4.0 * M_PI);
 }
 
+/// Closed meshes: what one ray tells is what the solid angles of all triangles tell. Also where shells overlap or are
+/// inside out, and from points whose ray goes through an edge or a corner.
+TEST(MeshQuery, InsideAClosedMeshIsWhereItsWindingNumberIsAboveOneHalf) {
+  Mesh two = box_mesh({0.02, 0.03, 0.04});
+  append(two, box_mesh({0.03, 0.02, 0.01}, {0.005, 0.004, 0.003}));
+  const Vec3 along(0.53812371, 0.31415927, 0.78214293);  // of the ray
+  Random random(11, 0, Stream::probe);
+  for (const Mesh& mesh : {two, inverted(two), torus_mesh(0.03, 0.01, 40, 20)}) {
+    const MeshQuery query(mesh);
+    std::size_t inside = 0;
+    for (std::size_t k = 0; k < 20000; ++k) {
+      Vec3 p = probe(random, mesh.bounds(), 0.2);
+      const auto& [a, b, c] = mesh.triangles[k % mesh.triangles.size()];
+      if (k % 10 == 1) p = mesh.vertices[a] - random.uniform(0.001, 0.05) * along;
+      if (k % 10 == 2) p = 0.5 * (mesh.vertices[a] + mesh.vertices[b]) - random.uniform(0.001, 0.05) * along;
+      const double winding = brute_winding(mesh, p);
+      if (std::abs(winding - std::round(winding)) > 1e-6) continue;  // on the surface
+      EXPECT_EQ(query.inside(p), winding > 0.5) << k << ": " << winding;
+      inside += query.inside(p);
+    }
+    if (mesh.triangles != inverted(two).triangles) EXPECT_GT(inside, 1000u);
+  }
+}
+
 TEST(MeshQuery, NearestPointOfABoxInClosedForm) {
   const MeshQuery query(box_mesh({2, 4, 6}));
   const auto distance = [&](double x, double y, double z) { return query.nearest({x, y, z}).distance; };

@@ -28,7 +28,8 @@ class MeshQuery {
   /// Generalised winding number: 1 inside, 0 outside, robust to small gaps and overlapping shells (> 0.5 = inside).
   /// Far triangles are summed by a tree expansion (Barill et al. 2018): error below 3e-3, 3e-4 r.m.s.
   double winding(const Vec3& point) const;
-  bool inside(const Vec3& point) const { return winding(point) > 0.5; }
+  /// Whether the winding number is above 0.5; exact and fast for a closed mesh.
+  bool inside(const Vec3& point) const;
   /// Negative inside (m).
   double signed_distance(const Vec3& point) const;
   /// Calls visit(triangle index) for triangles whose bounds overlap the box (model frame).

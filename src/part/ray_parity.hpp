@@ -1,0 +1,26 @@
+/// Inside or outside of a closed mesh by one ray: every surface that it passes changes the winding number by one.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <optional>
+
+namespace bin_scenes {
+
+/// Every edge is passed as often one way as the other. By a sum of hashes, which comes to zero then, and otherwise in
+/// one of 2^64 cases.
+bool closed(const Mesh& mesh);
+
+/// Of all rays: along no edge or face that anybody would draw.
+inline const Vec3 ray_direction{0.53812371, 0.31415927, 0.78214293};
+
+/// What the triangle (a, a + ab, a + ac) adds to the winding number of p, by its ray: 1 where the ray leaves, -1 where it
+/// enters, 0 where it passes by. None where rounding could tell otherwise: close to an edge, or p close to the triangle.
+/// The signs of the volumes that ray and edges span (Segura and Feito 2001, "Algorithms to test ray-triangle
+/// intersection. Comparative study").
+std::optional<int> crossing(const Vec3& a, const Vec3& ab, const Vec3& ac, const Vec3& p);
+
+/// Whether the ray of p meets the box.
+bool ray_meets(const Aabb& box, const Vec3& p);
+
+}  // namespace bin_scenes
