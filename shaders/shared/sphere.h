@@ -81,9 +81,7 @@
 // SphereProgress.overflow: the world waits, as it was before the step, until the host has made room.
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
-#define SPHERE_CONTACT_OVERFLOW 4u
-#define SPHERE_ROW_OVERFLOW 8u
-#define SPHERE_NO_PLACE 0xffffffffu
+#define SPHERE_ROW_OVERFLOW 4u
 
 GPU_STRUCTS_BEGIN
 
@@ -109,7 +107,7 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 contacts; // first, capacity; rows: first, capacity
+  uvec4 rows;     // first, capacity
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };
@@ -118,10 +116,7 @@ struct SphereWorld {
 struct SphereProgress {
   uint steps_left, steps, overflow, need;    // need: pairs of the step that did not fit
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
-  uint fine, stiffness, ordered;             // samples in use, softness in use, manifolds to solve
-  uint missing_contacts;                     // that found no place
-  uint free_contact;                         // first of the chain of places that nobody has
-  uint released_contact, last_released;      // ends of the chain of places given up since
+  uint fine, stiffness, ordered, rows;       // samples in use, softness in use, manifolds to solve, rows of the step
   float time_step;                           // s, of this step
   uint cuts_left;                            // of a whole step
   uint cold_steps;                           // yet to come, with more sweeps
@@ -130,7 +125,6 @@ struct SphereProgress {
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
-  uint rows;                                 // of the step
   // Counters, since the host last looked.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
@@ -202,17 +196,18 @@ struct SpherePair {
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, presses, found, place of the first contact
+  uvec4 state;       // contacts, presses, found
   vec3 found_position;     // of b in the frame of a when contacts were found
   uint solved;             // contacts solved in this step: the first ones
   vec4 found_orientation;
 };
 
+// Contact k of a manifold lies at k behind SPHERE_MAX_CONTACTS times the place of the manifold.
 struct SphereContact {
   vec3 anchor_a;     // on the surface of a, body axes
-  uint next;         // place of the manifold's next contact
-  vec3 anchor_b;
   uint feature;
+  vec3 anchor_b;
+  uint unused;
   vec4 normal;       // from a to b, in the frame of the body whose field gave it
   vec4 force;        // on b (N): normal, friction (world axes)
 };
@@ -245,7 +240,7 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
-static_assert(sizeof(SphereProgress) == 160, "std430");
+static_assert(sizeof(SphereProgress) == 144, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereNode) == 16, "std430");

@@ -34,7 +34,6 @@ shared uint contact_count, solved_count, row_count, row_top;
 #define start_of(c) starts[c]
 #include "sphere/body.h"
 #include "sphere/pair.h"
-#include "sphere/contact_place.h"
 #include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 #include "sphere/order.h"
@@ -54,7 +53,7 @@ void place_colors(SphereWorld world, uint w, uint list, uint count) {
   progress[w].contacts += contact_count;
   progress[w].contacts_solved += solved_count;
   progress[w].rows = row_count / SPHERE_ROW_PARTS;
-  if (progress[w].rows > world.contacts.w) progress[w].overflow = SPHERE_ROW_OVERFLOW;
+  if (progress[w].rows > world.rows.y) progress[w].overflow = SPHERE_ROW_OVERFLOW;
   put_last_in_order(world, list, count);
 }
 

@@ -43,7 +43,6 @@ Placement placement_of(uint body) {
   return placement_of(body, half_way(time_step, time_step / sub_steps));
 }
 
-#include "sphere/contact_place.h"
 #include "sphere/reduce.h"
 #include "shared/sphere/rim.h"
 

@@ -20,13 +20,11 @@ layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };  // pai
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) coherent buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
-layout(std430, binding = BIND_CONTACTS) coherent buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
 
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/pair_list.h"
-#include "sphere/contact_place.h"
 #include "sphere/oriented_box.h"
 #include "sphere/box.h"
 #include "sphere/pair_job.h"
@@ -132,13 +130,11 @@ uint scan_counts(uint count) {
   return total;
 }
 
-void retire(SphereWorld world, uint w, uint i, uint page, uint list) {
+void retire(SphereWorld world, uint i, uint page, uint list) {
   uvec2 old = range_of(world.bodies.x + i, page);
   for (uint p = old.x; p < old.y; ++p) {
     if (kept(world, i, pairs[list + p].b)) continue;
-    uint slot = pairs[list + p].slot;
-    free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = slot;
-    retire_places(world, w, slot);
+    free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = pairs[list + p].slot;
   }
 }
 
@@ -204,10 +200,7 @@ void main() {
     return;
   }
 
-  if (thread == 0u) take_back_places(world, w);
-  memoryBarrierBuffer();
-  barrier();
-  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) retire(world, w, i, page, old_list);
+  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) retire(world, i, page, old_list);
   memoryBarrierBuffer();
   barrier();
   for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {

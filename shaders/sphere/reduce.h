@@ -1,20 +1,19 @@
 // Candidates of one pair, found by all invocations of a group, and the few of them that become contacts. Needs the
-// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of(), placement_of() and
-// sphere/contact_place.h.
+// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of() and
+// placement_of().
 
 #include "shared/sphere/choice.h"
 
 const float FAR = 3.4e38;
 
 shared SphereContact old[SPHERE_MAX_CONTACTS];
-shared uint place[SPHERE_MAX_CONTACTS];  // of the old contacts, then of the new ones
 shared uint old_count, old_found;
 shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS], chosen_normal[SPHERE_MAX_CONTACTS];  // w: separation
 shared uint chosen_feature[SPHERE_MAX_CONTACTS];
 shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose forces it takes
 shared uint source_taken[SPHERE_MAX_CONTACTS];
 shared uint highest[2], highest_feature[2];      // take turns
-shared uint found_count, any_lost, no_room;
+shared uint found_count, any_lost;
 const uint NO_SOURCE = 0xffffffffu;
 
 uint mine;  // candidates of this invocation
@@ -54,15 +53,10 @@ void begin_candidates(SphereWorld world, uint slot) {
     old_found = manifold.state.z;
     highest[0] = 0u;
     highest_feature[0] = NO_SOURCE;
-    found_count = any_lost = no_room = 0u;
-    for (uint i = 0u, at = manifold.state.w; i < count; ++i) {
-      place[i] = at;
-      at = place_after(world, at);
-    }
+    found_count = any_lost = 0u;
   }
-  barrier();
   if (thread < count) {
-    old[thread] = contacts[world.contacts.x + place[thread]];
+    old[thread] = contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + slot) + thread];
     source_taken[thread] = 0u;
   }
   barrier();
@@ -186,32 +180,6 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   barrier();
 }
 
-// Places for `count` contacts where there were old_count; false if there are too few.
-bool take_places(SphereWorld world, uint count) {
-  if (count < old_count) {
-    for (uint i = count; i + 1u < old_count; ++i) link_places(world, place[i], place[i + 1u]);
-    uint last = place[old_count - 1u], before = atomicExchange(progress[world_index].released_contact, place[count]);
-    link_places(world, last, before);
-    if (before == SPHERE_NO_PLACE) progress[world_index].last_released = last;
-  }
-  if (count <= old_count) return true;
-  uint top = progress[world_index].free_contact;
-  for (;;) {  // until the chain was walked undisturbed
-    uint found = old_count, at = top;
-    for (; found < count && at < world.contacts.y; ++found) {  // what was taken meanwhile may lead anywhere
-      place[found] = at;
-      at = place_after(world, at);
-    }
-    uint seen = found == count ? atomicCompSwap(progress[world_index].free_contact, top, at)
-                               : atomicAdd(progress[world_index].free_contact, 0u);
-    if (seen == top && found == count) return true;
-    if (seen == top) break;
-    top = seen;
-  }
-  atomicAdd(progress[world_index].missing_contacts, count - old_count);
-  return false;
-}
-
 void finish_candidates(SphereWorld world, SpherePair pair) {
   uint thread = gl_LocalInvocationIndex;
   bool ground = pair.b == SPHERE_GROUND;
@@ -229,21 +197,14 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
     if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
     return;
   }
-  if (thread == 0u && !take_places(world, count)) {
-    atomicOr(progress[world_index].overflow, SPHERE_CONTACT_OVERFLOW);
-    no_room = 1u;
-  }
-  barrier();
-  if (no_room != 0u) return;
   if (thread < count) {
     vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
     vec3 on_b = a.position + ra * (on_a + chosen_on_a[thread].w * normal);
     if (!ground) on_b = (on_b - b.position) * rb;
     // The normal turns with the body whose field it comes from.
     if ((chosen_feature[thread] & SPHERE_SIDE_B) == 0u) normal = ground ? ra * normal : (ra * normal) * rb;
-    uint at = world.contacts.x + place[thread], source = chosen_source[thread];
+    uint at = SPHERE_MAX_CONTACTS * (world.pairs.x + pair.slot) + thread, source = chosen_source[thread];
     contacts[at].anchor_a = on_a;
-    contacts[at].next = thread + 1u < count ? place[thread + 1u] : 0u;
     contacts[at].anchor_b = on_b;
     contacts[at].feature = chosen_feature[thread];
     contacts[at].normal = vec4(normal, 0.0);
@@ -254,7 +215,7 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
     vec4 orientation;
     relative_pose(pair, position, orientation);
     manifolds[world.pairs.x + pair.slot] =
-        SphereManifold(uvec4(count, 0u, 1u, place[0]), position, 0u, orientation);
+        SphereManifold(uvec4(count, 0u, 1u, 0u), position, 0u, orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
     if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
   }

@@ -68,21 +68,20 @@ Place place_of(uint body) {
   return p;
 }
 
-#include "sphere/contact_place.h"
 #include "sphere/contact_row.h"
 
 SphereOrdered ordered_at(uint o) { return order[world.pairs.x + o]; }
 void set_flags(uint o, uint flags) { order[world.pairs.x + o].flags = flags; }
-uint first_row(SphereOrdered m) { return world.contacts.z * SPHERE_ROW_PARTS + m.row; }
+uint first_row(SphereOrdered m) { return world.rows.x * SPHERE_ROW_PARTS + m.row; }
 
 // Rows of a manifold.
 #define FOR_ROWS(at, m)                                             \
   for (uint i = 0u, at = first_row(m); i < m.count; \
        ++i, at += SPHERE_ROW_PARTS * m.stride)
 // The same, and the contacts that they are of.
-#define FOR_CONTACTS(at, contact, m)                                                                           \
-  for (uint i = 0u, at = first_row(m), contact = first_contact(world, m.slot); i < m.count; \
-       ++i, at += SPHERE_ROW_PARTS * m.stride, contact = next_contact(world, contact))
+#define FOR_CONTACTS(at, contact, m)                                                                     \
+  for (uint i = 0u, at = first_row(m), contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot); i < m.count; \
+       ++i, at += SPHERE_ROW_PARTS * m.stride, ++contact)
 
 float friction_of(SphereOrdered m) { return grip * m.friction; }
 bool aimed(SphereOrdered m) { return (m.flags & SPHERE_AIMED) != 0u; }

@@ -1,6 +1,6 @@
 // Which contacts of a manifold are solved in a step: those that press already, and those no farther apart than they may
-// close in the step. They come first in its chain, else in the order they had. Twin: put_solved_first(). Needs the
-// bindings Settings, Bodies, States, Shapes, Manifolds, Contacts, sphere/pair.h and sphere/contact_place.h.
+// close in the step. They come first, else in the order they had. Twin: put_solved_first(). Needs the bindings Settings,
+// Bodies, States, Shapes, Manifolds, Contacts and sphere/pair.h.
 
 // Distance of a contact's points where the bodies are (m).
 float separation_of(SphereContact c, SpherePair pair) {
@@ -16,28 +16,15 @@ float separation_of(SphereContact c, SpherePair pair) {
 
 // Returns how many they are.
 uint put_solved_first(SphereWorld world, SpherePair pair) {
-  uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x, solved = 0u;
+  uint slot = world.pairs.x + pair.slot, first = SPHERE_MAX_CONTACTS * slot, count = manifolds[slot].state.x, solved = 0u;
   float reach = settings.press_margin * size_of(pair) + way_of(world, pair);
-  uint first = SPHERE_NO_PLACE, last = SPHERE_NO_PLACE, first_left = SPHERE_NO_PLACE, last_left = SPHERE_NO_PLACE;
-  for (uint i = 0u, place = manifolds[slot].state.w, next; i < count; ++i, place = next) {
-    next = place_after(world, place);
-    SphereContact c = contacts[world.contacts.x + place];
-    if (c.force.x > 0.0 || separation_of(c, pair) <= reach) {
-      if (solved++ == 0u)
-        first = place;
-      else
-        link_places(world, last, place);
-      last = place;
-    } else {
-      if (first_left == SPHERE_NO_PLACE)
-        first_left = place;
-      else
-        link_places(world, last_left, place);
-      last_left = place;
-    }
+  for (uint k = 0u; k < count; ++k) {
+    SphereContact c = contacts[first + k];
+    if (c.force.x <= 0.0 && separation_of(c, pair) > reach) continue;
+    for (uint i = k; i > solved; --i) contacts[first + i] = contacts[first + i - 1u];
+    if (k > solved) contacts[first + solved] = c;
+    ++solved;
   }
-  if (solved > 0u && solved < count) link_places(world, last, first_left);
-  if (count > 0u) manifolds[slot].state.w = solved > 0u ? first : first_left;
   manifolds[slot].solved = solved;
   return solved;
 }

@@ -30,7 +30,6 @@ uniform uint stage, coloring_round;
 #define row_top large.row_top
 #include "sphere/body.h"
 #include "sphere/pair.h"
-#include "sphere/contact_place.h"
 #include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 #include "sphere/order.h"

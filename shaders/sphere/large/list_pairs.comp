@@ -15,7 +15,6 @@ layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
-layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_BOXES) readonly buffer Boxes { SphereBox boxes[]; };
 layout(std430, binding = BIND_CELL_STARTS) readonly buffer CellStarts { uint cell_starts[]; };
@@ -25,7 +24,6 @@ layout(std430, binding = BIND_PAIR_STARTS) readonly buffer PairStarts { uint pai
 
 #include "sphere/body.h"
 #include "sphere/pair_list.h"
-#include "sphere/contact_place.h"
 #include "sphere/oriented_box.h"
 #include "sphere/large/large_world.h"
 #include "sphere/large/cell.h"
@@ -81,7 +79,6 @@ void sort_own() {
 
 void give_back(uint slot) {
   free_slots[world.pairs.x + atomicAdd(progress[large_world].free_slots, 1u)] = slot;
-  retire_places(world, large_world, slot);
 }
 
 void keep_slots(uvec2 old, uint old_list) {

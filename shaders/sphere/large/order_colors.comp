@@ -79,7 +79,7 @@ void main() {
   progress[large_world].ordered = sum;
   progress[large_world].colors += colors;
   progress[large_world].rows = row_count / SPHERE_ROW_PARTS;
-  if (progress[large_world].rows > world.contacts.w) progress[large_world].overflow = SPHERE_ROW_OVERFLOW;
+  if (progress[large_world].rows > world.rows.y) progress[large_world].overflow = SPHERE_ROW_OVERFLOW;
   put_last_in_order(world, large.list, count);
   large.manifold_groups = uvec4(folded_groups((sum + SPHERE_GROUP - 1u) / SPHERE_GROUP), 0u);
   // Behind the last color that is wider than a group one group is as fast as many, and needs no dispatch for each.

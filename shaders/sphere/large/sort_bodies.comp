@@ -7,15 +7,12 @@ layout(local_size_x = SPHERE_GROUP) in;
 
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
 layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progress[]; };
-layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_BOXES) buffer Boxes { SphereBox boxes[]; };
 layout(std430, binding = BIND_CELL_COUNTS) buffer CellCounts { uint cell_counts[]; };
 layout(std430, binding = BIND_CELL_STARTS) readonly buffer CellStarts { uint cell_starts[]; };
 layout(std430, binding = BIND_SORTED) writeonly buffer Sorted { uint sorted[]; };
 
-#include "sphere/contact_place.h"
 #include "sphere/large/large_world.h"
 #include "sphere/large/cell.h"
 
@@ -25,7 +22,6 @@ void main() {
   uint i = thread_index();
   if (idle()) return;
   SphereWorld world = worlds[large_world];
-  if (stage == LIST_PLACE && i == 0u) take_back_places(world, large_world);
   if (i >= world.bodies.y) return;
   SphereBox box = boxes[i];
   if (box.half_size.x < 0.0) return;  // absent

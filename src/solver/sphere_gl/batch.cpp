@@ -106,7 +106,7 @@ void Batch::make_room() {
   at_least(pairs_, 2 * pairs);
   at_least(free_, pairs);
   at_least(manifolds_, pairs);
-  at_least(contacts_, contact_arena_.size());
+  at_least(contacts_, SPHERE_MAX_CONTACTS * pairs);
   at_least(order_, pairs);
   at_least(rows_, row_arena_.size() * SPHERE_ROW_PARTS);
   if (jobs_.size() < status_words + pairs) {
@@ -132,13 +132,11 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   r.capacity = std::max(capacity_.pairs * r.bodies, world.manifolds.size());
   std::size_t contacts = 0;
   for (const sphere::Manifold& m : world.manifolds) contacts += m.contacts.size();
-  r.contacts = std::max(capacity_.contacts * r.bodies, contacts);
+  r.rows = std::max(capacity_.rows * r.bodies, rows_for(contacts));
   r.first_body = body_arena_.take(r.bodies);
   r.first_word = word_arena_.take(r.bodies * r.words);
   r.first_plane = plane_arena_.take(r.planes);
   r.first_pair = pair_arena_.take(r.capacity);
-  r.first_contact = contact_arena_.take(r.contacts);
-  r.rows = rows_for(r.contacts);
   r.first_row = row_arena_.take(r.rows);
   const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
@@ -174,11 +172,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress = {};
   progress.pairs = static_cast<gpu::uint>(image.pairs.size());
   progress.free_slots = static_cast<gpu::uint>(free);
-  image.contacts.resize(r.contacts);
-  std::vector<gpu::uint> places(r.contacts - contacts);
-  std::iota(places.begin(), places.end(), static_cast<gpu::uint>(contacts));
-  set_free_places(image.contacts, places, progress);
-  contacts_.upload(r.first_contact, image.contacts.data(), r.contacts);
+  contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
@@ -191,7 +185,7 @@ void Batch::upload_world(Slot slot) {
   const auto word = [](std::size_t n) { return static_cast<gpu::uint>(n); };
   host_worlds_[slot].bodies = {word(r.first_body), word(r.bodies), word(r.words), word(r.first_word)};
   host_worlds_[slot].pairs = {word(r.first_pair), word(r.capacity), word(r.first_plane), word(r.planes)};
-  host_worlds_[slot].contacts = {word(r.first_contact), word(r.contacts), word(r.first_row), word(r.rows)};
+  host_worlds_[slot].rows = {word(r.first_row), word(r.rows), 0, 0};
   worlds_.upload(slot, &host_worlds_[slot], 1);
 }
 
@@ -201,7 +195,6 @@ void Batch::remove(Slot slot) {
   word_arena_.give(r.first_word);
   plane_arena_.give(r.first_plane);
   pair_arena_.give(r.first_pair);
-  contact_arena_.give(r.first_contact);
   row_arena_.give(r.first_row);
   slots_.give(slot);
 }
@@ -252,6 +245,7 @@ void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
   else
     move_within(pairs_, 2 * old_first + old, 2 * r.first_pair + r.capacity, progress.pairs);
   move_within(manifolds_, old_first, r.first_pair, old);
+  move_within(contacts_, SPHERE_MAX_CONTACTS * old_first, SPHERE_MAX_CONTACTS * r.first_pair, SPHERE_MAX_CONTACTS * old);
   move_within(free_, old_first, r.first_pair, progress.free_slots);
   std::vector<gpu::uint> fresh(r.capacity - old);
   std::iota(fresh.begin(), fresh.end(), static_cast<gpu::uint>(old));
@@ -259,23 +253,6 @@ void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
   progress.free_slots += static_cast<gpu::uint>(fresh.size());
   if (!stays) pair_arena_.give(old_first);
   upload_world(slot);
-}
-
-void Batch::grow_contacts(Slot slot, gpu::SphereProgress& progress) {
-  Region& r = regions_[slot];
-  const std::size_t old_first = r.first_contact, old = r.contacts;
-  std::vector<gpu::SphereContact> contacts = contacts_.download(old_first, old);
-  std::vector<gpu::uint> places = free_places(contacts, progress);
-  r.contacts = grown(old, old - places.size() + progress.missing_contacts);
-  for (std::size_t k = old; k < r.contacts; ++k) places.push_back(static_cast<gpu::uint>(k));
-  contacts.resize(r.contacts);
-  set_free_places(contacts, places, progress);
-  if (!contact_arena_.extend(old_first, r.contacts)) {
-    contact_arena_.give(old_first);
-    r.first_contact = contact_arena_.take(r.contacts);
-  }
-  grow_rows(slot, rows_for(r.contacts));
-  contacts_.upload(r.first_contact, contacts.data(), r.contacts);
 }
 
 void Batch::grow_rows(Slot slot, std::size_t need) {
@@ -307,7 +284,7 @@ ManifoldImage Batch::manifolds(Slot slot) const {
   ManifoldImage image;
   image.pairs = pairs_.download(2 * r.first_pair + progress.page * r.capacity, progress.pairs);
   image.manifolds = manifolds_.download(r.first_pair, r.capacity);
-  image.contacts = contacts_.download(r.first_contact, r.contacts);
+  image.contacts = contacts_.download(SPHERE_MAX_CONTACTS * r.first_pair, SPHERE_MAX_CONTACTS * r.capacity);
   return image;
 }
 

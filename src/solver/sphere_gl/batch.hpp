@@ -6,7 +6,7 @@
 ///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, ranges alike
 ///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
 ///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
-///     contacts   | world 0: capacity places | world 1 | ...             a chain a manifold
+///     contacts   | world 0: capacity slots | world 1 | ...              eight to a slot
 ///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
 // clang-format on
@@ -54,9 +54,8 @@ class Batch {
   /// `back` later: it holds the progress of each slot in turn, then the states of each.
   void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;
 
-  /// Room for more pairs or contacts of a world that had too little, from its progress; contents are kept.
+  /// Room for more pairs of a world that had too little, and for their contacts, from its progress; contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
-  void grow_contacts(Slot slot, gpu::SphereProgress& progress);
   /// Room for `need` rows of the solve; their contents are of one step, and lost.
   void grow_rows(Slot slot, std::size_t need);
   /// Room for twice the candidates per pair of bodies.
@@ -87,8 +86,8 @@ class Batch {
 
  private:
   struct Region {
-    std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_contact = 0,
-                contacts = 0, first_row = 0, rows = 0, first_plane = 0, planes = 0;
+    std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_row = 0,
+                rows = 0, first_plane = 0, planes = 0;
     gpu::uint stiffness = 0;
     bool cold = false;
     gpu::uint refinement = 1, effort = 1;
@@ -103,7 +102,7 @@ class Batch {
 
   std::vector<Region> regions_;
   std::vector<gpu::SphereWorld> host_worlds_;
-  Arena slots_, body_arena_, word_arena_, pair_arena_, contact_arena_, row_arena_, plane_arena_;
+  Arena slots_, body_arena_, word_arena_, pair_arena_, row_arena_, plane_arena_;
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
   std::size_t running_count_ = 0, contact_groups_ = 1;  ///< worlds of one group each

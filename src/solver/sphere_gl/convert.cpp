@@ -91,15 +91,14 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     if (range.y == 0) range.x = range.z = p;
     range.y = range.w = p + 1;
     image.pairs.push_back({first_body + m.a, m.b == ground ? SPHERE_GROUND : first_body + m.b, p, 0});
-    const auto first = static_cast<std::uint32_t>(image.contacts.size());
     std::uint32_t presses = 0;
+    image.contacts.resize(SPHERE_MAX_CONTACTS * static_cast<std::size_t>(p + 1));
+    gpu::SphereContact* next = &image.contacts[SPHERE_MAX_CONTACTS * static_cast<std::size_t>(p)];
     for (const Contact& c : m.contacts) {
       if (c.normal_force > 0) presses = 1;
-      const auto next = static_cast<std::uint32_t>(image.contacts.size() + 1);
-      image.contacts.push_back(
-          {three(c.anchor_a), next, three(c.anchor_b), c.feature, vec4(c.local_normal), force_of(c)});
+      *next++ = {three(c.anchor_a), c.feature, three(c.anchor_b), 0, vec4(c.local_normal), force_of(c)};
     }
-    image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, first},
+    image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, 0},
                                three(m.found_x),
                                static_cast<gpu::uint>(m.solved),
                                vec4(m.found_q)});
@@ -124,10 +123,9 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     const bool on_ground = m.b == ground;
     m.friction = std::sqrt(a.friction * (on_ground ? world.ground_friction : world.bodies[m.b].friction));
     m.restitution = std::max(a.restitution, on_ground ? world.ground_restitution : world.bodies[m.b].restitution);
-    std::uint32_t place = from.state.w;
+    const gpu::SphereContact* next = &image.contacts[SPHERE_MAX_CONTACTS * static_cast<std::size_t>(pair.slot)];
     for (Contact& c : m.contacts) {
-      const gpu::SphereContact& g = image.contacts[place];
-      place = g.next;
+      const gpu::SphereContact& g = *next++;
       c.anchor_a = vec3(g.anchor_a);
       c.anchor_b = vec3(g.anchor_b);
       c.local_normal = vec3(g.normal);
@@ -138,23 +136,6 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     out.push_back(m);
   }
   return out;
-}
-
-std::vector<gpu::uint> free_places(const std::vector<gpu::SphereContact>& contacts,
-                                   const gpu::SphereProgress& progress) {
-  std::vector<gpu::uint> places;
-  for (const gpu::uint first : {progress.free_contact, progress.released_contact})
-    for (gpu::uint place = first; place != SPHERE_NO_PLACE; place = contacts[place].next) places.push_back(place);
-  return places;
-}
-
-void set_free_places(std::vector<gpu::SphereContact>& contacts, const std::vector<gpu::uint>& places,
-                     gpu::SphereProgress& progress) {
-  for (std::size_t k = 0; k < places.size(); ++k)
-    contacts[places[k]].next = k + 1 < places.size() ? places[k + 1] : SPHERE_NO_PLACE;
-  progress.free_contact = places.empty() ? SPHERE_NO_PLACE : places[0];
-  progress.released_contact = SPHERE_NO_PLACE;
-  progress.missing_contacts = 0;
 }
 
 }  // namespace bin_scenes::sphere_gl

@@ -47,16 +47,11 @@ gpu::SpherePlane to_gpu(const sphere::Plane& plane);
 struct ManifoldImage {
   std::vector<gpu::SpherePair> pairs;
   std::vector<gpu::SphereManifold> manifolds;  ///< by slot
-  std::vector<gpu::SphereContact> contacts;    ///< chains, see shaders/sphere/contact_place.h
+  std::vector<gpu::SphereContact> contacts;    ///< SPHERE_MAX_CONTACTS to a slot
   std::vector<gpu::uvec4> ranges;              ///< by body; both pages alike
 };
 ManifoldImage to_gpu(const sphere::World& world, std::uint32_t first_body);
 
-/// Places for contacts that no manifold has (shaders/sphere/contact_place.h).
-std::vector<gpu::uint> free_places(const std::vector<gpu::SphereContact>& contacts,
-                                   const gpu::SphereProgress& progress);
-void set_free_places(std::vector<gpu::SphereContact>& contacts, const std::vector<gpu::uint>& places,
-                     gpu::SphereProgress& progress);
 std::vector<sphere::Manifold> to_cpu(const ManifoldImage& image, const sphere::World& world, std::uint32_t first_body);
 
 }  // namespace bin_scenes::sphere_gl

@@ -259,7 +259,6 @@ class GlSphereSolver final : public Solver {
       r.progress.overflow = 0;
       if (overflow) profile_.count("steps_repeated");
       if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
-      if (overflow & SPHERE_CONTACT_OVERFLOW) batch_.grow_contacts(r.slot, r.progress);
       if (overflow & SPHERE_ROW_OVERFLOW) batch_.grow_rows(r.slot, r.progress.rows);
       candidates = candidates || overflow & SPHERE_CANDIDATE_OVERFLOW;
       left = std::max<std::uint64_t>(left, r.progress.steps_left);

@@ -10,7 +10,7 @@ namespace sphere_gl {
 /// Sizes that cost time, no result. Lists grow: too small a one costs a repeated step.
 struct Capacity {
   std::size_t pairs = 4;           ///< of bodies near each other, per body of a world
-  std::size_t contacts = 12;       ///< per body of a world
+  std::size_t rows = 12;           ///< of contacts that are solved, per body of a world
   std::size_t candidates = 8;      ///< contacts to choose from, per invocation of a group
   std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
   std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES

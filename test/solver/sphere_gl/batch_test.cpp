@@ -62,7 +62,7 @@ TEST(SphereGlBatch, AWorldIsTheSameAloneAndInABatch) {
 // full grow meanwhile.
 TEST(SphereGlBatch, AWorldIsTheSameWhileAnotherIsUnderWay) {
   Capacity small;
-  small.pairs = small.contacts = small.candidates = 1;
+  small.pairs = small.rows = small.candidates = 1;
   const auto solver = make_gl_sphere_solver(coarse(), small);
   const WorldId one = Handful(1).add(*solver), two = Handful(2).add(*solver);
   for (int k = 0; k < 2; ++k) {
@@ -91,7 +91,7 @@ TEST(SphereGlBatch, AWorldIsTheSameBehindAThousandBodies) {
 TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   Capacity small;
   small.pairs = 1;
-  small.contacts = 1;
+  small.rows = 1;
   small.candidates = 1;
   EXPECT_EQ(fallen(1, small), fallen(1));
   const auto solver = make_gl_sphere_solver(coarse(), small);
@@ -108,7 +108,7 @@ TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
   EXPECT_EQ(fallen(2, spread), fallen(2));
   // Rounds and colors that have no dispatch of their own share one group; lists that are full grow.
   spread.rounds = spread.colors = 1;
-  spread.pairs = spread.contacts = spread.candidates = 1;
+  spread.pairs = spread.rows = spread.candidates = 1;
   EXPECT_EQ(fallen(2, spread), fallen(2));
 }
 
