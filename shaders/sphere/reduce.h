@@ -195,7 +195,7 @@ bool take_places(SphereWorld world, uint count) {
     if (before == SPHERE_NO_PLACE) progress[world_index].last_released = last;
   }
   if (count <= old_count) return true;
-  uint top = progress[world_index].free_contact;
+  uint top = atomicAdd(progress[world_index].free_contact, 0u);  // other groups take places meanwhile
   for (;;) {  // until the chain was walked undisturbed
     uint found = old_count, at = top;
     for (; found < count && at < world.contacts.y; ++found) {  // what was taken meanwhile may lead anywhere
@@ -254,7 +254,7 @@ void finish_candidates(SphereWorld world, SpherePair pair) {
     vec4 orientation;
     relative_pose(pair, position, orientation);
     manifolds[world.pairs.x + pair.slot] =
-        SphereManifold(uvec4(count, 0u, 1u, place[0]), position, 0u, orientation);
+        SphereManifold(uvec4(count, 0u, 1u, count > 0u ? place[0] : 0u), position, 0u, orientation);
     atomicAdd(progress[world_index].dropped, found_count - count);
     if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
   }
