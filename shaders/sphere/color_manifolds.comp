@@ -15,7 +15,7 @@ layout(std430, binding = BIND_STATES) readonly buffer States { SphereState state
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_RANGES) readonly buffer Ranges { uvec4 ranges[]; };
 layout(std430, binding = BIND_PAIRS) coherent buffer Pairs { SpherePair pairs[]; };
-layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_MANIFOLDS) coherent buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) coherent buffer Order { SphereOrdered order[]; };
@@ -96,8 +96,7 @@ void main() {
     barrier();
   }
 
-  memoryBarrierBuffer();
-  barrier();
+  memoryBarrierBuffer();  // colors and lengths are read behind the next barrier
   count_colors();
   barrier();
   if (thread == 0u) {

@@ -244,7 +244,6 @@ void main() {
     finish_candidates(world, pair);
     atomicAdd(progress[world_index].clusters_tested, clusters_tested);
     atomicAdd(progress[world_index].nodes_tested, nodes_tested);
-    barrier();  // shared memory is free for the next pair
   }
   leave_room();
 }

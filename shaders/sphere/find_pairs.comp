@@ -110,7 +110,8 @@ uint keep_waiting(SphereWorld world, uint i, uint page, uint list) {
   return count;
 }
 
-// Turns the counts in first_pair into where the pairs of each body begin; returns their sum.
+// Turns the counts in first_pair into where the pairs of each body begin, known to all behind the next barrier; returns
+// their sum.
 uint scan_counts(uint count) {
   uint thread = gl_LocalInvocationIndex, chunk = (count + SPHERE_WORLD_GROUP - 1u) / SPHERE_WORLD_GROUP, sum = 0u;
   for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) sum += first_pair[i];
@@ -126,7 +127,6 @@ uint scan_counts(uint count) {
     first_pair[i] = before;
     before += own;
   }
-  barrier();
   return total;
 }
 
@@ -189,7 +189,6 @@ void main() {
   find_near(world);
   for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) first_pair[i] = keep_waiting(world, i, page, old_list);
   if (thread == 0u) free_top = progress[w].free_slots;
-  memoryBarrierBuffer();
   barrier();
   uint total = scan_counts(count);
   if (total > world.pairs.y) {

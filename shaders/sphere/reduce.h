@@ -22,13 +22,13 @@ bool lost;
 // Rooms for the candidates of a group lie behind a word for each that says whether it is in use.
 shared uint room;
 
+// Known to all behind the next barrier.
 void take_room() {
   if (gl_LocalInvocationIndex == 0u) {
     room = gl_WorkGroupID.x % settings.contact_groups;
     while (atomicExchange(candidates[room].feature.x, 1u) == 1u) room = (room + 1u) % settings.contact_groups;
   }
   memoryBarrierBuffer();
-  barrier();
 }
 // What this group wrote there is written before the next one takes the room.
 void leave_room() {
@@ -148,7 +148,8 @@ uint reduce(float size, float soon) {
   return n;
 }
 
-// Forces of the last step's contacts: by feature, else from the nearest with a like normal.
+// Forces of the last step's contacts: by feature, else from the nearest with a like normal. Known to all behind the next
+// barrier.
 void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   uint i = gl_LocalInvocationIndex;
   if (i < count) {

@@ -102,7 +102,6 @@ void main() {
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);
-  barrier();  // separations are read from the states that bodies now leave
   uint falling = 0u;
   FOR_OWN_BODIES(i) falling += uint(keep_body(i));
   atomicAdd(progress[w].free_steps, falling);

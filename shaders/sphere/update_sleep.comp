@@ -21,8 +21,14 @@ layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs
 #include "sphere/rest.h"
 
 shared uint label[SPHERE_MAX_BODIES];
-shared uint awake[SPHERE_MAX_BODIES];  // bit 0: is restless itself; bit 1: somebody keeps it awake
-shared uint changed[2];  // take turns
+shared uint motion[SPHERE_MAX_BODIES];      // RESTLESS, WENT_ON
+shared uint kept_awake[SPHERE_MAX_BODIES];  // 1: itself, or its island; all write the same
+shared uint changed[2];                     // take turns
+
+const uint RESTLESS = 1u, WENT_ON = 2u;
+
+// While others may lower it.
+uint label_now(uint i) { return atomicOr(label[i], 0u); }
 
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
@@ -38,7 +44,8 @@ void main() {
     uint body = world.bodies.x + i;
     if (moves(body)) note_motion(body, w);
     label[i] = i;
-    awake[i] = is_restless(body) ? 1u : 0u;
+    motion[i] = (is_restless(body) ? RESTLESS : 0u) | (went_on(body) ? WENT_ON : 0u);
+    kept_awake[i] = 0u;
   }
   if (thread < 2u) changed[thread] = 0u;
   barrier();
@@ -51,14 +58,12 @@ void main() {
       uvec4 manifold = manifolds[world.pairs.x + pair.slot].state;
       if ((by_touch ? manifold.x : manifold.y) == 0u) continue;
       if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) continue;
-      uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x, la = label[a], lb = label[b];
+      uint a = pair.a - world.bodies.x, b = pair.b - world.bodies.x;
       if (by_part || by_touch) {
-        if (by_touch ? went_on(pair.a) || went_on(pair.b) : ((awake[a] | awake[b]) & 1u) != 0u) {
-          atomicOr(awake[a], 2u);
-          atomicOr(awake[b], 2u);
-        }
+        if (((motion[a] | motion[b]) & (by_touch ? WENT_ON : RESTLESS)) != 0u) kept_awake[a] = kept_awake[b] = 1u;
         continue;
       }
+      uint la = label_now(a), lb = label_now(b);
       if (la == lb) continue;
       atomicMin(label[a], lb);
       atomicMin(label[b], la);
@@ -67,15 +72,15 @@ void main() {
     }
     barrier();
     if (changed[turn] == 0u) break;
-    for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) atomicMin(label[i], label[label[i]]);
+    for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) atomicMin(label[i], label_now(label_now(i)));
     if (thread == 0u) changed[turn ^ 1u] = 0u;
     barrier();
   }
   for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
-    if ((awake[i] & 1u) != 0u) atomicOr(awake[label[i]], 2u);
+    if ((motion[i] & RESTLESS) != 0u) kept_awake[label[i]] = 1u;
   barrier();
   for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
-    settle(world.bodies.x + i, world.bodies.x + label[i], awake[label[i]] != 0u, w);
+    settle(world.bodies.x + i, world.bodies.x + label[i], kept_awake[label[i]] == 1u, w);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
     if (progress[w].cold_steps != 0u) --progress[w].cold_steps;

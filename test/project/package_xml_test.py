@@ -29,7 +29,7 @@ DEBIAN = {
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
         "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
-        "glslang-tools", "spirv-tools",  # rosdep has no key of them; where one is missing its test is skipped
+        "glslang-tools", "spirv-tools", "spirv-headers",  # rosdep has no key of them; where one is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
         "libjs-three",  # for reports; without it they have no 3-D view
         # a browser and a cluster, which tests start; where they are missing these tests are skipped

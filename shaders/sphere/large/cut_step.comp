@@ -23,6 +23,7 @@ uniform uint stage;  // CUT_MEASURE, CUT_SET
 
 void main() {
   uint i = thread_index();
+  if (stage == CUT_SET && i != 0u) return;  // it changes what the others would ask for
   SphereWorld world = worlds[large_world];
   bool awake = progress[large_world].steps_left != 0u && progress[large_world].overflow == 0u;
   if (!awake || progress[large_world].cuts_left != 0u) {

@@ -2,11 +2,14 @@
 #define label_of(i) work[i].lowest[0]
 #define restless_of(i) work[i].lowest[1]
 
+// While others may lower it.
+uint label_now(uint i) { return atomicOr(label_of(i), 0u); }
+
 uint root_of(uint i) {
   for (;;) {
-    uint up = label_of(i);
+    uint up = label_now(i);
     if (up == i) return i;
-    uint above = label_of(up);
+    uint above = label_now(up);
     if (above != up) atomicMin(label_of(i), above);
     i = up;
   }

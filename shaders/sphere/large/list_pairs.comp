@@ -96,13 +96,13 @@ void keep_slots(uvec2 old, uint old_list) {
 void main() {
   own = thread_index();
   world = worlds[large_world];
-  if (idle()) return;
   uint bodies_in_world = world.bodies.y;
-  if (stage == LIST_PLACE && pair_starts[bodies_in_world] > world.pairs.y) {
-    if (own == 0u) {
-      progress[large_world].need = pair_starts[bodies_in_world];
-      progress[large_world].overflow = SPHERE_PAIR_OVERFLOW;
-    }
+  bool too_many = stage == LIST_PLACE && pair_starts[bodies_in_world] > world.pairs.y;
+  if (too_many && own != 0u) return;  // does not ask what the first one changes
+  if (idle()) return;
+  if (too_many) {
+    progress[large_world].need = pair_starts[bodies_in_world];
+    progress[large_world].overflow = SPHERE_PAIR_OVERFLOW;
     return;
   }
   if (own >= bodies_in_world) return;

@@ -1,0 +1,162 @@
+/// Scenes in which the passes of the sphere solver go most of their ways.
+#pragma once
+
+#include "bin_scenes/solver/thesis_solver.hpp"
+#include "races/recorder.hpp"
+#include "solver/sphere_gl/handful.hpp"
+
+namespace bin_scenes::races {
+
+/// 170 blocks, balls and eggs that strike the floor beside each other, 90 of them a tray that lies there, and ten in
+/// the air: more pairs than groups take in one go, a color of more manifolds than a group has invocations, and
+/// manifolds for which no color is left.
+struct Carpet {
+  static constexpr int tray_end = 90, floor_end = 170;
+  WorldDef def;
+  std::vector<BodyState> starts;
+
+  Carpet() {
+    def.parts = {PartModel::from_mesh(testing::box_mesh({0.018, 0.02, 0.022}), "block"),
+                 PartModel::from_mesh(testing::box_mesh({0.35, 0.35, 0.02}), "tray"),
+                 PartModel::from_mesh(testing::sphere_mesh(0.01, 3), "ball"), PartModel::from_mesh(egg(), "egg")};
+    def.bin.kind = Bin::Kind::box;
+    def.bin.inner_size = Vec3(1.0, 0.5, 0.1);
+    for (int i = 0; i < floor_end; ++i) {
+      const bool on_tray = i < tray_end;
+      add(i % 8 == 5   ? 2
+          : i % 8 == 6 ? 3
+                       : 0,
+          Vec3(0.035 * (i % 10) + (on_tray ? -0.41 : 0.05), 0.035 * ((on_tray ? i : i - tray_end) / 10) - 0.14,
+               on_tray ? 0.033 : 0.012));
+    }
+    for (int i = 0; i < 10; ++i) add(0, Vec3(0.035 * i + 0.05, 0, 0.3));
+    add(1, Vec3(-0.25, 0, 0.011));
+  }
+
+ private:
+  static Mesh egg() {
+    Mesh mesh = testing::sphere_mesh(0.01, 2);
+    for (Vec3& v : mesh.vertices) v.x() *= 1.3;
+    return mesh;
+  }
+
+  void add(std::size_t part, const Vec3& position) {
+    BodyDef body;
+    body.part = part;
+    body.restitution = 0.5;
+    def.bodies.push_back(body);
+    BodyState state;
+    state.pose.position = position;
+    const double tilt = 0.002 * static_cast<double>(def.bodies.size() % 7) + 0.003;  // no two corners are as deep
+    state.pose.orientation = Quat(1, tilt, 0.6 * tilt, 0.3).normalized();
+    state.velocity.linear = Vec3(0, 0, part == 1 ? 0 : -0.8);
+    starts.push_back(state);
+  }
+};
+
+/// Two heaps at once: as they begin, as they strike, as they come to rest in each way of sleeping, and as some are
+/// taken away.
+inline void watch_heaps(Recorder& recorder, const sphere_gl::Capacity& capacity) {
+  const auto solver = make_gl_sphere_solver(sphere_gl::coarse(), capacity);
+  const std::vector<WorldId> worlds = {sphere_gl::Handful(2).add(*solver), sphere_gl::Handful(1).add(*solver)};
+  const auto watch_after = [&](double seconds) {
+    if (seconds > 0) solver->advance(worlds, seconds);
+    recorder.begin();
+    solver->advance(worlds, solver->step_size());
+    recorder.end();
+  };
+  const auto change_to = [&](Phase::Sleep sleep, Stiffness stiffness, bool forgets) {
+    Phase phase;
+    phase.sleep = sleep;
+    phase.stiffness = stiffness;
+    phase.forgets = forgets;
+    for (const WorldId world : worlds) solver->set_phase(world, phase);
+  };
+  for (const double seconds : {0.0, 0.03, 0.03, 0.04, 0.3}) watch_after(seconds);
+  change_to(Phase::Sleep::by_part, Stiffness::rigid, true);
+  watch_after(0);
+  watch_after(0.05);
+  change_to(Phase::Sleep::by_touch, Stiffness::stiff, false);
+  watch_after(0.02);
+  watch_after(0.3);
+  for (const WorldId world : worlds)
+    for (const std::size_t body : {1, 4}) solver->remove(world, body);
+  watch_after(0);
+}
+
+inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity) {
+  const auto solver = make_gl_sphere_solver(sphere_gl::coarse(), capacity);
+  const Carpet carpet;
+  const WorldId world = solver->add_world(carpet.def);
+  for (std::size_t i = 0; i < carpet.starts.size(); ++i) solver->insert(world, i, carpet.starts[i]);
+  recorder.begin();
+  solver->advance({world}, 2 * solver->step_size());
+  recorder.end();
+  // Ten from the floor and those in the air change places: pairs part and others begin in one step.
+  const std::vector<BodyState> states = solver->states(world);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const std::size_t low = Carpet::tray_end + k, high = Carpet::floor_end + k;
+    solver->insert(world, low, states[high]);
+    solver->insert(world, high, states[low]);
+  }
+  recorder.begin();
+  solver->advance({world}, solver->step_size());
+  recorder.end();
+}
+
+/// Two brushes of 64 bristles that stick in each other: more edges to test than the queue of a group holds.
+inline void watch_brushes(Recorder& recorder, const sphere_gl::Capacity& capacity) {
+  Mesh brush = testing::box_mesh({0.064, 0.064, 0.004});
+  for (int i = 0; i < 64; ++i)
+    brush = testing::merged(
+        brush, testing::box_mesh({0.004, 0.004, 0.004}, {0.008 * (i % 8) - 0.028, 0.008 * (i / 8) - 0.028, 0.003}));
+  WorldDef def;
+  def.parts = {PartModel::from_mesh(brush, "brush")};
+  def.bin.kind = Bin::Kind::box;
+  def.bin.inner_size = Vec3(0.2, 0.2, 0.1);
+  def.bodies.assign(2, BodyDef{});
+  SphereSettings settings = sphere_gl::coarse();
+  settings.coarse_samples = 2000;
+  const auto solver = make_gl_sphere_solver(settings, capacity);
+  const WorldId world = solver->add_world(def);
+  for (std::size_t i = 0; i < 2; ++i) {
+    BodyState state;
+    state.pose.position =
+        Vec3(0.001 * static_cast<double>(i), 0.002 * static_cast<double>(i), 0.02 + 0.004 * static_cast<double>(i));
+    state.pose.orientation = Quat(1, 0.01, 0.02, 0.03).normalized();
+    solver->insert(world, i, state);
+  }
+  recorder.begin();
+  solver->advance({world}, solver->step_size());
+  recorder.end();
+}
+
+/// A heap for which no buffer has room at first: it begins where it lay in another solver.
+inline void watch_overflow(Recorder& recorder, sphere_gl::Capacity capacity) {
+  const sphere_gl::Handful heap(2);
+  const auto usual = make_gl_sphere_solver(sphere_gl::coarse());
+  const WorldId fallen = heap.add(*usual);
+  usual->advance({fallen}, 0.3);
+  capacity.pairs = capacity.rows = capacity.candidates = 1;
+  const auto solver = make_gl_sphere_solver(sphere_gl::coarse(), capacity);
+  const WorldId world = solver->add_world(heap.def);
+  const std::vector<BodyState> states = usual->states(fallen);
+  for (std::size_t i = 0; i < states.size(); ++i) solver->insert(world, i, states[i]);
+  recorder.begin(false);
+  solver->advance({world}, solver->step_size());
+  recorder.end();
+}
+
+/// The same two heaps as spheres, by the method of the thesis.
+inline void watch_spheres(Recorder& recorder) {
+  ThesisSolver solver;
+  const std::vector<WorldId> worlds = {sphere_gl::Handful(2).add(solver), sphere_gl::Handful(1).add(solver)};
+  for (const double seconds : {0.0, 0.1, 0.1}) {
+    if (seconds > 0) solver.advance(worlds, seconds);
+    recorder.begin();
+    solver.advance(worlds, solver.step_size());
+    recorder.end();
+  }
+}
+
+}  // namespace bin_scenes::races
