@@ -306,7 +306,12 @@ void HeapCore::look() {
   const Stage before = settling_.stage();
   if (!settling_.look(*this, time_) || settling_.done()) return;
   set_solver_phase();
-  if (before != Stage::pour) return;
+  poured_ = before == Stage::pour;
+}
+
+void HeapCore::change_world() {
+  if (!poured_) return;
+  poured_ = false;
   if (walls_raised_) cut_walls();
   rest_ = RestWatch(states_.size());  // parts that rested on coarse samples or leant on a cut wall may move again
   begin_motion();
