@@ -228,15 +228,15 @@ class GlSphereSolver final : public Solver {
     std::uint64_t most = 0;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
+      batch_.upload_states(r.slot, r.world, r.changed);
       r.changed.clear();
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       most = std::max(most, own);
       r.steps += own;
       r.progress.steps_left = static_cast<gpu::uint>(own);
-      batch_.upload_progress(r.slot, r.progress);
       flight.slots.push_back(r.slot);
     }
+    upload_progress(flight);
     issue(flight, most);
   }
 
@@ -264,9 +264,14 @@ class GlSphereSolver final : public Solver {
       left = std::max<std::uint64_t>(left, r.progress.steps_left);
     }
     if (candidates) batch_.grow_candidates();
-    if (left > 0)  // counters were taken
-      for (const WorldId id : flight.ids) batch_.upload_progress(world(id).slot, world(id).progress);
+    if (left > 0) upload_progress(flight);  // counters were taken
     return left;
+  }
+
+  void upload_progress(const Flight& flight) {
+    std::vector<std::pair<Batch::Slot, gpu::SphereProgress>> worlds;
+    for (const WorldId id : flight.ids) worlds.emplace_back(world(id).slot, world(id).progress);
+    batch_.upload_progress(std::move(worlds));
   }
 
   /// Moves the counters of a world to the profile.

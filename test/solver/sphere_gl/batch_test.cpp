@@ -220,11 +220,15 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   solver->advance(ids, 0.2);
   for (const Phase phase : {phases::pour, phases::press, phases::probe}) {
     for (const WorldId id : ids) solver->set_phase(id, phase);
-    solver->advance(ids, 0.05);  // bodies that a phase wakes go up, lists grow
+    solver->advance(ids, 0.05);  // lists grow
+    for (const WorldId id : ids) solver->set_phase(id, phases::settle);
+    for (const WorldId id : ids) solver->set_phase(id, phase);
+    const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size());
+    EXPECT_EQ(woken.barriers, 7u * 5u + 3u + 1u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
     EXPECT_EQ(slice.dispatches, 7u * 5u);
-    // A barrier behind each, and one before each copy: progress of three worlds, who runs, settings; one read back.
-    EXPECT_EQ(slice.barriers, 7u * 5u + 3u + 2u + 2u);
+    // A barrier behind each, and one before each copy: progress of all worlds, who runs, settings; one read back.
+    EXPECT_EQ(slice.barriers, 7u * 5u + 1u + 2u + 2u);
     EXPECT_EQ(slice.bytes_uploaded,
               3 * sizeof(gpu::SphereProgress) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));
     EXPECT_EQ(slice.bytes_read_back, 3 * sizeof(gpu::SphereProgress) + (5 + 8 + 11) * sizeof(gpu::SphereState));

@@ -120,7 +120,7 @@ class SphereGl : public ::testing::Test {
     gpu::SphereProgress progress;
     const Batch::Slot slot = batch.add(world, progress);
     progress.steps_left = 1000;
-    batch.upload_progress(slot, progress);
+    batch.upload_progress({{slot, progress}});
     return slot;
   }
 
@@ -184,7 +184,7 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
     if (progress.overflow & SPHERE_CONTACT_OVERFLOW) batch.grow_contacts(slot, progress);
     if (progress.overflow & SPHERE_CANDIDATE_OVERFLOW) batch.grow_candidates();
     progress.overflow = 0;
-    batch.upload_progress(slot, progress);
+    batch.upload_progress({{slot, progress}});
   }
 }
 
