@@ -53,7 +53,8 @@ class GlSphereSolver final : public Solver {
   GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
       : device_(std::move(device)),
         settings_(settings),
-        bodies_(capacity.bodies),
+        at_once_(sphere_gl::worlds_at_once(capacity, static_cast<std::size_t>(device_->limits().storage_bytes),
+                                           device_->software())),
         shapes_(settings),
         batch_(fitting(capacity, *device_)) {}
   ~GlSphereSolver() override { device_->try_make_current(); }
@@ -171,10 +172,7 @@ class GlSphereSolver final : public Solver {
     return out;
   }
 
-  std::size_t worlds_at_once() const override {
-    const std::size_t most = device_->software() ? 4 : 256;
-    return std::clamp<std::size_t>(most * SPHERE_MAX_BODIES / std::max<std::size_t>(bodies_, 1), 1, most);
-  }
+  std::size_t worlds_at_once() const override { return at_once_; }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
   std::vector<Flag> flags(WorldId id) const override { return sphere::flags_of(world(id).world); }
@@ -309,7 +307,7 @@ class GlSphereSolver final : public Solver {
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
   SphereSettings settings_;
-  std::size_t bodies_;  ///< expected in a world
+  std::size_t at_once_;  ///< worlds
   sphere::ShapeCache shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
@@ -321,6 +319,16 @@ class GlSphereSolver final : public Solver {
 };
 
 }  // namespace
+
+std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
+  constexpr double body_bytes = 2048.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
+  const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
+  const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
+  const double largest_list = static_cast<double>(capacity.contacts * sizeof(gpu::SphereContact)) * bodies;
+  const double fit = std::min({most, most * SPHERE_MAX_BODIES / bodies, capacity.memory / (body_bytes * bodies),
+                               0.5 * static_cast<double>(storage_bytes) / largest_list});
+  return static_cast<std::size_t>(std::max(1.0, fit));
+}
 
 std::size_t most_gl_bodies() {
   return 65536;  // keys of pairs (shaders/sphere/color.h)

@@ -212,6 +212,23 @@ gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double se
   return {};
 }
 
+TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
+  constexpr std::size_t two_gib = (std::size_t{1} << 31) - 1;
+  Capacity capacity;
+  capacity.bodies = 256;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1024u);
+  EXPECT_EQ(worlds_at_once(capacity, std::size_t{128} << 20, false), 341u) << "half of a block of 128 MiB";
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, true), 4u);
+  capacity.memory = 1e8;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 190u);
+  capacity = {};
+  capacity.bodies = 65536;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
+  capacity.bodies = 256;
+  capacity.memory = 1.0;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
+}
+
 // What a step costs on a device for which dispatches and barriers are dear (docs/develop/gpu.md).
 TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   const auto solver = make_gl_sphere_solver(coarse());
