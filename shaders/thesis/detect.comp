@@ -75,26 +75,45 @@ void search_sheets(ThesisWorld world, vec4 center) {
   }
 }
 
-void main() {
-  uint slot = thread_index();
-  if (slot >= settings.spheres) return;
-  uint s = sorted[slot].owner.x, body = sorted[slot].owner.y;
-  if (s >= settings.moving_spheres) return;  // static pairs are never looked at
-  vec4 center = sorted[slot].center;
-  ThesisWorld world = worlds[bodies[body].range.z];
-  search_spheres(world, center, body);
-  search_sheets(world, center);
+shared uint group_kept, group_touching;              // contacts and touching spheres of the group
+shared uint group_first_kept, group_first_touching;  // where theirs begin
 
-  contact_ranges[s] = ThesisRange(0u, 0u);
-  if (kept == 0u) return;
-  atomicMax(needs[bodies[body].range.z].contacts, found);
-  if (found > CAPACITY) atomicOr(status.overflow, THESIS_CONTACT_OVERFLOW);
-  uint first = atomicAdd(status.slots, kept);
-  if (first + kept > settings.slots) {  // the step will be repeated with more
-    atomicOr(status.overflow, THESIS_SLOT_OVERFLOW);
-    return;
+void main() {
+  if (gl_LocalInvocationIndex == 0u) group_kept = group_touching = 0u;
+  uint slot = thread_index(), s = settings.moving_spheres, body = 0u;
+  if (slot < settings.spheres) {
+    s = sorted[slot].owner.x;
+    body = sorted[slot].owner.y;
   }
+  ThesisWorld world = worlds[bodies[body].range.z];
+  if (s < settings.moving_spheres) {  // static pairs are never looked at
+    vec4 center = sorted[slot].center;
+    search_spheres(world, center, body);
+    search_sheets(world, center);
+    contact_ranges[s] = ThesisRange(0u, 0u);
+    if (found > needs[bodies[body].range.z].contacts) atomicMax(needs[bodies[body].range.z].contacts, found);
+    if (found > CAPACITY) atomicOr(status.overflow, THESIS_CONTACT_OVERFLOW);
+  }
+
+  // Places: first within the group, then the group's own, so that few invocations wait for the same word.
+  barrier();
+  uint first = 0u, at = 0u;
+  if (kept > 0u) {
+    first = atomicAdd(group_kept, kept);
+    at = atomicAdd(group_touching, 1u);
+  }
+  barrier();
+  if (gl_LocalInvocationIndex == 0u && group_kept > 0u) {
+    group_first_kept = atomicAdd(status.slots, group_kept);
+    group_first_touching = atomicAdd(status.touching_spheres, group_touching);
+    if (group_first_kept + group_kept > settings.slots)  // the step will be repeated with more
+      atomicOr(status.overflow, THESIS_SLOT_OVERFLOW);
+  }
+  barrier();
+  if (kept == 0u) return;
+  first += group_first_kept;
+  touching_spheres[group_first_touching + at] = s;
+  if (first + kept > settings.slots) return;
   contact_ranges[s] = ThesisRange(first, kept);
-  touching_spheres[atomicAdd(status.touching_spheres, 1u)] = s;
   for (uint i = 0u; i < kept; ++i) contacts[first + i] = contact_with(kept_other[i], s, body, world);
 }

@@ -3,10 +3,12 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
-#include <map>
+#include <limits>
 
 namespace bin_scenes {
 namespace {
+
+constexpr double most_tests = 2e8;  ///< of points against planes, half a second: beyond, extreme_points() takes all
 
 Mesh full_hull(const std::vector<Vec3>& points) {
   btConvexHullComputer computer;
@@ -88,6 +90,19 @@ Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices) {
     for (Triangle& t : hull.triangles) std::swap(t[1], t[2]);
   }
   return hull;
+}
+
+std::vector<Vec3> extreme_points(const std::vector<Vec3>& points) {
+  const Mesh hull = convex_hull(points, std::numeric_limits<int>::max());
+  const HullPlanes planes(hull);
+  if (hull.empty() || static_cast<double>(planes.count()) * static_cast<double>(points.size()) > most_tests)
+    return points;
+  // What lies outside of the hull, because its computer rounds, is not left out.
+  const double slack = 1e-9 * hull.bounds().diagonal();
+  std::vector<Vec3> extreme = hull.vertices;
+  for (const Vec3& x : points)
+    if (planes.outside_by_more(x, slack)) extreme.push_back(x);
+  return extreme;
 }
 
 HullPlanes::HullPlanes(const Mesh& hull) : bounds_(hull.bounds()) {

@@ -21,6 +21,7 @@ struct Corner {
 };
 
 using Node = MeshQuery::Node;
+using NodeBox = MeshQuery::NodeBox;
 
 /// Far field of a node's triangles: the first three terms of the expansion of the winding number about `center`
 /// (Barill et al. 2018, "Fast winding numbers for soups and clouds", section 3). With n dA the area element at
@@ -87,14 +88,33 @@ Vec3 nearest_on_triangle(const Corner& t, const Vec3& p) {
   return t.a + vb / sum * t.ab + vc / sum * t.ac;
 }
 
-/// Solid angle of a triangle seen from p (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
-double solid_angle(const Corner& t, const Vec3& p) {
-  const Vec3 a = t.a - p, b = a + t.ab, c = a + t.ac;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double above = a.dot(b.cross(c));
-  const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2.0 * std::atan2(above, below);
-}
+/// Sum of solid angles of triangles seen from a point, as the angle of a product of complex numbers: one arc tangent
+/// for all instead of one each.
+class SolidAngles {
+ public:
+  /// The tangent of half a triangle's angle (van Oosterom & Strackee 1983, "The solid angle of a plane triangle").
+  void add(const Corner& t, const Vec3& p) {
+    const Vec3 a = t.a - p, b = a + t.ab, c = a + t.ac;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    turn(la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb, a.dot(b.cross(c)));
+  }
+  double sum() const { return 2.0 * (std::atan2(y_ + 0.0, x_) + turns_ * 2.0 * M_PI); }
+
+ private:
+  void turn(double x, double y) {
+    const double length = std::sqrt(x * x + y * y);
+    if (!(length > 0.0)) return;  // at a corner: no angle
+    const double before = y_;
+    const double next = (x_ * x - y_ * y) / length;
+    y_ = (x_ * y + y_ * x) / length;
+    x_ = next;
+    if (before >= 0.0 && y >= 0.0 && y_ < 0.0) ++turns_;
+    if (before < 0.0 && y < 0.0 && y_ >= 0.0) --turns_;
+  }
+
+  double x_ = 1.0, y_ = 0.0;
+  int turns_ = 0;
+};
 
 /// 4 pi times the winding number of a far node's triangles.
 double far_solid_angle(const Moments& m, const Vec3& p) {
@@ -112,15 +132,16 @@ double far_solid_angle(const Moments& m, const Vec3& p) {
 struct MeshQuery::Tree {
   Mesh mesh;
   std::vector<Node> nodes;
-  std::vector<Moments> moments;  // one per node
+  std::vector<NodeBox> boxes;    // one per node
+  std::vector<Moments> moments;  // likewise
   std::vector<Corner> corners;   // in leaf order
   bool is_closed;
 
   explicit Tree(Mesh source) : mesh(std::move(source)), is_closed(closed(mesh)) {
     const std::size_t count = mesh.triangles.size();
-    boxes_.resize(count);
+    triangle_boxes_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
-      for (const std::uint32_t v : mesh.triangles[t]) boxes_[t].extend(mesh.vertices[v]);
+      for (const std::uint32_t v : mesh.triangles[t]) triangle_boxes_[t].extend(mesh.vertices[v]);
     }
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
@@ -129,11 +150,22 @@ struct MeshQuery::Tree {
       corners.reserve(count);
       build(order, 0, count, 0);
     }
-    boxes_ = {};
+    triangle_boxes_ = {};
+    for (const Node& node : nodes) boxes.push_back(single(node.box));
   }
 
  private:
-  std::vector<Aabb> boxes_;
+  std::vector<Aabb> triangle_boxes_;
+
+  static NodeBox single(const Aabb& box) {
+    NodeBox out{Eigen::Array4f::Zero(), Eigen::Array4f::Zero()};
+    for (int k = 0; k < 3; ++k) {
+      out.center[k] = static_cast<float>(0.5 * (box.lower[k] + box.upper[k]));
+      const double half = std::max(box.upper[k] - out.center[k], out.center[k] - box.lower[k]);
+      out.half[k] = std::nextafter(static_cast<float>(half), std::numeric_limits<float>::infinity());
+    }
+    return out;
+  }
 
   /// Makes the node over order[begin, end) and everything below it.
   void build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end, int depth) {
@@ -142,8 +174,8 @@ struct MeshQuery::Tree {
     moments.emplace_back();
     Aabb box, centers;
     for (std::size_t i = begin; i < end; ++i) {
-      box.extend(boxes_[order[i]]);
-      centers.extend(boxes_[order[i]].center());
+      box.extend(triangle_boxes_[order[i]]);
+      centers.extend(triangle_boxes_[order[i]].center());
     }
     nodes[index].box = box;
     const std::size_t first_corner = corners.size();
@@ -170,7 +202,9 @@ struct MeshQuery::Tree {
     int axis;
     const double extent = centers.size().maxCoeff(&axis);
     const double low = centers.lower[axis];
-    const auto center = [&](std::uint32_t t) { return 0.5 * (boxes_[t].lower[axis] + boxes_[t].upper[axis]); };
+    const auto center = [&](std::uint32_t t) {
+      return 0.5 * (triangle_boxes_[t].lower[axis] + triangle_boxes_[t].upper[axis]);
+    };
     if (extent > 0.0 && depth < sah_depth) {
       const auto bin_of = [&](std::uint32_t t) {
         return std::min(bins - 1, static_cast<int>(bins * ((center(t) - low) / extent)));
@@ -179,7 +213,7 @@ struct MeshQuery::Tree {
       std::array<std::size_t, bins> counts{};
       for (std::size_t i = begin; i < end; ++i) {
         const int bin = bin_of(order[i]);
-        boxes[bin].extend(boxes_[order[i]]);
+        boxes[bin].extend(triangle_boxes_[order[i]]);
         ++counts[bin];
       }
       std::array<double, bins> upper_cost{};
@@ -263,6 +297,10 @@ const std::vector<MeshQuery::Node>& MeshQuery::nodes() const {
   return tree_->nodes;
 }
 
+const std::vector<MeshQuery::NodeBox>& MeshQuery::boxes() const {
+  return tree_->boxes;
+}
+
 std::size_t MeshQuery::leaf_triangle(std::size_t position) const {
   return tree_->corners[position].triangle;
 }
@@ -314,6 +352,7 @@ double MeshQuery::winding(const Vec3& point) const {
   std::size_t top = 0;
   if (!nodes.empty()) stack[top++] = 0;
   double angle = 0.0;
+  SolidAngles near;
   while (top > 0) {
     const std::uint32_t index = stack[--top];
     const Node& node = nodes[index];
@@ -323,14 +362,14 @@ double MeshQuery::winding(const Vec3& point) const {
       angle += far_solid_angle(moments, point);
     } else if (node.count) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        angle += solid_angle(tree_->corners[i], point);
+        near.add(tree_->corners[i], point);
       }
     } else {
       stack[top++] = node.first;
       stack[top++] = index + 1;
     }
   }
-  return angle / (4.0 * M_PI);
+  return (angle + near.sum()) / (4.0 * M_PI);
 }
 
 bool MeshQuery::inside(const Vec3& point) const {

@@ -3,6 +3,8 @@
 #include "part_cache.hpp"
 #include "part_state.hpp"
 
+#include "bin_scenes/part/hull_geometry.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes {
@@ -102,6 +104,11 @@ double PartModel::diagonal() const {
 }
 double PartModel::radius() const {
   return state_->radius;
+}
+
+const std::vector<Vec3>& PartModel::corners() const {
+  std::call_once(state_->corners_once, [this] { state_->corners = extreme_points(mesh().vertices); });
+  return state_->corners;
 }
 
 const MeshQuery& PartModel::query() const {

@@ -14,6 +14,8 @@ struct PartModel::State {
   MassProperties mass;
   double diagonal = 0, radius = 0;
 
+  std::once_flag corners_once;
+  std::vector<Vec3> corners;
   std::once_flag query_once;
   std::unique_ptr<MeshQuery> query;
 

@@ -262,18 +262,16 @@ bool HeapCore::all_asleep() const {
 
 void HeapCore::insert_waiting() {
   if (waiting_.empty()) return;
-  std::vector<Rain::Obstacle> obstacles;
-  if (plan_->world.bin_model) obstacles.push_back({&plan_->bin_cover, Pose(), true});
+  Rain rain(plan_->opening, plan_->request.pour.drop_height);
+  if (plan_->world.bin_model) rain.add(plan_->bin_cover, Pose(), true);
   for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in)
-      obstacles.push_back({&plan_->covers[plan_->line_of[b]], states_[b].pose, time_ > 0.0 && slow(b)});
-  const Rain rain(plan_->opening, plan_->request.pour.drop_height);
+    if (place_[b] == Place::in) rain.add(plan_->covers[plan_->line_of[b]], states_[b].pose, time_ > 0.0 && slow(b));
   int misses = 0;
   std::vector<std::size_t> still;
   for (const std::size_t b : waiting_) {
     std::optional<Pose> pose;
     const Cover& shape = plan_->covers[plan_->line_of[b]];
-    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, obstacles, random_, tries_per_part);
+    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
     if (!pose) {
       ++misses;
       still.push_back(b);
@@ -281,7 +279,7 @@ void HeapCore::insert_waiting() {
     }
     misses = 0;
     insert(b, {*pose, {}});
-    obstacles.push_back({&shape, *pose, false});
+    rain.add(shape, *pose, false);
   }
   // All parts rest and none of the waiting ones finds a place: the bin is full.
   if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
@@ -308,7 +306,12 @@ void HeapCore::look() {
   const Stage before = settling_.stage();
   if (!settling_.look(*this, time_) || settling_.done()) return;
   set_solver_phase();
-  if (before != Stage::pour) return;
+  poured_ = before == Stage::pour;
+}
+
+void HeapCore::change_world() {
+  if (!poured_) return;
+  poured_ = false;
   if (walls_raised_) cut_walls();
   rest_ = RestWatch(states_.size());  // parts that rested on coarse samples or leant on a cut wall may move again
   begin_motion();

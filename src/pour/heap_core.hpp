@@ -43,8 +43,11 @@ class HeapCore final : private HeapView {
   /// s until the request's set time; infinity without one.
   double time_left() const;
   void advanced(double seconds) { time_ += seconds, fresh_ = false; }
-  /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice.
+  /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice, then
+  /// change_world(). Different heaps of a solver may be looked at by different threads at once.
   void look();
+  /// Once all parts are in: the world without raised walls, which may be a new one. By the solver's thread.
+  void change_world();
   void update_rest();  ///< rest and escape alone, at the end of a set time
   /// Whether bin or parts follow a motion now: then follow() comes before each step.
   bool follows() const { return course_ == Course::under_way; }
@@ -105,6 +108,7 @@ class HeapCore final : private HeapView {
   std::uint64_t earlier_steps_ =
       0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
   bool fresh_ = false, walls_raised_ = false;
+  bool poured_ = false;  ///< by the last look
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s
   std::vector<BodyState> states_;

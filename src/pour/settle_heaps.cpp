@@ -2,7 +2,11 @@
 
 #include "solver/step_limit.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,11 +109,24 @@ class Run {
       return true;
     });
     if (group.left == 0) {
-      for (Running& r : group.running) r.heap->look();
+      look(group);
       tell(group);
       leave_if(group, [](HeapCore& heap) { return heap.over(); });
     }
     if (group.left == 0 || group.running.empty()) fill(group);
+  }
+
+  /// On all cores: on a fast device, one thread could not look at all worlds in the time that it takes for a slice.
+  static void look(Group& group) {
+    const auto look_at = [&, flag = cancel_flag()](std::size_t i) {
+      const CancelScope scope(flag);
+      group.running[i].heap->look();
+    };
+    if (group.running.size() == 1)
+      look_at(0);
+    else  // no scene is judged by this thread meanwhile
+      tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, group.running.size(), look_at); });
+    for (Running& r : group.running) r.heap->change_world();
   }
 
   template <class Over>

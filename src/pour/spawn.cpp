@@ -3,21 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace bin_scenes {
 
 namespace {
 
-Aabb posed_bounds(const Mesh& mesh, const Quat& orientation) {
+Aabb posed_bounds(const PartModel& part, const Quat& orientation) {
   const Mat3 rotation = orientation.toRotationMatrix();
   Aabb box;
-  for (const Vec3& v : mesh.vertices) box.extend(Vec3(rotation * v));
+  for (const Vec3& v : part.corners()) box.extend(Vec3(rotation * v));
   return box;
 }
 
 /// Between the walls, with its centre of mass in their middle.
 bool fits(const PartModel& part, const Quat& orientation, const Vec3& size) {
-  const Aabb bounds = posed_bounds(part.mesh(), orientation);
+  const Aabb bounds = posed_bounds(part, orientation);
   const Vec3 center = orientation * part.mass().center;
   const Vec3 reach = (bounds.upper - center).cwiseMax(center - bounds.lower);
   return 2.0 * reach.x() <= size.x() && 2.0 * reach.y() <= size.y();
@@ -69,15 +70,34 @@ Cover cover(const Mesh& mesh, int cells) {
   return result;
 }
 
-std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
-                                Random& random, int tries) const {
+void Rain::add(const Cover& cover, const Pose& pose, bool settled) {
+  const Vec3 center = pose * cover.center;
+  order_.emplace_back(center.z() + cover.radius, obstacles_.size());
+  obstacles_.push_back({&cover, pose, settled, center, {}});
+  sorted_ = false;
+}
+
+void Rain::sort() {
+  if (sorted_) return;
+  std::sort(order_.begin(), order_.end(), std::greater<>());
+  sorted_ = true;
+}
+
+const std::vector<Vec3>& Rain::balls_of(Obstacle& obstacle) {
+  if (obstacle.balls.empty())
+    for (const Cover::Ball& ball : obstacle.cover->balls) obstacle.balls.push_back(obstacle.pose * ball.center);
+  return obstacle.balls;
+}
+
+std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Random& random, int tries) {
   std::optional<Pose> best;
   std::vector<Vec3> own(shape.balls.size());  // where its balls are, this try
+  sort();
   for (int t = 0; t < tries; ++t) {
     Pose pose;
     pose.orientation = random.orientation();
     const double u = random.uniform(), v = random.uniform();  // drawn before any test: one try, one set of numbers
-    const Aabb bounds = posed_bounds(part.mesh(), pose.orientation);
+    const Aabb bounds = posed_bounds(part, pose.orientation);
     const Vec3 lower = opening_.lower - bounds.lower, upper = opening_.upper - bounds.upper;
     if (lower.x() > upper.x() || lower.y() > upper.y()) continue;  // this way it does not fit between the walls
     pose.position = {lower.x() + u * (upper.x() - lower.x()), lower.y() + v * (upper.y() - lower.y()), 0.0};
@@ -85,24 +105,32 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, const
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
     const Vec3 middle = pose * shape.center;
     for (std::size_t i = 0; i < own.size(); ++i) own[i] = pose * shape.balls[i].center;
-    for (const Obstacle& other : obstacles) {
-      const Vec3 center = other.pose * other.cover->center;
-      const double highest = lift(center, other.cover->radius, middle, shape.radius);
-      if (highest <= (other.settled ? heap : clear)) continue;
-      for (const Cover::Ball& a : other.cover->balls) {
-        const Vec3 ball = other.pose * a.center;
-        if (lift(ball, a.radius, middle, shape.radius) <= (other.settled ? heap : clear)) continue;
+    const auto too_high = [&] {
+      const double z = clear + drop_height_;
+      return (best && z >= best->position.z()) || z + bounds.lower.z() > opening_.upper.z() + drop_height_;
+    };
+    for (const auto& [top, number] : order_) {  // the highest first, so that most of those below need no look
+      if (too_high() || top - middle.z() + shape.radius < heap) break;
+      Obstacle& other = obstacles_[number];
+      const double& known = other.settled ? heap : clear;
+      if (lift(other.center, other.cover->radius, middle, shape.radius) <= known) continue;
+      const std::vector<Vec3>& balls = balls_of(other);
+      for (std::size_t k = 0; k < balls.size(); ++k) {
+        const Vec3& ball = balls[k];
+        const double radius = other.cover->balls[k].radius;
+        if (lift(ball, radius, middle, shape.radius) <= known) continue;
         for (std::size_t i = 0; i < own.size(); ++i) {
-          const double height = lift(ball, a.radius, own[i], shape.balls[i].radius);
+          if (ball.z() - own[i].z() + radius + shape.balls[i].radius < known) continue;
+          const double height = lift(ball, radius, own[i], shape.balls[i].radius);
           clear = std::max(clear, height);
           if (other.settled) heap = std::max(heap, height);
         }
       }
     }
+    if (too_high()) continue;                   // no better than an earlier try, or full up to the rim
     if (clear > heap + drop_height_) continue;  // something is still falling there
     pose.position.z() = clear + drop_height_;
-    if (pose.position.z() + bounds.lower.z() > opening_.upper.z() + drop_height_) continue;  // full up to the rim
-    if (!best || pose.position.z() < best->position.z()) best = pose;
+    best = pose;
   }
   return best;
 }

@@ -15,7 +15,7 @@ struct Clipping {
   };
   std::vector<double> height;
   std::vector<Vec3> kept;
-  std::vector<int> renumbered, cap, loop;
+  std::vector<int> renumbered, cap, loops;
   std::vector<Cut> cuts;
   std::vector<std::pair<double, int>> order;
 };
@@ -27,9 +27,10 @@ ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
     vertices_.emplace_back((i & 1 ? box.upper : box.lower).x(), (i & 2 ? box.upper : box.lower).y(),
                            (i & 4 ? box.upper : box.lower).z());
   }
-  faces_ = {{{-Vec3::UnitX(), -box.lower.x()}, {0, 4, 6, 2}}, {{Vec3::UnitX(), box.upper.x()}, {1, 3, 7, 5}},
-            {{-Vec3::UnitY(), -box.lower.y()}, {0, 1, 5, 4}}, {{Vec3::UnitY(), box.upper.y()}, {2, 6, 7, 3}},
-            {{-Vec3::UnitZ(), -box.lower.z()}, {0, 2, 3, 1}}, {{Vec3::UnitZ(), box.upper.z()}, {4, 5, 7, 6}}};
+  faces_ = {{{-Vec3::UnitX(), -box.lower.x()}, 0, 4},  {{Vec3::UnitX(), box.upper.x()}, 4, 4},
+            {{-Vec3::UnitY(), -box.lower.y()}, 8, 4},  {{Vec3::UnitY(), box.upper.y()}, 12, 4},
+            {{-Vec3::UnitZ(), -box.lower.z()}, 16, 4}, {{Vec3::UnitZ(), box.upper.z()}, 20, 4}};
+  loops_ = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
 }
 
 void ConvexCell::clip(const Plane& plane) {
@@ -75,24 +76,23 @@ void ConvexCell::clip(const Plane& plane) {
     c.cuts.push_back({first, second, vertex});
     return vertex;
   };
+  c.loops.clear();
   std::size_t stay = 0;
-  for (Face& face : faces_) {
-    const auto any = [&](auto&& holds) { return std::any_of(face.loop.begin(), face.loop.end(), holds); };
-    if (!any([&](int v) { return c.height[v] < 0.0; })) continue;
-    if (any([&](int v) { return c.height[v] > 0.0; })) {
-      c.loop.clear();
-      for (std::size_t i = 0; i < face.loop.size(); ++i) {
-        const int u = face.loop[i], v = face.loop[(i + 1) % face.loop.size()];
-        if (c.height[u] <= 0.0) c.loop.push_back(keep(u));
-        if (c.height[u] * c.height[v] < 0.0) c.loop.push_back(cut(u, v));
-      }
-      face.loop = c.loop;
-    } else {
-      for (int& v : face.loop) v = keep(v);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face face = faces_[f];  // its place may be taken by itself or one before it
+    const int *begin = loops_.data() + face.first, *end = begin + face.count;
+    if (std::none_of(begin, end, [&](int v) { return c.height[v] < 0.0; })) continue;
+    const int first = static_cast<int>(c.loops.size());
+    for (const int* at = begin; at != end; ++at) {
+      const int u = *at, v = at + 1 == end ? *begin : at[1];
+      if (c.height[u] <= 0.0) c.loops.push_back(keep(u));
+      if (c.height[u] * c.height[v] < 0.0) c.loops.push_back(cut(u, v));
     }
-    if (face.loop.size() < 3) continue;
-    if (&faces_[stay] != &face) faces_[stay] = std::move(face);
-    ++stay;
+    const int count = static_cast<int>(c.loops.size()) - first;
+    if (count < 3)
+      c.loops.resize(static_cast<std::size_t>(first));
+    else
+      faces_[stay++] = {face.plane, first, count};
   }
   faces_.resize(stay);
 
@@ -107,22 +107,28 @@ void ConvexCell::clip(const Plane& plane) {
       c.order.emplace_back(std::atan2(y.dot(arm), x.dot(arm)), v);
     }
     std::sort(c.order.begin(), c.order.end());
-    faces_.push_back({plane, {}});
-    for (const auto& [angle, v] : c.order) faces_.back().loop.push_back(v);
+    faces_.push_back({plane, static_cast<int>(c.loops.size()), static_cast<int>(c.order.size())});
+    for (const auto& [angle, v] : c.order) c.loops.push_back(v);
   }
   std::swap(vertices_, c.kept);
+  std::swap(loops_, c.loops);
 }
 
-std::vector<ConvexCell::Edge> ConvexCell::edges() const {
+std::vector<ConvexCell::Edge> ConvexCell::edges(const std::vector<char>& wanted) const {
   struct Side {
     int u, v, face;
   };
-  std::vector<Side> sides;
+  static thread_local std::vector<char> marked;  // vertices of wanted faces
+  static thread_local std::vector<Side> sides;   // between these; both kept for their memory
+  marked.assign(vertices_.size(), 0);
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (int i = 0; wanted[f] && i < faces_[f].count; ++i) marked[loops_[faces_[f].first + i]] = 1;
+  sides.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const std::vector<int>& loop = faces_[f].loop;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const auto [u, v] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-      sides.push_back({u, v, static_cast<int>(f)});
+    const int *loop = loops_.data() + faces_[f].first, count = faces_[f].count;
+    for (int i = 0; i < count; ++i) {
+      const auto [u, v] = std::minmax(loop[i], loop[i + 1 == count ? 0 : i + 1]);
+      if (marked[u] && marked[v]) sides.push_back({u, v, static_cast<int>(f)});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
@@ -159,9 +165,11 @@ struct BoundedEdge {
 };
 
 std::vector<BoundedEdge> bounded_edges(const ConvexCell& cell, const std::vector<double>& beneath, double limit) {
+  // A normal of an edge is a combination of its faces' normals with weights that sum to at least one.
+  std::vector<char> near;
+  for (const double depth : beneath) near.push_back(depth < limit);
   std::vector<BoundedEdge> edges;
-  for (const ConvexCell::Edge& edge : cell.edges()) {
-    // A normal of the edge is a combination of its faces' normals with weights that sum to at least one.
+  for (const ConvexCell::Edge& edge : cell.edges(near)) {
     const double bound = std::min(beneath[edge.face[0]], beneath[edge.face[1]]);
     if (bound < limit) edges.push_back({edge, bound});
   }

@@ -17,7 +17,7 @@ class ConvexCell {
 
   struct Face {
     Plane plane;
-    std::vector<int> loop;  ///< vertex indices, counter-clockwise seen from outside
+    int first, count;  ///< of loops(): its vertices, counter-clockwise seen from outside
   };
   struct Edge {
     int vertex, face[2];
@@ -25,7 +25,9 @@ class ConvexCell {
   };
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
-  std::vector<Edge> edges() const;
+  const std::vector<int>& loops() const { return loops_; }  ///< vertex indices of all faces
+  /// Those of faces for which `wanted` holds something else than 0, and maybe more.
+  std::vector<Edge> edges(const std::vector<char>& wanted) const;
   /// Vertex with the smallest coordinate along `direction`.
   const Vec3& lowest(const Vec3& direction) const;
 
@@ -33,6 +35,7 @@ class ConvexCell {
   double tolerance_;
   std::vector<Vec3> vertices_;
   std::vector<Face> faces_;
+  std::vector<int> loops_;
 };
 
 /// How two convex bodies come apart along the shortest translation.

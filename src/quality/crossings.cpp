@@ -81,15 +81,15 @@ void pierce(const TrianglePoints& s, const std::array<double, 3>& height, const 
 }  // namespace
 
 std::optional<Crossing> crossing(const Facet& s, const Facet& t, double tolerance) {
-  if (s.normal.isZero() || t.normal.isZero()) return std::nullopt;
+  if (s.normal().isZero() || t.normal().isZero()) return std::nullopt;
   std::array<double, 3> hs, ht;
-  if (!heights(s.points, t.points, t.normal, tolerance, hs)) return std::nullopt;
-  if (!heights(t.points, s.points, s.normal, tolerance, ht)) return std::nullopt;
-  if (one_after_the_other(s.points, hs, t.points, ht, s.normal.cross(t.normal), tolerance)) return std::nullopt;
+  if (!heights(s.points, t.points, t.normal(), tolerance, hs)) return std::nullopt;
+  if (!heights(t.points, s.points, s.normal(), tolerance, ht)) return std::nullopt;
+  if (one_after_the_other(s.points, hs, t.points, ht, s.normal().cross(t.normal()), tolerance)) return std::nullopt;
   Crossing found{Vec3::Zero(), {}, {s.triangle, t.triangle}};
   int count = 0;
-  pierce(s.points, hs, t.points, t.normal, tolerance, found.point, count, found.box);
-  pierce(t.points, ht, s.points, s.normal, tolerance, found.point, count, found.box);
+  pierce(s.points, hs, t.points, t.normal(), tolerance, found.point, count, found.box);
+  pierce(t.points, ht, s.points, s.normal(), tolerance, found.point, count, found.box);
   if (count == 0) return std::nullopt;
   found.point /= count;
   return found;
@@ -97,18 +97,32 @@ std::optional<Crossing> crossing(const Facet& s, const Facet& t, double toleranc
 
 std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance) {
   std::vector<Crossing> found;
-  const BoxMotion to_a(b_in_a), to_b(b_in_a.inverse());
-  walk(
-      a, Pose(), b, b_in_a,
-      [&](const Aabb& box_a, const Aabb& box_b) {
-        const double gap = axis_gap(box_a, to_a(box_b));
-        return gap > tolerance ? gap : std::max(gap, axis_gap(to_b(box_a), box_b));
-      },
-      [&] { return tolerance + std::numeric_limits<double>::min(); },
-      [&](const Facet& s, const Facet& t) {
-        if (!s.box.overlaps(t.box, tolerance)) return;
-        if (const auto common = crossing(s, t, tolerance)) found.push_back(*common);
-      });
+  if (a.nodes().empty() || b.nodes().empty()) return found;
+  const NodePair pair(a, b, b_in_a, tolerance);
+  PlacedLeaf leaf_a(a, Pose()), leaf_b(b, b_in_a);
+  static thread_local std::vector<std::array<std::uint32_t, 2>> stack;  // kept for its memory
+  stack.assign(1, {0, 0});
+  while (!stack.empty()) {
+    const auto [i, j] = stack.back();
+    stack.pop_back();
+    if (pair.apart(i, j)) continue;
+    const MeshQuery::Node &one = a.nodes()[i], &other = b.nodes()[j];
+    if (one.count && other.count) {
+      stop_if_cancelled();
+      const auto &facets_a = leaf_a.of(i), &facets_b = leaf_b.of(j);
+      for (std::uint32_t s = 0; s < one.count; ++s)
+        for (std::uint32_t t = 0; t < other.count; ++t) {
+          if (!facets_a[s].box.overlaps(facets_b[t].box, tolerance)) continue;
+          if (const auto common = crossing(facets_a[s], facets_b[t], tolerance)) found.push_back(*common);
+        }
+      continue;
+    }
+    const bool open_a = other.count || (!one.count && pair.larger(i, j));
+    stack.push_back(open_a ? std::array{one.first, j} : std::array{i, other.first});
+    stack.push_back(open_a ? std::array{i + 1, j} : std::array{i, j + 1});
+  }
+  // Not in the order of the walk, which is a matter of rounding.
+  std::sort(found.begin(), found.end(), [](const Crossing& s, const Crossing& t) { return s.triangles < t.triangles; });
   return found;
 }
 

@@ -20,10 +20,17 @@ std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModel
     if (!is_there(part.state) || !part.pose.finite()) continue;
     const PartModel& model = *models[part.line];
     Placed p{&part, &model.query(), model.diagonal(), {}};
-    for (const Vec3& v : model.mesh().vertices) p.box.extend(part.pose * v);
+    for (const Vec3& v : model.corners()) p.box.extend(part.pose * v);
     placed.push_back(p);
   }
   return placed;
+}
+
+/// Clear of floor and walls of a box, so that no vertex need be looked at.
+bool inside_walls(const Aabb& box, const Bin& bin) {
+  if (bin.kind != Bin::Kind::box || box.lower.z() < 0.0) return false;
+  const Vec3 half = 0.5 * bin.inner_size;
+  return (box.lower + half).head<2>().minCoeff() >= 0.0 && (half - box.upper).head<2>().minCoeff() >= 0.0;
 }
 
 /// Pairs with overlapping bounds, of which one can move: sweep along x.
@@ -124,6 +131,7 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
   in_parallel(placed.size(), [&](std::size_t i) {
     const ScenePart& part = *placed[i].part;
     if (part.state == PartState::fixed || part.state == PartState::escaped) return;
+    if (inside_walls(placed[i].box, request.bin)) return;
     into_bin[i] = bin_penetration(*placed[i].query, part.pose, request.bin, bin_mesh).depth;
   });
   Worst<int> deepest_in_bin{0.0, -1}, worst_in_bin;

@@ -125,6 +125,23 @@ class Cells {
   std::vector<std::optional<ConvexCell>> cells_;
 };
 
+/// Of a closed mesh; outside of its bounds, no triangle needs a look.
+bool lies_in(const MeshQuery& query, const Vec3& x) {
+  return query.nodes()[0].box.overlaps({x, x}) && query.inside(x);
+}
+
+/// Whether a mesh that cuts no triangle of `outer` lies in it: most do not, and then some corner is outside its bounds.
+bool within(const MeshQuery& inner, const Pose& to_outer, const MeshQuery& outer) {
+  const Mesh& mesh = inner.mesh();
+  const Aabb& box = outer.nodes()[0].box;
+  const auto in_box = [&](const Triangle& t) {
+    const Vec3 x = to_outer * mesh.vertices[t[0]];
+    return box.overlaps({x, x});
+  };
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), in_box) &&
+         outer.inside(to_outer * mesh.vertices[mesh.triangles[0][0]]);
+}
+
 /// Centres of the triangles of `one` near a box that lie inside `other`; triangles in `cut` meet its surface and are
 /// left out. What hangs together by corners without being cut is inside or outside as a whole.
 std::vector<Vec3> centers_inside(const OverlapSide& one, const Pose& to_frame, const OverlapSide& other,
@@ -152,7 +169,7 @@ std::vector<Vec3> centers_inside(const OverlapSide& one, const Pose& to_frame, c
     const auto [p, q, r] = points_of(mesh, t);
     const Vec3 center = (p + q + r) / 3.0;
     const auto [verdict, added] = inside.try_emplace(sets.root(place(mesh.triangles[t][0])), false);
-    if (added) verdict->second = other.query.inside(to_other * center);
+    if (added) verdict->second = lies_in(other.query, to_other * center);
     if (verdict->second) centers.push_back(to_frame * center);
   }
   return centers;
@@ -203,7 +220,7 @@ struct Overlap {
 
   /// Largest depth of one region of overlap; `common` are points of both meshes on its rim.
   Separation depth(const Aabb& region, const std::vector<Vec3>& common, double enough) const {
-    const double widest = a.query.mesh().bounds().diagonal() + b.query.mesh().bounds().diagonal();
+    const double widest = a.query.nodes()[0].box.diagonal() + b.query.nodes()[0].box.diagonal();
     for (double reach = std::max(first_reach * unit, 2.0 * enough);;) {
       const Separation found = depth(region, common, reach, enough);
       if (found.depth <= 0.5 * reach || reach > widest) return found;
@@ -274,9 +291,9 @@ Penetration overlap(const OverlapSide& a, const Pose& pose_a, const OverlapSide&
     if (found.depth > worst.depth) worst = found;
   }
   if (cuts.empty()) {  // apart, or one inside the other
-    if (a.closed && a.query.inside(b_in_a * mesh_b.vertices[mesh_b.triangles[0][0]])) {
+    if (a.closed && within(b.query, b_in_a, a.query)) {
       worst = pair.depth(BoxMotion(b_in_a)(box_b), {}, 0.0);
-    } else if (b.closed && b.query.inside(b_in_a.inverse() * mesh_a.vertices[mesh_a.triangles[0][0]])) {
+    } else if (b.closed && within(a.query, b_in_a.inverse(), b.query)) {
       worst = pair.depth(box_a, {}, 0.0);
     }
   }

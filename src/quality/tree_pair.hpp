@@ -6,6 +6,7 @@
 #include "bin_scenes/core/cancel.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -29,15 +30,46 @@ inline Aabb bounds(const TrianglePoints& t) {
 struct Facet {
   Facet() = default;
   explicit Facet(const TrianglePoints& points, std::size_t triangle = 0)
-      : points(points),
-        normal((points[1] - points[0]).cross(points[2] - points[0]).normalized()),
-        box(bounds(points)),
-        triangle(triangle) {}
+      : points(points), box(bounds(points)), triangle(triangle) {}
+
+  /// Unit; 0 of one without area. Made when it is first asked for, because most facets meet nothing.
+  const Vec3& normal() const {
+    if (!normal_) normal_ = (points[1] - points[0]).cross(points[2] - points[0]).normalized();
+    return *normal_;
+  }
 
   TrianglePoints points;
-  Vec3 normal;  ///< unit; 0 of one without area
   Aabb box;
   std::size_t triangle = 0;  ///< of the mesh
+
+ private:
+  mutable std::optional<Vec3> normal_;
+};
+
+/// The triangles of a leaf, moved by a pose: kept while the same leaf is asked for.
+class PlacedLeaf {
+ public:
+  PlacedLeaf(const MeshQuery& query, const Pose& pose) : query_(query), pose_(pose) {}
+
+  /// Of a node that is a leaf; the first node(leaf).count count.
+  const std::array<Facet, MeshQuery::leaf_size>& of(std::uint32_t leaf) {
+    if (known_ && leaf == leaf_) return facets_;
+    known_ = true;
+    leaf_ = leaf;
+    const MeshQuery::Node& node = query_.nodes()[leaf];
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      const std::size_t triangle = query_.leaf_triangle(node.first + k);
+      facets_[k] = Facet(moved(pose_, points_of(query_.mesh(), triangle)), triangle);
+    }
+    return facets_;
+  }
+
+ private:
+  const MeshQuery& query_;
+  Pose pose_;
+  bool known_ = false;
+  std::uint32_t leaf_ = 0;
+  std::array<Facet, MeshQuery::leaf_size> facets_;
 };
 
 /// A rigid motion ready to bound moved boxes: the box of a turned box (Ericson 2005, section 4.2.6).
@@ -62,13 +94,7 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
           Leaf&& leaf) {
   const std::vector<MeshQuery::Node>&na = a.nodes(), &nb = b.nodes();
   if (na.empty() || nb.empty()) return;
-  std::array<Facet, MeshQuery::leaf_size> facets_a, facets_b;
-  const auto place = [](const MeshQuery& query, const Pose& pose, const MeshQuery::Node& node, auto& facets) {
-    for (std::uint32_t k = 0; k < node.count; ++k) {
-      const std::size_t triangle = query.leaf_triangle(node.first + k);
-      facets[k] = Facet(moved(pose, points_of(query.mesh(), triangle)), triangle);
-    }
-  };
+  PlacedLeaf leaf_a(a, pose_a), leaf_b(b, pose_b);
   struct Entry {
     std::uint32_t i, j;
     double bound;
@@ -81,8 +107,7 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
     if (!(entry.bound < limit())) continue;
     const MeshQuery::Node &one = na[entry.i], &other = nb[entry.j];
     if (one.count && other.count) {
-      place(a, pose_a, one, facets_a);
-      place(b, pose_b, other, facets_b);
+      const auto &facets_a = leaf_a.of(entry.i), &facets_b = leaf_b.of(entry.j);
       for (std::uint32_t i = 0; i < one.count; ++i) {
         for (std::uint32_t j = 0; j < other.count; ++j) leaf(facets_a[i], facets_b[j]);
       }
@@ -101,10 +126,52 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
   }
 }
 
-/// Largest gap between two boxes along an axis of the first one's frame; negative if none separates them.
-inline double axis_gap(const Aabb& a, const Aabb& b) {
-  return (a.lower - b.upper).cwiseMax(b.lower - a.upper).maxCoeff();
-}
+/// Tells in single precision which nodes of two placed trees are apart for certain, by the axes of both frames.
+class NodePair {
+ public:
+  NodePair(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance)
+      : a_(a.boxes()), b_(b.boxes()) {
+    const Mat3 turn = b_in_a.orientation.toRotationMatrix();
+    const auto lanes = [](const Vec3& v) {
+      Eigen::Array4f out = Eigen::Array4f::Zero();
+      out.head<3>() = v.cast<float>().array();
+      return out;
+    };
+    for (int k = 0; k < 3; ++k) {
+      turn_[k] = lanes(turn.col(k));
+      back_[k] = lanes(turn.row(k));
+      turn_size_[k] = turn_[k].abs() + rounding;
+      back_size_[k] = back_[k].abs() + rounding;
+    }
+    shift_ = lanes(b_in_a.position);
+    if (a_.empty() || b_.empty()) return;
+    const double longest = b_in_a.position.norm() + reach(a.nodes()[0].box) + reach(b.nodes()[0].box);
+    margin_ = static_cast<float>(tolerance + rounding * longest);
+  }
+
+  bool apart(std::uint32_t i, std::uint32_t j) const {
+    const MeshQuery::NodeBox &a = a_[i], &b = b_[j];
+    const Eigen::Array4f way = sum(turn_, b.center) + shift_ - a.center;
+    if ((way.abs() - a.half - sum(turn_size_, b.half)).maxCoeff() > margin_) return true;
+    return (sum(back_, way).abs() - b.half - sum(back_size_, a.half)).maxCoeff() > margin_;
+  }
+  /// Whether node i of a is larger than node j of b.
+  bool larger(std::uint32_t i, std::uint32_t j) const {
+    return a_[i].half.matrix().squaredNorm() > b_[j].half.matrix().squaredNorm();
+  }
+
+ private:
+  static constexpr float rounding = 2e-6f;  ///< of some ten operations on lengths
+  static double reach(const Aabb& box) { return box.center().norm() + box.diagonal(); }
+  static Eigen::Array4f sum(const std::array<Eigen::Array4f, 3>& columns, const Eigen::Array4f& v) {
+    return columns[0] * v[0] + columns[1] * v[1] + columns[2] * v[2];
+  }
+
+  const std::vector<MeshQuery::NodeBox>&a_, &b_;
+  std::array<Eigen::Array4f, 3> turn_, back_, turn_size_, back_size_;
+  Eigen::Array4f shift_;
+  float margin_ = 0.0f;
+};
 
 /// Shortest distance of two boxes.
 inline double box_distance(const Aabb& a, const Aabb& b) {

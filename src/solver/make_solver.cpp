@@ -25,6 +25,7 @@ std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason)
   if (!on_gpu(request, reason)) return make_sphere_solver(settings.sphere);
   sphere_gl::Capacity capacity;
   capacity.bodies = bodies;
+  capacity.memory = 0.25 * request.memory_budget;  // the rest: this process, models, scenes that wait, images
   return make_gl_sphere_solver(settings.sphere, capacity);
 }
 

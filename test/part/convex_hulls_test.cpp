@@ -1,5 +1,6 @@
-#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/convex_hulls.hpp"
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/core/random.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
@@ -42,6 +43,28 @@ TEST(ConvexHull, KeepsToTheVertexLimit) {
 TEST(ConvexHull, OfFlatPointsIsEmpty) {
   EXPECT_TRUE(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.2, 0}}, 64).empty());
   EXPECT_TRUE(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 64).empty());
+}
+
+TEST(ExtremePoints, ReachAsFarAsAllInEveryDirection) {
+  Random random(1, 0, Stream::probe);
+  Mesh dented = sphere_mesh(0.05, 4);  // its facets meet at angles that the computer of hulls rounds away
+  for (Vec3& x : dented.vertices)
+    if (x.x() > 0.02) x.x() = 0.02;
+  for (const Mesh& mesh : {dented, box_mesh(Vec3(0.06, 0.04, 0.02)), prism_mesh(0.02, 0.05, 24)}) {
+    const std::vector<Vec3> extreme = extreme_points(mesh.vertices);
+    EXPECT_LE(extreme.size(), mesh.vertices.size());
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 way = random.orientation() * Vec3::UnitX();
+      const auto reach = [&](const std::vector<Vec3>& points) {
+        double most = -1.0;
+        for (const Vec3& x : points) most = std::max(most, way.dot(x));
+        return most;
+      };
+      EXPECT_EQ(reach(extreme), reach(mesh.vertices));
+    }
+  }
+  const std::vector<Vec3> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_EQ(extreme_points(flat).size(), 3u);
 }
 
 TEST(ConvexHulls, ConvexPartIsOneHullWithoutError) {
@@ -160,7 +183,8 @@ TEST(ConvexHulls, UnreachableGoalIsSaid) {
   EXPECT_GT(hulls.surface_error, 0.001);
 }
 
-// Caps fanned out from a corner between two teeth lie over each other. Slices without volume were cut off them for ever.
+// Caps fanned out from a corner between two teeth lie over each other. Slices without volume were cut off them for
+// ever.
 TEST(ConvexHulls, OfAGearWhoseCapsOverlapThemselvesEnd) {
   constexpr std::uint32_t corners = 40;
   Mesh gear;

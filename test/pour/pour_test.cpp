@@ -487,14 +487,13 @@ TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {
 
 TEST(Rain, StartsClearOfEverything) {
   const Cover shape = cover(small_box()->mesh());
-  const Rain rain({Vec3(-0.1, -0.075, 0), Vec3(0.1, 0.075, 0.12)}, 0.02);
+  Rain rain({Vec3(-0.1, -0.075, 0), Vec3(0.1, 0.075, 0.12)}, 0.02);
   Random random(5, 0, Stream::pour);
-  std::vector<Rain::Obstacle> present;
   std::vector<Pose> poses;
   for (int i = 0; i < 12; ++i)
-    if (const auto pose = rain.place(*small_box(), shape, present, random, 20)) {
+    if (const auto pose = rain.place(*small_box(), shape, random, 20)) {
       poses.push_back(*pose);
-      present.push_back({&shape, *pose, true});
+      rain.add(shape, *pose, true);
     }
   ASSERT_GE(poses.size(), 6u);
   for (std::size_t a = 0; a < poses.size(); ++a)
@@ -502,6 +501,53 @@ TEST(Rain, StartsClearOfEverything) {
       for (const Cover::Ball& p : shape.balls)
         for (const Cover::Ball& q : shape.balls)
           EXPECT_GE((poses[a] * p.center - poses[b] * q.center).norm(), p.radius + q.radius - 1e-12);
+}
+
+/// What Rain::place() finds, slowly: every ball against every ball, every vertex turned.
+std::optional<Pose> lowest_of_tries(const Opening& opening, double drop, const PartModel& part, const Cover& shape,
+                                    const std::vector<Pose>& present, Random& random, int tries) {
+  std::optional<Pose> best;
+  for (int t = 0; t < tries; ++t) {
+    Pose pose;
+    pose.orientation = random.orientation();
+    const double u = random.uniform(), v = random.uniform();
+    Aabb bounds;
+    for (const Vec3& x : part.mesh().vertices) bounds.extend(Vec3(pose.orientation.toRotationMatrix() * x));
+    const Vec3 lower = opening.lower - bounds.lower, upper = opening.upper - bounds.upper;
+    if (lower.x() > upper.x() || lower.y() > upper.y()) continue;
+    pose.position = {lower.x() + u * (upper.x() - lower.x()), lower.y() + v * (upper.y() - lower.y()), 0.0};
+    double clear = lower.z();
+    for (const Pose& other : present)
+      for (const Cover::Ball& p : shape.balls)
+        for (const Cover::Ball& q : shape.balls) {
+          const Vec3 apart = other * p.center - pose * q.center;
+          const double reach = p.radius + q.radius, beside = apart.head<2>().squaredNorm();
+          if (beside < reach * reach) clear = std::max(clear, apart.z() + std::sqrt(reach * reach - beside));
+        }
+    pose.position.z() = clear + drop;
+    if (clear + bounds.lower.z() <= opening.upper.z() && (!best || pose.position.z() < best->position.z())) best = pose;
+  }
+  return best;
+}
+
+TEST(Rain, FindsTheLowestPlaceOfAllTries) {
+  const Opening opening{Vec3(-0.15, -0.1, 0), Vec3(0.15, 0.1, 0.12)};
+  const PartModelPtr ring = PartModel::from_mesh(ring_mesh(24, 0.018, 0.0275, 0.012), "ring");
+  const Cover shape = cover(ring->mesh());
+  Rain rain(opening, 0.02);
+  Random random(3, 0, Stream::pour), again(3, 0, Stream::pour);
+  std::vector<Pose> present;
+  for (int i = 0; i < 40; ++i) {
+    const auto pose = rain.place(*ring, shape, random, 12);
+    const auto expected = lowest_of_tries(opening, 0.02, *ring, shape, present, again, 12);
+    ASSERT_EQ(pose.has_value(), expected.has_value());
+    if (!pose) continue;
+    EXPECT_NEAR((pose->position - expected->position).norm(), 0.0, 1e-15);
+    EXPECT_EQ(pose->orientation.coeffs(), expected->orientation.coeffs());
+    rain.add(shape, *pose, true);
+    present.push_back(*pose);
+  }
+  EXPECT_GT(present.size(), 20u);
 }
 
 TEST(Cover, EnclosesEveryTriangle) {

@@ -124,6 +124,12 @@ TEST(SphereRepeatability, ThreadsChangeNothing) {
   EXPECT_EQ(ends_with(2, request, {1, 0})[1], alone[0]);
 }
 
+// The worlds of a group are looked at by all threads.
+TEST(SphereRepeatability, ThreadsThatLookAtWorldsOfTheDeviceChangeNothing) {
+  const Request request = angles(12, Device::gpu);
+  EXPECT_EQ(ends_with(1, request, {0, 1, 2, 3, 4}), ends_with(4, request, {0, 1, 2, 3, 4}));
+}
+
 // Parts that lie apart are solved in blocks of 256 bodies and more, by any thread.
 TEST(SphereRepeatability, ThreadsThatShareOneWideSceneChangeNothing) {
   Request request = angles(600, Device::cpu);

@@ -41,12 +41,12 @@ double segment_distance2(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3
 double corner_distance2(const TrianglePoints& s, const Facet& facet) {
   const TrianglePoints& t = facet.points;
   double best = std::numeric_limits<double>::infinity();
-  if (facet.normal.isZero()) return best;
+  if (facet.normal().isZero()) return best;
   for (const Vec3& x : s) {
     bool over = true;
-    for (int i = 0; i < 3; ++i) over = over && facet.normal.cross(t[(i + 1) % 3] - t[i]).dot(x - t[i]) >= 0.0;
+    for (int i = 0; i < 3; ++i) over = over && facet.normal().cross(t[(i + 1) % 3] - t[i]).dot(x - t[i]) >= 0.0;
     if (!over) continue;
-    const double height = facet.normal.dot(x - t[0]);
+    const double height = facet.normal().dot(x - t[0]);
     best = std::min(best, height * height);
   }
   return best;

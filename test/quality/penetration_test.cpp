@@ -2,6 +2,7 @@
 
 #include "part/shapes.hpp"
 #include "quality/clearance.hpp"
+#include "quality/crossings.hpp"
 #include "quality/pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -155,6 +156,46 @@ TEST(Penetration, IsTheSameAfterACommonMotionAndFromEitherSide) {
     EXPECT_NEAR(penetration(u, b, l, a).depth, once, 1e-7) << i;
   }
   EXPECT_GT(overlaps, 50);
+}
+
+/// Of all triangles of a with all of b.
+std::vector<Crossing> all_crossings(const Mesh& a, const Mesh& b, const Pose& b_in_a, double tolerance) {
+  std::vector<Crossing> found;
+  for (std::size_t s = 0; s < a.triangles.size(); ++s)
+    for (std::size_t t = 0; t < b.triangles.size(); ++t) {
+      const Facet one(points_of(a, s), s), other(moved(b_in_a, points_of(b, t)), t);
+      if (!one.box.overlaps(other.box, tolerance)) continue;
+      if (const auto common = crossing(one, other, tolerance)) found.push_back(*common);
+    }
+  return found;
+}
+
+// The trees are walked in single precision: none is lost, also far from the origin of the file and at flush faces.
+TEST(Crossings, AreThoseOfAllPairsOfTrianglesBitForBit) {
+  Random random(4, 0, Stream::probe);
+  const Mesh turned_ring = ring(0.5, 0.35, 0.2, 24).mesh, ball = sphere_mesh(0.4, 3);
+  const auto moved_far = [](Mesh mesh) {
+    for (Vec3& x : mesh.vertices) x += Vec3(300.0, -200.0, 100.0);
+    return mesh;
+  };
+  const Mesh far = moved_far(bar({1, 0.8, 0.02}).mesh);
+  std::size_t met = 0;
+  for (const Mesh* a : {&turned_ring, &ball, &far})
+    for (const Mesh* b : {&turned_ring, &ball, &far})
+      for (int k = 0; k < 40; ++k) {
+        Pose pose{Vec3::Zero(), k % 4 ? random.orientation() : Quat::Identity()};
+        const Vec3 apart = k % 4 ? Vec3(random.orientation() * Vec3(0.8 * random.uniform(), 0, 0)) : Vec3(0, 0, 0.02);
+        pose.position = a->bounds().center() + apart - pose.orientation * b->bounds().center();
+        const std::vector<Crossing> found = crossings(MeshQuery(*a), MeshQuery(*b), pose, 1e-9);
+        const std::vector<Crossing> expected = all_crossings(*a, *b, pose, 1e-9);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          EXPECT_EQ(found[i].triangles, expected[i].triangles);
+          EXPECT_EQ(found[i].point, expected[i].point);
+        }
+        met += !found.empty();
+      }
+  EXPECT_GT(met, 200u);
 }
 
 TEST(BinPenetration, FloorWallsAndRim) {

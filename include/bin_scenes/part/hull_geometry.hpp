@@ -11,6 +11,9 @@ namespace bin_scenes {
 /// are needed, the hull is slightly too small: the point farthest outside is added until the number is reached.
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices);
 
+/// Few of the points, which reach as far as all of them in each direction (to 1e-9 of the diagonal).
+std::vector<Vec3> extreme_points(const std::vector<Vec3>& points);
+
 /// Half-space normal . x <= offset; the normal points out of the solid.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
@@ -28,6 +31,7 @@ class HullPlanes {
   /// Whether distance() exceeds `limit`; usually decided by the first planes.
   bool outside_by_more(const Vec3& p, double limit) const;
   const Aabb& bounds() const { return bounds_; }
+  std::size_t count() const { return planes_.size(); }
   /// Largest distance to the bounding box along an axis: negative inside, outside a lower bound of the distance.
   double to_box(const Vec3& p) const { return (bounds_.lower - p).cwiseMax(p - bounds_.upper).maxCoeff(); }
 

@@ -51,6 +51,11 @@ class MeshQuery {
   /// The nodes of the tree, for traversals of two meshes at once; empty for an empty mesh.
   const std::vector<Node>& nodes() const;
   std::size_t leaf_triangle(std::size_t position) const;
+  /// The box of a node in single precision, a little larger: four lanes, of which the last is 0.
+  struct NodeBox {
+    Eigen::Array4f center, half;
+  };
+  const std::vector<NodeBox>& boxes() const;  ///< by node
 
  private:
   void overlapping_impl(const Aabb& box, void (*visit)(void*, std::size_t), void* context) const;

@@ -43,6 +43,7 @@ class PartModel {
 
   // Proxies: thread-safe, lazy, cached on disk. References live as long as the model.
   const MeshQuery& query() const;
+  const std::vector<Vec3>& corners() const;  ///< vertices that reach as far as the mesh, however it is turned
   const SphereSet& spheres(const VoxelOptions& options) const;
   const DistanceField& field(const FieldOptions& options) const;
   const ConvexHulls& hulls(const HullOptions& options) const;

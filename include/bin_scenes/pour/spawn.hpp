@@ -33,22 +33,30 @@ struct Opening {
 /// and beside it.
 class Rain {
  public:
+  Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
+
+  /// Something that is in the bin. `settled`: slow enough to count as heap; parts that still fall are only avoided.
+  void add(const Cover& cover, const Pose& pose, bool settled);
+  /// Seeded pose of the model frame: uniform orientation and position between the walls, lowest point drop_height above
+  /// the heap. None if no attempt ends below the rim, or all end high above parts that still fall.
+  std::optional<Pose> place(const PartModel& part, const Cover& shape, Random& random, int tries);
+
+ private:
   struct Obstacle {
     const Cover* cover;
     Pose pose;
-    bool settled;  ///< slow enough to count as heap; parts that still fall are only avoided
+    bool settled;
+    Vec3 center;              ///< of its cover
+    std::vector<Vec3> balls;  ///< middles of its cover's, once they were asked for
   };
+  void sort();
+  static const std::vector<Vec3>& balls_of(Obstacle& obstacle);
 
-  Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
-
-  /// Seeded pose of the model frame: uniform orientation and position between the walls, lowest point drop_height above
-  /// the heap. None if no attempt ends below the rim, or all end high above parts that still fall.
-  std::optional<Pose> place(const PartModel& part, const Cover& shape, const std::vector<Obstacle>& obstacles,
-                            Random& random, int tries) const;
-
- private:
   Opening opening_;
   double drop_height_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<std::pair<double, std::size_t>> order_;  ///< tops of their covers (m), which of them; the highest first
+  bool sorted_ = true;
 };
 
 /// The thesis's start: a 3-D grid above the opening, cell edge = spacing * bounding diameter of the largest part, as

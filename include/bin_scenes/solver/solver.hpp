@@ -3,7 +3,8 @@
 ///
 ///     add_world ─► insert bodies ─► advance ─► states ─► ... ─► remove_world
 ///
-/// A world knows bodies, walls, gravity; pouring and rest are the business of pour/.
+/// A world knows bodies, walls, gravity; pouring and rest are the business of pour/. Between two advances, calls about
+/// different worlds may come from different threads at once, but for add_world and remove_world.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

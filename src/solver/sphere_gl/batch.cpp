@@ -176,7 +176,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
-  upload_progress(slot, progress);
+  upload_progress({{slot, progress}});
   return slot;
 }
 
@@ -199,9 +199,15 @@ void Batch::remove(Slot slot) {
   slots_.give(slot);
 }
 
-void Batch::upload_state(Slot slot, std::size_t body, const sphere::Body& state) {
-  const gpu::SphereState out = state_of(state);
-  states_.upload(regions_[slot].first_body + body, &out, 1);
+void Batch::upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies) {
+  std::vector<gpu::SphereState> states;
+  for (auto body = bodies.begin(); body != bodies.end();) {
+    const std::size_t first = *body;
+    states.clear();
+    for (; body != bodies.end() && *body == first + states.size(); ++body)
+      states.push_back(state_of(world.bodies[*body]));
+    states_.upload(regions_[slot].first_body + first, states.data(), states.size());
+  }
 }
 
 void Batch::upload_states(Slot slot, const sphere::World& world) {
@@ -210,16 +216,24 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
   states_.upload(regions_[slot].first_body, states.data(), states.size());
 }
 
-void Batch::upload_progress(Slot slot, gpu::SphereProgress progress) {
-  Region& r = regions_[slot];
-  r.stiffness = progress.stiffness;
-  r.cold = progress.cold_steps != 0;
-  r.refinement = progress.refinement;
-  r.effort = progress.effort;
-  const std::size_t wide = std::min<std::size_t>({progress.wide_colors, capacity_.colors, SPHERE_COLORS - 1});
-  if (progress.wide_colors > 0) r.large.colors = static_cast<unsigned>(wide);
-  progress.wide_colors = 0;
-  progress_.upload(slot, &progress, 1);
+void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds) {
+  std::sort(worlds.begin(), worlds.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<gpu::SphereProgress> neighbours;
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    auto& [slot, progress] = worlds[i];
+    Region& r = regions_[slot];
+    r.stiffness = progress.stiffness;
+    r.cold = progress.cold_steps != 0;
+    r.refinement = progress.refinement;
+    r.effort = progress.effort;
+    const std::size_t wide = std::min<std::size_t>({progress.wide_colors, capacity_.colors, SPHERE_COLORS - 1});
+    if (progress.wide_colors > 0) r.large.colors = static_cast<unsigned>(wide);
+    progress.wide_colors = 0;
+    neighbours.push_back(progress);
+    if (i + 1 < worlds.size() && worlds[i + 1].first == slot + 1) continue;
+    progress_.upload(slot + 1 - neighbours.size(), neighbours.data(), neighbours.size());
+    neighbours.clear();
+  }
 }
 
 void Batch::request(const std::vector<Slot>& slots, gl::ReadBack& back) const {

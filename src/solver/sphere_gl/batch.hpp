@@ -32,6 +32,9 @@
 #include "solver/sphere_gl/shape_table.hpp"
 
 #include <memory>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace bin_scenes::sphere_gl {
 
@@ -46,10 +49,11 @@ class Batch {
   Slot add(const sphere::World& world, gpu::SphereProgress& progress);
   void remove(Slot slot);
 
-  void upload_state(Slot slot, std::size_t body, const sphere::Body& state);
+  /// Those of some bodies; neighbours are one copy.
+  void upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies);
   void upload_states(Slot slot, const sphere::World& world);
-  /// What the steps of a world left behind; upload takes effect at the next pass.
-  void upload_progress(Slot slot, gpu::SphereProgress progress);
+  /// What the steps of worlds left behind; upload takes effect at the next pass. Neighbours are one copy.
+  void upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds);
   /// Asks for where these worlds will stand, and the states of their bodies, after the passes issued so far. Wait for
   /// `back` later: it holds the progress of each slot in turn, then the states of each.
   void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;

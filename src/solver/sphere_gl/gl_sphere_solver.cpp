@@ -53,7 +53,8 @@ class GlSphereSolver final : public Solver {
   GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
       : device_(std::move(device)),
         settings_(settings),
-        bodies_(capacity.bodies),
+        at_once_(sphere_gl::worlds_at_once(capacity, static_cast<std::size_t>(device_->limits().storage_bytes),
+                                           device_->software())),
         shapes_(settings),
         batch_(fitting(capacity, *device_)) {}
   ~GlSphereSolver() override { device_->try_make_current(); }
@@ -171,10 +172,7 @@ class GlSphereSolver final : public Solver {
     return out;
   }
 
-  std::size_t worlds_at_once() const override {
-    const std::size_t most = device_->software() ? 4 : 256;
-    return std::clamp<std::size_t>(most * SPHERE_MAX_BODIES / std::max<std::size_t>(bodies_, 1), 1, most);
-  }
+  std::size_t worlds_at_once() const override { return at_once_; }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
   std::vector<Flag> flags(WorldId id) const override { return sphere::flags_of(world(id).world); }
@@ -228,15 +226,15 @@ class GlSphereSolver final : public Solver {
     std::uint64_t most = 0;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      for (const std::size_t body : r.changed) batch_.upload_state(r.slot, body, r.world.bodies[body]);
+      batch_.upload_states(r.slot, r.world, r.changed);
       r.changed.clear();
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       most = std::max(most, own);
       r.steps += own;
       r.progress.steps_left = static_cast<gpu::uint>(own);
-      batch_.upload_progress(r.slot, r.progress);
       flight.slots.push_back(r.slot);
     }
+    upload_progress(flight);
     issue(flight, most);
   }
 
@@ -264,9 +262,14 @@ class GlSphereSolver final : public Solver {
       left = std::max<std::uint64_t>(left, r.progress.steps_left);
     }
     if (candidates) batch_.grow_candidates();
-    if (left > 0)  // counters were taken
-      for (const WorldId id : flight.ids) batch_.upload_progress(world(id).slot, world(id).progress);
+    if (left > 0) upload_progress(flight);  // counters were taken
     return left;
+  }
+
+  void upload_progress(const Flight& flight) {
+    std::vector<std::pair<Batch::Slot, gpu::SphereProgress>> worlds;
+    for (const WorldId id : flight.ids) worlds.emplace_back(world(id).slot, world(id).progress);
+    batch_.upload_progress(std::move(worlds));
   }
 
   /// Moves the counters of a world to the profile.
@@ -304,7 +307,7 @@ class GlSphereSolver final : public Solver {
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
   SphereSettings settings_;
-  std::size_t bodies_;  ///< expected in a world
+  std::size_t at_once_;  ///< worlds
   sphere::ShapeCache shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
@@ -316,6 +319,16 @@ class GlSphereSolver final : public Solver {
 };
 
 }  // namespace
+
+std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
+  constexpr double body_bytes = 3800.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
+  const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
+  const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
+  const double largest_list = static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;
+  const double fit = std::min({most, most * SPHERE_MAX_BODIES / bodies, capacity.memory / (body_bytes * bodies),
+                               0.5 * static_cast<double>(storage_bytes) / largest_list});
+  return static_cast<std::size_t>(std::max(1.0, fit));
+}
 
 std::size_t most_gl_bodies() {
   return 65536;  // keys of pairs (shaders/sphere/color.h)

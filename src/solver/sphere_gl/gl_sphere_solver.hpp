@@ -13,6 +13,7 @@ struct Capacity {
   std::size_t rows = 12;           ///< of contacts that are solved, per body of a world
   std::size_t candidates = 8;      ///< contacts to choose from, per invocation of a group
   std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
+  double memory = 1e9;             ///< bytes on the device for the worlds that run at once
   std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
   std::size_t world_group = 0;     ///< invocations that share such a world; 0: 64 on a software device, else 256
   std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
@@ -23,6 +24,11 @@ struct Capacity {
 /// returned wrong velocities on llvmpipe silently; its limit on loop iterations is the suspected cause
 /// (docs/develop/gpu.md, "Limits"). A group of 160 such bodies is right.
 constexpr std::size_t software_group_bodies = 192;
+
+/// As many worlds as fit into memory, with no list beyond half of what the driver allows for a buffer, since lists
+/// grow. At most 1,024 of one group each, and 256 of several, which take steps one after the other; 4 on a software
+/// device.
+std::size_t worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software);
 }  // namespace sphere_gl
 
 /// Bodies that a world may have, fixed ones and a mesh bin among them.

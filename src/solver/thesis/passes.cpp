@@ -1,6 +1,7 @@
 #include "passes.hpp"
 
 #include <cstddef>
+#include <cstring>
 
 namespace bin_scenes::thesis {
 
@@ -8,6 +9,15 @@ namespace {
 
 gl::Program pass(const std::string& name, const gl::Defines& defines = {}) {
   return gl::Program::compute("thesis/" + name + ".comp", defines);
+}
+/// Whether the device held something else before; then it holds `values` now.
+template <class T>
+bool upload_if_new(gl::Buffer<T>& buffer, std::vector<T>& held, const std::vector<T>& values) {
+  if (held.size() == values.size() && std::memcmp(held.data(), values.data(), values.size() * sizeof(T)) == 0)
+    return false;
+  buffer.upload(values);
+  held = values;
+  return true;
 }
 gl::Program detect_pass(std::size_t capacity) {
   return pass("detect", {{"CAPACITY", std::to_string(capacity) + "u"}});
@@ -61,6 +71,7 @@ void Passes::begin_step() {
 }
 
 void Passes::force() {
+  held_.states.clear();
   gl::Stage stage(timer_, "force");
   gl::dispatch(force_, sizes_.bodies);
 }
@@ -123,11 +134,13 @@ void Passes::pre_velocity() {
 }
 
 void Passes::velocity() {
+  held_.states.clear();
   gl::Stage stage(timer_, "velocity");
   gl::dispatch_indirect(velocity_, status_.storage(), offsetof(gpu::ThesisStatus, body_groups));
 }
 
 void Passes::position() {
+  held_.states.clear();
   gl::Stage stage(timer_, "position");
   gl::dispatch(position_, sizes_.bodies);
 }
@@ -136,17 +149,18 @@ void Passes::load(const Memory& memory) {
   const gpu::uint old_capacity = sizes_.capacity;
   sizes_ = memory.settings;
   if (sizes_.capacity != old_capacity) detect_ = detect_pass(sizes_.capacity);
-  settings_.upload({sizes_});
-  worlds_.upload(memory.worlds);
-  sheets_.upload(memory.sheets);
-  bodies_.upload(memory.bodies);
-  shapes_.upload(memory.shapes);
-  spheres_.upload(memory.spheres);
-  states_.upload(memory.states);
-  needs_.upload(memory.needs);
+  upload_if_new(settings_, held_.settings, {sizes_});
+  upload_if_new(worlds_, held_.worlds, memory.worlds);
+  upload_if_new(sheets_, held_.sheets, memory.sheets);
+  bool placed = !upload_if_new(bodies_, held_.bodies, memory.bodies);  // what never moves
+  placed &= !upload_if_new(shapes_, held_.shapes, memory.shapes);
+  placed &= !upload_if_new(spheres_, held_.spheres, memory.spheres);
+  placed &= !upload_if_new(states_, held_.states, memory.states);
   const auto at_least = [](auto& buffer, std::size_t count) {
     if (buffer.size() < count || buffer.size() == 0) buffer.resize(count);
   };
+  at_least(needs_, memory.needs.size());
+  needs_.fill(0, 0, memory.needs.size());
   at_least(worlds_, 1);
   at_least(sheets_, 1);
   at_least(inertias_, sizes_.bodies);
@@ -167,15 +181,16 @@ void Passes::load(const Memory& memory) {
   status_.clear();
   cell_counts_.fill(0, 0, sizes_.cells);
 
-  // What never moves is placed once.
+  if (placed) return;
   bind();
   move_to_world_.set("first", sizes_.moving_spheres);
   move_to_world_.set("count", sizes_.spheres - sizes_.moving_spheres);
   gl::dispatch(move_to_world_, sizes_.spheres - sizes_.moving_spheres);
 }
 
-std::vector<gpu::ThesisState> Passes::states() const {
-  return states_.download(0, sizes_.bodies);
+const std::vector<gpu::ThesisState>& Passes::states() {
+  if (held_.states.empty()) held_.states = states_.download(0, sizes_.bodies);
+  return held_.states;
 }
 
 gpu::ThesisStatus Passes::status() {
@@ -189,13 +204,29 @@ std::vector<gpu::ThesisNeed> Passes::needs() const {
 
 std::size_t Passes::bytes() const {
   std::size_t sum = 0;
-  for (const gl::Storage* s :
-       {&settings_.storage(), &worlds_.storage(), &sheets_.storage(), &bodies_.storage(), &states_.storage(),
-        &inertias_.storage(), &shapes_.storage(), &spheres_.storage(), &centers_.storage(), &sphere_cells_.storage(),
-        &cell_counts_.storage(), &cell_starts_.storage(), &members_.storage(), &sorted_.storage(),
-        &contact_ranges_.storage(), &contacts_.storage(), &neighbours_.storage(), &neighbour_counts_.storage(),
-        &touching_spheres_.storage(), &touching_bodies_.storage(), &pushes_.storage(), &status_.storage(),
-        &needs_.storage()})
+  for (const gl::Storage* s : {&settings_.storage(),
+                               &worlds_.storage(),
+                               &sheets_.storage(),
+                               &bodies_.storage(),
+                               &states_.storage(),
+                               &inertias_.storage(),
+                               &shapes_.storage(),
+                               &spheres_.storage(),
+                               &centers_.storage(),
+                               &sphere_cells_.storage(),
+                               &cell_counts_.storage(),
+                               &cell_starts_.storage(),
+                               &members_.storage(),
+                               &sorted_.storage(),
+                               &contact_ranges_.storage(),
+                               &contacts_.storage(),
+                               &neighbours_.storage(),
+                               &neighbour_counts_.storage(),
+                               &touching_spheres_.storage(),
+                               &touching_bodies_.storage(),
+                               &pushes_.storage(),
+                               &status_.storage(),
+                               &needs_.storage()})
     sum += s->bytes();
   return sum;
 }
@@ -236,7 +267,7 @@ Memory Passes::download() const {
   m.bodies = bodies_.download(0, sizes_.bodies);
   m.shapes = shapes_.download();
   m.spheres = spheres_.download(0, sizes_.spheres);
-  m.states = states();
+  m.states = states_.download(0, sizes_.bodies);
   fetch(inertias_, m.inertias);
   fetch(centers_, m.centers);
   fetch(sphere_cells_, m.sphere_cells);

@@ -13,7 +13,7 @@ class Passes {
  public:
   Passes();
 
-  /// Uploads what a batch is made of and gives the scratch buffers their sizes.
+  /// Uploads what a batch is made of, but for what the device holds already, and gives the scratch buffers their sizes.
   void load(const Memory& memory);
   /// One whole step.
   void step();
@@ -35,7 +35,8 @@ class Passes {
   void velocity();
   void position();
 
-  std::vector<gpu::ThesisState> states() const;
+  /// Where the bodies are; those given to the next load() stay on the device if they are the same.
+  const std::vector<gpu::ThesisState>& states();
   /// Status since load(); waits for the steps so far.
   gpu::ThesisStatus status();
   std::vector<gpu::ThesisNeed> needs() const;
@@ -48,7 +49,19 @@ class Passes {
  private:
   void bind() const;
 
+  /// What never changes during the steps, as it was uploaded, and the states that were last uploaded or read.
+  struct Held {
+    std::vector<gpu::ThesisSettingsBlock> settings;
+    std::vector<gpu::ThesisWorld> worlds;
+    std::vector<gpu::ThesisSheet> sheets;
+    std::vector<gpu::ThesisBody> bodies;
+    std::vector<gpu::ThesisShape> shapes;
+    std::vector<gpu::ThesisSphere> spheres;
+    std::vector<gpu::ThesisState> states;  ///< none: steps have moved them since
+  };
+
   gpu::ThesisSettingsBlock sizes_{};
+  Held held_;
   gl::Program force_, move_to_world_, count_cells_, scatter_, reorder_, detect_, plan_, count_pairs_, split_mass_,
       impulse_, pre_velocity_, velocity_, position_;
   gl::PrefixSum prefix_sum_;

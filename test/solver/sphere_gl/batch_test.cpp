@@ -212,10 +212,28 @@ gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double se
     const gl::Traffic after = gl::traffic();
     if (repeated() > repeated_before) continue;
     return {after.dispatches - before.dispatches, after.barriers - before.barriers,
-            after.argument_barriers - before.argument_barriers, after.bytes_uploaded - before.bytes_uploaded, after.bytes_read_back - before.bytes_read_back};
+            after.argument_barriers - before.argument_barriers, after.bytes_uploaded - before.bytes_uploaded,
+            after.bytes_read_back - before.bytes_read_back};
   }
   ADD_FAILURE() << "lists grow on";
   return {};
+}
+
+TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
+  constexpr std::size_t two_gib = (std::size_t{1} << 31) - 1;
+  Capacity capacity;
+  capacity.bodies = 256;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1024u);
+  EXPECT_EQ(worlds_at_once(capacity, std::size_t{128} << 20, false), 128u) << "half of a block of 128 MiB";
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, true), 4u);
+  capacity.memory = 1e8;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 102u);
+  capacity = {};
+  capacity.bodies = 65536;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
+  capacity.bodies = 256;
+  capacity.memory = 1.0;
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
 }
 
 // What a step costs on a device for which dispatches and barriers are dear (docs/develop/gpu.md).
@@ -226,11 +244,15 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   solver->advance(ids, 0.2);
   for (const Phase phase : {phases::pour, phases::press, phases::probe}) {
     for (const WorldId id : ids) solver->set_phase(id, phase);
-    solver->advance(ids, 0.05);  // bodies that a phase wakes go up, lists grow
+    solver->advance(ids, 0.05);  // lists grow
+    for (const WorldId id : ids) solver->set_phase(id, phases::settle);
+    for (const WorldId id : ids) solver->set_phase(id, phase);
+    const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size());
+    EXPECT_EQ(woken.barriers, 7u * 5u + 3u + 1u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
     EXPECT_EQ(slice.dispatches, 7u * 5u);
-    // A barrier behind each, and one before each copy: progress of three worlds, who runs, settings; one read back.
-    EXPECT_EQ(slice.barriers, 7u * 5u + 3u + 2u + 2u);
+    // A barrier behind each, and one before each copy: progress of all worlds, who runs, settings; one read back.
+    EXPECT_EQ(slice.barriers, 7u * 5u + 1u + 2u + 2u);
     EXPECT_EQ(slice.argument_barriers, 7u) << "how many groups find_contacts has";
     EXPECT_EQ(slice.bytes_uploaded,
               3 * sizeof(gpu::SphereProgress) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));

@@ -122,7 +122,7 @@ class SphereGl : public ::testing::Test {
     gpu::SphereProgress progress;
     const Batch::Slot slot = batch.add(world, progress);
     progress.steps_left = 1000;
-    batch.upload_progress(slot, progress);
+    batch.upload_progress({{slot, progress}});
     return slot;
   }
 
@@ -183,9 +183,10 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
     if (!progress.overflow) return progress;
     batch.update_sleep();  // empties the list of jobs
     if (progress.overflow & SPHERE_PAIR_OVERFLOW) batch.grow_pairs(slot, progress);
+    if (progress.overflow & SPHERE_ROW_OVERFLOW) batch.grow_rows(slot, progress.rows);
     if (progress.overflow & SPHERE_CANDIDATE_OVERFLOW) batch.grow_candidates();
     progress.overflow = 0;
-    batch.upload_progress(slot, progress);
+    batch.upload_progress({{slot, progress}});
   }
 }
 

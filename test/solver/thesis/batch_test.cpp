@@ -47,6 +47,30 @@ TEST(ThesisBatch, AWorldIsTheSameAloneAndInABatch) {
     EXPECT_EQ(hash_of(solver.states(ids[variant])), settled_hash({}, variant)) << "world " << variant;
 }
 
+// Bodies, spheres and shapes stay on the device; so do states that nobody changed.
+TEST(ThesisBatch, OnlyTheGridGoesUpBetweenSteps) {
+  ThesisSolver solver;
+  std::vector<WorldId> ids;
+  for (int variant = 0; variant < 3; ++variant) ids.push_back(handful(variant).add(solver));
+  const auto uploaded = [&] { return solver.profile().counters.at("gl_bytes_uploaded"); };
+  const auto repeated = [&] {
+    const auto at = solver.profile().counters.find("steps_repeated");
+    return at == solver.profile().counters.end() ? 0 : at->second;
+  };
+  constexpr std::size_t grid = 3 * sizeof(gpu::ThesisWorld) + sizeof(gpu::ThesisSettingsBlock);
+  constexpr int steps_per_look = 8;
+  solver.advance(ids, 0.3);  // buffers grow
+  for (int k = 0; k < 4; ++k) {
+    const std::uint64_t before = uploaded(), repeated_before = repeated();
+    solver.advance(ids, steps_per_look * solver.step_size());
+    ASSERT_EQ(repeated(), repeated_before);
+    EXPECT_LE(uploaded() - before, grid);
+  }
+  const std::uint64_t before = uploaded();
+  solver.advance({ids[0], ids[1]}, solver.step_size());
+  EXPECT_GT(uploaded() - before, grid) << "another batch is another memory";
+}
+
 TEST(ThesisBatch, GridAndBufferSizesDoNotChangeTheResult) {
   const std::uint64_t usual = settled_hash({}, 0);
   ThesisSettings settings;
