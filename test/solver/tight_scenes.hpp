@@ -178,6 +178,62 @@ inline double spike_into_hole(Lab lab, double turn, double tilt, double aside, d
   return fit(lab, Vec3::Zero(), 2.0).risen;
 }
 
+/// A bolt of a helical thread (10 mm radius, 3 mm pitch, depth 1.2 mm) in a fixed nut wider by `play` (m), without
+/// friction, its head up: way down in `seconds` (m), and EnergyRise.
+struct Screw {
+  double way, risen;
+};
+inline Screw screw_down(Lab lab, double play, double seconds) {
+  constexpr std::uint32_t around = 48, per_turn = 8;
+  constexpr double radius = 0.01, depth = 0.0012, pitch = 0.003;
+  const auto thread = [&](std::uint32_t turns, double outer, bool is_nut) {
+    Mesh mesh;
+    const std::uint32_t rows = turns * per_turn + 1;
+    const auto at = [&](std::uint32_t row, std::uint32_t k) { return row * around + k % around; };
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+    };
+    for (std::uint32_t row = 0; row < rows; ++row)
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const double height = static_cast<double>(row) / per_turn, angle = 2.0 * M_PI * k / around;
+        const double phase = height - static_cast<double>(k) / around;
+        const double r = outer - depth * std::abs(2.0 * (phase - std::floor(phase)) - 1.0);
+        mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), pitch * height);
+      }
+    const auto beyond = static_cast<std::uint32_t>(mesh.vertices.size());  // the outside of a nut, or middles of ends
+    for (const double z : {0.0, pitch * turns})
+      if (is_nut)
+        for (const Vec3& v : polygon(around, 1.7 * radius, z)) mesh.vertices.push_back(v);
+      else
+        mesh.vertices.emplace_back(0, 0, z);
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const std::uint32_t top = rows - 1, next = k + 1;
+      for (std::uint32_t row = 0; row < top; ++row)
+        if (is_nut)
+          quad(at(row, next), at(row, k), at(row + 1, k), at(row + 1, next));
+        else
+          quad(at(row, k), at(row, next), at(row + 1, next), at(row + 1, k));
+      const std::uint32_t low = beyond + k, low_next = beyond + next % around;
+      if (is_nut) {
+        quad(low, low_next, low_next + around, low + around);
+        quad(low, at(0, k), at(0, next), low_next);
+        quad(low_next + around, at(top, next), at(top, k), low + around);
+      } else {
+        mesh.triangles.insert(mesh.triangles.end(),
+                              {{beyond, at(0, next), at(0, k)}, {beyond + 1, at(top, k), at(top, next)}});
+      }
+    }
+    return mesh;
+  };
+  lab.def().bin.kind = Bin::Kind::none;
+  const PartModelPtr bolt = PartModel::from_mesh(thread(8, radius, false), "bolt");
+  const Vec3 start = Vec3(0, 0, 3.0 * pitch) + bolt->mass().center;
+  lab.place(bolt, start, Quat::Identity(), material(0.0));
+  place_fixed(lab, PartModel::from_mesh(thread(4, radius + play, true), "nut"), 0.0);
+  const Fit end = fit(lab, start, seconds);
+  return {-end.off.z() * bolt->diagonal(), end.risen};
+}
+
 struct Chain {
   double risen;  ///< EnergyRise, of one link
   double apart;  ///< largest distance of neighbours' centres / that at which they hold each other
