@@ -160,8 +160,9 @@ struct SpherePlane {
 };
 
 struct SphereSamples {
-  uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the vectors of their normal cones
-  uvec4 clusters;    // first, count
+  uvec4 nodes;       // first, count; edges: first, count. Behind the nodes lie the ends of creases and the vectors of
+                     // normal cones
+  uvec4 clusters;    // first, count; z: edges from there on are creases
   uvec4 blocks;      // of edges, behind them: first of the table and of the lists (four words each), blocks along x, and
                      // of a layer along x and y
   vec4 size;         // radius of the nodes, longest edge piece, mean way between neighbours on faces, and by how much a

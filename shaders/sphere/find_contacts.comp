@@ -37,11 +37,11 @@ SphereSamples samples_of(uint body) {
   return shapes[shape].coarse;
 }
 
+float sub_step() { return time_step / float(settings.sub_steps * progress[world_index].refinement); }
+float half_way() { return half_way(time_step, sub_step()); }
+
 // Of a body of this world.
-Placement placement_of(uint body) {
-  float sub_steps = float(settings.sub_steps * progress[world_index].refinement);
-  return placement_of(body, half_way(time_step, time_step / sub_steps));
-}
+Placement placement_of(uint body) { return placement_of(body, half_way()); }
 
 #include "sphere/reduce.h"
 #include "shared/sphere/rim.h"
@@ -56,8 +56,10 @@ struct View {
   Field own, field;
   Carry to_field, to_a;
   uint side;
+  vec3 drift, twist;
   float margin;
   bool way_back;
+  vec3 ahead;
 };
 
 void emit(View view, vec3 on_a, vec3 normal, float separation, uint feature) {
@@ -150,6 +152,27 @@ void test_samples(View view) {
   }
 }
 
+// How the points of a body go on over another one until the step ends, in the frame of that one.
+struct Drift {
+  vec3 drift, twist;
+};
+
+Drift drift_of(uint points, Placement at, uint over, Placement frame) {
+  float rest = time_step - half_way() + sub_step();  // the last sweeps look as far ahead as another one
+  vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
+  vec3 fall = time_step * worlds[world_index].gravity.xyz;
+  if (moves(points)) {
+    v = states[points].velocity.xyz + fall;
+    w = states[points].spin.xyz;
+  }
+  if (moves(over)) {
+    frame_v = states[over].velocity.xyz + fall;
+    frame_w = states[over].spin.xyz;
+  }
+  return Drift(rest * ((v - frame_v + cross(w, frame.position - at.position)) * frame.rotation),
+               rest * ((w - frame_w) * frame.rotation));
+}
+
 // The samples of each body against the field of the other, in a loop: compilers put all that is called in place, and of
 // this there is much.
 void test_pair(SpherePair pair, float margin) {
@@ -160,8 +183,14 @@ void test_pair(SpherePair pair, float margin) {
   for (uint turn = 0u; turn < 2u; ++turn) {
     bool of_a = turn == 0u;
     uint own = of_a ? pair.a : pair.b, other = of_a ? pair.b : pair.a;
+    Placement at = b, frame = a;
+    if (of_a) {
+      at = a;
+      frame = b;
+    }
+    Drift goes = drift_of(own, at, other, frame);
     View view = View(samples_of(own), samples_of(other), field_of(bodies[own].ids.x), field_of(bodies[other].ids.x),
-                     from_b, from_b, of_a ? 0u : SPHERE_SIDE_B, margin, true);
+                     from_b, from_b, of_a ? 0u : SPHERE_SIDE_B, goes.drift, goes.twist, margin, true, vec3(0.0));
     if (of_a) view.to_field = from_a;
     test_samples(view);
     if (gl_LocalInvocationIndex == 0u) count_possible(view.samples.nodes.y);

@@ -20,6 +20,7 @@ layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };  // pai
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) coherent buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
 
 #include "sphere/body.h"

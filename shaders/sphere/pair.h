@@ -36,16 +36,3 @@ float size_of(SpherePair pair) {
 
 #include "sphere/ball.h"
 
-// Whether the pair has hardly moved since its contacts were found, on fine samples or on coarse ones. The point where a
-// ball touches stays below it, while one that is kept turns with it and drives it on.
-bool recyclable(SphereManifold manifold, SpherePair pair, bool fine) {
-  if (manifold.state.z == 0u || is_ball(pair.a) || is_ball(pair.b)) return false;
-  float size = size_of(pair), limit = (fine ? settings.recycle : settings.coarse_recycle) * size;
-  vec3 position;
-  vec4 orientation;
-  relative_pose(pair, position, orientation);
-  vec3 moved = position - manifold.found_position;
-  if (dot(moved, moved) > limit * limit) return false;
-  vec4 turn = quat_multiply(quat_conjugate(manifold.found_orientation), orientation);
-  return length(turn.xyz) * size < limit;
-}

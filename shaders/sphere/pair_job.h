@@ -1,6 +1,24 @@
-// What is to be done about a listed pair. Needs the bindings Settings, Progress, Manifolds, Jobs, and sphere/pair.h.
+// What is to be done about a listed pair. Needs the bindings Settings, Progress, Manifolds, Contacts, Jobs, and
+// sphere/pair.h.
+#include "shared/language.h"
+#include "shared/sphere/choice.h"
+#include "sphere/contact_gap.h"
 
 uint recycled = 0u, tested = 0u, asleep = 0u, sleepers = 0u;
+
+// Whether the pair has hardly moved since its contacts were found, on fine samples or on coarse ones. What strikes is
+// found anew. The point where a ball touches stays below it, while one that is kept turns with it and drives it on.
+bool recyclable(SphereWorld world, SpherePair pair, bool fine) {
+  SphereManifold manifold = manifolds[world.pairs.x + pair.slot];
+  if (manifold.state.z == 0u || is_ball(pair.a) || is_ball(pair.b)) return false;
+  float size = size_of(pair), limit = (fine ? settings.recycle : settings.coarse_recycle) * size;
+  vec3 position;
+  vec4 orientation;
+  relative_pose(pair, position, orientation);
+  vec4 turn = quat_multiply(quat_conjugate(manifold.found_orientation), orientation);
+  float moved = max(length(position - manifold.found_position), length(turn.xyz) * size), fresh = STRIKE * limit;
+  return moved < limit && (moved <= fresh || !strikes(world, pair, fresh));
+}
 
 // Puts the pair at `place` of the list on the list of jobs, unless it sleeps or has hardly moved.
 void enlist(SphereWorld world, uint w, SpherePair pair, uint place) {
@@ -9,7 +27,7 @@ void enlist(SphereWorld world, uint w, SpherePair pair, uint place) {
     return;
   }
   ++tested;
-  if (recyclable(manifolds[world.pairs.x + pair.slot], pair, progress[w].fine != 0u)) {
+  if (recyclable(world, pair, progress[w].fine != 0u)) {
     ++recycled;
     return;
   }

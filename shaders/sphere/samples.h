@@ -9,6 +9,7 @@ float spacing_of(Samples samples) { return samples.size.y; }
 float face_spacing_of(Samples samples) { return samples.size.z; }
 float sag_of(Samples samples) { return samples.size.w; }
 vec3 node_at(Samples samples, uint i) { return nodes[samples.nodes.x + i].place; }
+uint first_crease(Samples samples) { return samples.clusters.z; }
 
 // A normal cone: place of its vectors, and how many bounds they are; 0 = all directions, SPHERE_AXIS = one axis.
 struct Cone {
@@ -75,4 +76,5 @@ Solid solid_of(Field field) { return Solid(false, field, Plane(vec4(0.0), uvec4(
 
 #include "shared/sphere/cone.h"
 #include "shared/sphere/edge.h"
+#include "shared/sphere/crease.h"
 #include "shared/sphere/slide.h"

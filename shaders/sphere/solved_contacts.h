@@ -2,17 +2,7 @@
 // close in the step. They come first, else in the order they had. Twin: put_solved_first(). Needs the bindings Settings,
 // Bodies, States, Shapes, Manifolds, Contacts and sphere/pair.h.
 
-// Distance of a contact's points where the bodies are (m).
-float separation_of(SphereContact c, SpherePair pair) {
-  vec4 q = states[pair.a].orientation, q_b = vec4(0.0, 0.0, 0.0, 1.0);
-  vec3 on_a = states[pair.a].position.xyz + rotate(q, c.anchor_a), on_b = c.anchor_b;
-  if (pair.b != SPHERE_GROUND) {
-    q_b = states[pair.b].orientation;
-    on_b = states[pair.b].position.xyz + rotate(q_b, on_b);
-  }
-  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;
-  return dot(on_b - on_a, rotate(of_a ? q : q_b, c.normal.xyz));
-}
+#include "sphere/contact_gap.h"
 
 // Returns how many they are.
 uint put_solved_first(SphereWorld world, SpherePair pair) {

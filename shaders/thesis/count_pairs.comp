@@ -27,8 +27,7 @@ void count(uint body, uint key) {
     if (found == key) return;
     uint others = atomicAdd(neighbour_counts[body], 1u);
     if (others == 0u) touching_bodies[atomicAdd(status.touching_bodies, 1u)] = body;
-    if (others + 1u > needs[bodies[body].range.z].neighbours)
-      atomicMax(needs[bodies[body].range.z].neighbours, others + 1u);
+    atomicMax(needs[bodies[body].range.z].neighbours, others + 1u);
     return;
   }
   atomicOr(status.overflow, THESIS_NEIGHBOUR_OVERFLOW);

@@ -91,7 +91,7 @@ void main() {
     search_spheres(world, center, body);
     search_sheets(world, center);
     contact_ranges[s] = ThesisRange(0u, 0u);
-    if (found > needs[bodies[body].range.z].contacts) atomicMax(needs[bodies[body].range.z].contacts, found);
+    if (found > 0u) atomicMax(needs[bodies[body].range.z].contacts, found);
     if (found > CAPACITY) atomicOr(status.overflow, THESIS_CONTACT_OVERFLOW);
   }
 

@@ -43,50 +43,60 @@ std::string turned_stl(const Profile2& profile, bool closed) {
   return out.str();
 }
 
-/// A headed pin hangs in a fixed eye of 10 mm radius and turns; the hulls of both close most of the gap.
-TEST(Explosion, APinThatItsEyeThrowsAboutIsFlaggedAndBeyondTheLimitSetApart) {
+/// A headed pin hangs in a fixed eye of 10 mm radius and turns; the hulls of both close most of the gap. Before blows
+/// were swept until they are shared it gained up to 94 m g d. In long steps of one sub-step it gains next to nothing,
+/// which the audit still finds.
+TEST(Explosion, APinIsNotThrownByItsEyeAndWhatGainsMoreThanTheLimitIsSetApart) {
   const fs::path dir = fs::temp_directory_path() / ("bin_scenes_explosion_" + std::to_string(getpid()));
   fs::create_directories(dir);
   constexpr double hole = 0.01;
   std::ofstream(dir / "eye.stl") << turned_stl({{hole, -0.005}, {0.02, -0.005}, {0.02, 0.005}, {hole, 0.005}}, true);
-  std::size_t thrown = 0;
-  for (const double gap : {1e-4, 2e-5}) {
-    const double r = hole - gap;
-    std::ofstream(dir / "pin.stl") << turned_stl(
-        {{0, -0.03}, {r, -0.03}, {r, 0.02}, {1.5 * hole, 0.02}, {1.5 * hole, 0.025}, {0, 0.025}}, false);
-    for (const Vec3& turn : {Vec3(2, 1, 1), Vec3(5, 0, 3)}) {
-      Request request;
-      request.bin.inner_size = Vec3(0.3, 0.3, 0.3);
-      request.pour.pattern = Pour::Pattern::given;
-      request.solver.type = SolverType::bullet;
-      request.seconds = 0.5;
-      for (const char* name : {"eye.stl", "pin.stl"}) {
-        request.parts.emplace_back();
-        request.parts.back().model = name;
-        request.parts.back().path = (dir / name).string();
-        request.parts.back().unit = Unit::metre;
-        request.parts.back().density = 7850.0;
-        request.parts.back().poses = {{Vec3(0, 0, 0.1), Quat::Identity()}};
+  std::size_t set_apart = 0;
+  for (const bool rough : {false, true})
+    for (const double gap : {1e-4, 2e-5}) {
+      const double r = hole - gap;
+      std::ofstream(dir / "pin.stl") << turned_stl(
+          {{0, -0.03}, {r, -0.03}, {r, 0.02}, {1.5 * hole, 0.02}, {1.5 * hole, 0.025}, {0, 0.025}}, false);
+      for (const Vec3& turn : {Vec3(2, 1, 1), Vec3(5, 0, 3)}) {
+        Request request;
+        request.bin.inner_size = Vec3(0.3, 0.3, 0.3);
+        request.pour.pattern = Pour::Pattern::given;
+        request.solver.type = SolverType::bullet;
+        request.seconds = 0.5;
+        for (const char* name : {"eye.stl", "pin.stl"}) {
+          request.parts.emplace_back();
+          request.parts.back().model = name;
+          request.parts.back().path = (dir / name).string();
+          request.parts.back().unit = Unit::metre;
+          request.parts.back().density = 7850.0;
+          request.parts.back().poses = {{Vec3(0, 0, 0.1), Quat::Identity()}};
+        }
+        request.parts[0].fixed = true;
+        request.parts[1].poses[0].position.z() -= 0.0149;  // its head lies on the eye
+        request.parts[1].velocities = {{Vec3::Zero(), turn}};
+        request.accept.energy = rough ? 1e-5 : 2.0;
+        if (rough) {
+          request.solver.bullet.time_step = 1.0 / 30.0;
+          request.solver.bullet.cut_steps = false;
+          request.solver.bullet.iterations = 2;
+        }
+        Generator().generate(request, {}, [&](Generator::Result&& result) {
+          const Report& report = result.scene.report;
+          const bool flagged = std::any_of(report.flags.begin(), report.flags.end(),
+                                           [](const Flag& flag) { return flag.code == "energy_gained"; });
+          EXPECT_EQ(flagged, report.energy.gain > 0.1) << gap;
+          EXPECT_LT(report.energy.gain, 1e-3) << gap;
+          if (report.energy.gain <= request.accept.energy) return;
+          ++set_apart;
+          EXPECT_EQ(report.energy.part, 1);
+          EXPECT_FALSE(report.accepted);
+          EXPECT_TRUE(std::any_of(report.reasons.begin(), report.reasons.end(), [](const std::string& reason) {
+            return reason.find("energy") != std::string::npos;
+          }));
+        });
       }
-      request.parts[0].fixed = true;
-      request.parts[1].poses[0].position.z() -= 0.0149;  // its head lies on the eye
-      request.parts[1].velocities = {{Vec3::Zero(), turn}};
-      request.accept.energy = 0.15;
-      Generator().generate(request, {}, [&](Generator::Result&& result) {
-        const Report& report = result.scene.report;
-        const bool flagged = std::any_of(report.flags.begin(), report.flags.end(),
-                                         [](const Flag& flag) { return flag.code == "energy_gained"; });
-        EXPECT_EQ(flagged, report.energy.gain > 0.1) << gap;
-        if (report.energy.gain <= request.accept.energy) return;
-        ++thrown;
-        EXPECT_EQ(report.energy.part, 1);
-        EXPECT_FALSE(report.accepted);
-        EXPECT_TRUE(std::any_of(report.reasons.begin(), report.reasons.end(),
-                                [](const std::string& reason) { return reason.find("energy") != std::string::npos; }));
-      });
     }
-  }
-  EXPECT_GT(thrown, 0u) << "none of these is thrown any more: find another case, or take this test away";
+  EXPECT_GT(set_apart, 0u) << "none of these gains any more: find another case";
   fs::remove_all(dir);
 }
 

@@ -5,6 +5,7 @@
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
+#include "solver/tight_fits.hpp"
 
 #include <algorithm>
 #include <map>
@@ -190,6 +191,44 @@ TEST(SphereMasses, APileReboundsLessInShorterSubSteps) {
   EXPECT_LT(pile.aside, 0.1);
 }
 
+// Shorter steps meet the mouth's edges more often, and contacts that are kept are older there.
+TEST(SphereTightFits, APegEntersItsHoleInShorterSteps) {
+  for (const double share : {0.25, 0.1})
+    for (const std::uint32_t sides : {4u, 24u, 48u}) {
+      SphereSettings settings;
+      settings.time_step *= share;
+      const Fit fit = peg_into_hole(Lab(make_sphere_solver(settings)), sides, 0.002, 0.5);
+      EXPECT_LT(std::abs(fit.off.z()), 4e-3) << sides << " sides, step " << share;
+    }
+}
+
+TEST(SphereTightFits, ARoundPegEntersItsHole) {
+  for (const std::uint32_t sides : {24u, 48u})
+    for (const double play : {0.002, 0.005, 0.02})
+      for (const double friction : {0.0, 0.5}) {
+        const Fit fit = peg_into_hole(Lab(sphere_default.make()), sides, play, friction);
+        EXPECT_LT(std::abs(fit.off.z()), 4e-3) << sides << " sides, play " << play << ", friction " << friction;
+      }
+}
+
+// Without losses it would come down by 0.05 m/s2 t2 / 2, 25 mm in a second; the facets of the thread brake it.
+TEST(SphereTightFits, ABoltScrewsDown) {
+  for (const double play : {0.0003, 0.0004}) {
+    const Screw screw = screw_down(Lab(sphere_default.make()), play, 1.0);
+    EXPECT_GT(screw.way, 5e-3) << play;
+    EXPECT_LT(screw.way, 25e-3) << play;
+    EXPECT_LT(screw.risen, 2e-3) << play;
+  }
+}
+
+TEST(SphereTightFits, AShortChainHangs) {
+  for (const double slack : {0.7, 0.8, 0.9}) {
+    const Chain chain = hang_chain(Lab(sphere_default.make()), 5, slack);
+    EXPECT_LT(chain.risen, 2e-3) << slack;
+    EXPECT_LT(chain.apart, 1.0) << slack;
+  }
+}
+
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
@@ -239,6 +278,7 @@ INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default),
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, TightFits, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);
 

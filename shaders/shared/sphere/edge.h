@@ -5,7 +5,9 @@
 //
 // Before it: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m; sharp: two faces meet
 // there, into which the first two bounds of the cone point), edge_at(samples, e), and edges_near(samples, field, point):
-// a Range of listed_edge(samples, k).
+// a Range of listed_edge(samples, k) in ascending order. Edges from first_crease(samples) on fold inwards: crease.h.
+
+INLINE bool is_crease(IN(Samples) samples, uint e) { return e >= first_crease(samples); }
 
 // Deepest point of the field along the edge from p to q, whose ends both rise away from its inside; false if there is
 // none. `lowest_end`: of both ends' distances (m): what is no deeper needs no contact of its own.
@@ -68,7 +70,7 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
   float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(distance), SPHERE_EDGE_REACH * field.cell);
   bool found = false;
   Range list = edges_near(other, field, from);
-  for (uint k = list.first; k < list.end; ++k) {
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r;
     float s, t;
@@ -94,7 +96,7 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
   float nearest = field.cell;
   bool found = false;
   Range list = edges_near(other, field, point);
-  for (uint k = list.first; k < list.end; ++k) {
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     if (edge.sharp == 0u) continue;
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
@@ -115,6 +117,7 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
 struct WayOut {
   vec3 away;
   float distance;
+  uint number;  // among those that press at one point
 };
 
 // The shortest first.
@@ -137,8 +140,9 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
   WayOut outside;
   outside.away = vec3(0.0f, 0.0f, 0.0f);
   outside.distance = 0.0f;
+  outside.number = 0u;
   Range list = edges_near(other, field, point);
-  for (uint k = list.first; k < list.end; ++k) {
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     if (edge.sharp == 0u) continue;
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
@@ -154,6 +158,7 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
     faces[1].away = common_normal(v, into_2, -into_1);
     for (uint f = 0u; f < 2u; ++f) {
       faces[f].distance = dot(off, faces[f].away);
+      faces[f].number = 0u;
       uint i = 0u;
       while (i < ways.count && dot(ways.way[i].away, faces[f].away) < like) ++i;
       if (i == SPHERE_MAX_WAYS || (i < ways.count && way_of[i] <= way)) continue;

@@ -1,6 +1,7 @@
-// From a sample near another part to a candidate for a contact. Before it: edge.h, slide.h, radius_of(samples), and View:
+// From a sample near another part to a candidate for a contact. Before it: crease.h, slide.h, radius_of(samples), and View:
 // samples, other (those of the field's body), own (field of the samples' body), field; to_field, to_a (Carry: from the
 // samples' frame to the field's, and from there to that of the pair's first body, the same if side is SPHERE_SIDE_B);
+// drift, twist (m, rad: how the samples' body goes on over the field's until the step ends); ahead (m: 0 to begin with);
 // margin (m: up to which distance); way_back. Also emit(view, on_a, normal, separation, feature), all in the frame of a.
 
 const float NEARLY_ALL = 0.99f;  // of an exact way out a cone must leave: 8 degrees
@@ -25,7 +26,12 @@ INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float dist
   return -1.0f;
 }
 
-INLINE void emit_from(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, uint feature) {
+// `point` may be that where a sample will be, view.ahead of where it is: what it will stand before is told as it lies to
+// the sample now, and does not press before it is there.
+INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, float distance_there, uint feature) {
+  float nearer = dot(away, view.ahead), distance = distance_there;
+  vec3 point = place - view.ahead;
+  if (dot(view.ahead, view.ahead) > 0.0f) distance = max(distance - nearer, max(nearer, 0.0f));
   vec3 surface = point - radius_of(view.samples) * away;
   if (view.side == 0u)
     emit(view, view.to_a.rotation * surface + view.to_a.offset, -(view.to_a.rotation * away), distance, feature);
@@ -64,23 +70,65 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
 }
 
 // Near a sharp edge ways out are exact: what presses against none of them does not press there. Turned into the cone,
-// the way out past an edge held up what leant on it from the side.
-INLINE bool offer_at_edge(IN(View) view, IN(vec3) point, IN(Cone) cone, uint feature) {
-  // Which of two faces it presses against is not known.
-  if (radius_of(view.samples) > 0.0f || bounds_of(cone) == 0u) return false;
-  WaysOut ways = ways_out_at_edge(view.other, view.field, point);
-  bool out_there = false;
+// the way out past an edge held up what leant on it from the side. The sample presses against the first that it can,
+// or against `all`. Whether any leads out.
+INLINE bool offer_ways(IN(View) view, IN(vec3) point, IN(WaysOut) ways, bool all, IN(Cone) cone, uint feature) {
+  bool out_there = all;
   for (uint i = 0u; i < ways.count; ++i) {
     vec3 away = ways.way[i].away, turned = away;
     float distance = ways.way[i].distance;
-    // Half a cell beyond is outside, unless this is a seam between shells that touch.
-    if (sample_field(view.field, point + (0.5f * view.field.cell - distance) * away) < 0.3f * view.field.cell) continue;
+    // Half a cell beyond is outside, unless this is a seam between shells that touch. A crease is none, but narrow.
+    if (!all &&
+        sample_field(view.field, point + (0.5f * view.field.cell - distance) * away) < 0.3f * view.field.cell)
+      continue;
     out_there = true;
     if (!turn(view, cone, turned, NEARLY_ALL) || is_crossed(view, point, cone, away)) continue;
-    emit_from(view, point, turned, distance, feature);
-    break;
+    emit_from(view, point, turned, distance, feature + ways.way[i].number * SPHERE_PLANE);
+    if (!all) break;
   }
   return out_there;
+}
+
+// Of the walls of a crease each presses that is near, but for those out of which another face leads sooner: that of a
+// sharp edge beside them.
+INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
+  float flush = 0.002f * view.field.cell, soonest = -view.field.cell;
+  WaysOut ways;
+  ways.count = 0u;
+  WayOut exit;
+  exit.away = vec3(0.0f, 0.0f, 0.0f);
+  exit.distance = 0.0f;
+  exit.number = 0u;
+  bool exits = false, leaves = false;
+  for (uint i = 0u; i < walls.count; ++i) {
+    Wall wall = walls.wall[i];
+    vec3 turned = wall.away;
+    if (wall.creased || !wall.faced || wall.distance > flush || wall.distance <= soonest) continue;
+    if (!turn(view, cone, turned, NEARLY_ALL)) continue;
+    soonest = wall.distance;
+    exit.away = wall.away;
+    exit.distance = wall.distance;
+    exit.number = i;
+    exits = true;
+  }
+  for (uint i = 0u; i < walls.count; ++i) {
+    Wall wall = walls.wall[i];
+    if (!wall.faced || wall.distance >= view.margin || (!wall.creased && wall.distance <= flush)) continue;
+    if (exits && wall.distance < min(soonest, 0.0f)) {
+      leaves = true;
+      continue;
+    }
+    if (ways.count == SPHERE_MAX_WAYS) break;
+    ways.way[ways.count].away = wall.away;
+    ways.way[ways.count].distance = wall.distance;
+    ways.way[ways.count].number = i;
+    ++ways.count;
+  }
+  if (leaves && ways.count < SPHERE_MAX_WAYS) {
+    ways.way[ways.count] = exit;
+    ++ways.count;
+  }
+  return ways;
 }
 
 // A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts that
@@ -102,10 +150,62 @@ INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) c
   if (behind <= 0.0f) press(view, point, away, behind, cone, feature, LEAST_LEFT);
 }
 
-INLINE void offer(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
-  if (offer_at_edge(view, point, cone, feature)) return;
-  if (press(view, point, away, distance, cone, feature, LEAST_LEFT)) return;
-  if (view.way_back && distance < error_of(view.field)) offer_back(view, point, distance, cone, feature);
+// The nearest of the ways out that are exact, where there are such, or that of the field.
+INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, float distance) {
+  WayOut least;
+  least.away = away;
+  least.distance = distance;
+  least.number = 0u;
+  if (ways.count > 0u) least = ways.way[0];
+  bool none = true;
+  for (uint i = 0u; i < walls.count; ++i) {
+    if (!walls.wall[i].creased || (!none && walls.wall[i].distance >= least.distance)) continue;
+    least.away = walls.wall[i].away;
+    least.distance = walls.wall[i].distance;
+    none = false;
+  }
+  return least;
+}
+
+// What comes by an edge until the step ends is held by the face that it will stand before, and not where it is: the plane
+// across the edge would stop it there, a peg above the mouth of its hole. What meets something on its way is held by
+// that as it lies now.
+INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
+  const int most_looks = 18;
+  View view = given;
+  vec3 way = view.drift + cross(view.twist, point), place = point, gradient = away;
+  float size = length(way), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
+  float apart = distance;
+  bool looks_ahead = abs(distance) <= error || (distance > 0.0f && distance - error < size);
+  Walls walls;
+  WaysOut ways;
+  walls.count = ways.count = 0u;
+  for (int i = 0; i < most_looks && radius_of(view.samples) <= 0.0f; ++i) {
+    walls = walls_at_crease(view.other, view.field, place);
+    ways.count = 0u;
+    if (walls.count == 0u && (looks_ahead || bounds_of(cone) != 0u))
+      ways = ways_out_at_edge(view.other, view.field, place);
+    if (!looks_ahead) break;
+    WayOut near = nearest_way(walls, ways, gradient, apart);
+    bool meets = near.distance <= 0.0f;
+    if (i == 0 && (meets || near.distance + dot(near.away, way) >= 0.0f)) break;
+    if (!meets && done >= size) {
+      if (apart >= view.margin) return;
+      view.ahead = way;
+      break;
+    }
+    looks_ahead = !meets && i + 2 < most_looks;
+    done = looks_ahead ? min(done + max(near.distance, least), size) : 0.0f;
+    place = point + (done > 0.0f ? done / size : 0.0f) * way;
+    apart = sample_field(view.field, place, gradient);
+  }
+  bool creased = walls.count > 0u;
+  if (creased) ways = ways_in_crease(view, walls, cone);
+  // Which of the faces of an edge what has no cone presses against is not known.
+  if (bounds_of(cone) == 0u && !creased) ways.count = 0u;
+  if (offer_ways(view, place, ways, creased, cone, feature)) return;
+  if (press(view, place, gradient, apart, cone, feature, LEAST_LEFT)) return;
+  if (view.way_back && apart < error) offer_back(view, place, apart, cone, feature);
 }
 
 // Whether a node that the field is `distance` from may touch.

@@ -14,6 +14,7 @@ layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
+layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 
@@ -27,6 +28,7 @@ void main() {
   uint i = thread_index();
   SphereWorld world = worlds[large_world];
   if (idle() || i >= world.bodies.y) return;
+  time_step = progress[large_world].time_step;
   uint page = progress[large_world].page ^ 1u, list = list_of(world, page);
   uvec2 range = range_of(world.bodies.x + i, page);
   if (sleeps(world.bodies.x + i)) ++sleepers;

@@ -75,9 +75,10 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void begin();
   void forget_blows(btScalar speed);
   void warm_start();
-  void sweep(btScalar h, Sweep kind);
+  /// Over all contacts, or those of bodies that the last sweep left restless; whether it leaves any.
+  bool sweep(btScalar h, Sweep kind, bool all);
   void resist_turn(int first, int last);
-  void solve_normal(int contact, btScalar h, const Soft* soft);
+  btScalar solve_normal(int contact, btScalar h, const Soft* soft);
   void solve_friction(const btSolverConstraint& contact);
   void move(btScalar h);
   void rebound(const btContactSolverInfo& info);
@@ -85,7 +86,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
   std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
   std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
-  std::vector<Way> ways_;          ///< parallel to m_tmpSolverBodyPool
+  std::vector<char> restless_, was_restless_;  ///< by body: a contact of it is not solved yet, before and in this sweep
+  std::vector<Way> ways_;                      ///< parallel to m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

@@ -55,6 +55,7 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
                       "solver.sphere", "lower solver.sphere.fine_samples, or set solver.sphere.device: cpu");
   std::vector<gpu::SphereNode> nodes;
   for (const sphere::Vec3f& node : samples.nodes) nodes.push_back({three(node), 0});
+  for (const sphere::Vec3f& end : samples.crease_ends) nodes.push_back({three(end), 0});
   for (std::size_t i = 0; i < samples.cones.size(); ++i) nodes[i].cone = add_cone(samples.cones[i], nodes);
   std::vector<gpu::uvec4> edges;
   for (const sphere::Edge& edge : samples.edges)
@@ -67,7 +68,7 @@ gpu::SphereSamples ShapeTable::add(const sphere::Samples& samples) {
   out.nodes = {append(nodes_, node_count_, nodes.data(), nodes.size()), static_cast<gpu::uint>(samples.nodes.size()),
                append(edges_, edge_count_, edges.data(), edges.size()), static_cast<gpu::uint>(edges.size())};
   out.clusters = {append(clusters_, cluster_count_, clusters.data(), clusters.size()),
-                  static_cast<gpu::uint>(clusters.size()), 0, 0};
+                  static_cast<gpu::uint>(clusters.size()), samples.first_edge.back(), 0};
   const sphere::EdgeGrid& grid = samples.edge_grid;
   const std::vector<gpu::uvec4> table = packed(grid.first), lists = packed(grid.edges);
   out.blocks = {append(edges_, edge_count_, table.data(), table.size()),

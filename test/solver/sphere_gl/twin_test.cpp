@@ -311,7 +311,9 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
        {Phases{phases::settle}, {phases::probe}, {phases::press}, {phases::press, phases::prove}}) {
     const Phase phase = told.back();
     SCOPED_TRACE(::testing::Message() << static_cast<int>(phase.stiffness) << ", " << told.size());
-    Batch batch(GetParam().capacity);
+    Capacity capacity = GetParam().capacity;
+    capacity.rows = 32;  // the step is not repeated here
+    Batch batch(capacity);
     World world = heap_of(40, 4);
     for (int k = 0; k < 3; ++k) step(world);                      // now contacts have forces
     world.settings.probe_slip = 0.5f * world.settings.time_step;  // sub-steps with friction and without

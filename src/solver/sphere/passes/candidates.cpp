@@ -34,6 +34,17 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
   }
 }
 
+/// How the points of a body go on over another one, in whose frame this is told.
+struct Drift {
+  Vec3f drift, twist;
+
+  Drift(float seconds, const Placement& points, const Placement& over) {
+    const Mat3f back = over.rotation.transpose();
+    drift = seconds * (back * (points.v - over.v + points.w.cross(over.x - points.x)));
+    twist = seconds * (back * (points.w - over.w));
+  }
+};
+
 }  // namespace
 
 void candidates_of_pair(const World& world, const Manifold& m, const Placement& a, const Placement& b, float margin,
@@ -44,8 +55,14 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   const Carry b_to_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * (b.x - a.x)};
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
   const bool way_back = world.settings.way_back;
-  test_samples({samples_a, samples_b, sa.field, sb.field, a_to_b, b_to_a, 0, margin, way_back, out}, counters);
-  test_samples({samples_b, samples_a, sb.field, sa.field, b_to_a, b_to_a, SPHERE_SIDE_B, margin, way_back, out},
+  // The last sweeps look as far ahead as another sub-step.
+  const float rest = world.settings.time_step - world.half_way() + world.sub_step();
+  const Drift a_goes(rest, a, b), b_goes(rest, b, a);
+  test_samples(
+      {samples_a, samples_b, sa.field, sb.field, a_to_b, b_to_a, 0, a_goes.drift, a_goes.twist, margin, way_back, out},
+      counters);
+  test_samples({samples_b, samples_a, sb.field, sa.field, b_to_a, b_to_a, SPHERE_SIDE_B, b_goes.drift, b_goes.twist,
+                margin, way_back, out},
                counters);
 }
 

@@ -23,9 +23,13 @@ using Candidates = std::vector<Candidate>;
 struct Placement {
   Vec3f x;
   Mat3f rotation;
+  Vec3f v = Vec3f::Zero(), w = Vec3f::Zero();  ///< with what gravity adds in the step
 
   Placement(const World& world, const Body& body) : x(body.x), rotation(body.rotation) {
     if (!body.moves()) return;
+    v = body.v;
+    w = body.w;
+    if (body.inverse_mass > 0) v += world.settings.time_step * world.gravity;
     x += world.half_way() * body.v;
     rotation = integrated(body.q, body.w, world.half_way()).toRotationMatrix();
   }

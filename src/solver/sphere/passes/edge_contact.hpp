@@ -1,4 +1,4 @@
-/// Contacts at sharp edges: what shared/sphere/edge.h says of them, in C++.
+/// Contacts at sharp edges: what shared/sphere/edge.h and crease.h say of them, in C++.
 #pragma once
 
 #include "solver/sphere/shapes/contact_samples.hpp"
@@ -7,7 +7,10 @@
 namespace bin_scenes::sphere {
 
 inline const Vec3f& node_at(const Samples& samples, uint i) {
-  return samples.nodes[i];
+  return i < samples.nodes.size() ? samples.nodes[i] : samples.crease_ends[i - samples.nodes.size()];
+}
+inline uint first_crease(const Samples& samples) {
+  return samples.first_edge.back();
 }
 inline const Edge& edge_at(const Samples& samples, uint e) {
   return samples.edges[e];
@@ -29,5 +32,7 @@ inline uint listed_edge(const Samples& samples, uint k) {
 }
 
 #include "shared/sphere/edge.h"
+
+#include "shared/sphere/crease.h"
 
 }  // namespace bin_scenes::sphere

@@ -6,6 +6,7 @@
 #include "solver/sphere/shapes/sample_clusters.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace bin_scenes::sphere {
 
@@ -35,6 +36,42 @@ std::vector<Cone> face_cones(const std::vector<SurfaceSample>& samples, double s
     cones.push_back(cone);
   }
   return cones;
+}
+
+}  // namespace
+
+namespace {
+
+/// Not those within another shell, or a wall as thin as `open` (m) before them.
+void add_creases(const PartModel& part, const std::vector<Fold>& folds, Samples& samples) {
+  constexpr std::size_t most = 4000;  // of a part; a finely tessellated one has more, of which the sharpest are enough
+  const Mesh& mesh = part.mesh();
+  const double open = 2e-3 * part.diagonal();
+  std::vector<const Fold*> creases;
+  for (const Fold& fold : folds)
+    if (fold.closed && !fold.convex) creases.push_back(&fold);
+  if (creases.size() > most) {
+    std::stable_sort(creases.begin(), creases.end(),
+                     [](const Fold* a, const Fold* b) { return a->cosine < b->cosine; });
+    creases.resize(most);
+  }
+  std::map<std::uint32_t, std::uint32_t> ends;
+  const auto end_at = [&](std::uint32_t vertex) {
+    const auto [it, fresh] =
+        ends.try_emplace(vertex, static_cast<std::uint32_t>(samples.nodes.size() + samples.crease_ends.size()));
+    if (fresh) samples.crease_ends.push_back((mesh.vertices[vertex] - part.mass().center).cast<float>());
+    return it->second;
+  };
+  for (const Fold* fold : creases) {
+    const Cone cone = edge_cone(mesh, fold->a, fold->b, fold->faces);
+    if (cone.bounds == 0) continue;
+    const Vec3 out = (cone.bound[0] + cone.bound[1]).cast<double>().normalized();
+    const Vec3 middle = 0.5 * (mesh.vertices[fold->a] + mesh.vertices[fold->b]);
+    if (part.query().inside(middle + open * out)) continue;
+    Edge edge{end_at(fold->a), end_at(fold->b), 0, 1, cone};
+    edge.length = static_cast<float>((mesh.vertices[fold->a] - mesh.vertices[fold->b]).norm());
+    samples.edges.push_back(edge);
+  }
 }
 
 }  // namespace
@@ -84,6 +121,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   add_missed_vertices(mesh, reach, most_missed * part.diagonal(), draft);
   add_missed_ridges(mesh, reach, spacing, ridge * part.diagonal(), draft);
   Samples made = clustered(std::move(draft), part.mass().center, spacing);
+  add_creases(part, folds, made);
   made.face_spacing = static_cast<float>(face_spacing);
   for (const Cone& cone : made.cones)
     if (!cone.axis.isZero()) made.sag = std::max(made.sag, static_cast<float>(bulge(cone, face_spacing)));
@@ -98,6 +136,7 @@ void for_each_list(AnySamples& samples, Each&& each) {
   each(samples.nodes);
   each(samples.cones);
   each(samples.edges);
+  each(samples.crease_ends);
   each(samples.clusters);
   each(samples.first_edge);
 }

@@ -5,6 +5,9 @@
 ///   edges   straight pieces between two nodes of a sharp edge: where two parts cross edge on edge the deepest point
 ///           lies between nodes and is found by a local descent of the other part's field along the edge
 ///           (Macklin et al. 2020, "Local optimization for robust signed distance field collision")
+///   creases   edges where the surface folds inwards: nothing of them touches first, but the field bends there, and
+///   what
+///           comes into one is held by both its faces
 ///   clusters   bounding spheres over 16 nodes: one field sample rejects all of them
 ///
 /// Two faces touch at corners and edges of one of them, two curved surfaces at a point that some face node is near:
@@ -47,7 +50,8 @@ struct Samples {
   std::vector<Vec3f> nodes;                              ///< in cluster order
   std::vector<Cone> cones;                               ///< of the nodes
   std::vector<Points<cluster_size>> node_points;         ///< the same, a cluster at a time
-  std::vector<Edge> edges;                               ///< in order of their first node's cluster
+  std::vector<Edge> edges;                               ///< in order of their first node's cluster, then creases
+  std::vector<Vec3f> crease_ends;                        ///< counted on from the nodes
   std::vector<Ball> clusters;                            ///< nodes [16 c, 16 c + 16) and the edges that start there
   std::vector<std::uint32_t> first_edge;                 ///< clusters + 1
   std::vector<Points<clusters_at_once>> cluster_points;  ///< their centres, eight at a time
@@ -71,7 +75,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
 Samples ball_samples(float radius);
 
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
-constexpr int samples_format = 5;
+constexpr int samples_format = 6;
 
 void put(ByteWriter& out, const Samples& samples);
 void get(ByteReader& in, Samples& samples);

@@ -1,6 +1,6 @@
 #include "solver/sphere/shapes/edge_grid.hpp"
 
-#include "solver/sphere/shapes/contact_samples.hpp"
+#include "solver/sphere/passes/edge_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ int blocks_along(int nodes) {
 /// `visit(block)` for each block that the edge may come within reach of.
 template <class Visit>
 void for_each_block(const Samples& samples, const Edge& edge, const Field& field, const Visit& visit) {
-  const Vec3f a = (samples.nodes[edge.a] - field.origin) * field.inverse_cell;
-  const Vec3f b = (samples.nodes[edge.b] - field.origin) * field.inverse_cell, along = b - a;
+  const Vec3f a = (node_at(samples, edge.a) - field.origin) * field.inverse_cell;
+  const Vec3f b = (node_at(samples, edge.b) - field.origin) * field.inverse_cell, along = b - a;
   const int count[3] = {blocks_along(field.nx), blocks_along(field.ny), blocks_along(field.nz)};
   int lower[3], upper[3];
   for (int i = 0; i < 3; ++i) {

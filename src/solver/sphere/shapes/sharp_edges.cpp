@@ -7,9 +7,6 @@
 
 namespace bin_scenes::sphere {
 
-namespace {
-
-/// Directions between the normals of both faces of an edge, as bounds: across the edge into each face, and along it.
 Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::array<std::size_t, 2>& faces) {
   Cone cone;
   const Vec3 along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
@@ -25,6 +22,8 @@ Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::ar
   cone.bound[cone.bounds++] = -along.cast<float>();
   return cone;
 }
+
+namespace {
 
 /// Joins runs of sharp edges, from one vertex where they cannot be joined to the next.
 class Straightener {

@@ -22,6 +22,10 @@ struct Fold {
 /// All edges over which the surface bends by more than `angle` (rad), in order of (a, b).
 std::vector<Fold> folds_of(const Mesh& mesh, double angle);
 
+/// Directions between the normals of both faces of an edge, as bounds: across the edge into each face, and along it.
+/// None beside a sliver.
+Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::array<std::size_t, 2>& faces);
+
 /// A sharp convex edge between two vertices of the mesh.
 struct SharpEdge {
   std::uint32_t a, b;  ///< a < b

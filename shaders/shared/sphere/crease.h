@@ -1,0 +1,85 @@
+// Contacts in creases: sharp edges where a surface folds inwards, as those of a pit or a slot. The distance there is the
+// least of those to the walls that meet. The grid of a field lets it bend over two cells, short of the walls: what fits
+// into the crease stood off its walls by up to a third of a cell, and a peg did not enter its hole. And a point in a
+// crease is held by each wall, not by the nearest alone.
+//
+// Before it: edge.h.
+
+const float CREASE_REACH = 2.0f;  // cells: what bends the grid's distances lies as near
+const float CREASE_DEPTH = 0.5f;  // cells: what is deeper in a wall may be on the other side of it
+
+// A wall of a crease, or a face of a sharp edge beside it.
+struct Wall {
+  vec3 away;
+  float distance;  // m, negative behind it
+  bool creased;    // a crease is its border
+  bool faced;      // the point does not lie beyond a sharp edge of it
+};
+
+struct Walls {
+  uint count;
+  Wall wall[SPHERE_MAX_WALLS];
+};
+
+// Adds a wall or finds it; returns its number, or SPHERE_MAX_WALLS if there are too many.
+INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
+  const float like = 0.999f;  // cosine
+  uint i = 0u;
+  while (i < walls.count &&
+         (dot(walls.wall[i].away, wall.away) < like || abs(walls.wall[i].distance - wall.distance) > same))
+    ++i;
+  if (i == SPHERE_MAX_WALLS) return i;
+  if (i == walls.count) {
+    walls.wall[i] = wall;
+    ++walls.count;
+    return i;
+  }
+  walls.wall[i].creased = walls.wall[i].creased || wall.creased;
+  walls.wall[i].faced = walls.wall[i].faced && wall.faced;
+  return i;
+}
+
+// The walls at a point; none where no crease is near, or where it lies deep in one of them.
+INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+  Walls walls;
+  walls.count = 0u;
+  Range list = edges_near(other, field, point);
+  if (list.end == list.first || !is_crease(other, listed_edge(other, list.end - 1u))) return walls;
+  float reach = CREASE_REACH * field.cell, flush = 0.002f * field.cell, same = 0.05f * field.cell;
+  bool near = false;
+  for (uint k = list.end; k > list.first; --k) {  // creases come last
+    uint e = listed_edge(other, k - 1u);
+    bool crease = is_crease(other, e);
+    if (!crease && !near) break;
+    IN(Edge) edge = edge_at(other, e);
+    if (edge.sharp == 0u) continue;
+    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
+    float t = dot(w, v) / dot(v, v);
+    if (t * length_of(edge) < -flush || (t - 1.0f) * length_of(edge) > flush) continue;
+    vec3 off = w - t * v;
+    if (length(off) >= reach) continue;
+    vec3 into_1 = bound_at(edge.cone, 0u), into_2 = bound_at(edge.cone, 1u);
+    for (uint f = 0u; f < 2u; ++f) {
+      vec3 into = into_1, opposite = into_2;
+      if (f == 1u) {
+        into = into_2;
+        opposite = into_1;
+      }
+      vec3 out_of = opposite;
+      if (!crease) out_of = -opposite;
+      Wall wall;
+      wall.away = common_normal(v, into, out_of);
+      wall.distance = dot(off, wall.away);
+      wall.creased = crease;
+      wall.faced = crease || dot(off, into) >= -flush;
+      add_wall(walls, wall, same);
+      if (crease && wall.distance < -CREASE_DEPTH * field.cell) {
+        walls.count = 0u;
+        return walls;
+      }
+    }
+    near = near || crease;
+  }
+  if (!near) walls.count = 0u;
+  return walls;
+}

@@ -1,0 +1,35 @@
+// How far apart the points of a contact are, and how they come near. Needs the bindings States, Manifolds and Contacts,
+// and sphere/body.h.
+
+// Where the bodies are.
+vec3 normal_of(SphereContact c, SpherePair pair) {
+  bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;
+  if (!of_a && pair.b == SPHERE_GROUND) return c.normal.xyz;
+  return rotate(states[of_a ? pair.a : pair.b].orientation, c.normal.xyz);
+}
+
+// m
+float separation_of(SphereContact c, SpherePair pair) {
+  vec3 on_a = states[pair.a].position.xyz + rotate(states[pair.a].orientation, c.anchor_a), on_b = c.anchor_b;
+  if (pair.b != SPHERE_GROUND) on_b = states[pair.b].position.xyz + rotate(states[pair.b].orientation, on_b);
+  return dot(on_b - on_a, normal_of(c, pair));
+}
+
+// Of a point of a body (m/s).
+vec3 velocity_at(uint body, vec3 anchor) {
+  if (body == SPHERE_GROUND || !moves(body)) return vec3(0.0);
+  return states[body].velocity.xyz + cross(states[body].spin.xyz, rotate(states[body].orientation, anchor));
+}
+
+// Whether a contact that does not press yet closes in this step, by more than `least` (m).
+bool strikes(SphereWorld world, SpherePair pair, float least) {
+  uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x;
+  for (uint k = 0u; k < count; ++k) {
+    SphereContact c = contacts[SPHERE_MAX_CONTACTS * slot + k];
+    if (c.force.x > 0.0) continue;
+    vec3 nearing = velocity_at(pair.a, c.anchor_a) - velocity_at(pair.b, c.anchor_b);
+    float way = time_step * dot(nearing, normal_of(c, pair));
+    if (way > least && way > separation_of(c, pair)) return true;
+  }
+  return false;
+}
