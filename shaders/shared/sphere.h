@@ -37,7 +37,6 @@
 #endif
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
-#define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
 #define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
@@ -101,6 +100,8 @@ struct SphereSettingsBlock {
   uint cut_steps;          // 1: for fast parts
   float probe_slip;        // s of a step that begins without forces, without friction
   float touch_move;        // d: rest_move where bodies sleep by touch
+  float settled;           // d per second: a contact whose speed a sweep changes by more is not solved yet
+  uint blow_sweeps;        // most sweeps for that, of worlds that one group solves
   vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 

@@ -1,6 +1,6 @@
 // One contact in the solve: a row, made once a step (prepare_row), and what sweeps do with it. The row of contact k of a
 // manifold begins at rows[at]; its parts lie `stride` behind each other (shared/sphere.h). Needs the bindings Settings,
-// Bodies, Rows, a `world`, `spring`, struct Side, shared/rotation.h and shared/sphere/blow.h.
+// Bodies, Rows, a `world`, `spring`, `restless`, struct Side, shared/rotation.h and shared/sphere/blow.h.
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
@@ -116,7 +116,9 @@ void solve_normal(uint at, uint stride, float h, bool push, inout Side a, inout 
   float vn = dot(relative_velocity(row, a, b), row.normal);
   float mass = mass_scale * row.normal_mass;
   float total = max(row.impulse.x - mass * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
-  apply(row, (total - row.impulse.x) * row.normal, a, b);
+  float change = total - row.impulse.x;
+  restless = restless || abs(change) > settings.settled * world.gravity.w * row.normal_mass;
+  apply(row, change * row.normal, a, b);
   rows[at + 3u * stride].x = total;
   if (total > 0.0) rows[at + 4u * stride].w = 1.0;
 }

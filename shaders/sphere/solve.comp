@@ -24,6 +24,7 @@ shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed
 shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce;
+shared uint unsettled[2];  // some contact is restless; take turns
 
 #define velocity_of(i) velocity[i]
 #define spin_of(i) spin[i]
@@ -63,6 +64,22 @@ void sweep(uint kind, float h) {
   }
 }
 
+uint turns = 0u;
+
+// `count` sweeps, and more of them while a blow is not shared.
+void sweep_until_shared(uint first, uint others, uint count, float h) {
+  bool blow = false;
+  for (uint i = 0u; i < count || blow && i < settings.blow_sweeps; ++i) {
+    uint turn = turns++ & 1u;
+    restless = false;
+    sweep(i == 0u ? first : others, h);
+    if (restless) unsettled[turn] = 1u;
+    if (gl_LocalInvocationIndex == 0u) unsettled[turn ^ 1u] = 0u;
+    barrier();
+    blow = unsettled[turn] != 0u;
+  }
+}
+
 // Newton's restitution, some sweeps of it: a face that strikes flat shares its blow among many contacts.
 void restitute() {
   if (gl_LocalInvocationIndex == 0u) any_bounce = 0u;
@@ -81,6 +98,7 @@ void main() {
   take_sub_step_of(w, 0u);
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_WORLD_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
+  if (gl_LocalInvocationIndex < 2u) unsettled[gl_LocalInvocationIndex] = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
   barrier();
   FOR_OWN_MANIFOLDS(o) prepare_manifold(o);
@@ -93,12 +111,12 @@ void main() {
     FOR_OWN_BODIES(i) integrate_velocity(i, h);
     barrier();
     sweep(SWEEP_WARM_START, h);
-    for (uint i = 0u; i < sweeps; ++i) sweep(i == 0u ? SWEEP_FIRST_PUSH : SWEEP_PUSH, h);
+    sweep_until_shared(SWEEP_FIRST_PUSH, SWEEP_PUSH, sweeps, h);
     FOR_OWN_MANIFOLDS(o) note_sliding(o);
     barrier();
     FOR_OWN_BODIES(i) integrate_position(i, h);
     barrier();
-    for (uint i = 0u; i < relaxing; ++i) sweep(i == 0u ? SWEEP_FIRST_RELAX : SWEEP_RELAX, h);
+    sweep_until_shared(SWEEP_FIRST_RELAX, SWEEP_RELAX, relaxing, h);
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

@@ -10,6 +10,9 @@
 #include "sphere/placement.h"
 #include "sphere/solve_step.h"
 
+// A contact of this invocation's has changed its speed by more than `settled` in the sweep.
+bool restless = false;
+
 // A body as one manifold sees it.
 struct Side {
   vec3 v, w;

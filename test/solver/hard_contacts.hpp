@@ -37,10 +37,10 @@ TEST_P(HardContacts, ABlowKeepsTheAngularMomentum) {
 }
 
 // The last one falls at 4.9 m/s. When the impulse of a blow lived on as a force, the pile threw it back at 0.54 to
-// 0.67 m/s and fell over, with any number of sub-steps.
+// 0.67 m/s and fell over, with any number of sub-steps; when few sweeps left a blow unshared, at 0.28.
 TEST_P(HardContacts, CubesThatFallOnEachOtherDoNotRebound) {
   const Rebound pile = pile_up_cubes(lab(), 5);
-  EXPECT_LT(pile.speed, 0.35);
+  EXPECT_LT(pile.speed, 0.05);
   EXPECT_LT(pile.aside, 0.4);
   EXPECT_GT(pile.height, 0.95);
 }

@@ -34,9 +34,14 @@ struct Settings {
   float time_step = 1.0f / 400;  ///< duration of a step, with one collision detection
   bool cut_steps = true;         ///< shorter steps for small and for fast parts
   int sub_steps = 4;             ///< sub-steps a step; stiffness of contacts grows with the square of their number
-  int sweeps = 2;       ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
-  int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
-  int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
+  int sweeps = 2;        ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
+  float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
+                         ///< blow in a wedge or a chain gives energy
+  int blow_sweeps = 12;  ///< most sweeps for that; fewer = the same
+  std::size_t blow_bodies = SPHERE_MAX_BODIES;  ///< larger worlds leave a blow to the next sub-steps: in a deep heap
+                                                ///< there is always one, and it is soon shared among many
+  int cold_sweeps = 4;   ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
+  int cold_steps = 50;   ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
   float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
@@ -202,6 +207,8 @@ struct World {
   int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
   /// Sweeps after bodies move. Rigid contacts push slowly, so that one sweep removes the remaining velocity. With none,
   /// a gear on its teeth rolls forever.
+  /// Most of them while a blow is not shared.
+  int blow_sweeps() const { return bodies.size() > settings.blow_bodies ? 0 : settings.blow_sweeps; }
   int relaxing_sweeps() const {
     if (!settings.relaxation) return 0;
     return stiffness == Stiffness::rigid ? 1 : sweeps();

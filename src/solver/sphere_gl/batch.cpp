@@ -141,6 +141,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
+  if (!capacity_.share_blows) settings_block_.blow_sweeps = 0;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
   make_room();
   if (r.large.bodies > 0) {

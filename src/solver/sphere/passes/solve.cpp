@@ -74,6 +74,7 @@ class ContactSolver {
         blow_speed_(blow_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
+        settled_(settings_.settled * world.smallest_size),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         free_(scratch.free),
@@ -88,7 +89,8 @@ class ContactSolver {
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
-  void sweep(bool push, bool first);
+  /// Returns whether it has changed a contact's speed by more than Settings::settled: another one has to share a blow.
+  bool sweep(bool push, bool first);
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
   void note_sliding();  ///< bodies that friction brakes
   void aim();           ///< levers of what is struck
@@ -108,7 +110,7 @@ class ContactSolver {
   float speed(std::size_t body) const;
   float mean_speed(std::size_t body) const;
   void look(const Bundle& bundle);
-  void solve_normal(ContactRows& c, Velocities& u, bool push) const;
+  void solve_normal(ContactRows& c, Velocities& u, bool push);
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
   LaneMask struck(const ContactRows& c) const;
@@ -124,6 +126,8 @@ class ContactSolver {
   const float blow_speed_;  ///< m/s
   const Softness& softness_;
   const Spring spring_;
+  const float settled_;   ///< m/s
+  LaneMask unsettled_{};  ///< by this sweep
   bool friction_holds_ = true;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
@@ -243,7 +247,7 @@ void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) const {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) {
   const float d = world_.smallest_size;
   const Lanes separation = c.gap;
   const LaneMask apart = separation > 0.0f;
@@ -259,7 +263,9 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) const
   const Lanes change = -c.normal_mass * mass_scale * (speed + bias) - impulse_scale * before;
   c.normal_impulse = max(before + change, all_lanes(0));
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
-  u.push_along_normal(c.normal_impulse - before, c);
+  const Lanes more = c.normal_impulse - before;
+  unsettled_ |= max(more, -more) > settled_ * c.normal_mass;
+  u.push_along_normal(more, c);
 }
 
 /// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
@@ -302,7 +308,8 @@ ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool 
 }
 
 BIN_SCENES_WIDE
-void ContactSolver::sweep(bool push, bool first) {
+bool ContactSolver::sweep(bool push, bool first) {
+  unsettled_ = LaneMask{};
   const auto normal = [&](Swept& s, std::uint32_t k) {
     if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, push);
   };
@@ -332,6 +339,7 @@ void ContactSolver::sweep(bool push, bool first) {
     store(p.u, p.bundle, motions_);
     store(q.u, q.bundle, motions_);
   }
+  return any(unsettled_);
 }
 
 void ContactSolver::aim() {
@@ -451,11 +459,14 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
     solver.accelerate();
     stop_if_cancelled();
     solver.warm_start();
-    for (int i = 0; i < world.sweeps(); ++i) solver.sweep(true, i == 0);
+    bool blow = false;  // is not shared yet
+    for (int i = 0; i < world.sweeps() || (blow && i < world.blow_sweeps()); ++i)
+      blow = solver.sweep(true, i == 0);
     solver.note_sliding();
     solver.move();
     solver.aim();
-    for (int i = 0; i < world.relaxing_sweeps(); ++i) solver.sweep(false, i == 0);
+    for (int i = 0; i < world.relaxing_sweeps() || (blow && i < world.blow_sweeps()); ++i)
+      blow = solver.sweep(false, i == 0);
   }
   solver.restitute();
   solver.finish();
