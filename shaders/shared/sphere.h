@@ -101,14 +101,13 @@ struct SphereSettingsBlock {
   float probe_slip;        // s of a step that begins without forces, without friction
   float touch_move;        // d: rest_move where bodies sleep by touch
   float settled;           // d per second: a contact whose speed a sweep changes by more is not solved yet
-  uint blow_sweeps;        // most sweeps for that, of worlds that one group solves
   vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 rows;     // first, capacity
+  uvec4 rows;     // first, capacity; z: most sweeps while a blow is not shared
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };

@@ -69,7 +69,7 @@ uint turns = 0u;
 // `count` sweeps, and more of them while a blow is not shared.
 void sweep_until_shared(uint first, uint others, uint count, float h) {
   bool blow = false;
-  for (uint i = 0u; i < count || blow && i < settings.blow_sweeps; ++i) {
+  for (uint i = 0u; i < count || blow && i < world.rows.z; ++i) {
     uint turn = turns++ & 1u;
     restless = false;
     sweep(i == 0u ? first : others, h);

@@ -77,7 +77,9 @@ TEST(MeshQuery, InsideAClosedMeshIsWhereItsWindingNumberIsAboveOneHalf) {
       EXPECT_EQ(query.inside(p), winding > 0.5) << k << ": " << winding;
       inside += query.inside(p);
     }
-    if (mesh.triangles != inverted(two).triangles) EXPECT_GT(inside, 1000u);
+    if (mesh.triangles != inverted(two).triangles) {
+      EXPECT_GT(inside, 1000u);
+    }
   }
 }
 

@@ -141,8 +141,9 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
-  if (!capacity_.share_blows) settings_block_.blow_sweeps = 0;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
+  const bool too_many = gl::Device::current().software() && r.bodies > software_blow_bodies;
+  r.blow_sweeps = !capacity_.share_blows || r.large.bodies > 0 || too_many ? 0 : static_cast<std::size_t>(world.blow_sweeps());
   make_room();
   if (r.large.bodies > 0) {
     if (!large_) large_ = std::make_unique<LargePasses>(capacity_);
@@ -186,7 +187,7 @@ void Batch::upload_world(Slot slot) {
   const auto word = [](std::size_t n) { return static_cast<gpu::uint>(n); };
   host_worlds_[slot].bodies = {word(r.first_body), word(r.bodies), word(r.words), word(r.first_word)};
   host_worlds_[slot].pairs = {word(r.first_pair), word(r.capacity), word(r.first_plane), word(r.planes)};
-  host_worlds_[slot].rows = {word(r.first_row), word(r.rows), 0, 0};
+  host_worlds_[slot].rows = {word(r.first_row), word(r.rows), word(r.blow_sweeps), 0};
   worlds_.upload(slot, &host_worlds_[slot], 1);
 }
 

@@ -60,7 +60,6 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
   out.rest_move = s.rest_move;
   out.touch_move = s.touch_move;
   out.settled = s.settled;
-  out.blow_sweeps = static_cast<gpu::uint>(s.blow_sweeps);
   out.restitution_speed = s.restitution_speed;
   out.rest_window = s.rest_window;
   return out;

@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -201,13 +203,15 @@ TEST(SphereGlBatch, WidthsOfTheDriversVectorsDoNotMatter) {
 }
 
 /// What is asked of the device while worlds of the solver go on by `seconds`, the first time that no list grows.
-gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double seconds) {
+gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double seconds,
+                      const std::function<void()>& before_it = [] {}) {
   const auto repeated = [&] {
     const auto& counters = solver.profile().counters;
     const auto at = counters.find("steps_repeated");
     return at == counters.end() ? 0 : at->second;
   };
   for (int stretch = 0; stretch < 10; ++stretch) {
+    before_it();
     const std::uint64_t repeated_before = repeated();
     const gl::Traffic before = gl::traffic();
     solver.advance(ids, seconds);
@@ -250,11 +254,7 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
       for (const Phase each : {phases::settle, phase})
         for (const WorldId id : ids) solver->set_phase(id, each);
     };
-    for (int k = 0; k < 3; ++k) {
-      solver->advance(ids, 0.05);  // lists grow
-      wake();
-    }
-    const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size());
+    const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size(), wake);
     EXPECT_EQ(woken.barriers, 7u * 5u + 3u + 1u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
     EXPECT_EQ(slice.dispatches, 7u * 5u);
