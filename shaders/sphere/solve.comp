@@ -68,6 +68,7 @@ uint turns = 0u;
 
 // `count` sweeps, and more of them while a blow is not shared.
 void sweep_until_shared(uint first, uint others, uint count, float h) {
+  if (ordered == 0u) return;
   bool blow = false;
   for (uint i = 0u; i < count || blow && i < world.rows.z; ++i) {
     uint turn = turns++ & 1u;

@@ -1,10 +1,10 @@
-/// Makes `--formats bag` (output/scene_writer.hpp) and `--trace FILE.bag` (tool/trace.hpp) known to the program that this
+/// Makes `--formats bag` (output/scene_writer.hpp) and `--trace FILE.bag` (output/trace.hpp) known to the program that this
 /// file is linked into.
 #include "bag_trace.hpp"
 #include "bag_writer.hpp"
 
 #include "bin_scenes/output/scene_writer.hpp"
-#include "tool/trace.hpp"
+#include "bin_scenes/output/trace.hpp"
 
 #include <cstdlib>
 
@@ -18,16 +18,6 @@ std::string name_space() {
   return set ? set : "";
 }
 
-class TraceOfTransforms final : public Trace {
- public:
-  TraceOfTransforms(const std::string& path, const Request& request) : bag_(path, request) {}
-  void add(double time, const std::vector<BodyState>& states) override { bag_.add(time, states); }
-  void finish() override { bag_.finish(); }
-
- private:
-  BagTrace bag_;
-};
-
 [[maybe_unused]] const bool registered = [] {
   register_bag_writer([](const std::string& path, const Scene& scene, const Request& request,
                          const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
@@ -35,7 +25,7 @@ class TraceOfTransforms final : public Trace {
     write_bag(path, scene, request, images, parts, bin_model, bag_stamp(scene.index), {}, name_space());
   });
   register_bag_trace([](const std::string& path, const Request& request) -> std::unique_ptr<Trace> {
-    return std::make_unique<TraceOfTransforms>(path, request);
+    return std::make_unique<BagTrace>(path, request);
   });
   return true;
 }();

@@ -13,12 +13,8 @@ BagTrace::BagTrace(std::string path, const Request& request, Frames frames)
   });
 }
 
-void BagTrace::add(double time, const std::vector<BodyState>& states) {
-  scene_.parts.resize(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    scene_.parts[i].id = static_cast<int>(i);
-    scene_.parts[i].pose = states[i].pose;
-  }
+void BagTrace::add(double time, const std::vector<ScenePart>& parts) {
+  scene_.parts = parts;
   const ros::Time stamp = begin_ + ros::Duration(time);
   SceneBag::unharmed(path_, [&] { bag_->write(topic::tf, stamp, part_transforms(scene_, frames_, stamp), Latch::no); });
 }

@@ -1,10 +1,10 @@
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/trace.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/scene_store.hpp"
-#include "tool/trace.hpp"
 
 #include <sys/time.h>
 #include <unistd.h>
@@ -140,7 +140,15 @@ int generate(const GenerateOptions& options) {
   if (!options.trace.empty()) {
     trace = open_trace(options.trace, request);
     run.hooks.trace_rate = options.trace_rate;
-    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) { trace->add(time, states); };
+    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
+      std::vector<ScenePart> parts(states.size());
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        parts[i].id = static_cast<int>(i);
+        parts[i].pose = states[i].pose;
+        parts[i].velocity = states[i].velocity;
+      }
+      trace->add(time, parts);
+    };
   }
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;

@@ -250,6 +250,7 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
   solver->advance(ids, 0.2);
   for (const Phase phase : {phases::pour, phases::press, phases::probe}) {
     for (const WorldId id : ids) solver->set_phase(id, phase);
+    solver->advance(ids, 0.05);  // lists grow
     const auto wake = [&] {
       for (const Phase each : {phases::settle, phase})
         for (const WorldId id : ids) solver->set_phase(id, each);

@@ -1,7 +1,7 @@
-#include "tool/trace.hpp"
+#include "bin_scenes/output/trace.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "tool/trace_file.hpp"
+#include "output/trace_file.hpp"
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
-#include "bin_scenes/solver/solver.hpp"
+#include "bin_scenes/scene/scene.hpp"
 
 #include <functional>
 #include <memory>
@@ -16,8 +16,8 @@ class Trace {
  public:
   virtual ~Trace() = default;
   /// @param time s since the scene began
-  /// @param states of all parts, by id, in the bin frame; not finite = not in the bin yet
-  virtual void add(double time, const std::vector<BodyState>& states) = 0;
+  /// @param parts all of them, with id, pose (bin frame; not finite = not in the bin yet) and velocity
+  virtual void add(double time, const std::vector<ScenePart>& parts) = 0;
   /// Only then the file is there.
   virtual void finish() = 0;
 };

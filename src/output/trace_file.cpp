@@ -1,4 +1,4 @@
-#include "tool/trace_file.hpp"
+#include "output/trace_file.hpp"
 
 #include "bin_scenes/core/error.hpp"
 
@@ -24,13 +24,12 @@ TraceFile::~TraceFile() {
   if (file_) std::fclose(file_);
 }
 
-void TraceFile::add(double time, const std::vector<BodyState>& states) {
-  for (std::size_t id = 0; id < states.size(); ++id) {
-    const auto& [pose, velocity] = states[id];
-    if (!pose.finite()) continue;
-    const Vec3 &p = pose.position, &v = velocity.linear, &w = velocity.angular;
-    const Quat& q = pose.orientation;
-    std::fprintf(file_, "%.17g,%zu", time, id);
+void TraceFile::add(double time, const std::vector<ScenePart>& parts) {
+  for (const ScenePart& part : parts) {
+    if (!part.pose.finite()) continue;
+    const Vec3 &p = part.pose.position, &v = part.velocity.linear, &w = part.velocity.angular;
+    const Quat& q = part.pose.orientation;
+    std::fprintf(file_, "%.17g,%d", time, part.id);
     for (const double value :
          {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}) {
       std::fprintf(file_, ",%.17g", value);

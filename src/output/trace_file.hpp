@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bin_scenes/output/scene_writer.hpp"
-#include "tool/trace.hpp"
+#include "bin_scenes/output/trace.hpp"
 
 #include <cstdio>
 
@@ -14,7 +14,7 @@ class TraceFile final : public Trace {
  public:
   explicit TraceFile(const std::string& path);
   ~TraceFile() override;
-  void add(double time, const std::vector<BodyState>& states) override;
+  void add(double time, const std::vector<ScenePart>& parts) override;
   void finish() override;
 
  private:
