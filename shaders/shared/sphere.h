@@ -37,6 +37,7 @@
 #endif
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
+#define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
 #define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep

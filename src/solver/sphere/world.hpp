@@ -38,8 +38,8 @@ struct Settings {
   float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
                          ///< blow in a wedge or a chain gives energy
   int blow_sweeps = 12;  ///< most sweeps for that; fewer = the same
-  std::size_t blow_bodies = SPHERE_MAX_BODIES;  ///< larger worlds leave a blow to the next sub-steps: in a deep heap
-                                                ///< there is always one, and it is soon shared among many
+  std::size_t blow_bodies = 48;  ///< larger worlds leave a blow to the next sub-steps: in a heap that is poured there is
+                                 ///< always one, soon shared among many, and the sweeps would cost a tenth of its time
   int cold_sweeps = 4;   ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
   int cold_steps = 50;   ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner

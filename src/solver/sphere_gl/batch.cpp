@@ -142,8 +142,8 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
-  const bool too_many = gl::Device::current().software() && r.bodies > software_blow_bodies;
-  r.blow_sweeps = !capacity_.share_blows || r.large.bodies > 0 || too_many ? 0 : static_cast<std::size_t>(world.blow_sweeps());
+  const bool shares = capacity_.share_blows && r.large.bodies == 0;
+  r.blow_sweeps = shares ? static_cast<std::size_t>(world.blow_sweeps()) : 0;
   make_room();
   if (r.large.bodies > 0) {
     if (!large_) large_ = std::make_unique<LargePasses>(capacity_);

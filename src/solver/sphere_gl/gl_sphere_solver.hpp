@@ -25,8 +25,6 @@ struct Capacity {
 /// returned wrong velocities on llvmpipe silently; its limit on loop iterations is the suspected cause
 /// (docs/develop/gpu.md, "Limits"). A group of 160 such bodies is right.
 constexpr std::size_t software_group_bodies = 192;
-/// A world of more leaves blows to later sub-steps on a software device, for the same reason.
-constexpr std::size_t software_blow_bodies = 48;
 
 /// As many worlds as fit into memory, with no list beyond half of what the driver allows for a buffer, since lists
 /// grow. At most 1,024 of one group each, and 256 of several, which take steps one after the other; 4 on a software
