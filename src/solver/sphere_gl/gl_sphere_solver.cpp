@@ -321,7 +321,7 @@ class GlSphereSolver final : public Solver {
 }  // namespace
 
 std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
-  constexpr double body_bytes = 3800.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
+  constexpr double body_bytes = 4200.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
   const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
   const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
   const double largest_list = static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;

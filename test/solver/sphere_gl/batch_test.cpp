@@ -229,11 +229,11 @@ TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
   constexpr std::size_t two_gib = (std::size_t{1} << 31) - 1;
   Capacity capacity;
   capacity.bodies = 256;
-  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1024u);
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 930u);
   EXPECT_EQ(worlds_at_once(capacity, std::size_t{128} << 20, false), 128u) << "half of a block of 128 MiB";
   EXPECT_EQ(worlds_at_once(capacity, two_gib, true), 4u);
   capacity.memory = 1e8;
-  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 102u);
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 93u);
   capacity = {};
   capacity.bodies = 65536;
   EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
