@@ -41,7 +41,6 @@ std::vector<Row> time_steps(bool soak) {
       // As high as the others it takes 38 to 40 of them, as they happen to fall.
       row.cases.back().request.bin.inner_size.z() = 0.16;
     }
-    if (hertz == 30) row.known["bullet: rings"] = restarted;
     rows.push_back(row);
     if (hertz > 60 || (!soak && hertz != 60)) continue;
     row.name += ", not cut";
@@ -51,9 +50,7 @@ std::vector<Row> time_steps(bool soak) {
       if (hertz == 15) row.known["sphere: " + c.name] = sinks;
       if (hertz < 60) row.known["bullet: " + c.name] = sinks;
     }
-    if (hertz == 15) row.known.erase("sphere: angles");
     if (hertz == 30) row.known["sphere: rings"] = sinks;
-    if (hertz == 30) row.known.erase("bullet: 40 cubes");
     if (hertz == 30) row.known.erase("bullet: angles");
     rows.push_back(row);
   }
