@@ -44,8 +44,8 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
-#define SPHERE_BOX_QUEUE 3072      // pairs of a world whose oriented boxes wait to be tested; more are tested where they are found
-#define SPHERE_EDGE_QUEUE 512       // edges that wait for their descent; more are descended where they are found
+#define SPHERE_BOX_QUEUE 3072       // pairs of a world whose oriented boxes wait to be tested; more are tested where they are found
+#define SPHERE_SAMPLE_QUEUE 512     // nodes and edges that wait for the long test; when it is full they are tested before more
 
 // SphereOrdered.flags.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce

@@ -48,7 +48,7 @@ Placement placement_of(uint body) { return placement_of(body, half_way()); }
 
 shared uint job;
 shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
-shared uint edge_queue[SPHERE_EDGE_QUEUE], queued;
+shared uint sample_queue[SPHERE_SAMPLE_QUEUE], queued;
 
 // Where the samples of one body lie in the frame of the field, and what is found there in the frame of a.
 struct View {
@@ -68,61 +68,66 @@ void emit(View view, vec3 on_a, vec3 normal, float separation, uint feature) {
 
 #include "shared/sphere/touch.h"
 
-void test_node(View view, uint node) {
-  vec3 point = carried(view.to_field, node_at(view.samples, node)), gradient;
-  float distance = sample_field(view.field, point, gradient) - radius_of(view.samples);
-  ++nodes_tested;
-  if (node_may_touch(view, distance)) touch_with_node(view, node, point, gradient, distance);
-}
-
-struct Ends {
-  vec3 p, q, gradient_p, gradient_q;
-  float distance_p, distance_q;
-};
-
-Ends ends_of(View view, Edge edge) {
-  Ends e;
-  e.p = carried(view.to_field, node_at(view.samples, edge.a));
-  e.q = carried(view.to_field, node_at(view.samples, edge.b));
-  e.distance_p = sample_field(view.field, e.p, e.gradient_p) - radius_of(view.samples);
-  e.distance_q = sample_field(view.field, e.q, e.gradient_q) - radius_of(view.samples);
-  return e;
+Touch touch_of(View view, uint node) {
+  Touch touch;
+  touch.point = carried(view.to_field, node_at(view.samples, node));
+  touch.distance = sample_field(view.field, touch.point, touch.gradient) - radius_of(view.samples);
+  return touch;
 }
 
 // Before the long way: most edges end here.
 bool is_worth_testing(View view, uint e) {
   Edge edge = edge_at(view.samples, e);
-  Ends ends = ends_of(view, edge);
-  if (!edge_may_touch(view, edge, ends.distance_p, ends.distance_q)) return false;
-  vec3 along = ends.q - ends.p;
-  return dot(ends.gradient_p, along) < 0.0 && dot(ends.gradient_q, along) > 0.0 ||
-         may_cross(view, edge, ends.distance_p) || may_cross(view, edge, ends.distance_q);
+  Touch p = touch_of(view, edge.a), q = touch_of(view, edge.b);
+  if (!edge_may_touch(view, edge, p.distance, q.distance)) return false;
+  vec3 along = q.point - p.point;
+  return dot(p.gradient, along) < 0.0 && dot(q.gradient, along) > 0.0 || may_cross(view, edge, p.distance) ||
+         may_cross(view, edge, q.distance);
 }
 
-void test_edge(View view, uint e) {
-  Ends ends = ends_of(view, edge_at(view.samples, e));
-  touch_with_edge(view, e, ends.p, ends.q, ends.gradient_p, ends.gradient_q, ends.distance_p, ends.distance_q);
+// Both kinds end in one call of offer(): compilers put it in place, and it is nearly all of the pass.
+void test_sample(View view, uint feature) {
+  uint i = feature & ~SPHERE_EDGE;
+  Touch touch;
+  Cone cone;
+  bool offers;
+  if ((feature & SPHERE_EDGE) != 0u) {
+    Edge edge = edge_at(view.samples, i);
+    cone = edge.cone;
+    offers = touches_with_edge(view, i, touch_of(view, edge.a), touch_of(view, edge.b), touch);
+  } else {
+    touch = touch_of(view, i);
+    cone = cone_at(view.samples, i);
+    offers = touches_with_node(view, i, touch);
+  }
+  if (offers) offer(view, touch.point, touch.gradient, touch.distance, cone, feature);
+}
+
+// Has the sample wait for the others; false if the queue is full.
+bool enqueue(uint feature) {
+  uint at = atomicAdd(queued, 1u);
+  if (at >= SPHERE_SAMPLE_QUEUE) return false;
+  sample_queue[at] = feature;
+  return true;
 }
 
 const uint NOT_BEGUN = 0xffffffffu;
 
-// Tests the nodes of the clusters nearby, from the k-th on, and puts edges worth testing into the queue. Stops when that
-// is full, to go on from there: edge `e` of cluster k.
+// Puts the samples of the clusters nearby that are worth testing into the queue, from the k-th cluster on. Stops when
+// that is full, to go on from there: edge `e` of cluster k, or its node.
 void test_clusters(View view, inout uint k, inout uint e) {
   const uint lane = gl_LocalInvocationIndex % SPHERE_CLUSTER;
   for (; k < near_count; k += SPHERE_GROUP / SPHERE_CLUSTER, e = NOT_BEGUN) {
     uint c = near_clusters[k], node = c * SPHERE_CLUSTER + lane;
     uvec4 range = clusters[view.samples.clusters.x + c].edges;
     if (e == NOT_BEGUN) {
-      if (node < view.samples.nodes.y) test_node(view, node);
+      bool holds = node < view.samples.nodes.y;
+      if (holds && node_may_touch(view, touch_of(view, node).distance) && !enqueue(node)) return;
+      nodes_tested += uint(holds);
       e = range.x + lane;
     }
-    for (; e < range.y; e += SPHERE_CLUSTER) {
-      if (!is_worth_testing(view, e)) continue;
-      uint at = atomicAdd(queued, 1u);
-      if (at >= SPHERE_EDGE_QUEUE) return;
-      edge_queue[at] = e;
-    }
+    for (; e < range.y; e += SPHERE_CLUSTER)
+      if (is_worth_testing(view, e) && !enqueue(e | SPHERE_EDGE)) return;
   }
 }
 
@@ -144,8 +149,8 @@ void test_samples(View view) {
   while (full) {
     test_clusters(view, k, e);
     barrier();
-    full = queued > SPHERE_EDGE_QUEUE;
-    for (uint q = thread; q < min(queued, SPHERE_EDGE_QUEUE); q += SPHERE_GROUP) test_edge(view, edge_queue[q]);
+    full = queued > SPHERE_SAMPLE_QUEUE;
+    for (uint q = thread; q < min(queued, SPHERE_SAMPLE_QUEUE); q += SPHERE_GROUP) test_sample(view, sample_queue[q]);
     barrier();
     if (thread == 0u) queued = 0u;
     barrier();

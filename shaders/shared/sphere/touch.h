@@ -213,11 +213,16 @@ INLINE bool node_may_touch(IN(View) view, float distance) {
   return distance < view.margin + sag_of(view.samples);
 }
 
-INLINE void touch_with_node(IN(View) view, uint node, IN(vec3) at, IN(vec3) gradient_there, float distance_there) {
-  vec3 point = at, gradient = gradient_there;
-  float distance = distance_there;
-  slide(view.samples, view.own, view.to_field, node, solid_of(view.field), point, gradient, distance);
-  if (distance < view.margin) offer(view, point, gradient, distance, cone_at(view.samples, node), node);
+// What is to be offered: where a sample is, in the field's frame, and what the field is there.
+struct Touch {
+  vec3 point, gradient;
+  float distance;
+};
+
+// Slides the node to where it is deepest; returns whether it is to be offered.
+INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
+  slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch.point, touch.gradient, touch.distance);
+  return touch.distance < view.margin;
 }
 
 // By the distances of its ends: it falls by no more than the way.
@@ -230,32 +235,23 @@ INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
   return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
 }
 
-// An edge e from p to q, in the field's frame; gradients and distances there.
-INLINE void touch_with_edge(IN(View) view, uint e, IN(vec3) p, IN(vec3) q, IN(vec3) gradient_p, IN(vec3) gradient_q,
-                            float distance_p, float distance_q) {
+// An edge e between two ends. Presses where it crosses an edge of the other part; returns whether `touch` is to be offered.
+INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
-  uint feature = e | SPHERE_EDGE;
-  vec3 point, gradient;
-  float distance;
-  if (descend(view.field, p, q, gradient_p, gradient_q, min(distance_p, distance_q), point, gradient, distance)) {
-    bool crossed = cross_edges(view.other, view.field, p, q, point, gradient, distance);
-    if (distance >= view.margin) return;
-    if (!crossed || !press(view, point, gradient, distance, edge.cone, feature, LEAST_LEFT))
-      offer(view, point, gradient, distance, edge.cone, feature);
-    return;
-  }
+  bool lowest = descend(view.field, p.point, q.point, p.gradient, q.gradient, min(p.distance, q.distance), touch.point,
+                        touch.gradient, touch.distance);
+  float least = lowest ? LEAST_LEFT : NEARLY_ALL;
   for (int end = 0; end < 2; ++end) {
-    point = p;
-    gradient = gradient_p;
-    distance = distance_p;
-    if (end == 1) {
-      point = q;
-      gradient = gradient_q;
-      distance = distance_q;
+    if (!lowest) {
+      touch = p;
+      if (end == 1) touch = q;
+      if (!may_cross(view, edge, touch.distance)) continue;
     }
-    if (!may_cross(view, edge, distance)) continue;
-    if (!cross_edges(view.other, view.field, p, q, point, gradient, distance)) continue;
-    if (distance < view.margin) press(view, point, gradient, distance, edge.cone, feature, NEARLY_ALL);
-    return;
+    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch.point, touch.gradient, touch.distance);
+    if (!lowest && !crossed) continue;
+    if (touch.distance >= view.margin) return false;
+    bool presses = crossed && press(view, touch.point, touch.gradient, touch.distance, edge.cone, e | SPHERE_EDGE, least);
+    return lowest && !presses;
   }
+  return false;
 }

@@ -42,6 +42,8 @@ class Cluster {
     return gradient_[i];
   }
 
+  Touch touch(std::size_t node) { return {point(node), gradient(node), distance(node)}; }
+
  private:
   bool holds(std::size_t node) const { return node - first_ < cluster_size; }
   int place(std::size_t node) const { return static_cast<int>(node - first_); }
@@ -61,15 +63,19 @@ std::size_t test_cluster(const View& view, std::size_t index) {
   const std::size_t count = std::min(samples.nodes.size() - first, std::size_t{cluster_size});
   Cluster cluster(view, index);
   for (std::size_t node = first; node < first + count; ++node)
-    if (node_may_touch(view, cluster.distance(node)))
-      touch_with_node(view, static_cast<uint>(node), cluster.point(node), cluster.gradient(node),
-                      cluster.distance(node));
+    if (node_may_touch(view, cluster.distance(node))) {
+      const auto number = static_cast<uint>(node);
+      Touch touch = cluster.touch(node);
+      if (touches_with_node(view, number, touch))
+        offer(view, touch.point, touch.gradient, touch.distance, cone_at(view.samples, number), number);
+    }
   for (uint e = samples.first_edge[index]; e < samples.first_edge[index + 1]; ++e) {
     const Edge& edge = samples.edges[e];
     const float distance_a = cluster.distance(edge.a), distance_b = cluster.distance(edge.b);
-    if (edge_may_touch(view, edge, distance_a, distance_b))
-      touch_with_edge(view, e, cluster.point(edge.a), cluster.point(edge.b), cluster.gradient(edge.a),
-                      cluster.gradient(edge.b), distance_a, distance_b);
+    if (!edge_may_touch(view, edge, distance_a, distance_b)) continue;
+    Touch touch;
+    if (touches_with_edge(view, e, cluster.touch(edge.a), cluster.touch(edge.b), touch))
+      offer(view, touch.point, touch.gradient, touch.distance, edge.cone, e | SPHERE_EDGE);
   }
   return count;
 }
