@@ -56,7 +56,7 @@ void Passes::step() {
   plan();
   split_mass();
 
-  for (gpu::uint i = 0; i < sizes_.iterations; ++i) {
+  for (gpu::uint i = 0; i < held_.settings.iterations; ++i) {
     impulse();
     pre_velocity();
     velocity();
@@ -67,46 +67,46 @@ void Passes::step() {
 void Passes::begin_step() {
   bind();
   status_.storage().fill(0, offsetof(gpu::ThesisStatus, touching_spheres), 3 * sizeof(gpu::uint));
-  neighbours_.fill(THESIS_NO_KEY, 0, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
+  neighbours_.fill(THESIS_NO_KEY, 0, std::size_t{held_.settings.bodies} * held_.settings.neighbour_slots);
 }
 
 void Passes::force() {
   held_.states.clear();
   gl::Stage stage(timer_, "force");
-  gl::dispatch(force_, sizes_.bodies);
+  gl::dispatch(force_, held_.settings.bodies);
 }
 
 void Passes::move_to_world() {
   gl::Stage stage(timer_, "move_to_world");
   move_to_world_.set("first", 0u);
-  move_to_world_.set("count", sizes_.moving_spheres);
-  gl::dispatch(move_to_world_, sizes_.moving_spheres);
+  move_to_world_.set("count", held_.settings.moving_spheres);
+  gl::dispatch(move_to_world_, held_.settings.moving_spheres);
 }
 
 void Passes::count_cells() {
   gl::Stage stage(timer_, "count_cells");
-  gl::dispatch(count_cells_, sizes_.spheres);
+  gl::dispatch(count_cells_, held_.settings.spheres);
 }
 
 void Passes::prefix_sum() {
   gl::Stage stage(timer_, "prefix_sum");
-  prefix_sum_.run(cell_counts_, cell_starts_, sizes_.cells);
+  prefix_sum_.run(cell_counts_, cell_starts_, held_.settings.cells);
   bind();  // the sum has bindings of its own
 }
 
 void Passes::scatter() {
   gl::Stage stage(timer_, "scatter");
-  gl::dispatch(scatter_, sizes_.spheres);
+  gl::dispatch(scatter_, held_.settings.spheres);
 }
 
 void Passes::reorder() {
   gl::Stage stage(timer_, "reorder");
-  gl::dispatch(reorder_, sizes_.spheres);
+  gl::dispatch(reorder_, held_.settings.spheres);
 }
 
 void Passes::detect() {
   gl::Stage stage(timer_, "detect");
-  gl::dispatch(detect_, sizes_.spheres);
+  gl::dispatch(detect_, held_.settings.spheres);
 }
 
 void Passes::plan() {
@@ -142,14 +142,14 @@ void Passes::velocity() {
 void Passes::position() {
   held_.states.clear();
   gl::Stage stage(timer_, "position");
-  gl::dispatch(position_, sizes_.bodies);
+  gl::dispatch(position_, held_.settings.bodies);
 }
 
 void Passes::load(const Memory& memory) {
-  const gpu::uint old_capacity = sizes_.capacity;
-  sizes_ = memory.settings;
-  if (sizes_.capacity != old_capacity) detect_ = detect_pass(sizes_.capacity);
-  upload_if_new(settings_, held_.settings, {sizes_});
+  const gpu::uint old_capacity = held_.settings.capacity;
+  held_.settings = memory.settings;
+  if (held_.settings.capacity != old_capacity) detect_ = detect_pass(held_.settings.capacity);
+  upload_if_new(settings_, held_settings_, {held_.settings});
   upload_if_new(worlds_, held_.worlds, memory.worlds);
   upload_if_new(sheets_, held_.sheets, memory.sheets);
   bool placed = !upload_if_new(bodies_, held_.bodies, memory.bodies);  // what never moves
@@ -163,33 +163,33 @@ void Passes::load(const Memory& memory) {
   needs_.fill(0, 0, memory.needs.size());
   at_least(worlds_, 1);
   at_least(sheets_, 1);
-  at_least(inertias_, sizes_.bodies);
-  at_least(centers_, sizes_.spheres);
-  at_least(sphere_cells_, sizes_.spheres);
-  at_least(cell_counts_, sizes_.cells);
-  at_least(cell_starts_, std::size_t{sizes_.cells} + 1);
-  at_least(members_, sizes_.spheres);
-  at_least(sorted_, sizes_.spheres);
-  at_least(contact_ranges_, sizes_.moving_spheres);
-  at_least(neighbour_counts_, sizes_.bodies);
-  at_least(touching_spheres_, sizes_.moving_spheres);
-  at_least(touching_bodies_, sizes_.bodies);
-  at_least(pushes_, sizes_.moving_spheres);
+  at_least(inertias_, held_.settings.bodies);
+  at_least(centers_, held_.settings.spheres);
+  at_least(sphere_cells_, held_.settings.spheres);
+  at_least(cell_counts_, held_.settings.cells);
+  at_least(cell_starts_, std::size_t{held_.settings.cells} + 1);
+  at_least(members_, held_.settings.spheres);
+  at_least(sorted_, held_.settings.spheres);
+  at_least(contact_ranges_, held_.settings.moving_spheres);
+  at_least(neighbour_counts_, held_.settings.bodies);
+  at_least(touching_spheres_, held_.settings.moving_spheres);
+  at_least(touching_bodies_, held_.settings.bodies);
+  at_least(pushes_, held_.settings.moving_spheres);
   at_least(status_, 1);
-  at_least(contacts_, sizes_.slots);
-  at_least(neighbours_, std::size_t{sizes_.bodies} * sizes_.neighbour_slots);
+  at_least(contacts_, held_.settings.slots);
+  at_least(neighbours_, std::size_t{held_.settings.bodies} * held_.settings.neighbour_slots);
   status_.clear();
-  cell_counts_.fill(0, 0, sizes_.cells);
+  cell_counts_.fill(0, 0, held_.settings.cells);
 
   if (placed) return;
   bind();
-  move_to_world_.set("first", sizes_.moving_spheres);
-  move_to_world_.set("count", sizes_.spheres - sizes_.moving_spheres);
-  gl::dispatch(move_to_world_, sizes_.spheres - sizes_.moving_spheres);
+  move_to_world_.set("first", held_.settings.moving_spheres);
+  move_to_world_.set("count", held_.settings.spheres - held_.settings.moving_spheres);
+  gl::dispatch(move_to_world_, held_.settings.spheres - held_.settings.moving_spheres);
 }
 
 const std::vector<gpu::ThesisState>& Passes::states() {
-  if (held_.states.empty()) held_.states = states_.download(0, sizes_.bodies);
+  if (held_.states.empty()) held_.states = states_.download(0, held_.settings.bodies);
   return held_.states;
 }
 
@@ -259,15 +259,15 @@ void Passes::bind() const {
 
 Memory Passes::download() const {
   Memory m;
-  m.settings = sizes_;
+  m.settings = held_.settings;
   size_scratch(m);
   const auto fetch = [](const auto& buffer, auto& values) { values = buffer.download(0, values.size()); };
   m.worlds = worlds_.download();
   m.sheets = sheets_.download();
-  m.bodies = bodies_.download(0, sizes_.bodies);
+  m.bodies = bodies_.download(0, held_.settings.bodies);
   m.shapes = shapes_.download();
-  m.spheres = spheres_.download(0, sizes_.spheres);
-  m.states = states_.download(0, sizes_.bodies);
+  m.spheres = spheres_.download(0, held_.settings.spheres);
+  m.states = states_.download(0, held_.settings.bodies);
   fetch(inertias_, m.inertias);
   fetch(centers_, m.centers);
   fetch(sphere_cells_, m.sphere_cells);

@@ -49,19 +49,8 @@ class Passes {
  private:
   void bind() const;
 
-  /// What never changes during the steps, as it was uploaded, and the states that were last uploaded or read.
-  struct Held {
-    std::vector<gpu::ThesisSettingsBlock> settings;
-    std::vector<gpu::ThesisWorld> worlds;
-    std::vector<gpu::ThesisSheet> sheets;
-    std::vector<gpu::ThesisBody> bodies;
-    std::vector<gpu::ThesisShape> shapes;
-    std::vector<gpu::ThesisSphere> spheres;
-    std::vector<gpu::ThesisState> states;  ///< none: steps have moved them since
-  };
-
-  gpu::ThesisSettingsBlock sizes_{};
-  Held held_;
+  Memory held_;  ///< what was last uploaded or read of it; no states: steps have moved them since
+  std::vector<gpu::ThesisSettingsBlock> held_settings_;
   gl::Program force_, move_to_world_, count_cells_, scatter_, reorder_, detect_, plan_, count_pairs_, split_mass_,
       impulse_, pre_velocity_, velocity_, position_;
   gl::PrefixSum prefix_sum_;
