@@ -95,20 +95,22 @@ class Union {
       boxes_[shell].extend(triangle_boxes_[t].upper);
       volume_[shell] += (mesh.vertices[mesh.triangles[t][0]] - apex).dot(mesh.area_vector(t));
     }
+    for (std::uint32_t s = 0; s < labels_.count; ++s) largest_first_.push_back(s);
+    std::stable_sort(largest_first_.begin(), largest_first_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return volume_[a] > volume_[b]; });
+    all_solid_ = volume_.empty() || volume_[largest_first_.back()] > 0;
   }
 
   /// The boundary as loose triangles; empty if it would take too long.
   Mesh boundary() {
     find_others();
     Mesh result;
-    double work = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       stop_if_cancelled();
       for (const Polygon& piece : pieces(t)) {
         if (piece.size() < 3) continue;
-        work += static_cast<double>(others_to_ask(triangle_boxes_[t], labels_.of_triangle[t]));
-        if (work > most_work) return {};
         if (!outer(piece, t)) continue;
+        if (work_ > most_work) return {};
         const auto first = static_cast<std::uint32_t>(result.vertices.size());
         for (const Vec3& p : piece) result.vertices.push_back(p);
         for (std::uint32_t k = 1; k + 1 < piece.size(); ++k)
@@ -199,16 +201,8 @@ class Union {
     return !line.overlaps(reach, tolerance_);
   }
 
-  std::size_t others_to_ask(const Aabb& box, std::uint32_t own) const {
-    std::size_t count = 0;
-    for (std::uint32_t s = 0; s < labels_.count; ++s) {
-      if (s != own && boxes_[s].overlaps(box, tolerance_)) count += members_[s].size();
-    }
-    return count;
-  }
-
   /// Whether the space before a piece is outside of all solids. Of pieces that cover each other one is enough.
-  bool outer(const Polygon& piece, std::uint32_t t) const {
+  bool outer(const Polygon& piece, std::uint32_t t) {
     const std::uint32_t own = labels_.of_triangle[t];
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : piece) middle += p / static_cast<double>(piece.size());
@@ -216,8 +210,12 @@ class Union {
     Aabb point;
     point.extend(before);
     double around = volume_[own] < 0 ? -1.0 : 0.0;  // before the wall of a cavity its own shell counts as minus one
-    for (std::uint32_t s = 0; s < labels_.count; ++s) {
-      if (s != own && boxes_[s].overlaps(point)) around += winding(mesh_, members_[s], before);
+    for (const std::uint32_t s : largest_first_) {
+      if (s == own || !boxes_[s].overlaps(point)) continue;
+      around += winding(mesh_, members_[s], before);
+      work_ += static_cast<double>(members_[s].size());
+      // No cavity can take back what one solid says. Shells within shells by the hundred need this.
+      if (all_solid_ && around > 0.5) return false;
     }
     if (around > 0.5) return false;
     return std::none_of(others_[t].begin(), others_[t].end(), [&](std::uint32_t u) {
@@ -236,6 +234,9 @@ class Union {
   std::vector<std::vector<std::uint32_t>> members_;  // triangles of each shell
   std::vector<Aabb> boxes_;
   std::vector<double> volume_;  // of each shell, times six
+  std::vector<std::uint32_t> largest_first_;
+  bool all_solid_ = true;  // no shell is a cavity
+  double work_ = 0;        // solid angles asked for
   std::vector<Vec3> normals_;
   std::vector<Aabb> triangle_boxes_;
   std::vector<std::vector<std::uint32_t>> others_;

@@ -75,6 +75,15 @@ TEST(Unite, WhatLiesInsideAnotherSolidGoesAndCavitiesStay) {
   expect_union(rod, exact);
 }
 
+// Each of 12,000 triangles lies in the boxes of up to 999 other shells: the largest one answers for all.
+TEST(Unite, OfAThousandNestedBoxesTheLargestRemains) {
+  Mesh mesh;
+  for (int i = 0; i < 1000; ++i) mesh = joined(mesh, box_mesh(Vec3::Constant(1 + 1e-3 * i)));
+  ASSERT_TRUE(repair::unite(mesh, 1e-6));
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_NEAR(mass_properties(mesh).volume, std::pow(1.999, 3), 1e-6);
+}
+
 TEST(Unite, TurnedBoxesClose) {
   const Quat turn = Quat(0.8, 0.3, -0.4, 0.33).normalized();
   Mesh other = box_mesh(Vec3(3, 0.5, 0.7));
