@@ -146,12 +146,21 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
       throw input_error("'" + error.where() + "': " + error.problem(), where(error.where()), error.remedy());
     }
   };
+  struct Model {
+    std::string path, sha256;
+  };
+  std::map<std::string, Model> models;  // thousands of lines may name one
   for (std::size_t i = 0; i < request.parts.size(); ++i) {
     PartLine& line = request.parts[i];
     const std::string key = "parts[" + std::to_string(i) + "].model";
     if (line.model.empty()) throw input_error("'" + key + "' is missing", where(key), "name a mesh file");
-    line.path = resolve_file(line.model, base, rules, where(key));
-    line.sha256 = sha256_of_file(line.path);
+    const auto [model, first] = models.try_emplace(line.model);
+    if (first) {
+      model->second.path = resolve_file(line.model, base, rules, where(key));
+      model->second.sha256 = sha256_of_file(model->second.path);
+    }
+    line.path = model->second.path;
+    line.sha256 = model->second.sha256;
   }
   if (!request.bin.mesh.empty()) {
     request.bin.mesh = resolve_file(request.bin.mesh, base, rules, where("bin.mesh"));

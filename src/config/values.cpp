@@ -1,8 +1,8 @@
 #include "config/values.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -150,14 +150,12 @@ void read_value(const YAML::Node& node, std::vector<Twist>& value) {
 }
 
 std::string text_of(double value) {
+  char text[32];
   for (int digits = 15;; ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(digits) << value;
-    double back;
-    if (digits == std::numeric_limits<double>::max_digits10 || (parse(out.str(), back) && back == value)) {
-      return out.str();
-    }
+    char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    double back = 0;
+    std::from_chars(text, end, back);
+    if (digits == std::numeric_limits<double>::max_digits10 || back == value) return {text, end};
   }
 }
 

@@ -57,8 +57,9 @@ std::size_t overlapping_pairs(const Mesh& mesh) {
 }
 namespace {
 
-// Solid angles it may cost, at each tolerance, to tell which pieces are inside another shell: a few seconds.
-constexpr double most_work = 5e7;
+// Solid angles it may cost, at each tolerance, to tell which pieces are inside another shell: about a second. To see
+// whether a triangle cuts a piece costs as much as five.
+constexpr double most_work = 2e7, work_of_cut = 5;
 
 using Polygon = std::vector<Vec3>;
 
@@ -109,8 +110,9 @@ class Union {
       stop_if_cancelled();
       for (const Polygon& piece : pieces(t)) {
         if (piece.size() < 3) continue;
-        if (!outer(piece, t)) continue;
+        const bool is_outer = outer(piece, t);
         if (work_ > most_work) return {};
+        if (!is_outer) continue;
         const auto first = static_cast<std::uint32_t>(result.vertices.size());
         for (const Vec3& p : piece) result.vertices.push_back(p);
         for (std::uint32_t k = 1; k + 1 < piece.size(); ++k)
@@ -157,10 +159,12 @@ class Union {
   }
 
   /// The triangle cut so finely that no other shell's surface crosses a piece.
-  std::vector<Polygon> pieces(std::uint32_t t) const {
+  std::vector<Polygon> pieces(std::uint32_t t) {
     const std::array<Vec3, 3> whole = corners(t);
     std::vector<Polygon> list(1, Polygon(whole.begin(), whole.end()));
     for (const std::uint32_t u : others_[t]) {
+      work_ += work_of_cut * static_cast<double>(list.size());
+      if (work_ > most_work) break;
       const std::array<Vec3, 3> other = corners(u);
       if (coplanar(t, u)) {
         for (int k = 0; k < 3; ++k) {
