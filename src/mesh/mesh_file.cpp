@@ -266,7 +266,7 @@ void take(const std::string& from, std::size_t& offset, T* to, std::size_t count
 ContainedLimits limits_of(std::size_t bytes) {
   const double megabytes = 1e-6 * static_cast<double>(bytes);
   ContainedLimits limits;
-  limits.cpu_seconds = static_cast<unsigned>(std::min(2.0 + 2.0 * megabytes, 120.0));
+  limits.cpu_seconds = static_cast<unsigned>(std::clamp(2.0 * megabytes, 1.0, 120.0));
   limits.bytes = static_cast<std::size_t>(256e6 + 200.0 * static_cast<double>(bytes));
   return limits;
 }

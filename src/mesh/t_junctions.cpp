@@ -11,7 +11,7 @@ namespace bin_scenes::repair {
 
 std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
   std::size_t inserted = 0;
-  std::size_t looks = 100'000'000;  // at vertices, half a second or so: a soup of triangles stays as it is
+  std::size_t looks = 40'000'000;  // at vertices, half a second: a soup of triangles stays as it is
   // Each pass splits a triangle along one of its edges; the pieces' other edges get their turn in the next pass.
   // Splitting adds no vertices, so the passes end; the bound only guards against rounding.
   for (int pass = 0; pass < 100; ++pass) {
