@@ -27,6 +27,7 @@ constexpr double per_contact = 160.0;
 constexpr double per_hull = 9000.0;          // of a body: Bullet keeps a manifold for each pair of hulls that are near
 constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
+constexpr double coarsest_field = 2.0;       // times the cell asked for, before a request is refused
 constexpr double per_pixel = 120.0;          // view, measured and true images, and a cloud on its way into a file
 
 double field_bytes(const PartModel& part, double relative_cell) {
@@ -35,12 +36,16 @@ double field_bytes(const PartModel& part, double relative_cell) {
   return sizeof(float) * std::min(nodes, static_cast<double>(FieldOptions().max_nodes));
 }
 
+bool has_fields(const SolverSettings& solver) {
+  return solver.type != SolverType::bullet && solver.preset != SolverSettings::Preset::thesis;
+}
+
+/// A model without its distance field.
 double model_bytes(const Request& request, const PartModel& part) {
   const SolverSettings& solver = request.solver;
-  double bytes = per_triangle * static_cast<double>(part.mesh().triangles.size());
+  const double bytes = per_triangle * static_cast<double>(part.mesh().triangles.size());
   if (solver.type == SolverType::bullet) return bytes + per_triangle * 128.0 * solver.bullet.max_hulls;
-  if (solver.preset == SolverSettings::Preset::thesis) return bytes;
-  return bytes + field_bytes(part, solver.sphere.field_cell) + per_sample * solver.sphere.fine_samples;
+  return has_fields(solver) ? bytes + per_sample * solver.sphere.fine_samples : bytes;
 }
 
 /// One body of this part; null: one of a part that is not loaded yet.
@@ -84,32 +89,62 @@ std::size_t scenes_seen_at_once(const Request& request, double estimate) {
   return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
 }
 
-double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
-  double bodies = 0.0;
+namespace {
+
+/// Bytes of a request by what takes them.
+struct Needs {
+  double program = program_bytes, bodies = 0.0, models = 0.0, grid = 0.0, pixels = 0.0;
+  double total() const { return program + bodies + models + grid + pixels; }
+};
+
+Needs needs_without_fields(const Request& request, const std::vector<PartModelPtr>& parts) {
+  Needs needs;
   for (std::size_t line = 0; line < request.parts.size(); ++line) {
     const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
-    bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
+    needs.bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
   }
   // The CPU pours as many scenes at once as it has threads, and some that are finished wait for a judge.
   const double scenes = static_cast<double>(request.scenes), count = static_cast<double>(request.part_count());
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
-  bodies *= std::min(scenes, at_once);
-  bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
-  const double pixels = image_bytes(request);
-  double models = 0.0;
-  for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) {
-    models += model_bytes(request, *part);
+  needs.bodies *= std::min(scenes, at_once);
+  needs.bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
+  needs.pixels = image_bytes(request);
+  for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end()))
+    needs.models += model_bytes(request, *part);
+  if (request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis) {
+    needs.grid = 8.0 * std::pow(request.solver.thesis.grid_size, 3);
+    needs.program += device_bytes;
   }
-  const bool thesis =
-      request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
-  const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
-  const double program = program_bytes + (thesis ? device_bytes : 0.0);
-  const double total = program + bodies + pixels + models + grid;
+  return needs;
+}
+
+double all_fields(const Request& request, const std::vector<PartModelPtr>& parts, double cell) {
+  if (!has_fields(request.solver)) return 0.0;
+  double bytes = 0.0;
+  for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) bytes += field_bytes(*part, cell);
+  return bytes;
+}
+
+}  // namespace
+
+double field_cell_that_fits(const Request& request, const std::vector<PartModelPtr>& parts) {
+  const double asked = request.solver.sphere.field_cell;
+  if (!has_fields(request.solver)) return asked;
+  const double left = request.memory_budget - needs_without_fields(request, parts).total();
+  double cell = asked;
+  while (all_fields(request, parts, cell) > left && cell < coarsest_field * asked) cell *= 1.02;
+  return std::min(cell, coarsest_field * asked);
+}
+
+double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
+  Needs needs = needs_without_fields(request, parts);
+  needs.models += all_fields(request, parts, field_cell_that_fits(request, parts));
+  const double total = needs.total();
   if (total > request.memory_budget) {
-    throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(bodies) +
-                          ", models " + in_megabytes(models) + ", grid " + in_megabytes(grid) + ", images " +
-                          in_megabytes(pixels) + ", program and device " + in_megabytes(program) + "), the budget is " +
-                          in_megabytes(request.memory_budget),
+    throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(needs.bodies) +
+                          ", models " + in_megabytes(needs.models) + ", grid " + in_megabytes(needs.grid) +
+                          ", images " + in_megabytes(needs.pixels) + ", program and device " +
+                          in_megabytes(needs.program) + "), the budget is " + in_megabytes(request.memory_budget),
                       "memory_budget", "ask for fewer parts or pixels, or raise memory_budget");
   }
   return total;

@@ -65,6 +65,30 @@ TEST(Memory, CountsHulls) {
             2.0 * grows_by(PartModel::from_mesh(box_mesh(0.05), "box")));
 }
 
+// A field has (diagonal / cell)^3 nodes: of many models each is a little coarser, before the request is refused.
+TEST(Memory, FieldsOfManyModelsAreAsFineAsFits) {
+  std::vector<PartModelPtr> boxes;
+  Request r;
+  for (int i = 0; i < 60; ++i) {
+    boxes.push_back(PartModel::from_mesh(box_mesh(0.05 + 1e-4 * i), "box"));
+    r.parts.push_back(request(1).parts[0]);
+  }
+  r.memory_budget = 4e9;
+  const double full = estimate_memory(r, boxes), asked = r.solver.sphere.field_cell;
+  EXPECT_EQ(field_cell_that_fits(r, boxes), asked);
+  r.memory_budget = 0.5 * full;
+  const double cell = field_cell_that_fits(r, boxes);
+  EXPECT_GT(cell, 1.2 * asked);
+  EXPECT_LT(cell, 1.4 * asked);
+  EXPECT_LE(estimate_memory(r, boxes), r.memory_budget);
+  EXPECT_GT(estimate_memory(r, boxes), 0.9 * r.memory_budget);
+  r.memory_budget = 0.1 * full;
+  EXPECT_EQ(field_cell_that_fits(r, boxes), 2 * asked);
+  EXPECT_THROW(estimate_memory(r, boxes), Error);
+  r.solver.type = SolverType::bullet;
+  EXPECT_EQ(field_cell_that_fits(r, {}), asked);
+}
+
 TEST(Memory, AboveTheBudgetIsRefusedWithTheFigure) {
   Request r = request(900000);
   r.memory_budget = 1e9;

@@ -55,7 +55,10 @@ class Generator {
   std::unique_ptr<State> state_;
 };
 
-/// Estimated bytes of a request; throws an input Error with the figure if it exceeds request.memory_budget. Without
+/// Cell of the distance fields (/ diagonal) with which a request of many models fits into its memory_budget: the one
+/// asked for where that fits, else a larger one, at most twice as large.
+double field_cell_that_fits(const Request& request, const std::vector<PartModelPtr>& parts);
+/// Estimated bytes of a request with such fields; throws an input Error with the figure if it exceeds request.memory_budget. Without
 /// parts (not loaded yet) only counts and settings of the request are used. Images count for one scene.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
 /// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.
