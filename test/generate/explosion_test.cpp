@@ -1,6 +1,7 @@
 /// A scene in which contacts made energy is never accepted silently.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "box_mesh.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -97,6 +98,42 @@ TEST(Explosion, APinIsNotThrownByItsEyeAndWhatGainsMoreThanTheLimitIsSetApart) {
       }
     }
   EXPECT_GT(set_apart, 0u) << "none of these gains any more: find another case";
+  fs::remove_all(dir);
+}
+
+/// In steps of 1/15 s that are not cut, parts fall into each other and are pushed apart: both solvers make energy.
+TEST(Explosion, OfStepsThatAreTooLongAHeapCarriesTheFlagAndIsSetApart) {
+  const fs::path dir = fs::temp_directory_path() / ("bin_scenes_long_steps_" + std::to_string(getpid()));
+  fs::create_directories(dir);
+  std::ofstream(dir / "box.stl") << box_stl(0.04);
+  constexpr double limit = 0.1;  // m g d, from which a scene carries the flag
+  for (const SolverType type : {SolverType::sphere, SolverType::bullet}) {
+    Request request;
+    request.bin.inner_size = Vec3(0.2, 0.2, 0.3);
+    request.parts.emplace_back();
+    request.parts[0].model = "box.stl";
+    request.parts[0].path = (dir / "box.stl").string();
+    request.parts[0].count = 40;
+    request.pour.limit = 2.5;
+    request.accept.energy = limit;
+    request.solver.type = type;
+    request.solver.sphere.time_step = request.solver.bullet.time_step = 1.0 / 15.0;
+    request.solver.sphere.cut_steps = request.solver.bullet.cut_steps = false;
+    request.scenes = 4;
+    int found = 0;
+    Generator().generate(request, {}, [&](Generator::Result&& result) {
+      const Report& report = result.scene.report;
+      const bool gained = report.energy.gain > limit;
+      found += gained;
+      EXPECT_EQ(gained, std::any_of(report.flags.begin(), report.flags.end(),
+                                    [](const Flag& flag) { return flag.code == "energy_gained"; }));
+      EXPECT_EQ(gained, std::any_of(report.reasons.begin(), report.reasons.end(), [](const std::string& reason) {
+                  return reason.find("energy") != std::string::npos;
+                }));
+      EXPECT_FALSE(gained && report.accepted);
+    });
+    EXPECT_GE(found, 1) << name_of(type);
+  }
   fs::remove_all(dir);
 }
 
