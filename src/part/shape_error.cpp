@@ -2,6 +2,7 @@
 
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
+#include "core/in_parallel.hpp"
 
 #include <algorithm>
 
@@ -19,8 +20,23 @@ struct Distances {
     weight += w;
     max = std::max(max, distance);
   }
+  void add(const Distances& o) {
+    sum += o.sum;
+    weight += o.weight;
+    max = std::max(max, o.max);
+  }
   double mean() const { return weight > 0 ? sum / weight : 0.0; }
 };
+
+/// What measure(i) returns for every i below the count, put together in order.
+template <class Measure>
+Distances put_together(std::size_t count, const Measure& measure) {
+  std::vector<Distances> pieces(count);
+  in_parallel(count, [&](std::size_t i) { pieces[i] = measure(i); });
+  Distances all;
+  for (const Distances& piece : pieces) all.add(piece);
+  return all;
+}
 
 /// Fraction of a box that is inside, by the points of a quasi-random sequence (R3, Roberts 2018).
 template <class Inside>
@@ -39,10 +55,14 @@ double volume_by_counting(const Aabb& box, int points, Inside&& inside) {
 template <class ProxyDistance>
 ShapeError errors(const MeshQuery& query, const Distances& to_mesh, double proxy_volume, ProxyDistance&& distance) {
   const double diagonal = query.mesh().bounds().diagonal();
-  Distances from_mesh;
-  for (const SurfacePoint& s : dense_surface_points(query.mesh(), step_share * diagonal)) {
-    from_mesh.add(std::abs(distance(s.point)), s.weight);
-  }
+  const std::vector<SurfacePoint> points = dense_surface_points(query.mesh(), step_share * diagonal);
+  constexpr std::size_t run = 1024;
+  const Distances from_mesh = put_together((points.size() + run - 1) / run, [&](std::size_t r) {
+    Distances some;
+    for (std::size_t i = r * run; i < std::min(points.size(), (r + 1) * run); ++i)
+      some.add(std::abs(distance(points[i].point)), points[i].weight);
+    return some;
+  });
   const double volume = mass_properties(query.mesh()).volume;
   ShapeError error;
   error.to_mesh_mean = to_mesh.mean() / diagonal;
@@ -207,17 +227,19 @@ ShapeError shape_error(const SphereSet& spheres, const SphereSet& whole, const M
   const SphereGrid grid(spheres.spheres), whole_grid(whole.spheres);
   const int points = std::clamp(20000 / static_cast<int>(spheres.spheres.size() + 1), 60, 4000);
   const double golden = M_PI * (3 - std::sqrt(5.0));
-  Distances to_mesh;
-  for (const Sphere& s : spheres.spheres) {
+  const Distances to_mesh = put_together(spheres.spheres.size(), [&](std::size_t i) {
+    const Sphere& s = spheres.spheres[i];
+    Distances of_sphere;
     for (int k = 0; k < points; ++k) {
       const double z = 1 - (2 * k + 1.0) / points, r = std::sqrt(1 - z * z);
       const Vec3 direction(r * std::cos(golden * k), r * std::sin(golden * k), z), p = s.center + s.radius * direction;
       if (grid.inside(p)) continue;
       const NearestPoint nearest = query.nearest(p);
       if (direction.dot(query.mesh().area_vector(nearest.triangle).normalized()) < 0.5) continue;
-      to_mesh.add(nearest.distance, s.radius * s.radius);
+      of_sphere.add(nearest.distance, s.radius * s.radius);
     }
-  }
+    return of_sphere;
+  });
   const double volume =
       volume_by_counting(whole_grid.box(), 1 << 16, [&](const Vec3& p) { return whole_grid.inside(p); });
   return errors(query, to_mesh, volume, [&](const Vec3& p) { return grid.distance(p); });
@@ -226,42 +248,45 @@ ShapeError shape_error(const SphereSet& spheres, const SphereSet& whole, const M
 ShapeError shape_error(const DistanceField& field, const MeshQuery& query) {
   // The zero level of the trilinear interpolant, where it crosses the edges of the grid; and the volume by the part of
   // each node's cube that is inside if the surface there is flat.
-  Distances to_mesh;
-  double volume = 0;
-  const auto [nx, ny, nz] = field.nodes;
-  for (int z = 0; z < nz; ++z) {
-    for (int y = 0; y < ny; ++y) {
-      for (int x = 0; x < nx; ++x) {
+  std::vector<double> volumes(static_cast<std::size_t>(field.nodes[2]), 0.0);
+  const Distances to_mesh = put_together(volumes.size(), [&](std::size_t slice) {
+    Distances of_slice;
+    const int z = static_cast<int>(slice);
+    for (int y = 0; y < field.nodes[1]; ++y) {
+      for (int x = 0; x < field.nodes[0]; ++x) {
         const double here = field.at(x, y, z);
-        volume += std::clamp(0.5 - here / field.cell, 0.0, 1.0);
+        volumes[slice] += std::clamp(0.5 - here / field.cell, 0.0, 1.0);
         for (int axis = 0; axis < 3; ++axis) {
           const std::array<int, 3> next{x + (axis == 0), y + (axis == 1), z + (axis == 2)};
           if (next[axis] >= field.nodes[axis]) continue;
           const double there = field.at(next[0], next[1], next[2]);
           if ((here < 0) == (there < 0)) continue;
           const Vec3 node = Vec3(x, y, z) + here / (here - there) * Vec3::Unit(axis);
-          to_mesh.add(query.nearest(field.origin + field.cell * node).distance, 1.0);
+          of_slice.add(query.nearest(field.origin + field.cell * node).distance, 1.0);
         }
       }
     }
-  }
+    return of_slice;
+  });
+  double volume = 0;
+  for (const double of_slice : volumes) volume += of_slice;
   return errors(query, to_mesh, volume * std::pow(field.cell, 3), [&](const Vec3& p) { return field.distance(p); });
 }
 
 ShapeError shape_error(const ConvexHulls& set, const MeshQuery& query) {
   const double diagonal = query.mesh().bounds().diagonal();
-  std::vector<HullPlanes> planes;
-  Distances to_mesh;
-  DistanceWalk walk(query);
-  for (const Mesh& hull : set.hulls) {
-    planes.emplace_back(hull);
-    for (const SurfacePoint& s : dense_surface_points(hull, step_share * diagonal)) {
+  const std::vector<HullPlanes> planes(set.hulls.begin(), set.hulls.end());
+  const Distances to_mesh = put_together(set.hulls.size(), [&](std::size_t h) {
+    Distances of_hull;
+    DistanceWalk walk(query);
+    for (const SurfacePoint& s : dense_surface_points(set.hulls[h], step_share * diagonal)) {
       // Faces inside the solid are where two hulls meet: nothing touches them. Outside they may be covered by another
       // hull, which then sticks out further.
       const double distance = walk.go_to(s.point);
-      if (distance < 1e-4 * diagonal || !walk.inside()) to_mesh.add(distance, s.weight);
+      if (distance < 1e-4 * diagonal || !walk.inside()) of_hull.add(distance, s.weight);
     }
-  }
+    return of_hull;
+  });
   return errors(query, to_mesh, union_volume(set.hulls), [&](const Vec3& p) { return distance_to_union(planes, p); });
 }
 
