@@ -25,6 +25,8 @@ constexpr double per_sample = 64.0;           // contact sample with its normal
 constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
 constexpr double per_contact = 160.0;
 constexpr double per_hull = 9000.0;          // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double per_pair = 200.0;           // of parts that start within each other
+constexpr double per_bullet_pair = 7500.0;   // likewise: Bullet makes a manifold and its constraints for each
 constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
 constexpr double coarsest_field = 2.0;       // times the cell asked for, before a request is refused
@@ -65,6 +67,35 @@ double body_bytes(const Request& request, const PartModel* part) {
   return per_body + spheres * (per_sphere + per_sphere_contact * solver.thesis.contacts_per_sphere);
 }
 
+/// Pairs of parts whose boxes overlap at the poses they are given to start from; stops at `most`.
+double pairs_at_start(const Request& request, const std::vector<PartModelPtr>& parts, double most) {
+  std::vector<Aabb> boxes;
+  Aabb all;
+  for (std::size_t line = 0; line < std::min(parts.size(), request.parts.size()); ++line) {
+    const Aabb box = parts[line]->mesh().bounds();
+    for (const Pose& pose : request.parts[line].poses) {
+      const Vec3 center = pose * box.center();
+      const Vec3 half = pose.orientation.toRotationMatrix().cwiseAbs() * (0.5 * box.size());
+      boxes.emplace_back();
+      boxes.back().extend(Vec3(center - half));
+      boxes.back().extend(Vec3(center + half));
+      all.extend(center);
+    }
+  }
+  if (boxes.empty()) return 0.0;
+  int axis;
+  all.size().maxCoeff(&axis);
+  std::sort(boxes.begin(), boxes.end(), [&](const Aabb& a, const Aabb& b) { return a.lower[axis] < b.lower[axis]; });
+  double pairs = 0.0, looks = 1e8;  // half a second: beside each other and far apart, so many are none
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower[axis] <= boxes[i].upper[axis]; ++j) {
+      pairs += boxes[i].overlaps(boxes[j]);
+      if (pairs >= most || --looks < 0.0) return pairs;
+    }
+  }
+  return pairs;
+}
+
 std::string in_megabytes(double bytes) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.0f MB", std::ceil(bytes / 1e6));
@@ -93,8 +124,8 @@ namespace {
 
 /// Bytes of a request by what takes them.
 struct Needs {
-  double program = program_bytes, bodies = 0.0, models = 0.0, grid = 0.0, pixels = 0.0;
-  double total() const { return program + bodies + models + grid + pixels; }
+  double program = program_bytes, bodies = 0.0, overlaps = 0.0, models = 0.0, grid = 0.0, pixels = 0.0;
+  double total() const { return program + bodies + overlaps + models + grid + pixels; }
 };
 
 Needs needs_without_fields(const Request& request, const std::vector<PartModelPtr>& parts) {
@@ -108,6 +139,8 @@ Needs needs_without_fields(const Request& request, const std::vector<PartModelPt
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
   needs.bodies *= std::min(scenes, at_once);
   needs.bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
+  const double a_pair = request.solver.type == SolverType::bullet ? per_bullet_pair : per_pair;
+  needs.overlaps = a_pair * pairs_at_start(request, parts, 1.1 * request.memory_budget / a_pair);
   needs.pixels = image_bytes(request);
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end()))
     needs.models += model_bytes(request, *part);
@@ -141,11 +174,14 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   needs.models += all_fields(request, parts, field_cell_that_fits(request, parts));
   const double total = needs.total();
   if (total > request.memory_budget) {
-    throw input_error("the request needs about " + in_megabytes(total) + " (parts " + in_megabytes(needs.bodies) +
-                          ", models " + in_megabytes(needs.models) + ", grid " + in_megabytes(needs.grid) +
+    const bool within_each_other = needs.overlaps > 0.1 * total;
+    throw input_error("the request needs about " + in_megabytes(total) + (within_each_other ? " or more" : "") +
+                          " (parts " + in_megabytes(needs.bodies) + ", pairs of them that start within each other " +
+                          in_megabytes(needs.overlaps) + ", models " + in_megabytes(needs.models) + ", grid " + in_megabytes(needs.grid) +
                           ", images " + in_megabytes(needs.pixels) + ", program and device " +
                           in_megabytes(needs.program) + "), the budget is " + in_megabytes(request.memory_budget),
-                      "memory_budget", "ask for fewer parts or pixels, or raise memory_budget");
+                      "memory_budget",
+                      within_each_other ? "move the start poses apart" : "ask for fewer parts or pixels, or raise memory_budget");
   }
   return total;
 }

@@ -126,6 +126,7 @@ bool HeapCore::enter(std::size_t first) {
 
 void HeapCore::start_given(std::size_t first) {
   for (std::size_t b = first; b < states_.size(); ++b) {
+    stop_if_cancelled();
     const PartLine& line = plan_->request.parts[plan_->line_of[b]];
     if (line.poses.empty()) {
       waiting_.push_back(b);

@@ -6,7 +6,10 @@
 
 #include <ros/names.h>
 #include <ros/ros.h>
+#include <sys/time.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -37,6 +40,13 @@ std::vector<std::unique_ptr<SceneServer>> servers() {
   return all;
 }
 
+/// What does not stop by itself (a driver that compiles shaders) does not hold up the end of the node.
+void end_within_half_a_second() {
+  std::signal(SIGALRM, [](int) { _exit(0); });
+  const itimerval once{{0, 0}, {0, 500'000}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -47,6 +57,7 @@ int main(int argc, char** argv) {
     const auto running = servers();
     const bin_scenes::MasterWatch watch;
     ros::spin();
+    end_within_half_a_second();
   } catch (const bin_scenes::Error& error) {
     ROS_FATAL("%s", error.what());
     // Also where roslaunch sends logs to files only, and before rosconsole has found its output.

@@ -67,8 +67,7 @@ std::map<std::string, Case> cases(const fs::path& folder) {
     c.request.solver.type = type;
     return c;
   };
-  const auto overlap = [&](SolverType type) {
-    constexpr int count = 20000;
+  const auto overlap = [&](SolverType type, int count) {
     Case c = heap(ball, count, type);
     c.request.bin.kind = Bin::Kind::floor;
     c.request.pour.pattern = Pour::Pattern::given;
@@ -80,8 +79,8 @@ std::map<std::string, Case> cases(const fs::path& folder) {
   all["loading"] = heap(fine, 3, SolverType::sphere);
   all["decomposition"] = heap(bumpy, 3, SolverType::bullet);
   all["loading"].cold = all["decomposition"].cold = true;
-  all["overlap, sphere"] = overlap(SolverType::sphere);
-  all["overlap, bullet"] = overlap(SolverType::bullet);
+  all["overlap, sphere"] = overlap(SolverType::sphere, 5000);
+  all["overlap, bullet"] = overlap(SolverType::bullet, 700);
   all["many scenes"] = heap(ball, 20, SolverType::bullet);
   all["many scenes"].request.scenes = 200'000'000;
   all["judging"] = heap(fine, 30, SolverType::sphere);

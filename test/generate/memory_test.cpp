@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace bin_scenes {
@@ -87,6 +88,30 @@ TEST(Memory, FieldsOfManyModelsAreAsFineAsFits) {
   EXPECT_THROW(estimate_memory(r, boxes), Error);
   r.solver.type = SolverType::bullet;
   EXPECT_EQ(field_cell_that_fits(r, {}), asked);
+}
+
+// 20,000 parts in one place are a request of 400 kB and took 14 GB.
+TEST(Memory, CountsPartsThatStartWithinEachOther) {
+  const PartModelPtr box = PartModel::from_mesh(box_mesh(0.04), "box");
+  Request r = request(20000);
+  r.pour.pattern = Pour::Pattern::given;
+  for (int i = 0; i < 20000; ++i)
+    r.parts[0].poses.push_back({Vec3(1e-4 * (i % 100), 1e-4 * (i / 100), 0.1), Quat::Identity()});
+  for (const SolverType type : {SolverType::sphere, SolverType::bullet}) {
+    r.solver.type = type;
+    try {
+      estimate_memory(r, {box});
+      ADD_FAILURE() << name_of(type);
+    } catch (const Error& error) {
+      EXPECT_NE(error.problem().find("start within each other"), std::string::npos) << error.what();
+      EXPECT_EQ(error.remedy(), "move the start poses apart");
+    }
+  }
+  for (std::size_t i = 0; i < r.parts[0].poses.size(); ++i) {
+    const double k = static_cast<double>(i);
+    r.parts[0].poses[i].position = Vec3(0.041 * std::fmod(k, 100.0), 0.041 * std::floor(k / 100.0), 0.1);
+  }
+  EXPECT_LT(estimate_memory(r, {box}), r.memory_budget);
 }
 
 TEST(Memory, AboveTheBudgetIsRefusedWithTheFigure) {

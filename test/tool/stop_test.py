@@ -52,14 +52,18 @@ def requests(folder):
     sphere_stl(folder / "fine.stl", 200, bumps=0.05)
     sphere_stl(folder / "bumpy.stl", 24, bumps=0.15)
     overlap = "bin: {floor: true}\npour: {pattern: given}\nparts:\n  - {model: ball.stl, unit: m, count: %d, poses: [%s]}\n"
-    poses = ", ".join(["[%.4f, %.4f, 0.1, 0, 0, 0, 1]" % (1e-4 * (i % 100), 1e-4 * (i // 100)) for i in range(20000)])
+
+    def within_each_other(count):
+        poses = ("[%.4f, %.4f, 0.1, 0, 0, 0, 1]" % (1e-4 * (i % 100), 1e-4 * (i // 100)) for i in range(count))
+        return overlap % (count, ", ".join(poses))
+
     heap = "bin: {inner_size: [0.3, 0.3, 0.3]}\nparts: [{model: %s, unit: m, count: %d}]\n"
     return {
         "parsing": ("seed: 1\nparts:\n" + "  - {model: ball.stl, unit: m}\n" * 60000, [], False),
         "loading": (heap % ("fine.stl", 3), [], True),
         "decomposition": (heap % ("bumpy.stl", 3) + "solver: {type: bullet}\n", [], True),
-        "overlap, sphere": (overlap % (20000, poses), ["--solver", "sphere", "--set", "solver.sphere.device=cpu"], False),
-        "overlap, bullet": (overlap % (20000, poses), ["--solver", "bullet"], False),
+        "overlap, sphere": (within_each_other(5000), ["--solver", "sphere", "--set", "solver.sphere.device=cpu"], False),
+        "overlap, bullet": (within_each_other(700), ["--solver", "bullet"], False),
         "many scenes": (heap % ("ball.stl", 20), ["--scenes", "200000000", "--solver", "bullet"], False),
         "judging": (heap % ("fine.stl", 30), ["--solver", "sphere", "--seconds", "0.05"], False),
         "rendering": (heap % ("ball.stl", 60), ["--solver", "bullet", "--formats", "png,bop", "--seconds", "0.1", "--set",
