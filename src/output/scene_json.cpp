@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <fstream>
+#include <limits>
+#include <type_traits>
 
 namespace bin_scenes {
 
@@ -154,6 +156,24 @@ Json json_of(const Report& report) {
 
 // Reading. nlohmann's exceptions name the key and the type; read_scene_json adds the file and the place in it.
 
+/// A whole number that its type can hold; the cast of another one may be anything.
+template <class Whole>
+Whole whole_of(const Json& json) {
+  const bool fits = json.is_number_unsigned()
+                        ? json.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<Whole>::max())
+                        : json.is_number_integer() && std::is_signed_v<Whole> &&
+                              json.get<std::int64_t>() >= static_cast<std::int64_t>(std::numeric_limits<Whole>::min());
+  if (!fits) throw std::runtime_error("holds " + json.dump().substr(0, 40) + " where a whole number is due");
+  return json.get<Whole>();
+}
+
+std::vector<int> ids_of(const Json& json, const char* key) {
+  std::vector<int> ids;
+  if (json.contains(key))
+    for (const Json& id : json.at(key)) ids.push_back(whole_of<int>(id));
+  return ids;
+}
+
 Vec3 vec3_of(const Json& json) {
   Vec3 v;
   if (json.size() != 3) throw std::runtime_error("a position needs three numbers");
@@ -182,7 +202,7 @@ PartState state_of(const std::string& name) {
 
 /// Files of others may lack `line`: then a line is a model, in order of first appearance.
 std::size_t line_of(const Json& json, const std::string& model, std::vector<std::string>& models) {
-  if (json.contains("line")) return json.at("line").get<std::size_t>();
+  if (json.contains("line")) return whole_of<std::size_t>(json.at("line"));
   const auto known = std::find(models.begin(), models.end(), model);
   if (known != models.end()) return static_cast<std::size_t>(known - models.begin());
   models.push_back(model);
@@ -206,9 +226,9 @@ Report report_of(const Json& json) {
   report.finish = json.value("finish", "");
   report.simulated_s = json.value("simulated_s", 0.0);
   if (json.contains("wall_s") && !json.at("wall_s").is_null()) report.wall_s = json.at("wall_s").get<double>();
-  report.steps = json.value("steps", std::uint64_t{0});
-  report.escaped = json.value("escaped", std::vector<int>());
-  report.not_poured = json.value("not_poured", std::vector<int>());
+  if (json.contains("steps")) report.steps = whole_of<std::uint64_t>(json.at("steps"));
+  report.escaped = ids_of(json, "escaped");
+  report.not_poured = ids_of(json, "not_poured");
   report.state_hash = std::stoull(json.value("state_hash", "0"), nullptr, 16);
   return report;
 }
@@ -243,8 +263,8 @@ Scene read_scene_json(const std::string& path) {
     if (json.at("format") != scene_format) throw std::runtime_error("is not " + std::string(scene_format));
     Scene scene;
     where = "seed and index";
-    scene.seed = json.at("seed").get<std::uint64_t>();
-    scene.index = json.at("index").get<std::size_t>();
+    scene.seed = whole_of<std::uint64_t>(json.at("seed"));
+    scene.index = whole_of<std::size_t>(json.at("index"));
     where = "models";
     if (json.contains("models")) {
       for (const Json& model : json.at("models")) {
@@ -256,7 +276,7 @@ Scene read_scene_json(const std::string& path) {
     for (const Json& item : json.at("parts")) {
       where = "parts[" + std::to_string(scene.parts.size()) + "]";
       ScenePart part;
-      part.id = item.at("id").get<int>();
+      part.id = whole_of<int>(item.at("id"));
       part.model = item.at("model").get<std::string>();
       part.line = line_of(item, part.model, models);
       part.pose = pose_of(item.at("pose"));

@@ -105,7 +105,11 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
   };
   expect("{", "is no JSON, or cut off");
   expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
-  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': type must be number");
+  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': holds \"one\" where a whole number");
+  // Casts of what does not fit: found by the fuzzer.
+  expect(R"({"format": "bin_scenes/1", "seed": 744444444444444444444444444444, "index": 0})", "whole number");
+  expect(R"({"format": "bin_scenes/1", "seed": 1, "index": -1})", "holds -1 where");
+  expect(R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [{"id": 3000000000}]})", "parts[0]");
   expect("[]", "format");
   expect(R"({"format": "bin_scenes/9"})", "bin_scenes/1");
   const std::string head = R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [{"id": 0, "model": "a")";
