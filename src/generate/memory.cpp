@@ -50,15 +50,19 @@ double model_bytes(const Request& request, const PartModel& part) {
   return has_fields(solver) ? bytes + per_sample * solver.sphere.fine_samples : bytes;
 }
 
+double hulls_of(const Request& request, const PartModel& part) {
+  HullOptions options;  // the solver needs the same hulls next
+  options.max_error = request.solver.bullet.hull_error;
+  options.max_volume_error = request.solver.bullet.hull_volume_error;
+  options.max_hulls = request.solver.bullet.max_hulls;
+  return static_cast<double>(part.hulls(options).hulls.size());
+}
+
 /// One body of this part; null: one of a part that is not loaded yet.
 double body_bytes(const Request& request, const PartModel* part) {
   const SolverSettings& solver = request.solver;
   if (solver.type == SolverType::bullet) {
-    HullOptions options;  // the solver needs the same hulls next
-    options.max_error = solver.bullet.hull_error;
-    options.max_volume_error = solver.bullet.hull_volume_error;
-    options.max_hulls = solver.bullet.max_hulls;
-    return per_body + per_hull * (part ? static_cast<double>(part->hulls(options).hulls.size()) : 1.0);
+    return per_body + per_hull * (part ? hulls_of(request, *part) : 1.0);
   }
   if (solver.preset != SolverSettings::Preset::thesis) return per_body + contacts_per_body * per_contact;
   const ThesisSettings& thesis = solver.thesis;
@@ -67,33 +71,48 @@ double body_bytes(const Request& request, const PartModel* part) {
   return per_body + spheres * (per_sphere + per_sphere_contact * solver.thesis.contacts_per_sphere);
 }
 
-/// Pairs of parts whose boxes overlap at the poses they are given to start from; stops at `most`.
-double pairs_at_start(const Request& request, const std::vector<PartModelPtr>& parts, double most) {
-  std::vector<Aabb> boxes;
+/// Of the pairs of parts that start within each other, by their boxes at the poses they are given; stops above `most`.
+double overlap_bytes(const Request& request, const std::vector<PartModelPtr>& parts, double most) {
+  struct Placed {
+    Aabb box;
+    double hulls;
+  };
+  const bool bullet = request.solver.type == SolverType::bullet;
+  std::vector<Placed> placed;
   Aabb all;
   for (std::size_t line = 0; line < std::min(parts.size(), request.parts.size()); ++line) {
     const Aabb box = parts[line]->mesh().bounds();
+    const double hulls = bullet && !request.parts[line].poses.empty() ? hulls_of(request, *parts[line]) : 1.0;
     for (const Pose& pose : request.parts[line].poses) {
       const Vec3 center = pose * box.center();
       const Vec3 half = pose.orientation.toRotationMatrix().cwiseAbs() * (0.5 * box.size());
-      boxes.emplace_back();
-      boxes.back().extend(Vec3(center - half));
-      boxes.back().extend(Vec3(center + half));
+      placed.push_back({{}, hulls});
+      placed.back().box.extend(Vec3(center - half));
+      placed.back().box.extend(Vec3(center + half));
       all.extend(center);
     }
   }
-  if (boxes.empty()) return 0.0;
+  if (placed.empty()) return 0.0;
   int axis;
   all.size().maxCoeff(&axis);
-  std::sort(boxes.begin(), boxes.end(), [&](const Aabb& a, const Aabb& b) { return a.lower[axis] < b.lower[axis]; });
-  double pairs = 0.0, looks = 1e8;  // half a second: beside each other and far apart, so many are none
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower[axis] <= boxes[i].upper[axis]; ++j) {
-      pairs += boxes[i].overlaps(boxes[j]);
-      if (pairs >= most || --looks < 0.0) return pairs;
+  std::sort(placed.begin(), placed.end(),
+            [&](const Placed& a, const Placed& b) { return a.box.lower[axis] < b.box.lower[axis]; });
+  double bytes = 0.0, looks = 1e8;  // half a second: where so many are beside each other, few are within each other
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Placed& a = placed[i];
+    for (std::size_t j = i + 1; j < placed.size() && placed[j].box.lower[axis] <= a.box.upper[axis]; ++j) {
+      if (--looks < 0.0) return bytes;
+      const Placed& b = placed[j];
+      if (!a.box.overlaps(b.box)) continue;
+      const Vec3 shared = a.box.upper.cwiseMin(b.box.upper) - a.box.lower.cwiseMax(b.box.lower);
+      const double smaller = std::min(a.box.size().prod(), b.box.size().prod());
+      const double share = smaller > 0.0 ? std::min(1.0, shared.cwiseMax(0.0).prod() / smaller) : 1.0;
+      // In one place a hull meets 3.5 of the other part (64 hulls of a mug; measured).
+      bytes += bullet ? per_bullet_pair * (1.0 + share * (1.75 * (a.hulls + b.hulls) - 3.5)) : per_pair;
+      if (bytes > most) return bytes;
     }
   }
-  return pairs;
+  return bytes;
 }
 
 std::string in_megabytes(double bytes) {
@@ -139,8 +158,7 @@ Needs needs_without_fields(const Request& request, const std::vector<PartModelPt
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
   needs.bodies *= std::min(scenes, at_once);
   needs.bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
-  const double a_pair = request.solver.type == SolverType::bullet ? per_bullet_pair : per_pair;
-  needs.overlaps = a_pair * pairs_at_start(request, parts, 1.1 * request.memory_budget / a_pair);
+  needs.overlaps = overlap_bytes(request, parts, 1.1 * request.memory_budget);
   needs.pixels = image_bytes(request);
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end()))
     needs.models += model_bytes(request, *part);
