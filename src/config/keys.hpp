@@ -289,7 +289,8 @@ void visit(Visitor& v, Request& request) {
            "nothing "
            "about other engines"},
           request.drift_check);
-  v.field({"memory_budget", "byte", "a request whose estimate exceeds it is refused, with the figure"},
+  v.field({"memory_budget", "byte",
+           "a request whose estimate exceeds it is refused, with the figure; distance fields share half of it"},
           request.memory_budget);
 }
 

@@ -7,7 +7,6 @@
 #include "generate/model_store.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace bin_scenes {
 
@@ -83,7 +82,6 @@ struct Generator::State {
   SensorRig rig;
   std::vector<Sensor> sensors;  ///< of the request, with poses and intrinsics
   std::size_t at_once = 1;      ///< scenes whose images fit into memory together
-  std::vector<Flag> flags;      ///< of the request
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
@@ -91,23 +89,6 @@ struct Generator::State {
     models.load(request);
     at_once = scenes_seen_at_once(request, estimate_memory(request, models.parts()));
     sensors = resolved_sensors(request, models.parts(), models.bin());
-  }
-
-  /// Its fields are as fine as memory allows.
-  std::shared_ptr<Solver> solver(const Request& request, std::string& reason) {
-    Request fitted = request;
-    double& cell = fitted.solver.sphere.field_cell;
-    cell = field_cell_that_fits(request, models.parts());
-    flags.clear();
-    if (cell > request.solver.sphere.field_cell) flags.push_back(coarser_fields(request, cell));
-    return make_solver(fitted, models.parts(), reason);
-  }
-
-  static Flag coarser_fields(const Request& request, double cell) {
-    char text[160];
-    std::snprintf(text, sizeof text, "distance fields have cells of %.3g of their part's diagonal instead of %.3g: %s",
-                  cell, request.solver.sphere.field_cell, "finer ones of so many models exceed memory_budget");
-    return {"field_coarsened", text, "raise memory_budget, or live with the coarser fields"};
   }
 
   static void measure_drift(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
@@ -130,8 +111,7 @@ struct Generator::State {
   }
 
   /// What the report says of models and solver.
-  void name_origin(Scene& scene, const std::vector<PartModelPtr>& parts, const std::string& solver_reason) const {
-    scene.report.flags.insert(scene.report.flags.end(), flags.begin(), flags.end());
+  static void name_origin(Scene& scene, const std::vector<PartModelPtr>& parts, const std::string& solver_reason) {
     for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
     scene.report.solver_reason = solver_reason;
     for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
@@ -185,7 +165,7 @@ void Generator::generate(const Request& request, const Options& options, const s
   {
     StageTimer timer(loading, "prepare");
     reporter.phase("prepare", request.first, request.part_count());
-    solver = state_->solver(request, solver_reason);
+    solver = make_solver(request, parts, solver_reason);
   }
 
   Finishing finishing(
@@ -203,7 +183,7 @@ void Generator::generate(const Request& request, const Options& options, const s
     finishing.hand_on_finished();
   };
   pour(request, parts, *solver, scenes, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
-    state_->name_origin(scene, parts, solver_reason);
+    State::name_origin(scene, parts, solver_reason);
     if (place == 0) scene.report.profile.merge(loading);
     reporter.phase("quality", scene.index, scene.parts.size());
     if (request.drift_check) State::measure_drift(scene, request, parts, solver, bin_model, options.hooks);
@@ -220,7 +200,7 @@ Heap Generator::heap(const Request& request, const RunHooks& hooks) {
   state_->load(request, reporter);
   reporter.phase("prepare", request.first, request.part_count());
   std::string reason;
-  std::shared_ptr<Solver> solver = state_->solver(request, reason);
+  std::shared_ptr<Solver> solver = make_solver(request, state_->models.parts(), reason);
   return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
 }
 
@@ -256,7 +236,7 @@ Generator::Result Generator::result(const Heap& heap, const Options& options) {
   Result result;
   result.scene = heap.scene();
   result.scene.index = options.index.value_or(result.scene.index);
-  state_->name_origin(result.scene, heap.parts(), heap.solver_reason());
+  State::name_origin(result.scene, heap.parts(), heap.solver_reason());
   reporter.phase("quality", result.scene.index, result.scene.parts.size());
   if (request.drift_check)
     State::measure_drift(result.scene, request, heap.parts(), heap.solver(), heap.bin_model(), options.hooks);

@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/solver/solver.hpp"
 
 #include "generate/finishing.hpp"
 
@@ -29,25 +30,20 @@ constexpr double per_pair = 200.0;           // of parts that start within each 
 constexpr double per_bullet_pair = 7500.0;   // likewise: Bullet makes a manifold and its constraints for each
 constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;  // of its capacity
-constexpr double coarsest_field = 2.0;       // times the cell asked for, before a request is refused
 constexpr double per_pixel = 120.0;          // view, measured and true images, and a cloud on its way into a file
 
-double field_bytes(const PartModel& part, double relative_cell) {
+double field_bytes(const PartModel& part, double relative_cell, std::size_t most_nodes) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
   const double nodes = (cells.array() + 7.0).prod();
-  return sizeof(float) * std::min(nodes, static_cast<double>(FieldOptions().max_nodes));
+  return sizeof(float) * std::min(nodes, static_cast<double>(most_nodes));
 }
 
-bool has_fields(const SolverSettings& solver) {
-  return solver.type != SolverType::bullet && solver.preset != SolverSettings::Preset::thesis;
-}
-
-/// A model without its distance field.
-double model_bytes(const Request& request, const PartModel& part) {
+double model_bytes(const Request& request, const PartModel& part, std::size_t field_nodes) {
   const SolverSettings& solver = request.solver;
   const double bytes = per_triangle * static_cast<double>(part.mesh().triangles.size());
   if (solver.type == SolverType::bullet) return bytes + per_triangle * 128.0 * solver.bullet.max_hulls;
-  return has_fields(solver) ? bytes + per_sample * solver.sphere.fine_samples : bytes;
+  if (solver.preset == SolverSettings::Preset::thesis) return bytes;
+  return bytes + field_bytes(part, solver.sphere.field_cell, field_nodes) + per_sample * solver.sphere.fine_samples;
 }
 
 double hulls_of(const Request& request, const PartModel& part) {
@@ -139,67 +135,38 @@ std::size_t scenes_seen_at_once(const Request& request, double estimate) {
   return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
 }
 
-namespace {
-
-/// Bytes of a request by what takes them.
-struct Needs {
-  double program = program_bytes, bodies = 0.0, overlaps = 0.0, models = 0.0, grid = 0.0, pixels = 0.0;
-  double total() const { return program + bodies + overlaps + models + grid + pixels; }
-};
-
-Needs needs_without_fields(const Request& request, const std::vector<PartModelPtr>& parts) {
-  Needs needs;
+double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
+  double bodies = 0.0;
   for (std::size_t line = 0; line < request.parts.size(); ++line) {
     const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
-    needs.bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
+    bodies += body_bytes(request, part) * static_cast<double>(request.parts[line].count);
   }
   // The CPU pours as many scenes at once as it has threads, and some that are finished wait for a judge.
   const double scenes = static_cast<double>(request.scenes), count = static_cast<double>(request.part_count());
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
-  needs.bodies *= std::min(scenes, at_once);
-  needs.bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
-  needs.overlaps = overlap_bytes(request, parts, 1.1 * request.memory_budget);
-  needs.pixels = image_bytes(request);
+  bodies *= std::min(scenes, at_once);
+  bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
+  const double overlaps = overlap_bytes(request, parts, 1.1 * request.memory_budget) * std::min(scenes, at_once);
+  const double pixels = image_bytes(request);
+  double models = 0.0;
+  const std::size_t nodes = field_nodes_that_fit(request, parts);
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end()))
-    needs.models += model_bytes(request, *part);
-  if (request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis) {
-    needs.grid = 8.0 * std::pow(request.solver.thesis.grid_size, 3);
-    needs.program += device_bytes;
-  }
-  return needs;
-}
-
-double all_fields(const Request& request, const std::vector<PartModelPtr>& parts, double cell) {
-  if (!has_fields(request.solver)) return 0.0;
-  double bytes = 0.0;
-  for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end())) bytes += field_bytes(*part, cell);
-  return bytes;
-}
-
-}  // namespace
-
-double field_cell_that_fits(const Request& request, const std::vector<PartModelPtr>& parts) {
-  const double asked = request.solver.sphere.field_cell;
-  if (!has_fields(request.solver)) return asked;
-  const double left = request.memory_budget - needs_without_fields(request, parts).total();
-  double cell = asked;
-  while (all_fields(request, parts, cell) > left && cell < coarsest_field * asked) cell *= 1.02;
-  return std::min(cell, coarsest_field * asked);
-}
-
-double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
-  Needs needs = needs_without_fields(request, parts);
-  needs.models += all_fields(request, parts, field_cell_that_fits(request, parts));
-  const double total = needs.total();
+    models += model_bytes(request, *part, nodes);
+  const bool thesis =
+      request.solver.type != SolverType::bullet && request.solver.preset == SolverSettings::Preset::thesis;
+  const double grid = thesis ? 8.0 * std::pow(request.solver.thesis.grid_size, 3) : 0.0;
+  const double program = program_bytes + (thesis ? device_bytes : 0.0);
+  const double apart = program + bodies + pixels + models + grid, total = apart + overlaps;
   if (total > request.memory_budget) {
-    const bool within_each_other = needs.overlaps > 0.1 * total;
-    throw input_error("the request needs about " + in_megabytes(total) + (within_each_other ? " or more" : "") +
-                          " (parts " + in_megabytes(needs.bodies) + ", pairs of them that start within each other " +
-                          in_megabytes(needs.overlaps) + ", models " + in_megabytes(needs.models) + ", grid " + in_megabytes(needs.grid) +
-                          ", images " + in_megabytes(needs.pixels) + ", program and device " +
-                          in_megabytes(needs.program) + "), the budget is " + in_megabytes(request.memory_budget),
-                      "memory_budget",
-                      within_each_other ? "move the start poses apart" : "ask for fewer parts or pixels, or raise memory_budget");
+    const bool within_each_other = apart <= request.memory_budget;
+    throw input_error(
+        "the request needs about " + in_megabytes(total) + (within_each_other ? " or more" : "") + " (parts " +
+            in_megabytes(bodies) + ", models " + in_megabytes(models) + ", grid " + in_megabytes(grid) + ", images " +
+            in_megabytes(pixels) + ", program and device " + in_megabytes(program) +
+            (overlaps > 0.0 ? ", parts that start within each other " + in_megabytes(overlaps) : "") +
+            "), the budget is " + in_megabytes(request.memory_budget),
+        "memory_budget",
+        within_each_other ? "move the start poses apart" : "ask for fewer parts or pixels, or raise memory_budget");
   }
   return total;
 }

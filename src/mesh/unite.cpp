@@ -109,10 +109,8 @@ class Union {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       stop_if_cancelled();
       for (const Polygon& piece : pieces(t)) {
-        if (piece.size() < 3) continue;
-        const bool is_outer = outer(piece, t);
         if (work_ > most_work) return {};
-        if (!is_outer) continue;
+        if (piece.size() < 3 || !outer(piece, t)) continue;
         const auto first = static_cast<std::uint32_t>(result.vertices.size());
         for (const Vec3& p : piece) result.vertices.push_back(p);
         for (std::uint32_t k = 1; k + 1 < piece.size(); ++k)

@@ -5,6 +5,9 @@
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
+#include <algorithm>
+#include <set>
+
 namespace bin_scenes {
 
 namespace {
@@ -18,10 +21,12 @@ bool on_gpu(const Request& request, std::string& reason) {
   return choice.gpu;
 }
 
-std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason) {
-  const SolverSettings& settings = request.solver;
+std::unique_ptr<Solver> make_sphere(const Request& request, const std::vector<PartModelPtr>& parts,
+                                    std::string& reason) {
+  SolverSettings settings = request.solver;
   if (settings.preset == SolverSettings::Preset::thesis) return std::make_unique<ThesisSolver>(settings.thesis);
   const std::size_t bodies = request.part_count() + (request.bin.kind == Bin::Kind::mesh ? 1 : 0);
+  settings.sphere.field_nodes = field_nodes_that_fit(request, parts);
   if (!on_gpu(request, reason)) return make_sphere_solver(settings.sphere);
   sphere_gl::Capacity capacity;
   capacity.bodies = bodies;
@@ -31,11 +36,21 @@ std::unique_ptr<Solver> make_sphere(const Request& request, std::string& reason)
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>&, std::string& reason) {
+std::size_t field_nodes_that_fit(const Request& request, const std::vector<PartModelPtr>& parts) {
+  constexpr double fewest = 1e5;  // as many as of a cell of 1.3 % of a cube's diagonal
+  const std::size_t most = request.solver.sphere.field_nodes;
+  const std::size_t models = std::set<PartModelPtr>(parts.begin(), parts.end()).size();
+  if (models == 0) return most;
+  const double share = 0.5 * request.memory_budget / static_cast<double>(models * sizeof(float));
+  return static_cast<std::size_t>(std::clamp(share, fewest, static_cast<double>(most)));
+}
+
+std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts,
+                                    std::string& reason) {
   switch (request.solver.type) {
     case SolverType::sphere:
       reason = "asked for";
-      return make_sphere(request, reason);
+      return make_sphere(request, parts, reason);
     case SolverType::bullet:
       reason = "asked for";
       return make_bullet_solver(request.solver.bullet);
@@ -45,7 +60,7 @@ std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<Pa
   // Measured from 1 part to 64, convex and concave: Bullet never was the cheaper one, so only the device is left to
   // choose.
   reason = "auto: sphere, as cheap as bullet or cheaper for every part and count measured (docs/use/choosing.md)";
-  return make_sphere(request, reason);
+  return make_sphere(request, parts, reason);
 }
 
 }  // namespace bin_scenes

@@ -1,9 +1,12 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/pour/heap.hpp"
+#include "bin_scenes/solver/solver.hpp"
 #include "box_mesh.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -66,28 +69,47 @@ TEST(Memory, CountsHulls) {
             2.0 * grows_by(PartModel::from_mesh(box_mesh(0.05), "box")));
 }
 
-// A field has (diagonal / cell)^3 nodes: of many models each is a little coarser, before the request is refused.
-TEST(Memory, FieldsOfManyModelsAreAsFineAsFits) {
+// Of many models each has a coarser field, before the request is refused; by nothing but their number and the budget.
+TEST(Memory, FieldsOfManyModelsShareHalfOfTheBudget) {
   std::vector<PartModelPtr> boxes;
   Request r;
   for (int i = 0; i < 60; ++i) {
     boxes.push_back(PartModel::from_mesh(box_mesh(0.05 + 1e-4 * i), "box"));
     r.parts.push_back(request(1).parts[0]);
   }
-  r.memory_budget = 4e9;
-  const double full = estimate_memory(r, boxes), asked = r.solver.sphere.field_cell;
-  EXPECT_EQ(field_cell_that_fits(r, boxes), asked);
+  const double full = estimate_memory(r, boxes);
+  const std::size_t most = field_nodes_that_fit(r, boxes);
+  EXPECT_GT(most, 8'000'000u);
   r.memory_budget = 0.5 * full;
-  const double cell = field_cell_that_fits(r, boxes);
-  EXPECT_GT(cell, 1.2 * asked);
-  EXPECT_LT(cell, 1.4 * asked);
+  const std::size_t nodes = field_nodes_that_fit(r, boxes);
+  EXPECT_NEAR(static_cast<double>(nodes * boxes.size() * sizeof(float)), 0.5 * r.memory_budget, 1e-4 * full);
   EXPECT_LE(estimate_memory(r, boxes), r.memory_budget);
-  EXPECT_GT(estimate_memory(r, boxes), 0.9 * r.memory_budget);
-  r.memory_budget = 0.1 * full;
-  EXPECT_EQ(field_cell_that_fits(r, boxes), 2 * asked);
+  boxes.resize(120, boxes[0]);
+  r.parts.resize(120, r.parts[0]);
+  r.scenes = 1000;
+  EXPECT_EQ(field_nodes_that_fit(r, boxes), nodes) << "the same model again, and more scenes, change nothing";
+  r.memory_budget = 0.02 * full;
   EXPECT_THROW(estimate_memory(r, boxes), Error);
-  r.solver.type = SolverType::bullet;
-  EXPECT_EQ(field_cell_that_fits(r, {}), asked);
+}
+
+TEST(Memory, ACoarserFieldIsTold) {
+  std::vector<PartModelPtr> boxes;
+  Request r;
+  r.memory_budget = 3e8;
+  r.seconds = 0.01;
+  const std::string path = "memory_test_box";
+  for (int i = 0; i < 20; ++i) {
+    boxes.push_back(PartModel::from_mesh(box_mesh(0.05 + 1e-4 * i), path));
+    r.parts.push_back(request(1).parts[0]);
+  }
+  std::string reason;
+  const Heap heap(r, boxes, make_solver(r, boxes, reason));
+  const auto flags = heap.scene().report.flags;
+  const auto coarsened = [](const Flag& flag) { return flag.code == "field_coarsened"; };
+  ASSERT_EQ(std::count_if(flags.begin(), flags.end(), coarsened), 1);
+  const Flag& told = *std::find_if(flags.begin(), flags.end(), coarsened);
+  EXPECT_NE(told.text.find("19 more parts"), std::string::npos) << told.text;
+  EXPECT_NE(told.remedy.find("memory_budget"), std::string::npos) << told.remedy;
 }
 
 // 20,000 parts in one place are a request of 400 kB and took 14 GB.

@@ -53,8 +53,8 @@ TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
   EXPECT_EQ(part.at("pose").at("orientation_xyzw").size(), 4u);
   EXPECT_TRUE(part.at("visible_fraction").is_object());
   const auto& report = json.at("report");
-  for (const char* key : {"at_rest", "accepted", "reasons", "solver", "device", "finish", "simulated_s", "wall_s", "steps",
-                          "stages_ms", "gap", "escaped", "flags"}) {
+  for (const char* key : {"at_rest", "accepted", "reasons", "solver", "device", "finish", "simulated_s", "wall_s",
+                          "steps", "stages_ms", "gap", "escaped", "flags"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report.at("penetration").at("pair"), nlohmann::json({0, 2}));
@@ -105,7 +105,7 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
   };
   expect("{", "is no JSON, or cut off");
   expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
-  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': holds \"one\" where a whole number");
+  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': holds \"one\" where a whole");
   // Casts of what does not fit: found by the fuzzer.
   expect(R"({"format": "bin_scenes/1", "seed": 744444444444444444444444444444, "index": 0})", "whole number");
   expect(R"({"format": "bin_scenes/1", "seed": 1, "index": -1})", "holds -1 where");

@@ -119,7 +119,7 @@ def main():
         (folder / "box.stl").write_bytes(stl(box((0, 0, 0), 0.02)))
         for name, text in requests():
             (folder / (name + ".yaml")).write_text(text)
-            cases.append((name + ".yaml", [tool, "generate", name + ".yaml", "--out", "out"]))
+            cases.append((name + ".yaml", [tool, "generate", name + ".yaml", "--out", name]))
         for name, command in cases:
             assert (folder / name).stat().st_size <= SIZE, name
             code, message, seconds = run(command, folder)

@@ -40,8 +40,8 @@ class Generator {
   /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
   /// It may outlive the generator.
   Heap heap(const Request& request, const RunHooks& hooks = {});
-  /// Part lines with their models, for Heap::add: checked, also against the heap's bin, and loaded as heap() does. Throws
-  /// an input Error.
+  /// Part lines with their models, for Heap::add: checked, also against the heap's bin, and loaded as heap() does.
+  /// Throws an input Error.
   std::vector<NewParts> new_parts(const Heap& heap, const std::vector<PartLine>& lines, const RunHooks& hooks = {});
   /// The result of generate() for the current state of a heap: judged, and rendered as its request asks.
   Result result(const Heap& heap, const Options& options);
@@ -55,10 +55,7 @@ class Generator {
   std::unique_ptr<State> state_;
 };
 
-/// Cell of the distance fields (/ diagonal) with which a request of many models fits into its memory_budget: the one
-/// asked for where that fits, else a larger one, at most twice as large.
-double field_cell_that_fits(const Request& request, const std::vector<PartModelPtr>& parts);
-/// Estimated bytes of a request with such fields; throws an input Error with the figure if it exceeds request.memory_budget. Without
+/// Estimated bytes of a request; throws an input Error with the figure if it exceeds request.memory_budget. Without
 /// parts (not loaded yet) only counts and settings of the request are used. Images count for one scene.
 double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
 /// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.

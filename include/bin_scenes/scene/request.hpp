@@ -137,6 +137,8 @@ struct SphereSettings {
   int coarse_samples = 200;   ///< per part while pouring; thin parts get more
   int fine_samples = 1000;    ///< per part while settling; more = less penetration, linear cost; 0 = the coarse ones
   double field_cell = 0.004;  ///< cell of the distance field / part diagonal; finer = sharper edges, cubic memory
+  std::size_t field_nodes = 8u << 20;  ///< no key: most nodes of a field, whose cell is enlarged for them;
+                                       ///< make_solver() lowers it for many models
   /// Where it runs. automatic: where a standard heap takes less time, measured once; gpu: the same passes as GL
   /// compute, many times slower on a software GL.
   enum class Device { automatic, cpu, gpu } device = Device::automatic;

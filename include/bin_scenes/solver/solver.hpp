@@ -133,6 +133,10 @@ class Solver {
   virtual std::string device() const = 0;  ///< GL_RENDERER or "cpu"
 };
 
+/// Most nodes of a distance field: those of all models together may take half of memory_budget. It depends on nothing
+/// but the budget and how many models there are, so that a scene is the same in every job and on every machine.
+std::size_t field_nodes_that_fit(const Request& request, const std::vector<PartModelPtr>& parts);
+
 /// The solver of a request. SolverType::automatic chooses by device, part and count from measured costs; the cause is
 /// appended to `reason`.
 std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts,

@@ -77,13 +77,17 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
 }
 
 std::vector<Flag> flags_of(const World& world) {
-  std::vector<Flag> flags;
+  std::vector<Flag> flags, shapes;
   if (world.cuts > 1)
     flags.push_back(
         step_cut_flag("solver.sphere.time_step", world.whole_step * world.cuts, world.cuts, world.smallest_size));
   for (auto shape = world.shapes.begin(); shape != world.shapes.end(); ++shape)
     if (std::find(world.shapes.begin(), shape, *shape) == shape)  // lines may share one
-      flags.insert(flags.end(), (*shape)->flags.begin(), (*shape)->flags.end());
+      shapes.insert(shapes.end(), (*shape)->flags.begin(), (*shape)->flags.end());
+  if (shapes.empty()) return flags;
+  // Of hundreds of models one tells for all: they have but one kind of flag.
+  flags.push_back(shapes[0]);
+  if (shapes.size() > 1) flags.back().text += "; so have those of " + std::to_string(shapes.size() - 1) + " more parts";
   return flags;
 }
 

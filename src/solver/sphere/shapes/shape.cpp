@@ -83,7 +83,7 @@ double size_at_contacts(const PartModel& part) {
   return part.load_report().closed ? std::min(part.diagonal(), thin * thickness) : part.diagonal();
 }
 
-Flag coarsened_flag(const PartModel& part, double asked, const DistanceField& field) {
+Flag coarsened_flag(const PartModel& part, const FieldOptions& asked, const DistanceField& field) {
   const auto text = [](double value) {
     std::ostringstream out;
     out << std::setprecision(3) << value;
@@ -92,13 +92,14 @@ Flag coarsened_flag(const PartModel& part, double asked, const DistanceField& fi
   const double got = field.cell / part.diagonal();
   return {"field_coarsened",
           "the distance field of " + part.path() + " has cells of " + text(got) + " of its diagonal instead of " +
-              text(asked) + ", which would take more than " + std::to_string(FieldOptions().max_nodes) + " nodes",
-          "set solver.sphere.field_cell to " + text(1.005 * got) + " or more, or live with the coarser field"};
+              text(asked.cell) + ", which would take more than " + std::to_string(asked.max_nodes) + " nodes",
+          "set solver.sphere.field_cell to " + text(1.005 * got) +
+              " or more, raise memory_budget for hundreds of models, or live with the coarser field"};
 }
 
 }  // namespace
 
-Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell) {
+Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell, std::size_t field_nodes) {
   Shape shape;
   const MassProperties& mass = part.mass();
   shape.center = mass.center.cast<float>();
@@ -117,9 +118,12 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
     return shape;
   }
   // A sheet thinner than a cell has no inside: others would pass through it.
-  if (shape.thickness > 0) field_cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
+  FieldOptions options;
+  options.cell = field_cell;
+  options.max_nodes = field_nodes;
+  if (shape.thickness > 0) options.cell = std::min(field_cell, shape.thickness / part.diagonal() / cells_through);
   std::future<const DistanceField&> made_field =
-      std::async(std::launch::async, [&]() -> const DistanceField& { return part.field({field_cell}); });
+      std::async(std::launch::async, [&]() -> const DistanceField& { return part.field(options); });
   const std::string key = part.mesh_key() + " " + std::to_string(samples_format) + " " + std::to_string(coarse) + " " +
                           std::to_string(fine);
   BothSamples samples = cached<BothSamples>("nodes", key, [&] { return make_both(part, coarse, fine); });
@@ -134,7 +138,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell)
   shape.field.ny = field.nodes[1];
   shape.field.nz = field.nodes[2];
   shape.field.values = field.values.data();
-  if (field.coarsened) shape.flags.push_back(coarsened_flag(part, field_cell, field));
+  if (field.coarsened) shape.flags.push_back(coarsened_flag(part, options, field));
   const Vec3 pad = (box.lower - field.origin).cwiseMax(0.0);
   shape.field.padding = static_cast<float>(pad.minCoeff());
   for (Samples* s : {&shape.coarse, &shape.fine}) s->edge_grid = make_edge_grid(*s, shape.field);

@@ -21,7 +21,9 @@ struct Shape {
   std::vector<Flag> flags;                 ///< what the user should know of it
 };
 
-/// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at.
-Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell);
+/// Collision shape of a part; `coarse` and `fine` are the numbers of nodes aimed at. The field's cell is `field_cell`
+/// of the diagonal, or as large as `field_nodes` ask.
+Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell,
+                 std::size_t field_nodes = FieldOptions().max_nodes);
 
 }  // namespace bin_scenes::sphere

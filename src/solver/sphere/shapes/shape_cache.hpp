@@ -24,8 +24,8 @@ class ShapeCache {
     if (!entry.shape) {
       StageTimer timer(profile, "shape");
       entry.part = part;  // keeps the address, and with it the key, alive
-      entry.shape = std::make_unique<Shape>(
-          make_shape(*part, settings_.coarse_samples, settings_.fine_samples, settings_.field_cell));
+      entry.shape = std::make_unique<Shape>(make_shape(*part, settings_.coarse_samples, settings_.fine_samples,
+                                                       settings_.field_cell, settings_.field_nodes));
       if (change_) change_(*entry.shape);
     }
     return *entry.shape;
