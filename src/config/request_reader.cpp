@@ -189,6 +189,8 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
   }
   Source source(file, std::move(origins));
   if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
+  if (static_cast<const YAML::Node&>(root)["request"])
+    throw input_error("this is a plan of a data set, no request", file, "give it to bin_scenes dataset");
   source.collect(all);
   const auto read_over = [&](Request request) {
     KeyReader reader(root, "", source);

@@ -233,6 +233,7 @@ TEST_F(ConfigTest, UnknownKeysSuggestTheNearestKnownOne) {
   expect_refused(bolts + "solver: {iterations: 5}\n", {"'solver.iterations'", "'solver.bullet.iterations'"});
   expect_refused(bolts + "time_step: 0.1\n", {"'solver.bullet.time_step'"});
   expect_refused(bolts + "zzzzzzzzzz: 1\n", {"unknown key 'zzzzzzzzzz'", "known here: seed"});
+  expect_refused("scenes: 3\noutputs: [json]\nrequest: {}\n", {"request.yaml: this is a plan", "bin_scenes dataset"});
   expect_refused(bolts, {"--set solver.typ", "did you mean 'type'"}, {"solver.typ=bullet"});
   expect_refused(bolts, {"--set parts[0].cuont", "'count'"}, {"parts.0.cuont=5"});
 }

@@ -53,6 +53,26 @@ inline double spin_gained_in_a_blow(Lab lab, std::uint64_t seed) {
   return (total(lab.states()) - before).norm() / scale_before;
 }
 
+/// A coin of many sides rolls round on its rim, its centre at rest, tilted by 30 degrees: time until half of its energy
+/// is lost / that of a rigid polygon. Its energy is 1.5 m g R s, s the sine of the tilt (Moffatt 2000, "Euler's disk
+/// and its finite-time singularity"); the contact goes round at sqrt(4 g / (R s)). The next corner, of the polygon's
+/// angle a ahead, comes down at w R a, w the coin's speed of turning, and its share of the mass is 1/5: each corner
+/// takes 0.4 m g R s a^2.
+inline double half_life_of_a_coin(Lab lab, std::uint32_t sides) {
+  const double radius = 0.012, thickness = 0.001, tilt = M_PI / 6.0, s = std::sin(tilt), angle = 2.0 * M_PI / sides;
+  lab.def().bin.friction = 1.0;
+  const PartModelPtr coin = PartModel::from_mesh(prism_mesh(sides, radius, -0.5 * thickness, 0.5 * thickness), "coin");
+  const double height = radius * s + 0.5 * thickness * std::cos(tilt);
+  const auto body = lab.place(coin, Vec3(0, 0, height), Quat(Eigen::AngleAxisd(tilt, Vec3::UnitX())), material(1.0));
+  lab.start(body).velocity.angular = std::sqrt(4.0 * g * s / radius) * Vec3(0, std::cos(tilt), s);
+  const auto energy = [&] { return lab.kinetic_energy(body) + g * (lab.center(body).z() - 0.5 * thickness); };
+  lab.begin(phases::pour);
+  const double half = 0.5 * energy(),
+               polygon = (1.0 - std::sqrt(0.5)) * std::sqrt(s * radius / g) / (0.8 / 3.0 * angle);
+  while (energy() > half && lab.time() < 4.0 * polygon) lab.simulate(lab.solver().step_size());
+  return lab.time() / polygon;
+}
+
 struct Rebound {
   double speed;   ///< fastest upwards after the blow, m/s
   double aside;   ///< farthest that a cube went sideways / edge

@@ -8,6 +8,7 @@
 #include "solver/tight_fits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace bin_scenes::testing {
@@ -251,6 +252,19 @@ TEST(SphereTightFits, AShortChainHangs) {
 
 TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
+}
+
+// Each sub-step takes what a corner takes of a polygon whose sides are the way of the contact in a sub-step.
+TEST(SphereSpin, OfACoinOnItsRimIsLostAsThatOfItsPolygon) {
+  double before = 0.0;
+  for (const auto& [share, least, most] : {std::array{1.0, 0.35, 0.6}, {0.4, 0.45, 0.75}, {0.1, 0.9, 1.1}}) {
+    SphereSettings settings;
+    settings.time_step *= share;
+    const double life = half_life_of_a_coin(Lab(make_sphere_solver(settings)), 96);
+    EXPECT_GT(life, std::max(least, before)) << "step " << share;
+    EXPECT_LT(life, most) << "step " << share;
+    before = life;
+  }
 }
 
 TEST(SphereSwing, AboutARidgeIsLostToThePatchOfTheContact) {
