@@ -120,7 +120,11 @@ void make_bundles(const World& world, const Blocks& blocks, std::size_t block, s
 BIN_SCENES_WIDE
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle,
              std::vector<ContactRows>& rows) {
-  std::fill(rows.begin() + bundle.first, rows.begin() + bundle.last, ContactRows{});
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {  // of lanes that have no such contact
+    ContactRows& c = rows[i];
+    for (LaneVec* v : {&c.normal, &c.tangent, &c.ra, &c.rb}) *v = LaneVec{};
+    for (Lanes* v : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse, &c.separation, &c.max_impulse}) *v = Lanes{};
+  }
   const float warm = world.forgets || !world.settings.warm_start
                          ? 0.0f
                          : h;  // s for which the last forces have acted when the sweeps begin

@@ -59,7 +59,9 @@ struct Bundle {
 inline void forget_blow(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
   const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
   const Lanes most = FORCE_GROWTH * c.lasting + speed * c.normal_mass;
-  const Lanes share = (c.normal_impulse > most) & ~bounces ? most / c.normal_impulse : all_lanes(1);
+  const LaneMask blow = (c.normal_impulse > most) & ~bounces;
+  if (!any(blow)) return;
+  const Lanes share = blow ? most / c.normal_impulse : all_lanes(1);
   for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
 }
 

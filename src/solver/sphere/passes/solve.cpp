@@ -74,6 +74,7 @@ class ContactSolver {
         blow_speed_(blow_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
+        shares_blows_(world.blow_sweeps() > 0),
         settled_(settings_.settled * world.smallest_size),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
@@ -126,7 +127,8 @@ class ContactSolver {
   const float blow_speed_;  ///< m/s
   const Softness& softness_;
   const Spring spring_;
-  const float settled_;   ///< m/s
+  const bool shares_blows_;  ///< by further sweeps
+  const float settled_;      ///< m/s
   LaneMask unsettled_{};  ///< by this sweep
   bool friction_holds_ = true;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
@@ -264,7 +266,7 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) {
   c.normal_impulse = max(before + change, all_lanes(0));
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
-  unsettled_ |= max(more, -more) > settled_ * c.normal_mass;
+  if (shares_blows_) unsettled_ |= max(more, -more) > settled_ * c.normal_mass;
   u.push_along_normal(more, c);
 }
 
@@ -364,7 +366,10 @@ void ContactSolver::note_sliding() {
   std::fill(slides_.begin(), slides_.end(), 0);
   const float slow = 4.0f * h_ * world_.gravity.norm();  // stops within a few sub-steps
   if (std::all_of(speeds_.begin(), speeds_.end(), [&](float speed) { return speed <= slow; })) return;
+  const auto fast = [&](std::uint32_t body) { return body < speeds_.size() && speeds_[body] > slow; };
   for (const Bundle& bundle : bundles_) {
+    if (std::none_of(bundle.a.begin(), bundle.a.end(), fast) && std::none_of(bundle.b.begin(), bundle.b.end(), fast))
+      continue;
     LaneMask slips{};
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) slips |= slip(rows_[i], bundle.friction);
     for (int lane = 0; any(slips) && lane < bundle.lanes; ++lane)
