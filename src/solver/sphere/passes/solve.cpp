@@ -129,7 +129,7 @@ class ContactSolver {
   const Spring spring_;
   const bool shares_blows_;  ///< by further sweeps
   const float settled_;      ///< m/s
-  LaneMask unsettled_{};  ///< by this sweep
+  LaneMask unsettled_{};     ///< by this sweep
   bool friction_holds_ = true;
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
@@ -465,8 +465,7 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
     stop_if_cancelled();
     solver.warm_start();
     bool blow = false;  // is not shared yet
-    for (int i = 0; i < world.sweeps() || (blow && i < world.blow_sweeps()); ++i)
-      blow = solver.sweep(true, i == 0);
+    for (int i = 0; i < world.sweeps() || (blow && i < world.blow_sweeps()); ++i) blow = solver.sweep(true, i == 0);
     solver.note_sliding();
     solver.move();
     solver.aim();
