@@ -254,7 +254,8 @@ TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
-// Each sub-step takes what a corner takes of a polygon whose sides are the way of the contact in a sub-step.
+// Besides what its own corners take, each sub-step takes about as much as a corner of a polygon whose sides are the way
+// of the contact in a sub-step.
 TEST(SphereSpin, OfACoinOnItsRimIsLostAsThatOfItsPolygon) {
   double before = 0.0;
   for (const auto& [share, least, most] : {std::array{1.0, 0.35, 0.6}, {0.4, 0.45, 0.75}, {0.1, 0.9, 1.1}}) {

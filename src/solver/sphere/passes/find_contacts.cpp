@@ -71,15 +71,14 @@ bool strikes(const World& world, const Manifold& m, float least) {
 
 /// Whether the pair has hardly moved since its contacts were found. What strikes is found anew: beside an edge the
 /// plane that it will meet turns with every bit of the way. The point where a ball touches stays below it, while one
-/// that is kept turns with it: the ball would stand on what it has rolled over, which drives it on. `way`: that no
-/// point of the pair exceeds in this step (m).
-bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size, float way) {
+/// that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
+bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
   if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
   const float limit = (world.fine ? world.settings.recycle : world.settings.coarse_recycle) * size;
   const float half_turn = (m.found_q.conjugate() * now.q).vec().norm();  // sine of half the angle
   const float moved = std::max((now.x - m.found_x).norm(), half_turn * size), fresh = STRIKE * limit;
-  return moved < limit && (moved <= fresh || way <= fresh || !strikes(world, m, fresh));
+  return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
 }
 
 /// Contacts that may press in this step come first, else in the order they had: those that do already, and those no
@@ -110,7 +109,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
   const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
   const float way = (v.norm() + spin + world.gravity.norm() * dt) * dt;
-  if (recyclable(world, m, pose, size, way)) {
+  if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;
   } else {
     const float margin = world.settings.margin * size + (world.settings.speculation ? way : 0.0f);
