@@ -2,6 +2,7 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
 #include "solver/hard_contacts.hpp"
+#include "solver/impacts.hpp"
 #include "solver/tight_fits.hpp"
 
 namespace bin_scenes::testing {
@@ -74,6 +75,9 @@ TEST(BulletTightFits, AChainHangs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bullet, ClosedForms, ::testing::Values(bullet_default), name);
+INSTANTIATE_TEST_SUITE_P(Bullet, Counted, ::testing::Values(bullet_default), name);
+INSTANTIATE_TEST_SUITE_P(BulletOnMeshes, ClosedForms, ::testing::ValuesIn(on_meshes(bullet_default)), name);
+INSTANTIATE_TEST_SUITE_P(Bullet, Impacts, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Stacks, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Extremes, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, HardContacts, ::testing::Values(bullet_default), name);

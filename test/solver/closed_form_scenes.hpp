@@ -121,7 +121,7 @@ inline double spin_lost(Lab lab, double patch) {
   lab.simulate(0.25);  // it lies
   BodyState spinning = lab.state(body);
   spinning.velocity.angular = Vec3(0, 0, spin);
-  lab.solver().insert(lab.world(), body, spinning);
+  lab.set_state(body, spinning);
   lab.simulate(0.5);
   const double moment = ball->mass().principal.mean() / ball->mass().volume;  // of 1 kg
   return (spin - lab.state(body).velocity.angular.z()) /

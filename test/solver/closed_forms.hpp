@@ -8,6 +8,7 @@
 namespace bin_scenes::testing {
 
 class ClosedForms : public SolverTest {};
+class Counted : public SolverTest {};
 class Stacks : public SolverTest {};  ///< long
 
 TEST_P(ClosedForms, FreeFallIsAParabola) {
@@ -63,7 +64,7 @@ TEST_P(Stacks, OfTenDriftLessThanAThousandthInThirtySeconds) {
   for (const double heading : {0.0, 0.3, 0.7}) EXPECT_LT(stack_drift(lab(), 30.0, heading), 1e-3) << heading;
 }
 
-TEST_P(ClosedForms, CountersTellFreeFallFromContactAndSleep) {
+TEST_P(Counted, CountersTellFreeFallFromContactAndSleep) {
   Lab fall = lab();
   fall.place(box(Vec3::Constant(0.04)), Vec3(0, 0, 0.07));
   const auto count = [&](const char* name) { return fall.solver().profile().counters.at(name); };

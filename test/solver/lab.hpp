@@ -4,6 +4,7 @@
 #include "bin_scenes/solver/solver.hpp"
 #include "pour/settling.hpp"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -72,6 +73,36 @@ inline Mesh prism_mesh(std::uint32_t sides, double radius, double low, double hi
   return mesh;
 }
 
+/// A square plate, its upper face at 0, of `cells` by `cells` squares on each large face.
+inline Mesh plate_mesh(double side, double thickness, int cells) {
+  Mesh mesh;
+  const auto n = static_cast<std::uint32_t>(cells + 1);
+  for (const double z : {-thickness, 0.0})
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t j = 0; j < n; ++j)
+        mesh.vertices.emplace_back(side * (static_cast<double>(i) / cells - 0.5),
+                                   side * (static_cast<double>(j) / cells - 0.5), z);
+  const std::uint32_t top = n * n;
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i + 1 < n; ++i)
+    for (std::uint32_t j = 0; j + 1 < n; ++j) {
+      const std::uint32_t a = i * n + j, b = a + n, c = b + 1, d = a + 1;
+      quad(top + a, top + b, top + c, top + d);
+      quad(a, d, c, b);
+    }
+  for (std::uint32_t i = 0; i + 1 < n; ++i) {
+    const std::uint32_t last = n * (n - 1);
+    quad(i, top + i, top + i + 1, i + 1);                                                      // -x
+    quad(last + i, last + i + 1, top + last + i + 1, top + last + i);                          // +x
+    quad(i * n, (i + 1) * n, top + (i + 1) * n, top + i * n);                                  // -y
+    quad(i * n + n - 1, top + i * n + n - 1, top + (i + 1) * n + n - 1, (i + 1) * n + n - 1);  // +y
+  }
+  return mesh;
+}
+
 /// A part made of `count` boxes along a circle: concave, a union of convex pieces known exactly.
 inline Mesh ring_mesh(int count, double inner, double outer, double height) {
   Mesh mesh;
@@ -93,7 +124,15 @@ inline PartModelPtr sphere(double radius) {
   return PartModel::from_mesh(sphere_mesh(radius, 4), "sphere");
 }
 
-/// One world of one solver, with its bodies' properties in reach.
+/// What scenes stand on: the bin's floor, or a mesh with its upper face there. What holds on the one holds on the
+/// others.
+enum class Ground { floor, plate, turned_plate, heavy_plate };
+inline const char* name_of(Ground ground) {
+  return std::array{"floor", "plate", "turned_plate", "heavy_plate"}[static_cast<std::size_t>(ground)];
+}
+
+/// One world of one solver, with its bodies' properties in reach. Scenes are told as if they stood on the floor: where
+/// they stand on a turned plate, the world is turned with it.
 class Lab {
  public:
   /// What was simulated, of all labs that share it.
@@ -101,7 +140,8 @@ class Lab {
     double seconds = 0.0;
     std::uint64_t steps = 0;  ///< as they were done: cut ones, not those asked for
   };
-  explicit Lab(std::unique_ptr<Solver> solver, Count* count = nullptr) : solver_(std::move(solver)), count_(count) {
+  explicit Lab(std::unique_ptr<Solver> solver, Count* count = nullptr, Ground ground = Ground::floor)
+      : solver_(std::move(solver)), count_(count), ground_(ground) {
     def_.bin.kind = Bin::Kind::floor;
   }
 
@@ -123,8 +163,14 @@ class Lab {
   BodyState& start(std::size_t body) { return starts_[body]; }
 
   void begin(Phase phase) {
-    world_ = solver_->add_world(def_);
-    for (std::size_t b = 0; b < starts_.size(); ++b) solver_->insert(world_, b, starts_[b]);
+    const std::size_t bodies = starts_.size();
+    if (def_.bin.kind == Bin::Kind::floor && ground_ != Ground::floor) lay_plate();
+    WorldDef turned = def_;
+    turned.gravity = turn_ * def_.gravity;
+    if (starts_.size() > bodies && ground_ != Ground::heavy_plate) turned.bin.kind = Bin::Kind::none;
+    if (ground_ == Ground::heavy_plate) turned.bin.friction = 100.0;  // the plate stays where it is
+    world_ = solver_->add_world(turned);
+    for (std::size_t b = 0; b < starts_.size(); ++b) set_state(b, starts_[b]);
     solver_->set_phase(world_, phase);
     begun_ = true;
   }
@@ -139,7 +185,20 @@ class Lab {
   }
   double time() const { return time_; }
 
-  std::vector<BodyState> states() const { return solver_->states(world_); }
+  std::vector<BodyState> states() const {
+    std::vector<BodyState> states = solver_->states(world_);
+    for (BodyState& state : states) {
+      const Quat back = turn_.conjugate();
+      state = {{back * (state.pose.position - rise_), back * state.pose.orientation},
+               {back * state.velocity.linear, back * state.velocity.angular}};
+    }
+    return states;
+  }
+  void set_state(std::size_t body, const BodyState& state) {
+    solver_->insert(world_, body,
+                    {{turn_ * state.pose.position + rise_, turn_ * state.pose.orientation},
+                     {turn_ * state.velocity.linear, turn_ * state.velocity.angular}});
+  }
   BodyState state(std::size_t body) const { return states()[body]; }
   const BodyDef& body(std::size_t body) const { return def_.bodies[body]; }
   const PartModel& part(std::size_t body) const { return *def_.parts[def_.bodies[body].part]; }
@@ -159,8 +218,26 @@ class Lab {
   }
 
  private:
+  /// A fixed plate, turned by 30 degrees and of 1,152 triangles a face, or one that lies on the floor, of ten tons.
+  void lay_plate() {
+    const double side = 3.0, thickness = 0.05;
+    const bool turned = ground_ == Ground::turned_plate, heavy = ground_ == Ground::heavy_plate;
+    BodyDef plate;
+    plate.friction = def_.bin.friction;
+    plate.restitution = def_.bin.restitution;
+    plate.fixed = !heavy;
+    plate.mass = 1e4;
+    const PartModelPtr part = PartModel::from_mesh(plate_mesh(side, thickness, turned ? 24 : 1), "plate");
+    if (turned) turn_ = Quat(Eigen::AngleAxisd(M_PI / 6, Vec3(1, 2, 3).normalized()));
+    if (heavy) rise_ = Vec3(0, 0, thickness);
+    place(part, Vec3(0, 0, -0.5 * thickness), Quat::Identity(), plate);
+  }
+
   std::unique_ptr<Solver> solver_;
   Count* count_;
+  Ground ground_;
+  Quat turn_ = Quat::Identity();  ///< of the world against the scene
+  Vec3 rise_ = Vec3::Zero();
   WorldDef def_;
   std::vector<BodyState> starts_;
   WorldId world_ = 0;

@@ -2,6 +2,7 @@
 #include "solver/closed_forms.hpp"
 #include "solver/extremes.hpp"
 #include "solver/hard_contacts.hpp"
+#include "solver/impacts.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
@@ -310,6 +311,10 @@ TEST(SphereSwing, OfAWheelOnItsFaceBesideAWallIsLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sphere, ClosedForms, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, Counted, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(SphereOnMeshes, ClosedForms, ::testing::ValuesIn(on_meshes(sphere_default)), name);
+INSTANTIATE_TEST_SUITE_P(SphereOnMeshes, Stacks, ::testing::ValuesIn(on_meshes(sphere_default)), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, Impacts, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);

@@ -1,13 +1,16 @@
 // Contacts at sharp edges (Macklin et al. 2020, "Local optimization for robust signed distance field collision"). The
-// grid of a distance field rounds them off: within a cell of one its gradient leans over, by up to half the angle between
-// the faces, and its depth is of neither face. Where an edge of one part meets an edge or a corner of the other, both are
-// taken from the edges themselves.
+// grid of a distance field rounds them off: within a cell of one its gradient leans over, by up to half the angle
+// between the faces, and its depth is of neither face. Where an edge of one part meets an edge or a corner of the
+// other, both are taken from the edges themselves.
 //
 // Before it: field.h, cone.h, Samples, node_at(samples, i), Edge (a, b: nodes; cone; length in m; sharp: two faces meet
-// there, into which the first two bounds of the cone point), edge_at(samples, e), and edges_near(samples, field, point):
-// a Range of listed_edge(samples, k) in ascending order. Edges from first_crease(samples) on fold inwards: crease.h.
+// there, into which the first two bounds of the cone point), edge_at(samples, e), and edges_near(samples, field,
+// point): a Range of listed_edge(samples, k) in ascending order. Edges from first_crease(samples) on fold inwards:
+// crease.h.
 
-INLINE bool is_crease(IN(Samples) samples, uint e) { return e >= first_crease(samples); }
+INLINE bool is_crease(IN(Samples) samples, uint e) {
+  return e >= first_crease(samples);
+}
 
 // Deepest point of the field along the edge from p to q, whose ends both rise away from its inside; false if there is
 // none. `lowest_end`: of both ends' distances (m): what is no deeper needs no contact of its own.
@@ -113,11 +116,28 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
   return found;
 }
 
+// Whether a point of the surface lies on a sharp edge, or a corner where such edges end, as far as the grid can tell.
+INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+  float near = 0.5f * field.cell;
+  Range list = edges_near(other, field, point);
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    if (edge.sharp == 0u) continue;
+    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
+    vec3 off = w - min(max(dot(w, v) / dot(v, v), 0.0f), 1.0f) * v;
+    if (dot(off, off) < near * near) return true;
+  }
+  return false;
+}
+
+const uint OF_A_FACE = 0u, TO_AN_EDGE = 1u, BY_THE_FIELD = 2u;
+
 // A way out of a part: unit direction, and m to its surface (negative inside).
 struct WayOut {
   vec3 away;
   float distance;
   uint number;  // among those that press at one point
+  uint kind;    // the normal of a face; a direction to an edge, which may lean; or either, as the field has it
 };
 
 // The shortest first.
@@ -141,6 +161,7 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
   outside.away = vec3(0.0f, 0.0f, 0.0f);
   outside.distance = 0.0f;
   outside.number = 0u;
+  outside.kind = OF_A_FACE;
   Range list = edges_near(other, field, point);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
@@ -159,6 +180,7 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
     for (uint f = 0u; f < 2u; ++f) {
       faces[f].distance = dot(off, faces[f].away);
       faces[f].number = 0u;
+      faces[f].kind = OF_A_FACE;
       uint i = 0u;
       while (i < ways.count && dot(ways.way[i].away, faces[f].away) < like) ++i;
       if (i == SPHERE_MAX_WAYS || (i < ways.count && way_of[i] <= way)) continue;
@@ -176,6 +198,7 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
       outside.away = unit(off);
       if (way <= 0.0f) outside.away = unit(faces[0].away + faces[1].away);
       outside.distance = way;
+      outside.kind = TO_AN_EDGE;
     }
   }
   bool inside = true;

@@ -1,14 +1,18 @@
-// From a sample near another part to a candidate for a contact. Before it: crease.h, slide.h, radius_of(samples), and View:
-// samples, other (those of the field's body), own (field of the samples' body), field; to_field, to_a (Carry: from the
-// samples' frame to the field's, and from there to that of the pair's first body, the same if side is SPHERE_SIDE_B);
-// drift, twist (m, rad: how the samples' body goes on over the field's until the step ends); ahead (m: 0 to begin with);
-// margin (m: up to which distance); way_back. Also emit(view, on_a, normal, separation, feature), all in the frame of a.
+// From a sample near another part to a candidate for a contact. Before it: crease.h, slide.h, radius_of(samples), and
+// View: samples, other (those of the field's body), own (field of the samples' body), field; to_field, to_a (Carry:
+// from the samples' frame to the field's, and from there to that of the pair's first body, the same if side is
+// SPHERE_SIDE_B); drift, twist (m, rad: how the samples' body goes on over the field's until the step ends); ahead (m:
+// 0 to begin with); margin (m: up to which distance); way_back. Also emit(view, on_a, normal, separation, feature), all
+// in the frame of a.
 
-const float NEARLY_ALL = 0.99f;  // of an exact way out a cone must leave: 8 degrees
+const float NEARLY_ALL = 0.99f;  // of a way out a cone must leave: 8 degrees
+const float FLUSH = 0.99998f;    // cosine of 0.36 degrees: faces that lie on each other
 const float LEANS = 0.02f;       // sine of the angle by which a face leans against an edge that dips below it
 
 // Of the grid where it bends (m).
-INLINE float error_of(IN(Field) field) { return field.ball > 0.0f ? 0.0f : 0.5f * field.cell; }
+INLINE float error_of(IN(Field) field) {
+  return field.ball > 0.0f ? 0.0f : 0.5f * field.cell;
+}
 
 // How far (m) a sample at `point`, where the field is `distance`, is from being outside along a unit direction, having
 // been inside; negative if it is not, for as long as `reach`.
@@ -26,34 +30,63 @@ INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float dist
   return -1.0f;
 }
 
-// `point` may be that where a sample will be, view.ahead of where it is: what it will stand before is told as it lies to
-// the sample now, and does not press before it is there.
-INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, float distance_there, uint feature) {
+// `point` may be that where a sample will be, view.ahead of where it is: what it will stand before is told as it lies
+// to the sample now, and does not press before it is there.
+//
+// A normal that was `turned` is that of the sample's surface: it goes on with that body, and the point with the other.
+INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned, float distance_there, uint number) {
   float nearer = dot(away, view.ahead), distance = distance_there;
   vec3 point = place - view.ahead;
   if (dot(view.ahead, view.ahead) > 0.0f) distance = max(distance - nearer, max(nearer, 0.0f));
   vec3 surface = point - radius_of(view.samples) * away;
+  uint feature = number | (turned ? SPHERE_TURNED | (view.side ^ SPHERE_SIDE_B) : view.side);
   if (view.side == 0u)
     emit(view, view.to_a.rotation * surface + view.to_a.offset, -(view.to_a.rotation * away), distance, feature);
   else
-    emit(view, surface - distance * away, away, distance, feature | view.side);
+    emit(view, surface - distance * away, away, distance, feature);
 }
 
-// Turns a way out so that the sample is pressed within its cone; false if less than `least` of it is left.
-INLINE bool turn(IN(View) view, IN(Cone) cone, INOUT(vec3) away, float least) {
+// Whether the sample's own surface can be pressed against a way out, to within 8 degrees; `turned` into its cone.
+INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, OUT(vec3) turned) {
   vec3 pressed = -turned_back(view.to_field.rotation, away);
-  if (!turn_into_cone(cone, pressed, least)) return false;
-  away = -(view.to_field.rotation * pressed);
+  if (!turn_into_cone(cone, pressed, NEARLY_ALL)) return false;
+  turned = -(view.to_field.rotation * pressed);
   return true;
 }
 
-// A candidate, if the sample's own surface can be pressed against the way out: `least` of it must be left.
-INLINE bool press(IN(View) view, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature,
-                  float least) {
-  vec3 turned = away;
-  if (!turn(view, cone, turned, least)) return false;
-  emit_from(view, point, turned, distance, feature);
+INLINE bool leans(IN(View) view, IN(vec3) point, IN(WayOut) way) {
+  if (way.kind != BY_THE_FIELD) return way.kind == TO_AN_EDGE;
+  return is_on_edge(view.other, view.field, point - way.distance * way.away);
+}
+
+// Whether the sample was inside already when the step began, by more than the grid can tell.
+INLINE bool is_stuck(IN(View) view, IN(vec3) point, IN(WayOut) way) {
+  float nearing = max(-dot(way.away, view.drift + cross(view.twist, point)), 0.0f);
+  return way.distance + nearing < -2.0f * view.field.cell;
+}
+
+// A candidate, if the sample's own surface can be pressed against the way out. A face presses along its normal,
+// whatever is pressed against it: turned into the cone of an edge that is not what touches, the normal threw parts
+// sideways by up to a quarter of the speed at which they fell onto a plate. A way to an edge or a corner is turned into
+// the cone: else parts whose edges lie flush would press each other sideways.
+INLINE bool press(IN(View) view, IN(vec3) point, IN(WayOut) way, IN(Cone) cone, uint feature) {
+  const float level = 0.999999f;  // cosine: 0.08 degrees
+  vec3 turned;
+  if (!turn(view, cone, way.away, turned)) return false;
+  bool turns = dot(turned, way.away) < level && leans(view, point, way);
+  if (!turns && bounds_of(cone) == SPHERE_AXIS && dot(turned, way.away) < FLUSH && !is_stuck(view, point, way))
+    return false;
+  emit_from(view, point, turns ? turned : way.away, turns, way.distance, feature + way.number * SPHERE_PLANE);
   return true;
+}
+
+INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
+  WayOut way;
+  way.away = away;
+  way.distance = distance;
+  way.number = 0u;
+  way.kind = kind;
+  return way;
 }
 
 // A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
@@ -62,9 +95,9 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return false;
   for (uint i = 0u; i < bounds; ++i) {
-    vec3 along = view.to_field.rotation * bound_at(cone, i), normal;
+    vec3 along = view.to_field.rotation * bound_at(cone, i), normal, turned;
     if (dot(along, away) > -LEANS || !passes_edge(view.other, view.field, point, along, away, normal)) continue;
-    if (turn(view, cone, normal, NEARLY_ALL)) return true;
+    if (turn(view, cone, normal, turned)) return true;
   }
   return false;
 }
@@ -75,16 +108,14 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
 INLINE bool offer_ways(IN(View) view, IN(vec3) point, IN(WaysOut) ways, bool all, IN(Cone) cone, uint feature) {
   bool out_there = all;
   for (uint i = 0u; i < ways.count; ++i) {
-    vec3 away = ways.way[i].away, turned = away;
-    float distance = ways.way[i].distance;
+    WayOut way = ways.way[i];
     // Half a cell beyond is outside, unless this is a seam between shells that touch. A crease is none, but narrow.
     if (!all &&
-        sample_field(view.field, point + (0.5f * view.field.cell - distance) * away) < 0.3f * view.field.cell)
+        sample_field(view.field, point + (0.5f * view.field.cell - way.distance) * way.away) < 0.3f * view.field.cell)
       continue;
     out_there = true;
-    if (!turn(view, cone, turned, NEARLY_ALL) || is_crossed(view, point, cone, away)) continue;
-    emit_from(view, point, turned, distance, feature + ways.way[i].number * SPHERE_PLANE);
-    if (!all) break;
+    if (is_crossed(view, point, cone, way.away)) continue;
+    if (press(view, point, way, cone, feature) && !all) break;
   }
   return out_there;
 }
@@ -95,19 +126,15 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   float flush = 0.002f * view.field.cell, soonest = -view.field.cell;
   WaysOut ways;
   ways.count = 0u;
-  WayOut exit;
-  exit.away = vec3(0.0f, 0.0f, 0.0f);
-  exit.distance = 0.0f;
-  exit.number = 0u;
+  WayOut exit = way_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
   bool exits = false, leaves = false;
   for (uint i = 0u; i < walls.count; ++i) {
     Wall wall = walls.wall[i];
-    vec3 turned = wall.away;
+    vec3 turned;
     if (wall.creased || !wall.faced || wall.distance > flush || wall.distance <= soonest) continue;
-    if (!turn(view, cone, turned, NEARLY_ALL)) continue;
+    if (!turn(view, cone, wall.away, turned)) continue;
     soonest = wall.distance;
-    exit.away = wall.away;
-    exit.distance = wall.distance;
+    exit = way_of(OF_A_FACE, wall.away, wall.distance);
     exit.number = i;
     exits = true;
   }
@@ -119,8 +146,7 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
       continue;
     }
     if (ways.count == SPHERE_MAX_WAYS) break;
-    ways.way[ways.count].away = wall.away;
-    ways.way[ways.count].distance = wall.distance;
+    ways.way[ways.count] = way_of(OF_A_FACE, wall.away, wall.distance);
     ways.way[ways.count].number = i;
     ++ways.count;
   }
@@ -131,8 +157,8 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   return ways;
 }
 
-// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts that
-// lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
+// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts
+// that lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
 // another. It goes back through its own body, along the middle of its cone, to the face it comes out of: for at most
 // four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in through that
 // face.
@@ -147,15 +173,12 @@ INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) c
   }
   sample_field(view.field, point + way * back, away);
   float behind = -way * dot(back, away);
-  if (behind <= 0.0f) press(view, point, away, behind, cone, feature, LEAST_LEFT);
+  if (behind <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, behind), cone, feature);
 }
 
 // The nearest of the ways out that are exact, where there are such, or that of the field.
 INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, float distance) {
-  WayOut least;
-  least.away = away;
-  least.distance = distance;
-  least.number = 0u;
+  WayOut least = way_of(BY_THE_FIELD, away, distance);
   if (ways.count > 0u) least = ways.way[0];
   bool none = true;
   for (uint i = 0u; i < walls.count; ++i) {
@@ -167,9 +190,9 @@ INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, floa
   return least;
 }
 
-// What comes by an edge until the step ends is held by the face that it will stand before, and not where it is: the plane
-// across the edge would stop it there, a peg above the mouth of its hole. What meets something on its way is held by
-// that as it lies now.
+// What comes by an edge until the step ends is held by the face that it will stand before, and not where it is: the
+// plane across the edge would stop it there, a peg above the mouth of its hole. What meets something on its way is held
+// by that as it lies now.
 INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
   const int most_looks = 18;
   View view = given;
@@ -204,7 +227,7 @@ INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance,
   // Which of the faces of an edge what has no cone presses against is not known.
   if (bounds_of(cone) == 0u && !creased) ways.count = 0u;
   if (offer_ways(view, place, ways, creased, cone, feature)) return;
-  if (press(view, place, gradient, apart, cone, feature, LEAST_LEFT)) return;
+  if (press(view, place, way_of(BY_THE_FIELD, gradient, apart), cone, feature)) return;
   if (view.way_back && apart < error) offer_back(view, place, apart, cone, feature);
 }
 
@@ -235,12 +258,12 @@ INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
   return edge.sharp != 0u && radius_of(view.samples) <= 0.0f && abs(distance) <= view.field.cell;
 }
 
-// An edge e between two ends. Presses where it crosses an edge of the other part; returns whether `touch` is to be offered.
+// An edge e between two ends. Presses where it crosses an edge of the other part; returns whether `touch` is to be
+// offered.
 INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
   bool lowest = descend(view.field, p.point, q.point, p.gradient, q.gradient, min(p.distance, q.distance), touch.point,
                         touch.gradient, touch.distance);
-  float least = lowest ? LEAST_LEFT : NEARLY_ALL;
   for (int end = 0; end < 2; ++end) {
     if (!lowest) {
       touch = p;
@@ -250,7 +273,8 @@ INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, I
     bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch.point, touch.gradient, touch.distance);
     if (!lowest && !crossed) continue;
     if (touch.distance >= view.margin) return false;
-    bool presses = crossed && press(view, touch.point, touch.gradient, touch.distance, edge.cone, e | SPHERE_EDGE, least);
+    bool presses = crossed && press(view, touch.point, way_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,
+                                    e | SPHERE_EDGE);
     return lowest && !presses;
   }
   return false;

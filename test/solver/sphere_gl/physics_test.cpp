@@ -38,6 +38,7 @@ TEST(SphereGlSwing, AboutARidgeIsLostToThePatchOfTheContact) {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software device
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, Counted, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, CoarseSteps, ::testing::Values(sphere_gl_coarse), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, UncutSteps, ::testing::Values(sphere_gl_uncut), name);
