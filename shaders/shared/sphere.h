@@ -108,7 +108,7 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 rows;     // first, capacity; z: most sweeps while a blow is not shared
+  uvec4 rows;     // first, capacity; most sweeps while a blow is not shared: z: in a step with an impact, w: else
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };

@@ -23,7 +23,7 @@ shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
 shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed when the sub-step began
 shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
-shared uint any_bounce;
+shared uint any_bounce, any_impact;
 shared uint unsettled[2];  // some contact is restless; take turns
 
 #define velocity_of(i) velocity[i]
@@ -70,7 +70,8 @@ uint turns = 0u;
 void sweep_until_shared(uint first, uint others, uint count, float h) {
   if (ordered == 0u) return;
   bool blow = false;
-  for (uint i = 0u; i < count || blow && i < world.rows.z; ++i) {
+  uint most = any_impact != 0u ? world.rows.z : world.rows.w;
+  for (uint i = 0u; i < count || blow && i < most; ++i) {
     uint turn = turns++ & 1u;
     restless = false;
     sweep(i == 0u ? first : others, h);
@@ -100,9 +101,10 @@ void main() {
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_WORLD_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
   if (gl_LocalInvocationIndex < 2u) unsettled[gl_LocalInvocationIndex] = 0u;
+  if (gl_LocalInvocationIndex == 0u) any_impact = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
   barrier();
-  FOR_OWN_MANIFOLDS(o) prepare_manifold(o);
+  FOR_OWN_MANIFOLDS(o) if (prepare_manifold(o)) any_impact = 1u;
   barrier();
   float h = sub_step();
   uint sweeps = progress[w].effort * (progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps);

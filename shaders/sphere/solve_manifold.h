@@ -131,7 +131,8 @@ void aim(SphereOrdered m, Side a, Side b) {
   }
 }
 
-void prepare_manifold(uint o) {
+// Returns whether a contact closes fast.
+bool prepare_manifold(uint o) {
   SphereOrdered m = ordered_at(o);
   Side a = side_of(m.a, false), b = side_of(m.b, false);
   Place pa = place_of(m.a), pb = place_of(m.b);
@@ -146,6 +147,7 @@ void prepare_manifold(uint o) {
   if (aimed(m)) aim(m, side_of(m.a, true), side_of(m.b, true));
   spin_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
   if (m.b != SPHERE_GROUND) spin_of(m.b - world.bodies.x).w = 1.0;
+  return strikes;
 }
 
 // Gaps of contacts, bodies having moved; to first order in the turns.

@@ -74,22 +74,25 @@ inline double half_life_of_a_coin(Lab lab, std::uint32_t sides) {
 }
 
 struct Rebound {
-  double speed;   ///< fastest upwards after the blow, m/s
-  double aside;   ///< farthest that a cube went sideways / edge
-  double height;  ///< least distance of neighbours above each other / edge: below 1 = sunk in
+  double speed;         ///< fastest upwards after the blow, m/s
+  double aside;         ///< farthest that a cube went sideways / edge
+  double height;        ///< least distance of neighbours above each other / edge: below 1 = sunk in
+  double thrown = 0.0;  ///< fastest of what lay there / speed of the impact
 };
-/// A cube at 3.2 m/s onto a light one that lies on the floor.
-inline Rebound strike_light_cube(Lab lab, double mass) {
+/// A cube at 3.2 m/s onto a light one that lies on the floor, `offset` (edges) aside.
+inline Rebound strike_light_cube(Lab lab, double mass, double offset = 0.0) {
   const double edge = 0.05;
   const PartModelPtr cube = box(Vec3::Constant(edge));
   const auto light = lab.place(cube, Vec3(0, 0, 0.5 * edge), Quat::Identity(), material(0.5));
-  const auto heavy = lab.place(cube, Vec3(0, 0, 1.7 * edge), Quat::Identity(), material(0.5, 0.0, mass));
-  lab.start(heavy).velocity.linear = Vec3(0, 0, -3.2);
+  const auto heavy = lab.place(cube, Vec3(offset * edge, 0, 1.7 * edge), Quat::Identity(), material(0.5, 0.0, mass));
+  const double speed = 3.2;
+  lab.start(heavy).velocity.linear = Vec3(0, 0, -speed);
   Rebound out{0.0, 0.0, 1.0};
   while (lab.time() < 0.5) {
     lab.simulate(lab.solver().step_size());
     out.speed = std::max(out.speed, lab.state(heavy).velocity.linear.z());
     out.aside = std::max(out.aside, lab.center(light).head<2>().norm() / edge);
+    out.thrown = std::max(out.thrown, lab.state(light).velocity.linear.norm() / speed);
     out.height = std::min(out.height, (lab.center(heavy).z() - lab.center(light).z()) / edge);
   }
   return out;

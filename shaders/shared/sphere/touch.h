@@ -46,10 +46,11 @@ INLINE void emit_from(IN(View) view, IN(vec3) place, IN(vec3) away, bool turned,
     emit(view, surface - distance * away, away, distance, feature);
 }
 
-// Whether the sample's own surface can be pressed against a way out, to within 8 degrees; `turned` into its cone.
-INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, OUT(vec3) turned) {
+// Whether the sample's own surface can be pressed against a way out, of which `least` must be left; `turned` into its
+// cone.
+INLINE bool turn(IN(View) view, IN(Cone) cone, IN(vec3) away, float least, OUT(vec3) turned) {
   vec3 pressed = -turned_back(view.to_field.rotation, away);
-  if (!turn_into_cone(cone, pressed, NEARLY_ALL)) return false;
+  if (!turn_into_cone(cone, pressed, least)) return false;
   turned = -(view.to_field.rotation * pressed);
   return true;
 }
@@ -61,21 +62,24 @@ INLINE bool leans(IN(View) view, IN(vec3) point, IN(WayOut) way) {
 
 // Whether the sample was inside already when the step began, by more than the grid can tell.
 INLINE bool is_stuck(IN(View) view, IN(vec3) point, IN(WayOut) way) {
-  float nearing = max(-dot(way.away, view.drift + cross(view.twist, point)), 0.0f);
-  return way.distance + nearing < -2.0f * view.field.cell;
+  float deep = -2.0f * view.field.cell;
+  if (way.kind != BY_THE_FIELD || way.distance >= deep) return false;
+  return way.distance + max(-dot(way.away, view.drift + cross(view.twist, point)), 0.0f) < deep;
 }
 
 // A candidate, if the sample's own surface can be pressed against the way out. A face presses along its normal,
 // whatever is pressed against it: turned into the cone of an edge that is not what touches, the normal threw parts
 // sideways by up to a quarter of the speed at which they fell onto a plate. A way to an edge or a corner is turned into
-// the cone: else parts whose edges lie flush would press each other sideways.
+// the cone: else parts whose edges lie flush would press each other sideways. So is that of what is stuck inside, where
+// the nearest face tells little: it must come out somehow.
 INLINE bool press(IN(View) view, IN(vec3) point, IN(WayOut) way, IN(Cone) cone, uint feature) {
   const float level = 0.999999f;  // cosine: 0.08 degrees
+  bool stuck = is_stuck(view, point, way);
   vec3 turned;
-  if (!turn(view, cone, way.away, turned)) return false;
-  bool turns = dot(turned, way.away) < level && leans(view, point, way);
-  if (!turns && bounds_of(cone) == SPHERE_AXIS && dot(turned, way.away) < FLUSH && !is_stuck(view, point, way))
-    return false;
+  if (!turn(view, cone, way.away, stuck ? LEAST_LEFT : NEARLY_ALL, turned)) return false;
+  float left = dot(turned, way.away);
+  bool turns = left < level && (stuck || leans(view, point, way));
+  if (!turns && left < FLUSH && bounds_of(cone) == SPHERE_AXIS) return false;
   emit_from(view, point, turns ? turned : way.away, turns, way.distance, feature + way.number * SPHERE_PLANE);
   return true;
 }
@@ -97,7 +101,7 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   for (uint i = 0u; i < bounds; ++i) {
     vec3 along = view.to_field.rotation * bound_at(cone, i), normal, turned;
     if (dot(along, away) > -LEANS || !passes_edge(view.other, view.field, point, along, away, normal)) continue;
-    if (turn(view, cone, normal, turned)) return true;
+    if (turn(view, cone, normal, NEARLY_ALL, turned)) return true;
   }
   return false;
 }
@@ -132,7 +136,7 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
     Wall wall = walls.wall[i];
     vec3 turned;
     if (wall.creased || !wall.faced || wall.distance > flush || wall.distance <= soonest) continue;
-    if (!turn(view, cone, wall.away, turned)) continue;
+    if (!turn(view, cone, wall.away, NEARLY_ALL, turned)) continue;
     soonest = wall.distance;
     exit = way_of(OF_A_FACE, wall.away, wall.distance);
     exit.number = i;

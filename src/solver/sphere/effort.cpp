@@ -114,15 +114,18 @@ int effort_to_come(const World& world, const WorldDef& def) {
   return effort_of_layers(world, layers_to_come(def));
 }
 
-int effort_of_masses(const World& world) {
+float mass_ratio_of(const World& world) {
   float light = 0, heavy = 0;  // inverse masses of the lightest and of the heaviest part
   for (const Body& b : world.bodies) {
     if (b.inverse_mass == 0) continue;
     light = std::max(light, b.inverse_mass);
     heavy = heavy > 0 ? std::min(heavy, b.inverse_mass) : b.inverse_mass;
   }
-  if (heavy == 0) return 1;
-  const float work = std::sqrt(light / heavy / world.settings.default_mass_ratio);
+  return heavy > 0 ? light / heavy : 1;
+}
+
+int effort_of_masses(const World& world) {
+  const float work = std::sqrt(mass_ratio_of(world) / world.settings.default_mass_ratio);
   return static_cast<int>(std::ceil(std::min(std::max(work, 1.0f), world.settings.max_mass_effort)));
 }
 

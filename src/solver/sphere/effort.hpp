@@ -10,6 +10,9 @@ namespace bin_scenes::sphere {
 /// Effort of the heap that this world will become, when all parts that find room are in.
 int effort_to_come(const World& world, const WorldDef& def);
 
+/// Of the heaviest part that moves to the lightest.
+float mass_ratio_of(const World& world);
+
 /// Sweeps that parts of unequal masses ask for, times the default: a sweep passes on as much of a blow as the light
 /// part that carries it can.
 int effort_of_masses(const World& world);

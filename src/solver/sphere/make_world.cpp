@@ -72,6 +72,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
       w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
+  w.mass_ratio = mass_ratio_of(w);
   w.mass_effort = effort_of_masses(w);
   return w;
 }

@@ -34,14 +34,19 @@ struct Settings {
   float time_step = 1.0f / 400;  ///< duration of a step, with one collision detection
   bool cut_steps = true;         ///< shorter steps for small and for fast parts
   int sub_steps = 4;             ///< sub-steps a step; stiffness of contacts grows with the square of their number
-  int sweeps = 2;        ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
-  float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
-                         ///< blow in a wedge or a chain gives energy
-  int blow_sweeps = 12;  ///< most sweeps for that; fewer = the same
-  std::size_t blow_bodies = 48;  ///< larger worlds leave a blow to the next sub-steps: in a heap that is poured there is
-                                 ///< always one, soon shared among many, and the sweeps would cost a tenth of its time
-  int cold_sweeps = 4;   ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
-  int cold_steps = 50;   ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
+  int sweeps = 2;          ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
+  float settled = 0.1f;    ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
+                           ///< blow in a wedge or a chain gives energy
+  int blow_sweeps = 12;    ///< most sweeps for that; fewer = the same
+  int impact_sweeps = 24;  ///< most sweeps in a step with an impact, times the ratio of the masses of heaviest and
+                           ///< lightest part: so many does it take to stop the one on the other; fewer = the light one
+                           ///< is thrown out at a third of the speed
+  int most_impact_sweeps = 2400;  ///< more = at 1:10,000 ten times the time, and no less error
+  std::size_t blow_bodies =
+      48;               ///< larger worlds leave a blow to the next sub-steps: in a heap that is poured there is
+                        ///< always one, soon shared among many, and the sweeps would cost a tenth of its time
+  int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
+  int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
   float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
@@ -184,6 +189,7 @@ struct World {
   bool forgets = false;                   ///< the next step starts without remembered forces
   int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
+  float mass_ratio = 1;                   ///< heaviest part / lightest
   int mass_effort = 1;                    ///< factor on sweeps of soft contacts, for parts of unequal masses
   float smallest_size = 0, thinnest = 0;  ///< m, of the parts: Shape::size, Shape::thickness
   float whole_step = 0;                   ///< s: Settings::time_step while no part is fast
@@ -208,7 +214,13 @@ struct World {
   /// Sweeps after bodies move. Rigid contacts push slowly, so that one sweep removes the remaining velocity. With none,
   /// a gear on its teeth rolls forever.
   /// Most of them while a blow is not shared.
-  int blow_sweeps() const { return bodies.size() > settings.blow_bodies ? 0 : settings.blow_sweeps; }
+  /// @param impact  something closes fast in this step
+  int blow_sweeps(bool impact) const {
+    if (bodies.size() > settings.blow_bodies || settings.blow_sweeps == 0) return 0;
+    if (!impact) return settings.blow_sweeps;
+    const float wanted = mass_ratio * static_cast<float>(settings.impact_sweeps);
+    return static_cast<int>(std::min(wanted, static_cast<float>(settings.most_impact_sweeps)));
+  }
   int relaxing_sweeps() const {
     if (!settings.relaxation) return 0;
     return stiffness == Stiffness::rigid ? 1 : sweeps();

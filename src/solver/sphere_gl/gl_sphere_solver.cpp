@@ -71,6 +71,7 @@ class GlSphereSolver final : public Solver {
     r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
       return shapes_.of(part, profile_);
     });
+    if (device_->software()) r.world.settings.most_impact_sweeps = r.world.settings.blow_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));

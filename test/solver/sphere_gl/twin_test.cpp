@@ -314,8 +314,8 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     Capacity capacity = GetParam().capacity;
     capacity.rows = 32;  // the step is not repeated here
     Batch batch(capacity);
-    World world = heap_of(40, 4);
-    for (int k = 0; k < 3; ++k) step(world);                      // now contacts have forces
+    World world = heap_of(40, 6);             // of some others 24 soft sub-steps make more of rounding
+    for (int k = 0; k < 3; ++k) step(world);  // now contacts have forces
     world.settings.probe_slip = 0.5f * world.settings.time_step;  // sub-steps with friction and without
     const bool full = GetParam().name == "FullGroup", by_one = full || GetParam().name == "SoftwareGroup";
     const bool many =
@@ -326,6 +326,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     EXPECT_EQ(world.effort > 1, many);
     if (full) world.fine = false;
     if (capacity.group_bodies == 0) world.settings.blow_sweeps = 0;  // a world in many groups leaves blows
+    world.settings.most_impact_sweeps = world.settings.blow_sweeps;  // llvmpipe ends longer loops
     world.bodies[20].asleep = true;
     const Batch::Slot slot = load(batch, world);
     find_all(batch, slot);

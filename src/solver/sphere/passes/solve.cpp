@@ -74,7 +74,7 @@ class ContactSolver {
         blow_speed_(blow_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
         softness_(world.softness()),
         spring_(spring(softness_, h_)),
-        shares_blows_(world.blow_sweeps() > 0),
+        shares_blows_(world.blow_sweeps(false) > 0),
         settled_(settings_.settled * world.smallest_size),
         push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
@@ -92,6 +92,8 @@ class ContactSolver {
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
   /// Returns whether it has changed a contact's speed by more than Settings::settled: another one has to share a blow.
   bool sweep(bool push, bool first);
+  /// Most sweeps while a blow is not shared.
+  int most_sweeps() const { return world_.blow_sweeps(impact_); }
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
   void note_sliding();  ///< bodies that friction brakes
   void aim();           ///< levers of what is struck
@@ -131,6 +133,7 @@ class ContactSolver {
   const float settled_;      ///< m/s
   LaneMask unsettled_{};     ///< by this sweep
   bool friction_holds_ = true;
+  bool impact_ = false;     ///< some contact closes fast
   const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
@@ -157,10 +160,12 @@ void ContactSolver::prepare() {
   make_bundles(world_, blocks_, block_, bundles_, rows_);
   for_each_in_parallel(bundles_.size(), bundles_per_task,
                        [&](std::size_t i) { sphere::prepare(world_, motions_, h_, bundles_[i], rows_); });
-  for (const Bundle& bundle : bundles_)
+  for (const Bundle& bundle : bundles_) {
+    impact_ = impact_ || any(bundle.strikes);
     for (int lane = 0; lane < bundle.lanes; ++lane)
       for (const std::uint32_t i : {bundle.a[lane], bundle.b[lane]})
         if (i < free_.size()) free_[i] = 0;
+  }
 }
 
 /// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
@@ -465,11 +470,11 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
     stop_if_cancelled();
     solver.warm_start();
     bool blow = false;  // is not shared yet
-    for (int i = 0; i < world.sweeps() || (blow && i < world.blow_sweeps()); ++i) blow = solver.sweep(true, i == 0);
+    for (int i = 0; i < world.sweeps() || (blow && i < solver.most_sweeps()); ++i) blow = solver.sweep(true, i == 0);
     solver.note_sliding();
     solver.move();
     solver.aim();
-    for (int i = 0; i < world.relaxing_sweeps() || (blow && i < world.blow_sweeps()); ++i)
+    for (int i = 0; i < world.relaxing_sweeps() || (blow && i < solver.most_sweeps()); ++i)
       blow = solver.sweep(false, i == 0);
   }
   solver.restitute();
