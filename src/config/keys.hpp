@@ -266,6 +266,10 @@ void visit(Visitor& v, Acceptance& accept) {
            "largest energy that a part gained from nowhere between two looks (1/60 s) / (its mass * gravity * its "
            "diagonal); more: contacts threw it about, and the scene is set apart"},
           accept.energy);
+  v.field({"speed", "",
+           "largest (speed of a part - gravity * time between two looks) / fastest of the parts near it before; more: "
+           "contacts threw it out, and the scene is set apart"},
+          accept.speed);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
 }
 

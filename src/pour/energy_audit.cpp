@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numeric>
+#include <string>
 
 namespace bin_scenes {
 
@@ -29,6 +31,7 @@ EnergyAudit::Body EnergyAudit::body_at(std::size_t body, const BodyState& state)
   now.fixed = def.fixed;
   now.center = state.pose * mass.center;
   now.speed = state.velocity.linear.norm();
+  now.swift = now.speed + world_.parts[def.part]->radius() * state.velocity.angular.norm();
   now.potential = -def.mass * world_.gravity.dot(now.center);
   now.kinetic = 0.5 * def.mass * (now.speed * now.speed + spin.dot(mass.inertia * spin) / mass.volume);
   return now;
@@ -64,7 +67,7 @@ void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool d
     return;
   }
   std::vector<Reach> reaches;
-  bool gained = false;
+  bool gained = false, faster = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& before = bodies_[b];
     if (!before.in || before.fixed || !states[b].pose.finite()) continue;
@@ -73,30 +76,79 @@ void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool d
     const double way = std::max(0.5 * (before.speed + now.speed) * seconds, (now.center - before.center).norm());
     const double gain = now.kinetic - before.kinetic + now.potential - before.potential -
                         allowed * std::max(now.kinetic, before.kinetic);
-    reaches.push_back(
-        {b, 0.5 * (before.center + now.center), part.radius() + 0.5 * way + 0.5 * touching * part.diagonal(), gain});
+    reaches.push_back({b, 0.5 * (before.center + now.center),
+                       part.radius() + 0.5 * way + 0.5 * touching * part.diagonal(), gain, before.swift, now.speed});
+    faster |= now.speed > least_speed(b) && now.speed > flagged_ratio * before.swift + gravity_ * seconds;
     gained |= gain > worst_.gain * world_.bodies[b].mass * gravity_ * part.diagonal();
     before = now;
   }
-  if (!gained) return;  // nobody gained more than the worst so far, however its group fared
-
+  if (!gained && !faster) return;  // nobody is worse than the worst so far, however its group fared
   DisjointSets group = groups(reaches);
+  if (gained) compare_gains(group, reaches, time);
+  if (faster) compare_speeds(group, reaches, seconds, time);
+}
+
+double EnergyAudit::least_speed(std::size_t body) const {
+  return std::sqrt(2.0 * flagged_gain * gravity_ * world_.parts[world_.bodies[body].part]->diagonal());
+}
+
+void EnergyAudit::compare_speeds(DisjointSets& group, const std::vector<Reach>& reaches, double seconds, double time) {
+  std::vector<double> fastest(reaches.size(), 0.0), restitution(reaches.size(), world_.bin.restitution);
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) {
+    const std::size_t root = group.root(i);
+    fastest[root] = std::max(fastest[root], reaches[i].before);
+    restitution[root] = std::max(restitution[root], world_.bodies[reaches[i].body].restitution);
+  }
+  const double fall = gravity_ * seconds;
+  for (std::uint32_t i = 0; i < reaches.size(); ++i) {
+    const Reach& part = reaches[i];
+    const std::size_t root = group.root(i);
+    if (part.now <= least_speed(part.body)) continue;
+    const double ratio = (part.now - fall) / (std::max(fastest[root], fall) * (1.0 + restitution[root]));
+    if (ratio <= std::max(worst_.thrown.ratio, 1.0)) continue;
+    worst_.thrown = {ratio, time, static_cast<int>(part.body), -1};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = 0; k < reaches.size(); ++k) {
+      const double gap = (reaches[k].center - part.center).norm() - reaches[k].radius - part.radius;
+      if (k == i || group.root(k) != root || gap >= nearest) continue;
+      nearest = gap;
+      worst_.thrown.beside = static_cast<int>(reaches[k].body);
+    }
+  }
+}
+
+void EnergyAudit::compare_gains(DisjointSets& group, const std::vector<Reach>& reaches, double time) {
   std::vector<double> sums(reaches.size(), 0.0);
   for (std::uint32_t i = 0; i < reaches.size(); ++i) sums[group.root(i)] += reaches[i].gain;
   for (std::uint32_t i = 0; i < reaches.size(); ++i) {
     const BodyDef& def = world_.bodies[reaches[i].body];
     const double unit = def.mass * gravity_ * world_.parts[def.part]->diagonal();
     const double gain = std::min(reaches[i].gain, sums[group.root(i)]) / unit;
-    if (gain > worst_.gain) worst_ = {gain, time, static_cast<int>(reaches[i].body)};
+    if (gain <= worst_.gain) continue;
+    worst_.gain = gain;
+    worst_.time = time;
+    worst_.part = static_cast<int>(reaches[i].body);
   }
 }
 
 std::vector<Flag> EnergyAudit::flags() const {
-  if (worst_.gain <= flagged_gain) return {};
+  const std::string remedy = "use the other solver, shorter time steps, or a model without nearly equal fits";
+  std::vector<Flag> flags;
   char text[160];
-  std::snprintf(text, sizeof text, "part %d gained %.3g m g d of energy from nowhere by %.3f s of simulated time",
-                worst_.part, worst_.gain, worst_.time);
-  return {{"energy_gained", text, "use the other solver, shorter time steps, or a model without nearly equal fits"}};
+  if (worst_.gain > flagged_gain) {
+    std::snprintf(text, sizeof text, "part %d gained %.3g m g d of energy from nowhere by %.3f s of simulated time",
+                  worst_.part, worst_.gain, worst_.time);
+    flags.push_back({"energy_gained", text, remedy});
+  }
+  const auto& thrown = worst_.thrown;
+  if (thrown.ratio > flagged_ratio) {
+    std::snprintf(text, sizeof text,
+                  "part %d, beside %s, left at %.3g times the speed of what was near it by %.3f s of simulated time",
+                  thrown.part, thrown.beside < 0 ? "the bin" : ("part " + std::to_string(thrown.beside)).c_str(),
+                  thrown.ratio, thrown.time);
+    flags.push_back({"part_thrown", text, remedy});
+  }
+  return flags;
 }
 
 }  // namespace bin_scenes

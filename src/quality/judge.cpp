@@ -181,6 +181,14 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
                   report.energy.part, report.energy.gain, report.energy.time, request.accept.energy);
     report.reasons.push_back(text);
   }
+  if (const auto& thrown = report.energy.thrown; thrown.ratio > request.accept.speed) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "part %d was thrown at %.3g times the speed of what was near it by %.3f s, which is above accept.speed %.3g",
+        thrown.part, thrown.ratio, thrown.time, request.accept.speed);
+    report.reasons.push_back(text);
+  }
   const auto is_in = [](const ScenePart& p) { return is_there(p.state) && p.state != PartState::fixed; };
   if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
     report.reasons.push_back("nothing was poured: no part found room below the rim");

@@ -179,6 +179,10 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.energy.gain = report.energy.gain;
   message.energy.time = report.energy.time;
   message.energy.part = report.energy.part;
+  message.energy.thrown_ratio = report.energy.thrown.ratio;
+  message.energy.thrown_time = report.energy.thrown.time;
+  message.energy.thrown_part = report.energy.thrown.part;
+  message.energy.thrown_beside = report.energy.thrown.beside;
   message.escaped.assign(report.escaped.begin(), report.escaped.end());
   message.not_poured.assign(report.not_poured.begin(), report.not_poured.end());
   message.state_hash = report.state_hash;
@@ -222,6 +226,8 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.energy.gain = message.energy.gain;
   report.energy.time = message.energy.time;
   report.energy.part = message.energy.part;
+  report.energy.thrown = {message.energy.thrown_ratio, message.energy.thrown_time, message.energy.thrown_part,
+                          message.energy.thrown_beside};
   report.escaped.assign(message.escaped.begin(), message.escaped.end());
   report.not_poured.assign(message.not_poured.begin(), message.not_poured.end());
   report.state_hash = message.state_hash;

@@ -376,6 +376,7 @@ void check(const Request& request) {
   at_least("accept.penetration", request.accept.penetration, 0.0, 1.0, "fraction of the part's diagonal");
   at_least("accept.gap", request.accept.gap, 0.0, 1.0, "fraction of the part's diagonal");
   at_least("accept.energy", request.accept.energy, 0.0, infinity, "multiples of mass * gravity * diagonal");
+  at_least("accept.speed", request.accept.speed, 1.0, infinity, "multiples of the fastest speed before");
   if (request.seconds) above("seconds", *request.seconds, 0.0, 1e5, "simulated seconds");
   above("memory_budget", request.memory_budget, 0.0, 1e15, "bytes");
 }

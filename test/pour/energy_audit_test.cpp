@@ -48,7 +48,8 @@ TEST_F(EnergyAuditTest, FreeFallAndRestGainNothing) {
 
 TEST_F(EnergyAuditTest, APartThrownUpGainsItsKineticEnergy) {
   const double v = std::sqrt(2.0 * g * 5.0 * d);  // as high as five diagonals
-  const EnergyReport report = between({away(0), at(0.0, 1.0), away(2)}, {away(0), at(0.0, 1.0, Vec3(0, 0, v)), away(2)});
+  const EnergyReport report =
+      between({away(0), at(0.0, 1.0), away(2)}, {away(0), at(0.0, 1.0, Vec3(0, 0, v)), away(2)});
   EXPECT_NEAR(report.gain, 5.0, 0.01);
   EXPECT_EQ(report.part, 1);
   EXPECT_NEAR(report.time, dt, 1e-12);
@@ -62,17 +63,50 @@ TEST_F(EnergyAuditTest, SpinCounts) {
 
 TEST_F(EnergyAuditTest, WhatANeighbourGaveIsNoGain) {
   const double v = 2.0;
-  const EnergyReport report =
-      between({at(0.0, 1.0, Vec3(v, 0, 0)), at(edge, 1.0), away(2)}, {at(0.0, 1.0), at(edge, 1.0, Vec3(v, 0, 0)), away(2)});
+  const EnergyReport report = between({at(0.0, 1.0, Vec3(v, 0, 0)), at(edge, 1.0), away(2)},
+                                      {at(0.0, 1.0), at(edge, 1.0, Vec3(v, 0, 0)), away(2)});
   EXPECT_LT(report.gain, 1e-9);
 }
 
 TEST_F(EnergyAuditTest, WhatAFarPartLosesExplainsNothing) {
   const double v = std::sqrt(2.0 * g * d);
-  const EnergyReport report =
-      between({at(0.0, 1.0), at(10.0, 1.0, Vec3(2 * v, 0, 0)), away(2)}, {at(0.0, 1.0, Vec3(v, 0, 0)), at(10.0, 1.0), away(2)});
+  const EnergyReport report = between({at(0.0, 1.0), at(10.0, 1.0, Vec3(2 * v, 0, 0)), away(2)},
+                                      {at(0.0, 1.0, Vec3(v, 0, 0)), at(10.0, 1.0), away(2)});
   EXPECT_NEAR(report.gain, 1.0, 0.01);
   EXPECT_EQ(report.part, 0);
+}
+
+// Blocks of 11 m/s pinched a card out at 140 m/s, and lost more energy than it won.
+TEST_F(EnergyAuditTest, APartFasterThanWhatStruckItWasThrown) {
+  world.bodies[1].mass = 0.001;
+  const auto thrown = [&](double speed) {
+    return between({at(0.0, 1.0, Vec3(11, 0, 0)), at(edge, 1.0), away(2)},
+                   {at(0.0, 1.0, Vec3(5, 0, 0)), at(edge, 1.0, Vec3(speed, 0, 0)), away(2)});
+  };
+  EXPECT_EQ(thrown(11.0).thrown.part, -1) << "as fast as what struck it";
+  const EnergyReport report = thrown(140.0);
+  EXPECT_LT(report.gain, 1e-9);
+  EXPECT_NEAR(report.thrown.ratio, (140.0 - g * dt) / 11.0, 1e-9);
+  EXPECT_EQ(report.thrown.part, 1);
+  EXPECT_EQ(report.thrown.beside, 0);
+  world.bodies[1].restitution = 1.0;
+  EXPECT_NEAR(thrown(140.0).thrown.ratio, (140.0 - g * dt) / 22.0, 1e-9) << "what is elastic leaves twice as fast";
+}
+
+TEST_F(EnergyAuditTest, WhatFallsIsNotThrown) {
+  EXPECT_EQ(
+      between({at(0.0, 1.0), away(1), away(2)}, {at(0.0, 1.0, Vec3(0, 0, -g * dt)), away(1), away(2)}).thrown.part, -1);
+}
+
+TEST_F(EnergyAuditTest, AFlagNamesWhoWasThrownAndBesideWhom) {
+  EnergyAudit audit(world);
+  audit.enter(0, at(0.0, 1.0, Vec3(2, 0, 0)));
+  audit.enter(1, at(edge, 1.0));
+  audit.look(dt, {at(0.0, 1.0), at(edge, 1.0, Vec3(8, 0, 0)), away(2)});
+  const std::vector<Flag> flags = audit.flags();
+  ASSERT_EQ(flags.size(), 2u) << "it gained energy, too";
+  EXPECT_EQ(flags[1].code, "part_thrown");
+  EXPECT_NE(flags[1].text.find("part 1, beside part 0, left at 3.9"), std::string::npos) << flags[1].text;
 }
 
 TEST_F(EnergyAuditTest, FixedPartsAndThoseThatNeverCameInAreLeftOut) {

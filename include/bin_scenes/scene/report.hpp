@@ -24,16 +24,16 @@ struct Quantiles {
 Quantiles quantiles(std::vector<double> values);
 
 struct PenetrationReport : Quantiles {
-  std::array<int, 2> pair = {-1, -1};  ///< ids of the worst pair; {-1, -1} if nothing overlaps
-  double p95_relative = 0.0, max_relative = 0.0;  ///< / smaller part's bounding diagonal
-  std::size_t pairs = 0;               ///< overlapping pairs
+  std::array<int, 2> pair = {-1, -1};                     ///< ids of the worst pair; {-1, -1} if nothing overlaps
+  double p95_relative = 0.0, max_relative = 0.0;          ///< / smaller part's bounding diagonal
+  std::size_t pairs = 0;                                  ///< overlapping pairs
   double bin_median = 0.0, bin_p95 = 0.0, bin_max = 0.0;  ///< over the parts that overlap the bin (m)
-  int bin_part = -1;                   ///< id of the worst of them; -1 if none
+  int bin_part = -1;                                      ///< id of the worst of them; -1 if none
 };
 
-struct DriftReport : Quantiles {       ///< m: move of the centre of mass in 0.5 s of a re-run
+struct DriftReport : Quantiles {  ///< m: move of the centre of mass in 0.5 s of a re-run
   bool measured = false;
-  double turn_p95 = 0.0;               ///< rad
+  double turn_p95 = 0.0;  ///< rad
 };
 
 /// Energy that a part gained and that nothing gave it: a solver whose contacts throw parts about.
@@ -41,26 +41,35 @@ struct EnergyReport {
   double gain = 0.0;  ///< largest between two looks / (m g d) of the part; m mass, d diagonal of its bounding box
   double time = 0.0;  ///< s, simulated, of the look that found it
   int part = -1;      ///< id; -1 if no part gained energy
+
+  /// A part that left others faster than any of them was: what a pinch throws out is light, and its energy small.
+  struct Thrown {
+    double ratio = 0.0;  ///< largest (speed - gravity * time between two looks) / fastest of those near it before, a
+                         ///< turn counted at the radius; of what bounces, over 1 + restitution
+    double time = 0.0;   ///< s, simulated, of the look that found it
+    int part = -1;       ///< id; -1 if none was thrown
+    int beside = -1;     ///< id of the nearest part before, -1 if only the bin was near
+  } thrown;
 };
 
 struct Report {
   bool at_rest = false;
   bool accepted = false;
-  std::vector<std::string> reasons;    ///< why not accepted
-  std::string solver;                  ///< "sphere", "sphere/thesis", "bullet"
-  std::string solver_reason;           ///< why `auto` chose it
-  std::string device;                  ///< GL_RENDERER, or "cpu"
-  std::string finish;                  ///< "settled", "pressed", "probed": what was done; "none": time ran out before
+  std::vector<std::string> reasons;  ///< why not accepted
+  std::string solver;                ///< "sphere", "sphere/thesis", "bullet"
+  std::string solver_reason;         ///< why `auto` chose it
+  std::string device;                ///< GL_RENDERER, or "cpu"
+  std::string finish;                ///< "settled", "pressed", "probed": what was done; "none": time ran out before
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t steps = 0;
   Profile profile;
   PenetrationReport penetration;
-  Quantiles gap;                       ///< m: free fall of the parts at rest
+  Quantiles gap;  ///< m: free fall of the parts at rest
   DriftReport drift;
   EnergyReport energy;
-  std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite
-  std::vector<int> not_poured;         ///< ids that found no room above the heap
-  std::uint64_t state_hash = 0;        ///< of all final poses, bit for bit
+  std::vector<int> escaped;      ///< ids outside the bin, below the floor or not finite
+  std::vector<int> not_poured;   ///< ids that found no room above the heap
+  std::uint64_t state_hash = 0;  ///< of all final poses, bit for bit
   std::vector<Flag> flags;
 };
 

@@ -225,6 +225,7 @@ struct Acceptance {
   double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
   double gap = 0.005;         ///< largest free fall of a part at rest / its diagonal
   double energy = 2.0;        ///< largest gain of energy from nowhere between two looks, in m g d of the part
+  double speed = 5.0;         ///< largest EnergyReport::Thrown::ratio
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };
 
