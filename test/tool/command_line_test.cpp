@@ -487,6 +487,16 @@ TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {
   EXPECT_EQ(json("out/scene_000000/scene.json").at("sensors").at(0).at("K").size(), 9u);
 }
 
+TEST_F(CommandLine, BopRefusesWhatIsNoPinholeBeforeAnythingIsPoured) {
+  for (const char* kind : {"distortion: [0.1, 0, 0, 0, 0]", "model: laser_line"}) {
+    const std::string sensor = " --set 'sensors=[{name: top, width: 64, height: 48, " + std::string(kind) + "}]'";
+    const Outcome outcome = run("generate request.yaml --out out --formats bop" + sensor);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("pinhole"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(dir / "out"));
+  }
+}
+
 TEST_F(CommandLine, InspectMeasuresAModel) {
   const Outcome outcome = run("inspect box.stl --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
