@@ -66,9 +66,9 @@ void write_pcd(const std::string& path, const RangeImage& image) {
   const std::size_t points = image.depth.size(), size = header.size() + points * point_bytes;
   const std::unique_ptr<char[]> bytes(new char[size]);  // tens of megabytes: not written twice
   char* at = std::copy(header.begin(), header.end(), bytes.get());
-  const std::vector<std::array<float, 3>> positions = points_of(image);
+  const std::vector<std::array<float, 3>> positions = points_of(image), normals = normals_of(image, positions);
   for (std::size_t i = 0; i < points; ++i, at += point_bytes) {
-    const Point point = {positions[i], normal_at(image, i), image.intensity[i], image.label[i]};
+    const Point point = {positions[i], normals[i], image.intensity[i], image.label[i]};
     std::memcpy(at, &point, sizeof(Point));
     at[sizeof(Point)] = static_cast<char>(image.validity[i]);
   }

@@ -93,12 +93,12 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   message.row_step = message.point_step * message.width;
   message.data.resize(std::size_t(message.row_step) * message.height);
   std::uint8_t* out = message.data.data();
-  const std::vector<std::array<float, 3>> points = points_of(image);
+  const std::vector<std::array<float, 3>> points = points_of(image), normals = normals_of(image, points);
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
       const std::size_t pixel = std::size_t(row) * image.width + column;
       const auto& p = points[pixel];
-      const auto n = normal_at(image, pixel);
+      const auto& n = normals[pixel];
       const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
       std::memcpy(out, &point, sizeof point);
       out += sizeof point;
