@@ -137,7 +137,9 @@ sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Hea
   return plane(image.validity, image, sensor_msgs::image_encodings::MONO8, header);
 }
 
-sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header) {
+std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header) {
+  if (!of_camera(image)) return std::nullopt;
+  const Sensor& sensor = image.sensor;
   if (sensor.k.size() != 9) {
     throw input_error("the intrinsic matrix has " + std::to_string(sensor.k.size()) + " values",
                       "sensor " + sensor.name, "give the nine of a 3x3 matrix, or leave K out");
@@ -160,7 +162,7 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, co
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = sensor_frame(image.sensor.name, frame_prefix);
-  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image.sensor, header),
+  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image, header),
           label_message(image, header), validity_message(image, header)};
 }
 
