@@ -84,13 +84,13 @@ class PlanFile {
   void read_outputs(const YAML::Node& node) {
     plan_.formats = {"json"};
     if (!node) return;
-    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, png, bag, bop, shards");
+    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, bop, shards");
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
-      const std::vector<std::string> known = {"json", "pcd", "png", "bag", "bop", "shards"};
+      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "bop", "shards"};
       if (std::find(known.begin(), known.end(), name) == known.end())
-        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, png, bag, bop and shards");
+        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, ply, png, bag, bop and shards");
       plan_.formats.push_back(name);
     }
   }
@@ -350,7 +350,7 @@ class PlanFile {
   /// Why the outputs cannot hold what a request's sensors see; empty: they can.
   std::string misfit(const Request& request) const {
     const bool bop = plan_.wants("bop") || plan_.wants("shards");
-    if ((bop || plan_.wants("png") || plan_.wants("pcd")) && request.sensors.empty())
+    if ((bop || plan_.wants("png") || plan_.wants("pcd") || plan_.wants("ply")) && request.sensors.empty())
       return "the outputs show what a sensor sees, but the request has no sensors";
     if (bop && request.sensors.size() != plan_.reference.sensors.size())
       return "BOP has the same number of images in each scene, one a sensor";

@@ -67,7 +67,8 @@ double estimate_scene_bytes(const Plan& plan) {
   const double parts = static_cast<double>(plan.reference.part_count());
   double bytes = 4 * block + parts * (700.0 + 300.0 * sensors);
   if (plan.wants("png")) bytes += 4.0 * pixels + 7 * block * sensors;
-  if (plan.wants("pcd")) bytes += 37.0 * pixels;
+  for (const char* cloud : {"pcd", "ply"})
+    if (plan.wants(cloud)) bytes += 45.0 * pixels;
   if (plan.wants("bag")) bytes += 45.0 * pixels;
   if (plan.wants("bop")) bytes += 2.2 * pixels + parts * sensors * 2 * block + 6 * block;
   if (plan.wants("shards")) bytes += 2.2 * pixels + parts * sensors * 2500.0;

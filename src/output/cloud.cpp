@@ -1,91 +1,97 @@
-/// The one file that sees PCL outside the ROS rim.
-#include "bin_scenes/core/error.hpp"
+/// Organised clouds as PCD and PLY files, with all fields.
 #include "bin_scenes/output/scene_writer.hpp"
 #include "output/png.hpp"
 
-#ifdef BIN_SCENES_HAS_PCL
-#include <pcl/io/pcd_io.h>
-
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <memory>
-#endif
 
 namespace bin_scenes {
 
-#ifdef BIN_SCENES_HAS_PCL
-
 namespace {
 
-/// A point as it lies in the file; no padding.
-struct Point {
+/// A point as it lies in a file, little-endian; a byte of validity lies between its two halves.
+struct Measured {
   std::array<float, 3> position, normal;
   float intensity;
   std::uint32_t label;
 };
-static_assert(sizeof(Point) == 32, "before its validity, one byte, a point is 32 bytes in the file");
-constexpr std::size_t point_bytes = sizeof(Point) + 1;
+using TrueNormal = std::array<float, 3>;
+constexpr std::size_t point_bytes = sizeof(Measured) + 1 + sizeof(TrueNormal);
+static_assert(sizeof(Measured) == 32 && sizeof(TrueNormal) == 12, "no padding");
 
-pcl::PCLPointCloud2 header_of(const RangeImage& image) {
-  pcl::PCLPointCloud2 cloud;
-  cloud.width = image.width;
-  cloud.height = image.height;
-  cloud.is_dense = false;
-  cloud.point_step = point_bytes;
-  cloud.row_step = cloud.width * cloud.point_step;
-  std::uint32_t offset = 0;
-  const auto add = [&](const char* name, std::uint8_t type, std::uint32_t size) {
-    pcl::PCLPointField field;
-    field.name = name;
-    field.offset = offset;
-    field.count = 1;
-    field.datatype = type;
-    cloud.fields.push_back(field);
-    offset += size;
-  };
-  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity"}) {
-    add(name, pcl::PCLPointField::FLOAT32, 4);
-  }
-  add("label", pcl::PCLPointField::UINT32, 4);
-  add("validity", pcl::PCLPointField::UINT8, 1);
-  return cloud;
+struct Field {
+  const char* pcd;   ///< name
+  const char* ply;   ///< name, as viewers know it
+  const char* type;  ///< of PLY
+};
+constexpr Field fields[] = {{"x", "x", "float"},
+                            {"y", "y", "float"},
+                            {"z", "z", "float"},
+                            {"normal_x", "nx", "float"},
+                            {"normal_y", "ny", "float"},
+                            {"normal_z", "nz", "float"},
+                            {"intensity", "intensity", "float"},
+                            {"label", "label", "uint"},
+                            {"validity", "validity", "uchar"},
+                            {"truth_normal_x", "truth_nx", "float"},
+                            {"truth_normal_y", "truth_ny", "float"},
+                            {"truth_normal_z", "truth_nz", "float"}};
+
+/// Position, then quaternion w x y z.
+std::string pose_text(const Pose& pose) {
+  const Vec3& p = pose.position;
+  const Quat& q = pose.orientation;
+  char text[256];
+  std::snprintf(text, sizeof text, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                q.z());
+  return text;
 }
-}  // namespace
 
-bool pcd_supported() {
-  return true;
-}
-
-void write_pcd(const std::string& path, const RangeImage& image) {
-  const Pose pose = image.sensor.pose.value_or(Pose());
-  Eigen::Vector4f origin(0, 0, 0, 1);
-  origin.head<3>() = pose.position.cast<float>();
-  // Only the header by PCL's hand: it writes files through a mapping, where a full disk is a signal and no error.
-  const std::string header =
-      pcl::PCDWriter().generateHeaderBinary(header_of(image), origin, pose.orientation.cast<float>()) + "DATA binary\n";
-  const std::size_t points = image.depth.size(), size = header.size() + points * point_bytes;
-  const std::unique_ptr<char[]> bytes(new char[size]);  // tens of megabytes: not written twice
+/// Tens of megabytes, not written twice; through write_bytes(), where a full disk is an error and no signal.
+void write_points(const std::string& path, const std::string& header, const RangeImage& image) {
+  const std::size_t size = header.size() + image.depth.size() * point_bytes;
+  const std::unique_ptr<char[]> bytes(new char[size]);
   char* at = std::copy(header.begin(), header.end(), bytes.get());
   const std::vector<std::array<float, 3>> positions = points_of(image), normals = normals_of(image, positions);
-  for (std::size_t i = 0; i < points; ++i, at += point_bytes) {
-    const Point point = {positions[i], normals[i], image.intensity[i], image.label[i]};
-    std::memcpy(at, &point, sizeof(Point));
-    at[sizeof(Point)] = static_cast<char>(image.validity[i]);
+  for (std::size_t i = 0; i < positions.size(); ++i, at += point_bytes) {
+    const Measured point = {positions[i], normals[i], image.intensity[i], image.label[i]};
+    std::memcpy(at, &point, sizeof point);
+    at[sizeof point] = static_cast<char>(image.validity[i]);
+    std::memcpy(at + sizeof point + 1, &image.normal[i], sizeof(TrueNormal));
   }
   write_bytes(path, bytes.get(), size);
 }
 
-#else
+}  // namespace
 
-bool pcd_supported() {
-  return false;
+void write_pcd(const std::string& path, const RangeImage& image) {
+  std::string names = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
+  for (const Field& field : fields) {
+    const bool real = std::strcmp(field.type, "float") == 0, byte = std::strcmp(field.type, "uchar") == 0;
+    names += std::string(" ") + field.pcd;
+    sizes += byte ? " 1" : " 4";
+    types += real ? " F" : " U";
+    counts += " 1";
+  }
+  const std::string width = std::to_string(image.width), height = std::to_string(image.height);
+  write_points(path,
+               "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + names + "\n" + sizes + "\n" + types +
+                   "\n" + counts + "\nWIDTH " + width + "\nHEIGHT " + height + "\nVIEWPOINT " +
+                   pose_text(image.sensor.pose.value_or(Pose())) + "\nPOINTS " + std::to_string(image.depth.size()) +
+                   "\nDATA binary\n",
+               image);
 }
 
-void write_pcd(const std::string& path, const RangeImage&) {
-  throw environment_error("this build has no PCL and writes no PCD", path,
-                          "build with -DBIN_SCENES_PCL=ON, or leave format pcd out");
+void write_ply(const std::string& path, const RangeImage& image) {
+  std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment optical frame of " + image.sensor.name +
+      ", m; its pose in the bin frame, x y z qw qx qy qz: " + pose_text(image.sensor.pose.value_or(Pose())) +
+      "\nobj_info num_cols " + std::to_string(image.width) + "\nobj_info num_rows " + std::to_string(image.height) +
+      "\nelement vertex " + std::to_string(image.depth.size()) + "\n";
+  for (const Field& field : fields) header += std::string("property ") + field.type + " " + field.ply + "\n";
+  write_points(path, header + "end_header\n", image);
 }
-
-#endif
 
 }  // namespace bin_scenes

@@ -30,7 +30,7 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--scenes", o.scenes, "number of scenes");
   app.add_option("--first", o.first, "index of the first scene, to split a job");
   app.add_option("--solver", o.solver, "auto, sphere or bullet");
-  app.add_option("--formats", o.formats, "of json, pcd, png, bop, bag; scene.json is always written")->delimiter(',');
+  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
   app.add_option("--trace", o.trace, "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");

@@ -1,14 +1,56 @@
 #include "output/output_fixture.hpp"
 
 #include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
 
 namespace bin_scenes {
 namespace {
 
-using Pcd = OutputTest;
+using Clouds = OutputTest;
 
-TEST_F(Pcd, PclReadsBackWhatTheImageHolds) {
-  const RangeImage image = small_image();
+const char* const pcd_names[] = {
+    "x",         "y",     "z",        "normal_x",       "normal_y",       "normal_z",
+    "intensity", "label", "validity", "truth_normal_x", "truth_normal_y", "truth_normal_z"};
+
+/// A noisy sensor's image: its normals are no longer the true ones.
+RangeImage noisy_image() {
+  RangeImage image = small_image();
+  image.sensor.model = SensorModel::structured_light;
+  image.normal[7] = {0.6f, 0.0f, -0.8f};  // of what it missed
+  image.normal[15] = {std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f};
+  return image;
+}
+
+/// Every field of every point, by name, as PCL reads it.
+void expect_cloud(const pcl::PCLPointCloud2& blob, const RangeImage& image) {
+  ASSERT_EQ(blob.width, 8u);
+  ASSERT_EQ(blob.height, 6u);
+  ASSERT_EQ(blob.fields.size(), 12u);
+  const auto positions = points_of(image), normals = normals_of(image, positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto& p = positions[i];
+    const auto& n = normals[i];
+    const auto& t = image.normal[i];
+    const float reals[] = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[i], 0, 0, t[0], t[1], t[2]};
+    for (std::size_t f = 0; f < 12; ++f) {
+      const pcl::PCLPointField& field = blob.fields[f];
+      EXPECT_EQ(field.name, pcd_names[f]);
+      const std::uint8_t* at = &blob.data[i * blob.point_step + field.offset];
+      if (f == 7) {
+        std::uint32_t label;
+        std::memcpy(&label, at, sizeof label);
+        EXPECT_EQ(label, image.label[i]);
+      } else if (f == 8) {
+        EXPECT_EQ(*at, image.validity[i]);
+      } else {
+        EXPECT_EQ(std::memcmp(at, &reals[f], sizeof(float)), 0) << i << " " << field.name;
+      }
+    }
+  }
+}
+
+TEST_F(Clouds, PclReadsBackWhatTheImageHolds) {
+  const RangeImage image = noisy_image();
   write_pcd(path("left.pcd"), image);
   pcl::PCLPointCloud2 blob;
   Eigen::Vector4f origin;
@@ -18,43 +60,40 @@ TEST_F(Pcd, PclReadsBackWhatTheImageHolds) {
   ASSERT_EQ(pcl::PCDReader().readHeader(path("left.pcd"), blob, origin, orientation, version, type, offset), 0);
   EXPECT_EQ(type, 1) << "binary";
   ASSERT_EQ(pcl::PCDReader().read(path("left.pcd"), blob, origin, orientation, version), 0);
-  EXPECT_EQ(blob.width, 8u);
-  EXPECT_EQ(blob.height, 6u);
   const Pose& pose = *image.sensor.pose;
   EXPECT_LT((origin.head<3>().cast<double>() - pose.position).norm(), 1e-6);
   EXPECT_LT(orientation.cast<double>().angularDistance(pose.orientation), 1e-6);
-  const char* names[] = {"x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label", "validity"};
-  ASSERT_EQ(blob.fields.size(), 9u);
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(blob.fields[i].name, names[i]);
-
-  const auto value = [&](std::size_t point, int field) {
-    float v;
-    std::memcpy(&v, &blob.data[point * blob.point_step + blob.fields[field].offset], 4);
-    return v;
-  };
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 8; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * 8 + column;
-      const auto point = point_at(image, column, row);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (std::isnan(image.depth[i])) {
-          EXPECT_TRUE(std::isnan(value(i, axis)));
-        } else {
-          EXPECT_EQ(value(i, axis), point[axis]);
-          EXPECT_EQ(value(i, 3 + axis), image.normal[i][axis]);
-          EXPECT_EQ(value(i, 6), image.intensity[i]);
-        }
-      }
-      std::uint32_t label;
-      std::memcpy(&label, &blob.data[i * blob.point_step + blob.fields[7].offset], 4);
-      EXPECT_EQ(label, image.label[i]);
-      EXPECT_EQ(blob.data[i * blob.point_step + blob.fields[8].offset], image.validity[i]);
-    }
-  }
+  expect_cloud(blob, image);
   EXPECT_EQ(entries(), 1u);
 }
 
-TEST_F(Pcd, WhatCannotBeWrittenIsAnEnvironmentError) {
+TEST_F(Clouds, PclReadsBackThePly) {
+  for (const RangeImage& image : {small_image(), noisy_image()}) {
+    write_ply(path("left.ply"), image);
+    pcl::PCLPointCloud2 blob;
+    Eigen::Vector4f origin;
+    Eigen::Quaternionf orientation;
+    int version;
+    ASSERT_EQ(pcl::PLYReader().read(path("left.ply"), blob, origin, orientation, version), 0);
+    // As PLY names normals; PCL itself takes nx for normal_x.
+    for (pcl::PCLPointField& field : blob.fields)
+      for (const char axis : {'x', 'y', 'z'})
+        if (field.name == std::string("truth_n") + axis) field.name = std::string("truth_normal_") + axis;
+    expect_cloud(blob, image);
+  }
+}
+
+TEST_F(Clouds, TheTrueNormalsAreThereBesideTheMeasuredOnes) {
+  const RangeImage image = noisy_image();
+  write_pcd(path("left.pcd"), image);
+  pcl::PCLPointCloud2 blob;
+  ASSERT_EQ(pcl::PCDReader().read(path("left.pcd"), blob), 0);
+  expect_cloud(blob, image);
+  const auto normals = normals_of(image, points_of(image));
+  EXPECT_GT(std::abs(normals[0][0] - image.normal[0][0]), 0.05f) << "a slope, which the fixture calls level";
+}
+
+TEST_F(Clouds, WhatCannotBeWrittenIsAnEnvironmentError) {
   try {
     write_pcd(path("nowhere/left.pcd"), small_image());
     ADD_FAILURE();

@@ -140,7 +140,7 @@ TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
 }
 
 TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten) {
-  std::vector<std::string> formats = {"pcd", "png", "bop"};
+  std::vector<std::string> formats = {"pcd", "ply", "png", "bop"};
   if (with_ros()) formats.push_back("bag");
   for (const std::string& format : formats) {
     const Outcome full = run("generate request.yaml --out " + format + " --formats " + format +

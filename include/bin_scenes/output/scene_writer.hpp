@@ -26,11 +26,12 @@ Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
 
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label
-/// validity, where label is 0 for background and bin, id + 1 for a part, and validity a code of sensor/validity.hpp.
-/// Written by PCL: pcd_supported() is false, and this an environment Error, in a build without it.
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity
+/// truth_normal_x truth_normal_y truth_normal_z, where label is 0 for background and bin, id + 1 for a part, validity a
+/// code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
 void write_pcd(const std::string& path, const RangeImage& image);
-bool pcd_supported();
+/// The same as binary little-endian PLY; normals are called nx ny nz there, and truth_nx truth_ny truth_nz.
+void write_ply(const std::string& path, const RangeImage& image);
 
 /// 16 bit: <sensor>_depth.png and <sensor>_truth_depth.png, counts of Sensor::depth_scale, 0 = not valid, 65535 = that
 /// many or more; <sensor>_labels.png, id + 1, 0 where nothing was measured; <sensor>_truth_labels.png, of what is truly
