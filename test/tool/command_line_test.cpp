@@ -497,6 +497,18 @@ TEST_F(CommandLine, BopRefusesWhatIsNoPinholeBeforeAnythingIsPoured) {
   }
 }
 
+TEST_F(CommandLine, SymmetriesOfAPartAreListedAsBopHasThem) {
+  const Outcome outcome = run("symmetries box.stl --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report.at("models_info").at("symmetries_discrete").size(), 23u) << "a cube's, without the identity";
+  EXPECT_EQ(report.at("residuals_discrete_mm").size(), 23u);
+  EXPECT_NEAR(report.at("models_info").at("diameter").get<double>(), 40.0 * std::sqrt(3.0), 1e-3);
+  EXPECT_NE(run("symmetries box.stl").out.find("24 poses look alike"), std::string::npos);
+  EXPECT_EQ(run("symmetries box.stl --tolerance 0").code, 2);
+  EXPECT_EQ(run("symmetries nowhere.stl").code, 2);
+}
+
 TEST_F(CommandLine, InspectMeasuresAModel) {
   const Outcome outcome = run("inspect box.stl --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;

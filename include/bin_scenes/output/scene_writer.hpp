@@ -62,6 +62,8 @@ struct BopOptions {
 /// given, by part line, else those found on the mesh.
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
                       const std::vector<Symmetries>& given = {});
+/// Entry of models_info.json, JSON (mm): diameter, bounds and symmetries.
+std::string bop_model_info(const PartModel& part, const Symmetries& symmetries);
 /// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
 
