@@ -6,6 +6,7 @@
         depth = sample.depth                  # m, NaN where nothing was measured
     sample = shards[17]                       # by number, or shards["000017_000000"] by key: one seek
     masks = sample.masks("mask_visib")        # one boolean image a part
+    Shards("DIR", split="train")              # of a plan with `split`
 
 Lengths are in m, poses those of the model in the camera's optical frame (x right, y down, z forward). A sample decodes
 what is asked for, and nothing else.

@@ -22,7 +22,8 @@ class Sample:
         self._files, self._data, self._begin = files, data, begin
 
     def raw(self, name):
-        """Bytes of a file: depth.png, gray.tiff, camera.json, gt.json, gt_info.json, mask.json or mask_visib.json."""
+        """Bytes of a file: depth.png, gray.tiff, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
+        truth_labels.png or truth_normal.png."""
         offset, size = self._files[name]
         return self._data[offset - self._begin:offset - self._begin + size]
 
@@ -48,6 +49,19 @@ class Sample:
         return read_tiff(self.raw("gray.tiff"))
 
     @property
+    def labels(self):
+        """What is truly seen, measured or not: 0 background and bin, id + 1 a part; uint16."""
+        return read_png(self.raw("truth_labels.png"))
+
+    @property
+    def normals(self):
+        """(rows, columns, 3), float32: true normals towards the camera, to 1/127; NaN where there is nothing."""
+        counts = read_png(self.raw("truth_normal.png"))
+        normals = counts.astype(np.float32) / np.float32(127.5) - 1
+        normals[~counts.any(-1)] = np.nan
+        return normals
+
+    @property
     def poses(self):
         """(parts, 4, 4): from the model's frame to the camera's, m."""
         truth = self._json("gt.json")
@@ -63,6 +77,11 @@ class Sample:
         return np.array([part["obj_id"] for part in self._json("gt.json")], int)
 
     @property
+    def ids(self):
+        """Of the parts, as labels and scene.json have them."""
+        return np.array([part["id"] for part in self._json("gt.json")], int)
+
+    @property
     def info(self):
         """Boxes, counts of pixels and visible fraction, a dict a part: see BOP's scene_gt_info."""
         return self._json("gt_info.json")
@@ -70,17 +89,35 @@ class Sample:
     def masks(self, name="mask_visib"):
         """(parts, rows, columns), boolean: what is visible, or with `mask` the whole silhouettes."""
         masks = self._json(name + ".json")
-        return np.stack([run_lengths_to_mask(masks[str(i)]) for i in range(len(masks))]) if masks else np.zeros((0, 0, 0), bool)
+        if not masks:  # an empty bin
+            return np.zeros((0,) + self.labels.shape, bool)
+        return np.stack([run_lengths_to_mask(masks[str(i)]) for i in range(len(masks))])
+
+
+def split_of(facts, scene):
+    """Name of the split that a scene belongs to; `facts`: what dataset.json tells. As in src/dataset/data_folder.cpp."""
+    heap = scene // (facts["depletion_steps"] + 1)
+    place, total = (heap * 0.6180339887498949) % 1.0, 0.0
+    for name, share in facts["split"].items():
+        total += share
+        if place < total:
+            return name
+    return name
 
 
 class Shards:
-    """The shards of a data set."""
+    """The shards of a data set, finished or in the making, or one of its splits."""
 
-    def __init__(self, directory):
+    def __init__(self, directory, split=None):
         self.directory = pathlib.Path(directory) / "shards"
         if not (self.directory / "key_to_shard.json").is_file():
-            raise FileNotFoundError("%s has no key_to_shard.json: name a finished data set with output `shards`" % self.directory)
+            raise FileNotFoundError("%s has no key_to_shard.json: name a data set with output `shards` that has at least one" % self.directory)
         self._shard_of = json.loads((self.directory / "key_to_shard.json").read_text())
+        if split is not None:
+            facts = json.loads((pathlib.Path(directory) / "dataset.json").read_text())
+            if split not in facts["split"]:
+                raise ValueError("no split '%s': there are %s" % (split, ", ".join(facts["split"])))
+            self._shard_of = {key: shard for key, shard in self._shard_of.items() if split_of(facts, int(key.split("_")[0])) == split}
         self.keys = sorted(self._shard_of)
         self._offsets = {}
 
@@ -115,4 +152,5 @@ class Shards:
         for shard in sorted(set(self._shard_of.values())):
             with open(self._path(shard), "rb") as file:
                 for key, files in self._offsets_of(shard).items():
-                    yield self._read(file, key, files)
+                    if key in self._shard_of:
+                        yield self._read(file, key, files)

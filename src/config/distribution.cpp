@@ -1,5 +1,7 @@
 #include "config/distribution.hpp"
 
+#include "config/suggest.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,6 +11,8 @@ namespace bin_scenes::config {
 namespace {
 
 using Kind = Distribution::Kind;
+
+const std::vector<std::string> kinds = {"constant", "uniform", "normal", "choice", "times", "jitter", "view"};
 
 constexpr int most_redraws = 100;  ///< of a normal value outside its bounds, which is then moved to the nearer one
 
@@ -40,11 +44,16 @@ class Reader {
 
   std::optional<Distribution> read() {
     Distribution d;
-    if (!is_map_of("constant uniform normal choice times jitter view")) {
+    const std::string kind = first_key();
+    const std::string meant = nearest(kind, kinds);
+    if (meant.empty()) {
       d.values = {flow_text(node_)};
       return d;
     }
-    const std::string kind = node_.begin()->first.Scalar();
+    if (meant != kind) {
+      complain("unknown distribution '" + kind + "': did you mean '" + meant + "'?", known_distributions());
+      return std::nullopt;
+    }
     const YAML::Node value = node_[kind];
     if (kind == "constant") d.values = {flow_text(value)};
     if (kind == "uniform" || kind == "normal") read_pair(d, kind, value);
@@ -65,10 +74,10 @@ class Reader {
   }
 
  private:
-  /// The first key decides what a map is: maps of other keys are values.
-  bool is_map_of(const std::string& kinds) const {
-    if (!node_.IsMap() || node_.size() == 0 || !node_.begin()->first.IsScalar()) return false;
-    return (" " + kinds + " ").find(" " + node_.begin()->first.Scalar() + " ") != std::string::npos;
+  /// The first key decides what a map is: maps of other keys are values. Empty for what is no map.
+  std::string first_key() const {
+    if (!node_.IsMap() || node_.size() == 0 || !node_.begin()->first.IsScalar()) return "";
+    return node_.begin()->first.Scalar();
   }
 
   void complain(const std::string& problem, const std::string& remedy) {
@@ -208,6 +217,12 @@ Pose view_of(const Vec3& target, double distance, double tilt, double turn, doub
 }
 
 }  // namespace
+
+std::string known_distributions() {
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "known are " : ", ") + kind;
+  return text;
+}
 
 std::string flow_text(const YAML::Node& node) {
   if (node.IsSequence()) {

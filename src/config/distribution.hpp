@@ -48,6 +48,8 @@ std::optional<Distribution> read_distribution(const YAML::Node& node, const std:
 /// The same, of numbers only.
 std::optional<Distribution> read_number(const YAML::Node& node, const std::string& path, Source& source);
 
+std::string known_distributions();  ///< for advice
+
 std::string flow_text(const YAML::Node& node);
 
 }  // namespace bin_scenes::config

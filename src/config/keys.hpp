@@ -97,7 +97,7 @@ void visit(Visitor& v, PartLine& part) {
            "bin, which is an error that names the likely unit"},
           part.unit);
   v.field({"scale", "", "multiplies the model after the unit"}, part.scale);
-  v.field({"count", "", "number of copies; cost grows with it"}, part.count);
+  v.field({"count", "", "number of copies; cost grows with it", true, 1}, part.count);
   v.field({"density", "kg/m3", "mass = density * volume of the mesh; 1000 if mass is not given either"}, part.density);
   v.field({"mass", "kg", "of one part, instead of density"}, part.mass);
   v.field({"friction", "", "the coefficient of a contact is sqrt(a * b)"}, part.friction);
@@ -277,7 +277,7 @@ template <class Visitor>
 void visit(Visitor& v, Request& request) {
   v.field({"seed", "", "same request, seed and device class = same scene, bit for bit; 0 is a seed like any other"},
           request.seed);
-  v.field({"scenes", "", "number of scenes"}, request.scenes);
+  v.field({"scenes", "", "number of scenes", true, 1}, request.scenes);
   v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split"},
           request.first);
   v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, request.bin);

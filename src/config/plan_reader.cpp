@@ -1,12 +1,14 @@
 #include "bin_scenes/config/plan.hpp"
 
 #include "bin_scenes/core/sha256.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "config/plan_state.hpp"
 #include "config/read_document.hpp"
 #include "config/yaml_text.hpp"
 #include "core/read_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -20,8 +22,9 @@ namespace {
 using config::own_value;
 using Kind = Distribution::Kind;
 
-constexpr const char* misfit_remedy = "change the request's sensors, or leave such outputs out";
-constexpr std::size_t most_ends = 64;  ///< of one distribution that are tried on the request
+constexpr double usual_tolerance = 0.0015;   ///< m, of bop.visible: measured
+constexpr std::size_t largest_shard = 1000;  ///< images: BOP's limit
+constexpr std::size_t most_ends = 64;        ///< of one distribution that are tried on the request
 
 class PlanFile {
  public:
@@ -32,7 +35,11 @@ class PlanFile {
     const YAML::Node root = config::load_yaml(plan_.text, path_);
     if (!root.IsMap()) throw input_error("the plan is no map of keys", path_, "see docs/use/datasets.md");
     if (!own_value(root, "request") && own_value(root, "parts"))
-      throw input_error("this is a request, no plan of a data set", path_, "write scenes: N and request: FILE in a plan");
+      throw input_error("this is a request, no plan of a data set", path_,
+                        "write scenes: N and request: FILE in a plan");
+    YAML::Node deciding = YAML::Clone(root);
+    deciding.remove("scenes");
+    deciding_ = config::flow_text(deciding);
     auto state = std::make_shared<Plan::State>();
     state_ = state.get();
     read_keys(root);
@@ -64,19 +71,26 @@ class PlanFile {
     read_amount(keys.node({"amount", "", ""}));
     read_depletion(keys.node({"depletion", "", ""}));
     read_bop(keys.node({"bop", "", ""}));
+    keys.field({"not_poured", "", ""}, plan_.most_not_poured);
+    if (!(plan_.most_not_poured >= 0.0 && plan_.most_not_poured <= 1.0))
+      complain("must be 0 to 1", "not_poured", "share of a heap's parts that may find no room");
+    keys.field({"shard_size", "", ""}, plan_.shard_size);
+    if (plan_.shard_size < 1 || plan_.shard_size > largest_shard)
+      complain("must be 1 to " + std::to_string(largest_shard), "shard_size", "images in a shard, as BOP limits them");
+    read_split(keys.node({"split", "", ""}));
     keys.finish();
   }
 
   void read_outputs(const YAML::Node& node) {
     plan_.formats = {"json"};
     if (!node) return;
-    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, png, bag, bop, shards");
+    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, bop, shards");
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
-      const std::vector<std::string> known = {"json", "pcd", "png", "bag", "bop", "shards"};
+      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "bop", "shards"};
       if (std::find(known.begin(), known.end(), name) == known.end())
-        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, png, bag, bop and shards");
+        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, ply, png, bag, bop and shards");
       plan_.formats.push_back(name);
     }
   }
@@ -115,18 +129,19 @@ class PlanFile {
         complain("is unknown", key, "known are parts, fill and shares");
     }
     if (node["parts"] && node["fill"]) complain("parts and fill both say how many there are", "amount", "keep one");
-    const auto bounds = [&](const std::optional<Distribution>& d, const char* key, double lower, double upper) {
-      if (!d) return;
-      for (const std::string& end :
-           d->kind == Kind::constant ? std::vector<std::string>{config::text_of(d->a)} : d->ends(YAML::Node())) {
-        const double value = std::stod(end);
-        if (value < lower || value > upper)
-          complain(end + " is not within " + config::text_of(lower) + " to " + config::text_of(upper), key,
-                   "mend the range, or give min and max");
-      }
-    };
-    bounds(state_->amount.parts, "amount.parts", 1, 1e6);
-    bounds(state_->amount.fill, "amount.fill", 1e-6, 1.0);
+    check_bounds(state_->amount.parts, "amount.parts", 1, 1e6);
+    check_bounds(state_->amount.fill, "amount.fill", 1e-6, 1.0);
+  }
+
+  void check_bounds(const std::optional<Distribution>& d, const char* key, double lower, double upper) {
+    if (!d) return;
+    for (const std::string& end :
+         d->kind == Kind::constant ? std::vector<std::string>{config::text_of(d->a)} : d->ends(YAML::Node())) {
+      const double value = std::stod(end);
+      if (value < lower || value > upper)
+        complain(end + " is not within " + config::text_of(lower) + " to " + config::text_of(upper), key,
+                 "mend the range, or give min and max");
+    }
   }
 
   void read_shares(const YAML::Node& node) {
@@ -163,28 +178,64 @@ class PlanFile {
         complain("is unknown", key, "known are steps and take");
       }
     }
+    check_bounds(state_->take, "depletion.take", 1, 1e6);  // a step that takes nothing would show a scene twice
     if (plan_.depletion.steps > 100'000) complain("must be at most 100000", "depletion.steps", "take more at a time");
   }
 
   void read_bop(const YAML::Node& node) {
     if (!node) return;
-    if (!node.IsMap()) return complain("expected a map", "bop", "bop: {tolerance: 0.0015, symmetries: {...}}");
+    if (!node.IsMap()) return complain("expected a map", "bop", "bop: {visible: truth, symmetries: {...}}");
+    std::optional<double> tolerance;
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "bop." + name;
       source_.remember(key, item.first);
-      if (name == "tolerance") {
+      if (name == "visible") {
+        const std::string rule = item.second.IsScalar() ? item.second.Scalar() : "";
+        if (rule == "measured") plan_.tolerance = usual_tolerance;
+        if (rule != "measured" && rule != "truth")
+          complain("expected truth or measured", key, "truth: masks show what is truly seen, each pixel one part");
+      } else if (name == "tolerance") {
+        tolerance.emplace();
         try {
-          config::read_value(item.second, plan_.tolerance);
+          config::read_value(item.second, *tolerance);
         } catch (const config::Mismatch& mismatch) {
           complain("expected " + mismatch.expected, key, "m; 0.001 to 0.002 suits parts of centimetres");
         }
-        if (!(plan_.tolerance > 0.0 && plan_.tolerance <= 0.1)) complain("must be above 0 and at most 0.1 m", key, "m");
+        if (!(*tolerance > 0.0 && *tolerance <= 0.1)) complain("must be above 0 and at most 0.1 m", key, "m");
       } else if (name == "symmetries") {
         symmetries_.reset(item.second);
       } else {
-        complain("is unknown", key, "known are tolerance and symmetries");
+        complain("is unknown", key, "known are visible, tolerance and symmetries");
       }
     }
+    if (tolerance && plan_.tolerance == 0.0)
+      complain("has a meaning only where measured depth tells what is visible", "bop.tolerance",
+               "add visible: measured, or leave it out");
+    plan_.tolerance = tolerance.value_or(plan_.tolerance);
+  }
+
+  void read_split(const YAML::Node& node) {
+    if (!node) return;
+    const char* const example = "for instance split: {train: 0.8, val: 0.1, test: 0.1}";
+    if (!node.IsMap() || node.size() == 0)
+      return complain("expected a map of names and shares of heaps", "split", example);
+    double sum = 0.0;
+    for (const auto& item : node) {
+      const std::string name = item.first.Scalar();
+      double share = 0.0;
+      try {
+        config::read_value(item.second, share);
+      } catch (const config::Mismatch& mismatch) {
+        complain("share of '" + name + "': expected " + mismatch.expected, "split", example);
+      }
+      if (!(share >= 0.0)) complain("share of '" + name + "' is " + config::text_of(share), "split", "give 0 or more");
+      if (name.empty() || name == "models" ||
+          name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+        complain("'" + name + "' is no name of a folder of BOP", "split", "use small letters, digits and _");
+      sum += share;
+      plan_.split.emplace_back(name, share);
+    }
+    if (std::abs(sum - 1.0) > 1e-6) complain("shares add up to " + config::text_of(sum) + ", not 1", "split", example);
   }
 
   /// A request file that `generate` takes serves a plan as well: what the plan decides itself is left out.
@@ -245,13 +296,15 @@ class PlanFile {
                                                         {{draw.path + "=" + end, draw.where}}, {}, &found);
           if (found.empty()) note_objects(request);
           const std::string text = found.empty() ? misfit(request) : "";
-          if (!text.empty()) found.push_back(input_error(text, draw.where, misfit_remedy));
+          if (!text.empty()) found.push_back(input_error(text, draw.where, bop_misfit_remedy));
         } catch (const Error& error) {
           found.push_back(error);
         }
         if (found.empty()) continue;
+        // A map that is no distribution is a value, which a key may or may not take.
+        const bool map = draw.distribution.kind == Kind::constant && end[0] == '{';
         errors_.push_back(input_error("'draw." + draw.path + "' with " + end + ": " + found[0].problem(), draw.where,
-                                      found[0].remedy()));
+                                      map ? "of distributions, " + config::known_distributions() : found[0].remedy()));
         break;
       }
     }
@@ -297,19 +350,21 @@ class PlanFile {
   /// Why the outputs cannot hold what a request's sensors see; empty: they can.
   std::string misfit(const Request& request) const {
     const bool bop = plan_.wants("bop") || plan_.wants("shards");
-    if ((bop || plan_.wants("png") || plan_.wants("pcd")) && request.sensors.empty())
+    if ((bop || plan_.wants("png") || plan_.wants("pcd") || plan_.wants("ply")) && request.sensors.empty())
       return "the outputs show what a sensor sees, but the request has no sensors";
     if (bop && request.sensors.size() != plan_.reference.sensors.size())
       return "BOP has the same number of images in each scene, one a sensor";
-    const auto is_line = [](const Sensor& sensor) { return sensor.model == SensorModel::laser_line; };
-    if (bop && std::any_of(request.sensors.begin(), request.sensors.end(), is_line))
-      return "BOP holds pinhole images, and the profiles of a laser_line sensor are none";
-    return "";
+    std::string why;
+    for (const Sensor& sensor : request.sensors)
+      if (bop && why.empty()) why = bop_misfit(sensor);
+    return why;
   }
 
   void check_outputs() {
     const std::string text = misfit(plan_.reference);
-    if (!text.empty()) complain(text, "outputs", misfit_remedy);
+    if (!text.empty()) complain(text, "outputs", bop_misfit_remedy);
+    if (plan_.wants("shards") && plan_.shard_size < plan_.reference.sensors.size())
+      complain("is less than the images of one scene", "shard_size", "give at least as many as there are sensors");
     if (!plan_.wants("bop") && !plan_.wants("shards")) return;
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
@@ -320,11 +375,10 @@ class PlanFile {
     }
   }
 
-  std::string digest() const {
-    return sha256_hex(plan_.text + "\n" + write_request(plan_.reference) + "\n" + digests_);
-  }
+  std::string digest() const { return sha256_hex(deciding_ + "\n" + write_request(plan_.reference) + "\n" + digests_); }
 
   std::string path_, digests_;
+  std::string deciding_;  ///< the plan without what a data set may change: how many heaps it has
   config::Source source_;
   std::vector<Error> errors_;
   YAML::Node symmetries_;

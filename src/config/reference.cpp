@@ -17,7 +17,9 @@ class Collector {
   void field(const Key& key, Value& value) {
     std::string text = text_of(value);
     if (text == "[]" || text == "\"\"" || !key.written) text.clear();
-    entries.push_back({prefix_ + key.name, kind_of(value), text, key.unit, key.text});
+    std::string kind = kind_of(value);
+    if (key.least > 0) kind = "whole number, " + std::to_string(key.least) + " or more";
+    entries.push_back({prefix_ + key.name, kind, text, key.unit, key.text});
   }
   template <class Value>
   void field(const Key& key, std::optional<Value>&) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace bin_scenes {
@@ -38,7 +39,11 @@ std::string facts_text(const DataSetFacts& facts) {
                                  {"attempts", facts.attempts},
                                  {"sensors", facts.sensors},
                                  {"outputs", facts.formats},
-                                 {"bop_tolerance_m", facts.tolerance}};
+                                 {"bop_visible", facts.tolerance > 0.0 ? "measured" : "truth"},
+                                 {"bop_tolerance_m", facts.tolerance},
+                                 {"shard_size", facts.shard_size},
+                                 {"split", nlohmann::ordered_json::object()}};
+  for (const auto& [name, share] : facts.split) json["split"][name] = share;
   return json.dump(1) + "\n";
 }
 
@@ -57,8 +62,8 @@ fs::path DataFolder::scene(std::size_t scene) const {
 fs::path DataFolder::set_apart(std::size_t scene, std::size_t attempt) const {
   return root / "set_apart" / (six_digits("scene_", scene) + "_attempt_" + std::to_string(attempt));
 }
-fs::path DataFolder::bop(std::size_t scene) const {
-  return root / "bop" / "train" / six_digits("", scene);
+fs::path DataFolder::bop(const DataSetFacts& facts, std::size_t scene) const {
+  return root / "bop" / facts.split_of(scene / (facts.steps + 1)) / six_digits("", scene);
 }
 fs::path DataFolder::samples(std::size_t scene) const {
   return root / "samples" / six_digits("", scene);
@@ -71,13 +76,37 @@ bool DataSetFacts::wants(const std::string& format) const {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
+std::string DataSetFacts::split_of(std::size_t heap) const {
+  // Multiples of the golden ratio fill 0 to 1 evenly, however many there are. python/bin_scenes_data does the same.
+  constexpr double golden = 0.6180339887498949;
+  const double place = std::fmod(static_cast<double>(heap) * golden, 1.0);
+  double sum = 0.0;
+  for (const auto& [name, share] : split) {
+    sum += share;
+    if (place < sum) return name;
+  }
+  return split.back().first;
+}
+
 bool DataSetFacts::operator==(const DataSetFacts& other) const {
   return facts_text(*this) == facts_text(other);
 }
 
 DataSetFacts facts_of(const Plan& plan) {
-  return {plan.sha256,   sha256_hex(plan.text),         BIN_SCENES_VERSION, plan.heaps,    plan.depletion.steps,
-          plan.attempts, plan.reference.sensors.size(), plan.formats,       plan.tolerance};
+  DataSetFacts facts;
+  facts.plan_sha256 = plan.sha256;
+  facts.plan_text_sha256 = sha256_hex(plan.text);
+  facts.version = BIN_SCENES_VERSION;
+  facts.heaps = plan.heaps;
+  facts.steps = plan.depletion.steps;
+  facts.attempts = plan.attempts;
+  facts.sensors = plan.reference.sensors.size();
+  facts.formats = plan.formats;
+  facts.tolerance = plan.tolerance;
+  facts.shard_size = plan.shard_size;
+  facts.split = plan.split;
+  if (facts.split.empty()) facts.split = {{"train", 1.0}};
+  return facts;
 }
 
 DataSetFacts read_facts(const fs::path& root) {
@@ -86,39 +115,61 @@ DataSetFacts read_facts(const fs::path& root) {
   if (!fs::is_regular_file(path, ignored))
     throw input_error("is no data set: it has no dataset.json", root.string(),
                       "name the folder that was given as --out");
-  const auto json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
-  if (!json.is_object() || json.value("format", nlohmann::json()) != format_name)
+  const auto json = nlohmann::ordered_json::parse(read_file(path.string()), nullptr, false);
+  if (!json.is_object() || json.value("format", nlohmann::ordered_json()) != format_name)
     throw input_error(std::string("is damaged, or not of format ") + format_name, path.string(),
                       "use the version of bin_scenes that made it");
   try {
-    return {json.at("plan_sha256"), json.at("plan_text_sha256"), json.at("version"),
-            json.at("heaps"),       json.at("depletion_steps"),  json.at("attempts"),
-            json.at("sensors"),     json.at("outputs"),          json.at("bop_tolerance_m")};
+    DataSetFacts facts{json.at("plan_sha256"),
+                       json.at("plan_text_sha256"),
+                       json.at("version"),
+                       json.at("heaps"),
+                       json.at("depletion_steps"),
+                       json.at("attempts"),
+                       json.at("sensors"),
+                       json.at("outputs"),
+                       json.at("bop_tolerance_m"),
+                       json.at("shard_size"),
+                       {}};
+    for (const auto& [name, share] : json.at("split").items()) facts.split.emplace_back(name, share);
+    if (!facts.split.empty()) return facts;
   } catch (const nlohmann::json::exception&) {
-    throw input_error("lacks a key", path.string(), "use the version of bin_scenes that made it");
   }
+  throw input_error("lacks a key", path.string(), "use the version of bin_scenes that made it");
 }
 
-void claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text) {
-  const fs::path path = folder.root / "dataset.json";
+DataSetFacts claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text) {
   std::error_code ignored;
-  if (fs::exists(path, ignored)) {
-    const DataSetFacts there = read_facts(folder.root);
+  DataSetFacts there = facts;
+  if (fs::exists(folder.root / "dataset.json", ignored)) {
+    there = read_facts(folder.root);
     if (there.version != facts.version)
       throw input_error("was begun by version " + there.version + ", this is " + facts.version, folder.root.string(),
                         "go on with that version, or name another --out");
-    if (!(there == facts))
+    DataSetFacts grown = there;
+    grown.heaps = facts.heaps;
+    grown.plan_text_sha256 = facts.plan_text_sha256;
+    if (!(grown == facts))
       throw input_error("is the data set of another plan (see its plan.yaml)", folder.root.string(),
                         "name another --out, or go on with that plan");
+    if (facts.heaps < there.heaps)
+      throw input_error("has more heaps than the plan asks for, " + std::to_string(facts.heaps) + " of " +
+                            std::to_string(there.heaps),
+                        folder.root.string(), "ask for as many or more, or name another --out");
   } else {
     if (holds_something(folder.root))
       throw input_error("holds something that is no data set", folder.root.string(),
                         "name a new or empty folder for --out");
     make_directory(folder.root);
-    write_text((folder.root / "plan.yaml").string(), plan_text);
-    write_text(path.string(), facts_text(facts));
+    put_plan(folder, facts, plan_text);
   }
   for (const char* below : {"scenes", "set_apart"}) make_directory(folder.root / below);
+  return there;
+}
+
+void put_plan(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text) {
+  write_text((folder.root / "plan.yaml").string(), plan_text);
+  write_text((folder.root / "dataset.json").string(), facts_text(facts));
 }
 
 FolderLock::FolderLock(const fs::path& root) : descriptor_(::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -148,9 +199,17 @@ std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& fac
   return heaps;
 }
 
+std::vector<fs::path> folders_of(const DataFolder& folder) {
+  std::vector<fs::path> all = {folder.root};
+  for (const char* below : {"scenes", "set_apart", "bop", "samples", "shards"}) all.push_back(folder.root / below);
+  std::error_code not_there;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.root / "bop", not_there))
+    if (entry.is_directory()) all.push_back(entry.path());
+  return all;
+}
+
 void remove_leftovers(const DataFolder& folder) {
-  for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "samples", "shards"})
-    remove_leftovers((folder.root / below).string());
+  for (const fs::path& path : folders_of(folder)) remove_leftovers(path.string());
 }
 
 }  // namespace bin_scenes

@@ -4,7 +4,7 @@
 ///     DIR/plan.yaml                        the plan as it was read
 ///     DIR/scenes/scene_000007/             scene.json, request.yaml, files.json, images
 ///     DIR/set_apart/scene_000007_attempt_0/  the same for what was not accepted
-///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes
+///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or what the plan splits into
 ///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
 ///     DIR/shards/shard-000000.tar, ...
 ///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not tell itself but times
@@ -18,20 +18,10 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bin_scenes {
-
-struct DataFolder {
-  std::filesystem::path root;
-
-  std::filesystem::path index() const { return root / "index.sqlite"; }
-  std::filesystem::path scene(std::size_t scene) const;
-  std::filesystem::path set_apart(std::size_t scene, std::size_t attempt) const;
-  std::filesystem::path bop(std::size_t scene) const;
-  std::filesystem::path samples(std::size_t scene) const;
-  std::filesystem::path shards() const { return root / "shards"; }
-  std::filesystem::path shard(std::size_t shard) const;
-};
 
 /// What dataset.json tells.
 struct DataSetFacts {
@@ -40,19 +30,38 @@ struct DataSetFacts {
   std::string version;
   std::size_t heaps = 0, steps = 0, attempts = 0, sensors = 0;
   std::vector<std::string> formats;
-  double tolerance = 0.0;
+  double tolerance = 0.0;  ///< m, of visible pixels by measured depth; 0: they are those of the true image
+  std::size_t shard_size = 0;
+  std::vector<std::pair<std::string, double>> split;  ///< never empty
 
   std::size_t scenes() const { return heaps * (steps + 1); }
   bool wants(const std::string& format) const;
+  /// Fixed for a heap, however many there are: a data set that grows keeps its splits, and any part of it has them in
+  /// about their shares.
+  std::string split_of(std::size_t heap) const;
   bool operator==(const DataSetFacts& other) const;
 };
+struct DataFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path index() const { return root / "index.sqlite"; }
+  std::filesystem::path scene(std::size_t scene) const;
+  std::filesystem::path set_apart(std::size_t scene, std::size_t attempt) const;
+  std::filesystem::path bop(const DataSetFacts& facts, std::size_t scene) const;
+  std::filesystem::path samples(std::size_t scene) const;
+  std::filesystem::path shards() const { return root / "shards"; }
+  std::filesystem::path shard(std::size_t shard) const;
+};
+
 DataSetFacts facts_of(const Plan& plan);
 /// Throws an input Error if DIR is no data set.
 DataSetFacts read_facts(const std::filesystem::path& root);
 
-/// Writes dataset.json and plan.yaml, or checks that those there are the same. Throws an input Error with advice for a
-/// folder of another plan or version, or of something else.
-void claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
+/// Makes the folder with dataset.json and plan.yaml, or checks that it is of the same plan and version. Throws an input
+/// Error with advice for a folder of another plan or version, or of something else. A plan of more heaps is the same
+/// plan: the facts that are there tell so, and put_plan() makes them new.
+DataSetFacts claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
+void put_plan(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 
 /// One process at a time works in a folder; the lock goes with the process, however it ends.
 class FolderLock {
@@ -69,6 +78,8 @@ class FolderLock {
 /// Heaps of which there is a folder, whole or not: what a start has to look through, however many a plan asks for.
 std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts);
 
+/// Where files and folders of the data set appear under their names.
+std::vector<std::filesystem::path> folders_of(const DataFolder& folder);
 /// Removes what killed processes left half-written.
 void remove_leftovers(const DataFolder& folder);
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 namespace bin_scenes {
@@ -77,27 +78,27 @@ SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const n
 HeapRecord HeapMaker::make(std::size_t heap) {
   const auto begin = Clock::now();
   const double cpu_before = cpu_seconds();
+  const std::size_t first = heap * (plan_.depletion.steps + 1);
   HeapRecord record;
   record.heap = heap;
   for (std::size_t k = 0; k < plan_.attempts && !record.accepted; ++k) {
     WholeFolders folders;
-    const std::vector<std::string> reasons = attempt(heap, k, record, folders);
-    record.accepted = reasons.empty();
+    const Attempt made = attempt(heap, k, record, folders);
+    record.accepted = made.reasons.empty();
     if (!record.accepted) {
-      const fs::path path = folder_.set_apart(heap * (plan_.depletion.steps + 1), k);
-      record.rejected.push_back({k, path.lexically_relative(folder_.root).string(), reasons});
+      if (heap == first_ && k == 0 && made.fault && attempt(heap, 1, record, folders).fails_like(made))
+        throw input_error("two draws fail alike, and no draw seems to cure it: " + made.fault->problem(),
+                          made.fault->where(), made.fault->remedy());
+      set_apart(made, heap, k);
+      record.rejected.push_back(
+          {k, folder_.set_apart(first, k).lexically_relative(folder_.root).string(), made.reasons});
       continue;
     }
     const auto before = Clock::now();
     folders.commit();
     record.stages_ms["commit"] += ms_since(before);
-  }
-  if (record.accepted) {
-    for (std::size_t step = 0; step <= plan_.depletion.steps; ++step) {
-      const std::size_t scene = heap * (plan_.depletion.steps + 1) + step;
-      const auto json = scene_in(folder_.scene(scene).string());
-      record.scenes.push_back(record_of_scene(folder_, scene, *json));
-    }
+    for (std::size_t scene = first; scene < first + made.scenes; ++scene)
+      record.scenes.push_back(record_of_scene(folder_, scene, *scene_in(folder_.scene(scene).string())));
   }
   record.wall_s = ms_since(begin) / 1e3;
   record.cpu_s = cpu_seconds() - cpu_before;
@@ -105,61 +106,89 @@ HeapRecord HeapMaker::make(std::size_t heap) {
   return record;
 }
 
-std::vector<std::string> HeapMaker::attempt(std::size_t heap, std::size_t attempt, HeapRecord& record,
-                                            WholeFolders& folders) {
-  std::optional<Request> request;
-  std::optional<Generator::Result> result;
-  std::vector<std::string> reasons;
+bool HeapMaker::Attempt::fails_like(const Attempt& other) const {
+  if (!fault || !other.fault) return false;
+  return crowded == other.crowded && (crowded || std::string(fault->what()) == other.fault->what());
+}
+
+HeapMaker::Attempt HeapMaker::attempt(std::size_t heap, std::size_t attempt, HeapRecord& record,
+                                      WholeFolders& folders) {
+  Attempt made;
   try {
-    request = plan_.request(heap, attempt, [&](const PartLine& line) { return volume_of(line); });
-    // What is the faster device differs between machines, and with it the scenes would.
-    SphereSettings::Device& device = request->solver.sphere.device;
-    if (device == SphereSettings::Device::automatic) device = SphereSettings::Device::cpu;
-    auto before = Clock::now();
-    Heap pile = generator_.heap(*request);
-    record.stages_ms["load"] += ms_since(before);
-    for (std::size_t step = 0; step <= plan_.depletion.steps && reasons.empty(); ++step) {
-      before = Clock::now();
-      if (step > 0) pile.remove(highest(pile.scene(), plan_.take(heap, attempt, step)));
-      pile.settle();
-      record.stages_ms["pour"] += ms_since(before);
-      before = Clock::now();
-      Generator::Options options;
-      options.render = plan_.formats != std::vector<std::string>{"json"};
-      options.index = request->first + step;
-      result = generator_.result(pile, options);
-      const Profile& spent = result->scene.report.profile;
-      for (const char* stage : {"quality", "render"})
-        if (spent.stages_ms.count(stage)) record.stages_ms[stage] += spent.stages_ms.at(stage);
-      without_times(result->scene.report);
-      if (!result->scene.report.accepted) {
-        reasons = result->scene.report.reasons;
-        if (reasons.empty()) reasons = {"not accepted"};
-        break;
-      }
-      before = Clock::now();
-      std::vector<BopImage> bop;
-      if (plan_.wants("bop") || plan_.wants("shards"))
-        bop = bop_images(result->scene, generator_.parts(), result->images,
-                         {plan_.tolerance, object_ids(pile.request())});
-      record.stages_ms["masks"] += ms_since(before);
-      before = Clock::now();
-      write_scene(*result, pile.request(), bop, request->first + step, folders);
-      record.stages_ms["write"] += ms_since(before);
-    }
+    make_scenes(heap, attempt, made, record, folders);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    reasons = {std::string("the values drawn do not go together: ") + error.what()};
-    result.reset();
+    made.reasons = {std::string("the values drawn do not go together: ") + error.what()};
+    made.fault = error;
+    made.result.reset();
   }
-  if (!reasons.empty()) set_apart(result ? &*result : nullptr, request ? &*request : nullptr, reasons, heap, attempt);
-  return reasons;
+  return made;
+}
+
+void HeapMaker::make_scenes(std::size_t heap, std::size_t attempt, Attempt& out, HeapRecord& record,
+                            WholeFolders& folders) {
+  out.request = plan_.request(heap, attempt, [&](const PartLine& line) { return volume_of(line); });
+  // What is the faster device differs between machines, and with it the scenes would.
+  SphereSettings::Device& device = out.request->solver.sphere.device;
+  if (device == SphereSettings::Device::automatic) device = SphereSettings::Device::cpu;
+  auto before = Clock::now();
+  Heap pile = generator_.heap(*out.request);
+  record.stages_ms["load"] += ms_since(before);
+  for (std::size_t step = 0; step <= plan_.depletion.steps; ++step) {
+    before = Clock::now();
+    if (step > 0) {
+      const std::vector<int> taken = highest(pile.scene(), plan_.take(heap, attempt, step));
+      if (taken.empty()) return;  // the bin is empty since the step before
+      pile.remove(taken);
+    }
+    pile.settle();
+    record.stages_ms["pour"] += ms_since(before);
+    before = Clock::now();
+    Generator::Options options;
+    options.render = plan_.formats != std::vector<std::string>{"json"};
+    options.index = out.request->first + step;
+    out.result = generator_.result(pile, options);
+    const Scene& scene = out.result->scene;
+    for (const char* stage : {"quality", "render"})
+      if (scene.report.profile.stages_ms.count(stage))
+        record.stages_ms[stage] += scene.report.profile.stages_ms.at(stage);
+    without_times(out.result->scene.report);
+    out.reasons = scene.report.reasons;
+    if (const std::optional<Error> crowded = crowd(scene)) {
+      out.reasons.insert(out.reasons.begin(), crowded->problem());
+      out.fault = crowded;
+      out.crowded = true;
+    }
+    if (!out.reasons.empty()) return;
+    before = Clock::now();
+    std::vector<BopImage> bop;
+    if (plan_.wants("bop") || plan_.wants("shards"))
+      bop = bop_images(scene, generator_.parts(), out.result->images, {plan_.tolerance, object_ids(pile.request())});
+    record.stages_ms["masks"] += ms_since(before);
+    before = Clock::now();
+    write_scene(*out.result, pile.request(), bop, out.request->first + step, folders);
+    record.stages_ms["write"] += ms_since(before);
+    ++out.scenes;
+  }
+}
+
+std::optional<Error> HeapMaker::crowd(const Scene& scene) const {
+  const auto poured = std::count_if(scene.parts.begin(), scene.parts.end(),
+                                    [](const ScenePart& part) { return part.state != PartState::fixed; });
+  const std::size_t outside = scene.report.not_poured.size();
+  if (!(static_cast<double>(outside) > plan_.most_not_poured * static_cast<double>(poured))) return std::nullopt;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.3g %%", 100.0 * plan_.most_not_poured);
+  return input_error(
+      std::to_string(outside) + " of " + std::to_string(poured) + " parts found no room, more than " + share, "amount",
+      "ask for fewer parts, enlarge the bin, or raise the plan's not_poured");
 }
 
 void HeapMaker::write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
                             std::size_t scene, WholeFolders& folders) {
   // The folder with scene.json gets its name last: where it is, everything is.
-  if (plan_.wants("bop")) folders.write(folder_.bop(scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
+  if (plan_.wants("bop"))
+    folders.write(folder_.bop(facts_, scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
   if (plan_.wants("shards"))
     folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
@@ -169,15 +198,15 @@ void HeapMaker::write_scene(const Generator::Result& result, const Request& requ
   });
 }
 
-void HeapMaker::set_apart(const Generator::Result* result, const Request* request,
-                          const std::vector<std::string>& reasons, std::size_t heap, std::size_t attempt) {
+void HeapMaker::set_apart(const Attempt& failed, std::size_t heap, std::size_t attempt) {
   WholeFolders folders;
   const std::set<std::string> formats = {"json", plan_.wants("png") ? "png" : "json"};
   folders.write(folder_.set_apart(heap * (plan_.depletion.steps + 1), attempt), [&](const std::string& hidden) {
-    if (result) write_scene_files(hidden, formats, *result, *request, generator_.parts(), generator_.bin_model());
-    if (request) write_text((fs::path(hidden) / "request.yaml").string(), write_request(*request));
+    if (failed.result)
+      write_scene_files(hidden, formats, *failed.result, *failed.request, generator_.parts(), generator_.bin_model());
+    if (failed.request) write_text((fs::path(hidden) / "request.yaml").string(), write_request(*failed.request));
     std::string text;
-    for (const std::string& reason : reasons) text += reason + "\n";
+    for (const std::string& reason : failed.reasons) text += reason + "\n";
     write_text((fs::path(hidden) / "reasons.txt").string(), text);
   });
   folders.commit();
@@ -225,12 +254,13 @@ std::optional<HeapRecord> found_on_disk(const DataFolder& folder, const DataSetF
   for (std::size_t scene = first; scene <= first + facts.steps; ++scene) {
     const auto json = scene_in(folder.scene(scene).string());
     if (!json || !json->is_object() || !whole(folder.scene(scene), false)) break;
-    if (facts.wants("bop") && !whole(folder.bop(scene), false)) break;
+    if (facts.wants("bop") && !whole(folder.bop(facts, scene), false)) break;
     const bool packed = std::filesystem::exists(folder.shard(shard_of(facts, scene)));
     if (facts.wants("shards") && !packed && !whole(folder.samples(scene), false)) break;
     record.scenes.push_back(record_of_scene(folder, scene, *json));
+    record.accepted = scene == first + facts.steps || is_empty(*json);
+    if (record.accepted) break;
   }
-  record.accepted = record.scenes.size() == facts.steps + 1;
   if (record.accepted) return record;
   record.scenes.clear();
   if (record.rejected.size() == facts.attempts) return record;

@@ -1,6 +1,7 @@
 /// Makes heaps of a plan into folders, one after the other: what a worker does.
 #pragma once
 
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 #include "dataset/data_folder.hpp"
 #include "dataset/record.hpp"
@@ -15,24 +16,39 @@ namespace bin_scenes {
 
 class HeapMaker {
  public:
-  HeapMaker(const Plan& plan, const DataFolder& folder) : plan_(plan), folder_(folder) {}
+  /// @param first  heap by which faults of the plan are told from faults of a draw
+  HeapMaker(const Plan& plan, const DataFolder& folder, std::size_t first)
+      : plan_(plan), folder_(folder), facts_(facts_of(plan)), first_(first) {}
 
   /// Draws, pours and writes the heap's scenes. All of them appear, or none. An attempt that is not accepted is set
-  /// apart with request and reason, and the next one is made. Throws Error of kind environment if the machine fails.
+  /// apart with request and reason, and the next one is made. Throws Error: of kind environment if the machine fails,
+  /// of kind input if another draw of the first heap fails for the same reason, which no draw seems to cure then.
   HeapRecord make(std::size_t heap);
 
  private:
-  /// Reasons why the attempt was not accepted; empty: its scenes wait in `folders`.
-  std::vector<std::string> attempt(std::size_t heap, std::size_t attempt, HeapRecord& record, WholeFolders& folders);
+  struct Attempt {
+    std::optional<Request> request;
+    std::optional<Generator::Result> result;  ///< of the last scene that was made
+    std::vector<std::string> reasons;         ///< why it was not accepted; empty: its scenes wait in their folders
+    std::optional<Error> fault;               ///< of the plan, perhaps
+    bool crowded = false;                     ///< the fault is that too many parts found no room
+    std::size_t scenes = 0;
+
+    bool fails_like(const Attempt& other) const;
+  };
+  Attempt attempt(std::size_t heap, std::size_t attempt, HeapRecord& record, WholeFolders& folders);
+  void make_scenes(std::size_t heap, std::size_t attempt, Attempt& out, HeapRecord& record, WholeFolders& folders);
+  std::optional<Error> crowd(const Scene& scene) const;
   void write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
                    std::size_t scene, WholeFolders& folders);
-  void set_apart(const Generator::Result* result, const Request* request, const std::vector<std::string>& reasons,
-                 std::size_t heap, std::size_t attempt);
+  void set_apart(const Attempt& failed, std::size_t heap, std::size_t attempt);
   std::vector<int> object_ids(const Request& request) const;
   double volume_of(const PartLine& line);
 
   const Plan& plan_;
   DataFolder folder_;
+  DataSetFacts facts_;
+  std::size_t first_;
   Generator generator_;
   std::map<std::string, double> volumes_;  ///< m3, by digest and size of the model
 };

@@ -38,7 +38,7 @@ void take_over(const fs::path& from, const fs::path& to) {
 void take_heap(const DataFolder& from, const DataFolder& to, const DataSetFacts& facts, const HeapRecord& record) {
   for (const RejectedRecord& rejected : record.rejected) take_over(from.root / rejected.path, to.root / rejected.path);
   for (const SceneRecord& scene : record.scenes) {
-    if (facts.wants("bop")) take_over(from.bop(scene.scene), to.bop(scene.scene));
+    if (facts.wants("bop")) take_over(from.bop(facts, scene.scene), to.bop(facts, scene.scene));
     if (facts.wants("shards")) take_over(from.samples(scene.scene), to.samples(scene.scene));
     take_over(from.scene(scene.scene), to.scene(scene.scene));
   }
@@ -84,7 +84,7 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   merged.rejected = counts.rejected;
   merged.missing = facts.heaps - known.size();
   take_over(folders[0].root / "bop" / "models", to.root / "bop" / "models");
-  if (merged.missing == 0 && facts.wants("shards")) pack_shards(to, facts);
+  if (merged.missing == 0 && facts.wants("shards")) ShardPacker(to, facts, {}).pack_all();
   return merged;
 }
 

@@ -22,6 +22,12 @@ double tilt_of(const nlohmann::json& q) {
 
 }  // namespace
 
+bool is_empty(const nlohmann::json& scene) {
+  for (const auto& part : scene.value("parts", nlohmann::json::array()))
+    if (part.value("pose", nlohmann::json()).is_object() && part.value("state", "") != "fixed") return false;
+  return true;
+}
+
 nlohmann::json json_of(const HeapRecord& record) {
   nlohmann::json json = {{"heap", record.heap},
                          {"accepted", record.accepted},
@@ -57,7 +63,9 @@ HeapRecord record_of(const nlohmann::json& json) {
 nlohmann::json summary_of(const nlohmann::json& scene) {
   std::vector<int> visible(bins, 0), tilt(bins, 0);
   std::vector<double> heights;
+  std::size_t asked_for = 0;
   for (const auto& part : scene.at("parts")) {
+    asked_for += part.at("state") != "fixed";
     if (!part.at("pose").is_object()) continue;
     count(tilt, tilt_of(part.at("pose").at("orientation_xyzw")));
     heights.push_back(part.at("pose").at("position").at(2).get<double>());
@@ -71,6 +79,8 @@ nlohmann::json summary_of(const nlohmann::json& scene) {
   }
   const auto& report = scene.at("report");
   return {{"parts", heights.size()},
+          {"not_poured", report.at("not_poured").size()},
+          {"asked_for", asked_for},
           {"visible", visible},
           {"tilt", tilt},
           {"fill", fill},

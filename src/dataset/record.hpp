@@ -33,6 +33,9 @@ struct HeapRecord {
   std::vector<RejectedRecord> rejected;
 };
 
+/// Whether nothing is left that could be taken out: such a scene is the last of its heap.
+bool is_empty(const nlohmann::json& scene);
+
 nlohmann::json json_of(const HeapRecord& record);
 HeapRecord record_of(const nlohmann::json& json);
 

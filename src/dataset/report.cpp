@@ -8,6 +8,7 @@
 #include "dataset/whole_folders.hpp"
 #include "output/png.hpp"
 #include "output/png_reader.hpp"
+#include "output/tiff.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,17 +60,17 @@ void brighten(std::vector<std::uint8_t>& shades) {
 }
 
 /// A picture of the first sensor, made small; empty if the data set has none.
-std::string small_picture(const DataFolder& folder, std::size_t scene) {
+std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, std::size_t scene) {
   std::vector<fs::path> candidates;
   const auto json = scene_in(folder.scene(scene).string());
   if (json && json->is_object())
     for (const Json& sensor : json->value("sensors", Json::array()))
       candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
-  candidates.push_back(folder.bop(scene) / "gray" / "000000.png");
+  candidates.push_back(folder.bop(facts, scene) / "gray" / "000000.tiff");
   const auto path =
       std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
   if (path == candidates.end()) return "";
-  const PngImage image = load_png(path->string());
+  const LoadedImage image = path->extension() == ".tiff" ? load_gray_tiff(path->string()) : load_png(path->string());
   const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
   std::vector<std::uint8_t> small;
   for (int y = 0; y < height; ++y) {
@@ -112,13 +113,13 @@ Json model_of(const fs::path& path) {
 }
 
 /// Parts with their models, as far as the data set holds these (output bop); else the page draws boxes.
-Json scene_in_3d(const DataFolder& folder, std::size_t number) {
+Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_t number) {
   const auto scene = scene_in(folder.scene(number).string());
   if (!scene || !scene->is_object()) return {};
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
   if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
   std::map<int, int> object_of;
-  const fs::path truth = folder.bop(number) / "scene_gt.json";
+  const fs::path truth = folder.bop(facts, number) / "scene_gt.json";
   if (fs::is_regular_file(truth)) {
     const Json images = Json::parse(read_file(truth.string()));
     for (const Json& entry : images.value("0", Json::array())) object_of[entry.at("id")] = entry.at("obj_id");
@@ -214,7 +215,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   const std::size_t step = std::max<std::size_t>(1, rows.size() / most_pictures);
   for (std::size_t i = 0; i < rows.size() && used < bytes_of_pictures; i += step) {
     const std::size_t scene = rows[i][0];
-    const std::string picture = small_picture(folder, scene);
+    const std::string picture = small_picture(folder, facts, scene);
     if (picture.empty()) continue;
     pictures[std::to_string(scene)] = picture;
     used += picture.size();
@@ -245,7 +246,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
       {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},
       {"pictures", pictures},
       {"rejected", {{"total", rejected.size()}, {"rows", listed}}},
-      {"scene3d", scenes.empty() ? Json() : scene_in_3d(folder, scenes[scenes.size() / 2])}};
+      {"scene3d", scenes.empty() ? Json() : scene_in_3d(folder, facts, scenes[scenes.size() / 2])}};
 
   std::string page = report_page;
   const std::string library = three();

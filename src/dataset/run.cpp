@@ -67,7 +67,8 @@ double estimate_scene_bytes(const Plan& plan) {
   const double parts = static_cast<double>(plan.reference.part_count());
   double bytes = 4 * block + parts * (700.0 + 300.0 * sensors);
   if (plan.wants("png")) bytes += 4.0 * pixels + 7 * block * sensors;
-  if (plan.wants("pcd")) bytes += 37.0 * pixels;
+  for (const char* cloud : {"pcd", "ply"})
+    if (plan.wants(cloud)) bytes += 45.0 * pixels;
   if (plan.wants("bag")) bytes += 45.0 * pixels;
   if (plan.wants("bop")) bytes += 2.2 * pixels + parts * sensors * 2 * block + 6 * block;
   if (plan.wants("shards")) bytes += 2.2 * pixels + parts * sensors * 2500.0;
@@ -78,14 +79,17 @@ namespace {
 
 void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& options,
                 const std::set<std::size_t>& done, SceneIndex& index, RunProgress& progress,
-                const std::function<void()>& tell) {
+                const std::function<void(std::size_t heap)>& made, const std::function<void()>& tell) {
   static const std::atomic<bool> never{false};
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::unique_ptr<HeapMaker> maker;  // of each worker, made in it
-  Workers workers(options.workers > 0 ? options.workers : cores, [&](std::size_t heap) {
-    if (!maker) maker = std::make_unique<HeapMaker>(plan, folder);
-    return json_of(maker->make(heap));
-  });
+  Workers workers(
+      options.workers > 0 ? options.workers : cores,
+      [&](std::size_t heap) {
+        if (!maker) maker = std::make_unique<HeapMaker>(plan, folder, options.shard);
+        return json_of(maker->make(heap));
+      },
+      options.warn);
   std::size_t next = options.shard;
   workers.run(
       [&]() -> std::optional<std::size_t> {
@@ -105,6 +109,7 @@ void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& op
         progress.accepted += record.scenes.size();
         progress.rejected += record.rejected.size();
         progress.failed += !record.accepted;
+        made(record.heap);
         tell();
       },
       options.stop ? *options.stop : never, tell);
@@ -120,9 +125,13 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   check_writable(directory);
   const DataFolder folder{directory};
   const DataSetFacts facts = facts_of(plan);
-  claim(folder, facts, plan.text);
+  const DataSetFacts before = claim(folder, facts, plan.text);
   const FolderLock lock(folder.root);
   remove_leftovers(folder);
+  if (!(before == facts)) {
+    if (facts.heaps > before.heaps) unpack_last_shard(folder, before);
+    put_plan(folder, facts, plan.text);
+  }
   SceneIndex index(folder.index());
   index.add_share(options.shard, options.shards);
   const std::set<std::size_t> done = reconcile(folder, facts, index, options);
@@ -145,8 +154,13 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
     if (options.progress) options.progress(progress);
   };
   tell();
+  std::optional<ShardPacker> packer;
+  if (plan.wants("shards") && options.shards == 1) packer.emplace(folder, facts, done);
+  const auto made = [&](std::size_t heap) {
+    if (packer) packer->add(heap);
+  };
   try {
-    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, index, progress, tell);
+    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, index, progress, made, tell);
     stop_if_cancelled();
   } catch (...) {
     remove_leftovers(folder);  // of the workers that have just been stopped
@@ -155,7 +169,10 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   progress.phase = "pack";
   tell();
   if (plan.wants("bop") || plan.wants("shards")) write_models(plan, folder);
-  if (plan.wants("shards") && options.shards == 1) pack_shards(folder, facts);
+  if (packer) packer->pack_all();
+  const IndexCounts all = index.counts();
+  progress.not_poured = all.not_poured;
+  progress.asked_for = all.asked_for;
   tell();
   return progress;
 }

@@ -33,7 +33,7 @@ SceneIndex::SceneIndex(const std::filesystem::path& path, bool only_read) : path
   sqlite3_busy_timeout(database_, 10'000);
   if (only_read) return;
   try {
-    rows("pragma journal_mode = truncate");  // one file at rest, which a reader without rights to write can open
+    rows("pragma journal_mode = delete");  // one file at rest, which a reader without rights to write can open
     rows("pragma synchronous = normal");
     for (const char* statement : schema) rows(statement);
   } catch (...) {
@@ -133,6 +133,13 @@ IndexCounts SceneIndex::counts() const {
   const auto sums = rows("select total(wall_s), total(cpu_s) from heaps where wall_s >= 0").at(0);
   counts.wall_s = std::strtod(sums[0].c_str(), nullptr);
   counts.cpu_s = std::strtod(sums[1].c_str(), nullptr);
+  const auto parts = rows(
+                         "select total(json_extract(summary, '$.not_poured')), total(json_extract(summary, "
+                         "'$.asked_for')) from scenes "
+                         "where scene in (select min(scene) from scenes group by heap)")
+                         .at(0);
+  counts.not_poured = static_cast<std::size_t>(std::strtod(parts[0].c_str(), nullptr));
+  counts.asked_for = static_cast<std::size_t>(std::strtod(parts[1].c_str(), nullptr));
   return counts;
 }
 

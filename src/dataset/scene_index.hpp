@@ -16,11 +16,12 @@ struct sqlite3;
 namespace bin_scenes {
 
 struct IndexCounts {
-  std::size_t accepted = 0, failed = 0;  ///< heaps
-  std::size_t scenes = 0, rejected = 0;  ///< scenes that are there; attempts that were set apart
-  double wall_s = 0.0;                   ///< of workers, over all heaps whose time is known
-  double cpu_s = 0.0;                    ///< of workers, over the same heaps
-  std::size_t timed = 0;                 ///< heaps whose time is known
+  std::size_t accepted = 0, failed = 0;       ///< heaps
+  std::size_t scenes = 0, rejected = 0;       ///< scenes that are there; attempts that were set apart
+  std::size_t not_poured = 0, asked_for = 0;  ///< parts of the first scene of each heap
+  double wall_s = 0.0;                        ///< of workers, over all heaps whose time is known
+  double cpu_s = 0.0;                         ///< of workers, over the same heaps
+  std::size_t timed = 0;                      ///< heaps whose time is known
 };
 
 class SceneIndex {

@@ -62,7 +62,7 @@ void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t s
 }  // namespace
 
 std::size_t scenes_per_shard(const DataSetFacts& facts) {
-  return std::max<std::size_t>(1, images_per_shard / std::max<std::size_t>(1, facts.sensors));
+  return std::max<std::size_t>(1, facts.shard_size / std::max<std::size_t>(1, facts.sensors));
 }
 std::size_t shard_of(const DataSetFacts& facts, std::size_t scene) {
   return scene / scenes_per_shard(facts);
@@ -105,18 +105,93 @@ std::vector<std::pair<std::size_t, std::size_t>> write_tar(const std::string& pa
   return places;
 }
 
-void pack_shards(const DataFolder& folder, const DataSetFacts& facts) {
-  make_directory(folder.shards());
-  OrderedJson key_to_shard = OrderedJson::object();
-  for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
-    stop_if_cancelled();
-    if (!fs::exists(folder.shard(shard))) pack_one(folder, facts, shard);
-    const OrderedJson offsets = OrderedJson::parse(read_file(offsets_path(folder, shard)));
-    for (const auto& [key, files] : offsets.items()) key_to_shard[key] = shard;
+std::optional<ShardImages> read_tar(const std::string& path, bool& doubled) {
+  const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
+  archive_read_support_format_tar(in.get());
+  if (archive_read_open_filename(in.get(), path.c_str(), 1 << 16) != ARCHIVE_OK) return std::nullopt;
+  ShardImages images;
+  archive_entry* entry = nullptr;
+  int status;
+  while ((status = archive_read_next_header(in.get(), &entry)) == ARCHIVE_OK) {
+    const std::string name = archive_entry_pathname(entry);
+    std::string bytes(static_cast<std::size_t>(archive_entry_size(entry)), '\0');
+    if (archive_read_data(in.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size()))
+      return std::nullopt;
+    const std::size_t dot = name.find('.');
+    doubled |= !images[name.substr(0, dot)].emplace(name.substr(dot + 1), std::move(bytes)).second;
   }
-  write_text((folder.shards() / "key_to_shard.json").string(), key_to_shard.dump() + "\n");
+  return status == ARCHIVE_EOF ? std::optional<ShardImages>(std::move(images)) : std::nullopt;
+}
+
+ShardPacker::ShardPacker(const DataFolder& folder, const DataSetFacts& facts, std::set<std::size_t> done)
+    : folder_(folder), facts_(facts), done_(std::move(done)) {
+  make_directory(folder_.shards());
+  for (std::size_t shard = 0; shard < shard_count(facts_) && fs::exists(folder_.shard(shard)); ++shard) note(shard);
+  if (!shard_of_key_.empty()) write_map();
+}
+
+void ShardPacker::add(std::size_t heap) {
+  done_.insert(heap);
+  const std::size_t first = heap * (facts_.steps + 1);
+  for (std::size_t shard = shard_of(facts_, first); shard <= shard_of(facts_, first + facts_.steps); ++shard)
+    if (all_done(shard)) pack(shard);
+}
+
+void ShardPacker::pack_all() {
+  for (std::size_t shard = 0; shard < shard_count(facts_); ++shard)
+    if (!fs::exists(folder_.shard(shard))) pack(shard);
+  write_map();  // also where there is nothing to pack
   std::error_code ignored;
-  fs::remove_all(folder.root / "samples", ignored);
+  fs::remove_all(folder_.root / "samples", ignored);
+}
+
+bool ShardPacker::all_done(std::size_t shard) const {
+  const std::size_t first = shard * scenes_per_shard(facts_);
+  const std::size_t last = std::min(first + scenes_per_shard(facts_), facts_.scenes()) - 1;
+  for (std::size_t heap = first / (facts_.steps + 1); heap <= last / (facts_.steps + 1); ++heap)
+    if (!done_.count(heap)) return false;
+  return true;
+}
+
+void ShardPacker::pack(std::size_t shard) {
+  stop_if_cancelled();
+  pack_one(folder_, facts_, shard);
+  note(shard);
+  write_map();
+  const std::size_t first = shard * scenes_per_shard(facts_);
+  std::error_code ignored;
+  for (std::size_t scene = first; scene < first + scenes_per_shard(facts_); ++scene)
+    fs::remove_all(folder_.samples(scene), ignored);
+}
+
+void ShardPacker::note(std::size_t shard) {
+  const OrderedJson offsets = OrderedJson::parse(read_file(offsets_path(folder_, shard)));
+  for (const auto& [key, files] : offsets.items()) shard_of_key_[key] = shard;
+}
+
+void ShardPacker::write_map() const {
+  write_text((folder_.shards() / "key_to_shard.json").string(), shard_of_key_.dump() + "\n");
+}
+
+void unpack_last_shard(const DataFolder& folder, const DataSetFacts& facts) {
+  const std::size_t last = shard_count(facts) - 1;
+  const std::string path = folder.shard(last).string();
+  if (facts.scenes() % scenes_per_shard(facts) == 0 || !fs::exists(path)) return;
+  bool doubled = false;
+  const std::optional<ShardImages> images = read_tar(path, doubled);
+  if (!images) throw input_error("is cut off or no tar", path, "remove it with its scenes, and these are made anew");
+  std::map<std::size_t, std::vector<std::string>> keys_of;
+  for (const auto& [key, files] : *images) keys_of[std::stoul(key)].push_back(key);
+  for (const auto& [scene, keys] : keys_of) {
+    WholeFolders folders;
+    folders.write(folder.samples(scene), [&, &keys = keys](const std::string& hidden) {
+      for (const std::string& key : keys)
+        for (const auto& [name, bytes] : images->at(key)) write_text(hidden + "/" + key + "." + name, bytes);
+    });
+    folders.commit();
+  }
+  fs::remove(path);
+  fs::remove(offsets_path(folder, last));
 }
 
 }  // namespace bin_scenes

@@ -3,13 +3,16 @@
 
 #include "dataset/data_folder.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace bin_scenes {
-
-constexpr std::size_t images_per_shard = 1000;
 
 /// Scenes of a shard: a fixed range, so that a shard does not depend on what others hold. Where heaps have failed, it
 /// has fewer images.
@@ -18,12 +21,37 @@ std::size_t shard_of(const DataSetFacts& facts, std::size_t scene);
 std::size_t shard_count(const DataSetFacts& facts);
 
 /// Packs samples into shards, with an offset index beside each (shard-000000.json: key -> file -> [offset, bytes]),
-/// then writes key_to_shard.json and removes the samples. What was packed before is kept; killed at any instant, it
-/// goes on from there. Throws Error.
-void pack_shards(const DataFolder& folder, const DataSetFacts& facts);
+/// tells in key_to_shard.json where each image is, and removes the samples. What was packed before is kept; killed at
+/// any instant, it goes on from there. Throws Error.
+class ShardPacker {
+ public:
+  /// @param done  heaps that are made, or given up
+  ShardPacker(const DataFolder& folder, const DataSetFacts& facts, std::set<std::size_t> done);
+  /// Packs the shards that are whole with it: they can be read while the others are made.
+  void add(std::size_t heap);
+  void pack_all();
+
+ private:
+  bool all_done(std::size_t shard) const;
+  void pack(std::size_t shard);
+  void note(std::size_t shard);
+  void write_map() const;
+
+  DataFolder folder_;
+  DataSetFacts facts_;
+  std::set<std::size_t> done_;
+  nlohmann::json shard_of_key_ = nlohmann::json::object();
+};
+
+/// Turns the last shard back into samples if it has room for more scenes, as a data set that grows needs it.
+void unpack_last_shard(const DataFolder& folder, const DataSetFacts& facts);
 
 /// Writes files as a tar whose bytes depend on names and contents alone; returns where each file's contents begin.
 std::vector<std::pair<std::size_t, std::size_t>> write_tar(
     const std::string& path, const std::vector<std::pair<std::string, std::filesystem::path>>& files);
+
+using ShardImages = std::map<std::string, std::map<std::string, std::string>>;  ///< key -> file -> contents
+/// Everything in a shard; none if it is cut off or no tar. `doubled` is set if a file is there twice.
+std::optional<ShardImages> read_tar(const std::string& path, bool& doubled);
 
 }  // namespace bin_scenes

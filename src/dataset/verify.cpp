@@ -25,14 +25,14 @@ std::vector<fs::path> entries(const fs::path& folder) {
   return all;
 }
 
-/// Two scenes with the same poses are one scene twice: drawn with one seed, or copied.
+/// Two scenes with the same poses are one scene twice: drawn with one seed, or copied. Empty bins are all alike.
 void verify_differences(const DataFolder& folder, Findings& findings) {
   std::map<std::string, std::string> first;
   for (const fs::path& path : entries(folder.root / "scenes")) {
     const auto scene = scene_in(path.string());
     if (!scene || !scene->is_object() || !scene->contains("report")) continue;
     const auto hash = (*scene)["report"].value("state_hash", nlohmann::json());
-    if (!hash.is_string()) continue;
+    if (!hash.is_string() || is_empty(*scene)) continue;
     const auto [known, is_new] = first.emplace(hash.get<std::string>(), path.filename().string());
     findings.expect(is_new, "scenes_differ", path.string(), "has the poses of " + known->second);
   }
@@ -81,6 +81,7 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"truth_counts", "visible pixels are no more than all pixels, and their ratio is the fraction"},
       {"truth_boxes", "boxes lie in the image, and are -1 where nothing is seen"},
       {"image_size", "images have the size of their sensor"},
+      {"label_measured", "what was measured carries its true label, and nothing else a label"},
       {"label_range", "labels are those of parts"},
       {"label_counts", "as many pixels carry a label as the truth tells"},
       {"label_boxes", "pixels of a label fill their box"},
@@ -92,6 +93,9 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"bop_pose", "BOP's poses are those of scene.json in the camera"},
       {"bop_object", "objects have a model"},
       {"bop_image", "depth and grey images are there, with the size of the sensor"},
+      {"bop_pinhole", "sensors that BOP shows have no distortion, which its files cannot tell"},
+      {"bop_disjoint", "no pixel shows two parts, unless measured depth tells what is visible"},
+      {"bop_labels", "visible masks are where the true labels have their part, with output png"},
       {"bop_mask_there", "each part has its masks, with the size of the image"},
       {"bop_mask_count", "masks have as many pixels as scene_gt_info tells"},
       {"bop_mask_box", "masks fill the boxes that scene_gt_info tells"},
@@ -104,7 +108,9 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"shard_keys", "each image is in one shard, that which key_to_shard tells"},
       {"shard_complete", "each image of a scene is in a shard with all its files"},
       {"shard_offsets", "offset indices tell where the files lie"},
-      {"shard_size", "a shard has at most 1000 images"},
+      {"shard_size", "a shard has no more images than the plan says"},
+      {"shard_images", "depth, true labels and true normals of a shard unpack to one size"},
+      {"shard_labels", "visible masks of a shard are where its true labels have their part"},
       {"shard_masks", "run lengths add up to the image, and to the counts told"}};
   return all;
 }
@@ -169,8 +175,8 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
   const auto plan = fs::exists(folder.root / "plan.yaml") ? read_file((folder.root / "plan.yaml").string()) : "";
   findings.expect(sha256_hex(plan) == facts.plan_text_sha256, "plan_unchanged", (folder.root / "plan.yaml").string(),
                   "is not the plan that the data set was made from");
-  for (const char* below : {"", "scenes", "set_apart", "bop", "bop/train", "samples", "shards"}) {
-    for (const fs::path& path : entries(folder.root / below))
+  for (const fs::path& below : folders_of(folder)) {
+    for (const fs::path& path : entries(below))
       findings.expect(path.filename().string().find(".tmp-") == std::string::npos, "no_leftovers", path.string(),
                       "was left half-written");
   }
@@ -188,10 +194,11 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
     verify_scene(folder, facts, there[i], findings);
     if (facts.wants("shards") && !is_whole) verify_files(folder.samples(there[i]), findings);
     if (!facts.wants("bop")) return;
-    if (findings.expect(fs::exists(folder.bop(there[i])), "bop_json", folder.bop(there[i]).string(), "is missing")) {
-      verify_files(folder.bop(there[i]), findings);
+    const fs::path bop = folder.bop(facts, there[i]);
+    if (findings.expect(fs::exists(bop), "bop_json", bop.string(), "is missing")) {
+      verify_files(bop, findings);
       const auto scene = scene_in(folder.scene(there[i]).string());
-      verify_bop(folder, there[i], scene.value_or(nlohmann::json()), models, findings);
+      verify_bop(folder, facts, there[i], scene.value_or(nlohmann::json()), models, findings);
     }
   });
   if (facts.wants("shards") && is_whole) verify_shards(folder, facts, findings);

@@ -3,12 +3,14 @@
 #include "core/read_file.hpp"
 #include "dataset/verify.hpp"
 #include "output/png_reader.hpp"
+#include "output/tiff.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -61,10 +63,24 @@ bool near_box(const Json& box, const Extent& e, int tolerance) {
   return true;
 }
 
-void verify_masks(const fs::path& folder, const std::string& name, const Json& info, int width, int height,
-                  Findings& findings) {
+/// What the visible masks of an image tell together.
+struct Owners {
+  std::vector<std::uint16_t> part;  ///< by pixel: the last one whose mask has it, id + 1
+  std::size_t twice = 0;            ///< pixels in the masks of several parts
+  void add(const LoadedImage& mask, int id) {
+    part.resize(mask.samples.size());
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (mask.samples[i] == 0) continue;
+      twice += part[i] != 0;
+      part[i] = static_cast<std::uint16_t>(id + 1);
+    }
+  }
+};
+
+void verify_masks(const fs::path& folder, const std::string& name, const Json& info, int id, int width, int height,
+                  Owners& owners, Findings& findings) {
   const std::string where = (folder / "mask_visib" / name).string();
-  PngImage seen, whole;
+  LoadedImage seen, whole;
   try {
     seen = load_png(where);
     whole = load_png((folder / "mask" / name).string());
@@ -74,6 +90,7 @@ void verify_masks(const fs::path& folder, const std::string& name, const Json& i
   }
   const bool sizes = seen.width == width && seen.height == height && whole.width == width && whole.height == height;
   if (!findings.expect(sizes, "bop_mask_there", where, "masks have another size than the image")) return;
+  owners.add(seen, id);
   Extent visible, all;
   std::size_t beside = 0;
   for (int y = 0, i = 0; y < height; ++y) {
@@ -112,22 +129,34 @@ void verify_projection(const Json& truth, const Json& info, const Json& camera, 
       "bop_reprojection", where, "the projected model does not fill bbox_obj");
 }
 
+/// True labels of the scene's sensor; none without output png.
+std::optional<LoadedImage> true_labels(const fs::path& scene, const Json& sensor) {
+  const fs::path path = scene / (sensor.at("name").get<std::string>() + "_truth_labels.png");
+  try {
+    return load_png(path.string());
+  } catch (const Error&) {  // image_size tells it
+    return std::nullopt;
+  }
+}
+
 void verify_image(const fs::path& folder, const std::string& key, const Json& scene, const Json& camera,
-                  const Json& truth, const Json& info, const std::map<int, BopModel>& models, Findings& findings) {
+                  const Json& truth, const Json& info, const std::map<int, BopModel>& models, Owners& owners,
+                  Findings& findings) {
   const std::string where = folder.string() + ", image " + key;
   const Json& sensor = scene.at("sensors").at(std::stoul(key));
   const int width = sensor.at("width"), height = sensor.at("height");
   const std::string file = six_digits(std::stoul(key));
-  for (const char* kind : {"depth", "gray"}) {
-    const fs::path path = folder / kind / (file + ".png");
+  const auto check_size = [&](const fs::path& path, const std::function<LoadedImage(const std::string&)>& load) {
     try {
-      const PngImage image = load_png(path.string());
+      const LoadedImage image = load(path.string());
       findings.expect(image.width == width && image.height == height, "bop_image", path.string(),
                       "has another size than the sensor");
     } catch (const Error& error) {
       findings.expect(false, "bop_image", path.string(), error.problem());
     }
-  }
+  };
+  check_size(folder / "depth" / (file + ".png"), load_png);
+  check_size(folder / "gray" / (file + ".tiff"), load_gray_tiff);
   std::map<int, const Json*> parts;
   for (const Json& part : scene.at("parts"))
     if (part.at("pose").is_object()) parts[part.at("id")] = &part;
@@ -155,10 +184,8 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
                     part, "visib_fract is not the ratio of the counts");
     const bool none = info[i].at("bbox_visib") == Json({-1, -1, -1, -1});
     findings.expect(none == (seen == 0), "bop_unseen", part, "bbox_visib and px_count_visib do not agree");
-    verify_masks(folder, file + "_" + six_digits(i) + ".png", info[i], width, height, findings);
-    const bool pinhole = sensor.at("distortion") == Json({0.0, 0.0, 0.0, 0.0, 0.0});
-    if (seen > 0 && pinhole && model != models.end())
-      verify_projection(truth[i], info[i], camera, model->second, part, findings);
+    verify_masks(folder, file + "_" + six_digits(i) + ".png", info[i], id, width, height, owners, findings);
+    if (seen > 0 && model != models.end()) verify_projection(truth[i], info[i], camera, model->second, part, findings);
   }
 }
 
@@ -212,17 +239,27 @@ std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findin
   return all;
 }
 
-void verify_bop(const DataFolder& folder, std::size_t number, const Json& scene, const std::map<int, BopModel>& models,
-                Findings& findings) {
-  const fs::path path = folder.bop(number);
+void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, const Json& scene,
+                const std::map<int, BopModel>& models, Findings& findings) {
+  const fs::path path = folder.bop(facts, number);
   const auto camera = json_in(path / "scene_camera.json"), truth = json_in(path / "scene_gt.json"),
              info = json_in(path / "scene_gt_info.json");
   const bool good = camera && truth && info && camera->size() == truth->size() && truth->size() == info->size();
   if (!findings.expect(good, "bop_json", path.string(), "JSON files are missing, damaged or of different images"))
     return;
   try {
-    for (const auto& [key, entry] : camera->items())
-      verify_image(path, key, scene, entry, truth->at(key), info->at(key), models, findings);
+    for (const auto& [key, entry] : camera->items()) {
+      Owners owners;
+      verify_image(path, key, scene, entry, truth->at(key), info->at(key), models, owners, findings);
+      if (facts.tolerance > 0.0 || owners.part.empty()) continue;
+      const std::string where = path.string() + ", image " + key;
+      findings.expect(owners.twice == 0, "bop_disjoint", where,
+                      std::to_string(owners.twice) + " pixels are visible of several parts");
+      if (!facts.wants("png")) continue;
+      const auto labels = true_labels(folder.scene(number), scene.at("sensors").at(std::stoul(key)));
+      if (labels)
+        findings.expect(owners.part == labels->samples, "bop_labels", where, "masks are not where the true labels are");
+    }
   } catch (const std::exception& error) {
     findings.expect(false, "bop_json", path.string(), error.what());
   }

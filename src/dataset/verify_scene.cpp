@@ -72,13 +72,18 @@ void verify_truth(const Json& sensor, const std::string& where, Findings& findin
   }
 }
 
+bool is_pinhole(const Json& sensor) {
+  return sensor.at("model") != "laser_line" && sensor.at("distortion") == Json({0.0, 0.0, 0.0, 0.0, 0.0});
+}
+
 void verify_images(const Json& scene, const Json& sensor, const fs::path& folder, Findings& findings) {
   const std::string name = sensor.at("name"), where = (folder / name).string();
   const int width = sensor.at("width"), height = sensor.at("height");
   const bool pinhole = sensor.at("model") != "laser_line";
-  PngImage labels, depth, validity;
+  LoadedImage labels, measured, depth, validity;
   try {
-    labels = load_png((folder / (name + "_labels.png")).string());
+    labels = load_png((folder / (name + "_truth_labels.png")).string());
+    measured = load_png((folder / (name + "_labels.png")).string());
     depth = load_png((folder / (name + "_depth.png")).string());
     validity = load_png((folder / (name + "_validity.png")).string());
   } catch (const Error& error) {
@@ -86,7 +91,8 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
     return;
   }
   const bool sizes = labels.width == width && labels.height == height && depth.width == validity.width &&
-                     depth.height == validity.height && (!pinhole || (depth.width == width && depth.height == height));
+                     depth.height == validity.height && measured.width == depth.width &&
+                     measured.height == depth.height && (!pinhole || (depth.width == width && depth.height == height));
   if (!findings.expect(sizes, "image_size", where, "images have other sizes than the sensor")) return;
 
   const std::size_t parts = scene.at("parts").size();
@@ -115,14 +121,22 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
                     name_of(part) + ": pixels do not fill the box");
   }
   const double scale = sensor.at("depth_scale"), near = sensor.at("near"), far = sensor.at("far");
-  std::size_t outside = 0, codes = 0;
+  std::size_t outside = 0, codes = 0, mislabelled = 0;
   for (std::size_t i = 0; i < depth.samples.size(); ++i) {
     const double z = depth.samples[i] * scale;
     // Noise may carry a measurement over the ends of the range; more than a hundredth of it does not.
     if (depth.samples[i] != 0 && (z < 0.99 * near - scale || z > 1.01 * far + scale)) ++outside;
     if (validity.samples[i] > 8 || (validity.samples[i] == 0) != (depth.samples[i] != 0)) ++codes;
+    const std::uint16_t label = measured.samples[i];
+    // Profiles of a laser are no image of the camera: their labels are only compared with what can be.
+    if (depth.samples[i] == 0 || !pinhole)
+      mislabelled += depth.samples[i] == 0 ? label != 0 : label > parts;
+    else
+      mislabelled += label != labels.samples[i];
   }
   findings.expect(outside == 0, "depth_range", where, std::to_string(outside) + " depths are out of range");
+  findings.expect(mislabelled == 0, "label_measured", where,
+                  std::to_string(mislabelled) + " pixels of _labels.png differ from what is seen there");
   findings.expect(codes == 0, "validity_codes", where, std::to_string(codes) + " pixels have a wrong code");
 }
 
@@ -142,6 +156,9 @@ void verify_scene(const DataFolder& folder, const DataSetFacts& facts, std::size
                     "was not accepted");
     verify_parts(*scene, where, findings);
     for (const Json& sensor : scene->at("sensors")) {
+      if (facts.wants("bop") || facts.wants("shards"))
+        findings.expect(is_pinhole(sensor), "bop_pinhole", where,
+                        "the lens of sensor '" + sensor.value("name", "") + "' distorts, or it is none");
       if (!sensor.contains("truth")) continue;
       verify_truth(sensor, where, findings);
       if (facts.wants("png")) verify_images(*scene, sensor, path, findings);

@@ -1,14 +1,11 @@
+#include "bin_scenes/core/error.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
 #include "dataset/verify.hpp"
-
-#include <archive.h>
-#include <archive_entry.h>
+#include "output/png_reader.hpp"
 
 #include <fstream>
-#include <memory>
 #include <optional>
-#include <set>
 
 namespace bin_scenes {
 
@@ -17,29 +14,9 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* files_of_image[] = {"camera.json",  "depth.png", "gray.tiff",      "gt.json",
-                                          "gt_info.json", "mask.json", "mask_visib.json"};
-
-using Images = std::map<std::string, std::map<std::string, std::string>>;  ///< key -> file -> contents
-
-/// Everything in a tar; none if it is cut off or no tar.
-std::optional<Images> read_tar(const std::string& path, bool& doubled) {
-  const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
-  archive_read_support_format_tar(in.get());
-  if (archive_read_open_filename(in.get(), path.c_str(), 1 << 16) != ARCHIVE_OK) return std::nullopt;
-  Images images;
-  archive_entry* entry = nullptr;
-  int status;
-  while ((status = archive_read_next_header(in.get(), &entry)) == ARCHIVE_OK) {
-    const std::string name = archive_entry_pathname(entry);
-    std::string bytes(static_cast<std::size_t>(archive_entry_size(entry)), '\0');
-    if (archive_read_data(in.get(), bytes.data(), bytes.size()) != static_cast<la_ssize_t>(bytes.size()))
-      return std::nullopt;
-    const std::size_t dot = name.find('.');
-    doubled |= !images[name.substr(0, dot)].emplace(name.substr(dot + 1), std::move(bytes)).second;
-  }
-  return status == ARCHIVE_EOF ? std::optional<Images>(std::move(images)) : std::nullopt;
-}
+constexpr const char* files_of_image[] = {"camera.json",     "depth.png",        "gray.tiff",
+                                          "gt.json",         "gt_info.json",     "mask.json",
+                                          "mask_visib.json", "truth_labels.png", "truth_normal.png"};
 
 void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files,
                         const std::string& where, Findings& findings) {
@@ -63,7 +40,52 @@ void verify_run_lengths(const std::string& key, const std::map<std::string, std:
   }
 }
 
-void verify_offsets(const fs::path& tar, const Images& images, Findings& findings) {
+/// The visible pixels of a part are those that carry its label.
+bool labels_agree(const Json& truth, const Json& masks, const LoadedImage& labels) {
+  std::map<std::uint16_t, std::size_t> carried;
+  for (const std::uint16_t label : labels.samples) ++carried[label];
+  const auto height = static_cast<std::size_t>(labels.height), width = static_cast<std::size_t>(labels.width);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const auto label = static_cast<std::uint16_t>(truth[i].at("id").get<int>() + 1);
+    std::size_t at = 0, inside = 0;
+    bool value = false;
+    for (const std::size_t run : masks.at(std::to_string(i)).at("counts")) {
+      for (const std::size_t end = at + run; at < end; ++at) {  // column by column
+        if (!value) continue;
+        if (at >= height * width || labels.samples[at % height * width + at / height] != label) return false;
+        ++inside;
+      }
+      value = !value;
+    }
+    if (inside != carried[label]) return false;
+  }
+  return true;
+}
+
+void verify_shard_images(const std::string& key, const std::map<std::string, std::string>& files, bool by_truth,
+                         const std::string& where, Findings& findings) {
+  LoadedImage depth, labels, normals;
+  try {
+    depth = png_from(files.at("depth.png"), where + ", " + key + ".depth.png");
+    labels = png_from(files.at("truth_labels.png"), where + ", " + key + ".truth_labels.png");
+    normals = png_from(files.at("truth_normal.png"), where + ", " + key + ".truth_normal.png");
+  } catch (const Error& error) {
+    findings.expect(false, "shard_images", error.where(), error.problem());
+    return;
+  }
+  const auto same = [&](const LoadedImage& image) {
+    return image.width == depth.width && image.height == depth.height;
+  };
+  const std::string image = where + ", " + key;
+  if (!findings.expect(same(labels) && same(normals) && normals.channels == 3, "shard_images", image,
+                       "depth, labels and normals have different sizes"))
+    return;
+  if (by_truth)
+    findings.expect(labels_agree(Json::parse(files.at("gt.json")), Json::parse(files.at("mask_visib.json")), labels),
+                    "shard_labels", image, "mask_visib.json is not where truth_labels.png has the parts");
+}
+
+void verify_offsets(const fs::path& tar, const ShardImages& images, Findings& findings) {
   const fs::path path = fs::path(tar).replace_extension(".json");
   const Json offsets = fs::exists(path) ? Json::parse(read_file(path.string()), nullptr, false) : Json();
   bool good = offsets.is_object() && offsets.size() == images.size();
@@ -96,7 +118,8 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
     const auto images = fs::exists(where) ? read_tar(where, doubled) : std::nullopt;
     if (!findings.expect(images.has_value(), "shard_tar", where, "is missing, cut off or no tar")) continue;
     findings.expect(!doubled, "shard_keys", where, "holds a file twice");
-    findings.expect(images->size() <= images_per_shard, "shard_size", where, "has more than 1000 images");
+    findings.expect(images->size() <= facts.shard_size, "shard_size", where,
+                    "has more than " + std::to_string(facts.shard_size) + " images");
     verify_offsets(where, *images, findings);
     for (const auto& [key, files] : *images) {
       findings.expect(found.emplace(key, shard).second, "shard_keys", where,
@@ -108,6 +131,7 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
       if (!findings.expect(complete, "shard_complete", where + ", " + key, "lacks a file")) continue;
       try {
         verify_run_lengths(key, files, where, findings);
+        verify_shard_images(key, files, facts.tolerance == 0.0, where, findings);
       } catch (const std::exception& error) {
         findings.expect(false, "shard_masks", where + ", " + key, error.what());
       }

@@ -25,12 +25,9 @@ void make_directory(const fs::path& path) {
 
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
   for (const std::string& format : formats) {
-    if (format != "json" && format != "pcd" && format != "png" && format != "bop" && format != "bag") {
-      throw input_error("unknown format '" + format + "'", where, "json, pcd, png, bop or bag");
-    }
-  }
-  if (formats.count("pcd") && !pcd_supported()) {
-    throw environment_error("this build has no PCL and writes no PCD", where, "build with -DBIN_SCENES_PCL=ON");
+    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag"};
+    if (known.count(format) == 0)
+      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop or bag");
   }
   if (formats.count("bag") && !bag_writer()) {
     throw environment_error("this build has no ROS and writes no bags", where, "build with -DBIN_SCENES_ROS=ON");
@@ -94,6 +91,7 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
   const fs::path base(folder);
   for (const RangeImage& image : result.images) {
     if (formats.count("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
+    if (formats.count("ply")) write_ply((base / (image.sensor.name + ".ply")).string(), image);
     if (formats.count("png")) write_pngs(folder, image);
   }
   if (formats.count("bag"))

@@ -61,21 +61,24 @@ constexpr int patience_ms = 250;         ///< between two looks at the clock
 
 }  // namespace
 
-Workers::Workers(std::size_t count, std::function<nlohmann::json(std::size_t)> work)
-    : work_(std::move(work)), workers_(count) {}
+Workers::Workers(std::size_t count, std::function<nlohmann::json(std::size_t)> work,
+                 std::function<void(const std::string&)> warn)
+    : work_(std::move(work)), warn_(std::move(warn)), workers_(count) {}
 
 Workers::~Workers() {
   for (Worker& worker : workers_) end(worker);
 }
 
-void Workers::end(Worker& worker) {
-  if (worker.pid < 0) return;
+int Workers::end(Worker& worker) {
+  if (worker.pid < 0) return 0;
+  int status = 0;
   kill(worker.pid, SIGKILL);
   close(worker.socket);
-  while (waitpid(worker.pid, nullptr, 0) < 0 && errno == EINTR) {
+  while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
   }
   worker.pid = worker.socket = -1;
   worker.line.clear();
+  return status;
 }
 
 void Workers::start(Worker& worker) {
@@ -126,11 +129,15 @@ void Workers::hear(Worker& worker, const std::function<void(const nlohmann::json
   }
   if (n < 0 && errno == EINTR) return;
   const std::size_t heap = *worker.heap;
-  end(worker);
+  const std::string name = "worker " + std::to_string(worker.pid);
+  const int status = end(worker);
+  const std::string how = WIFSIGNALED(status) ? " was killed by signal " + std::to_string(WTERMSIG(status))
+                                              : " ended with code " + std::to_string(WEXITSTATUS(status));
   if (++worker.deaths > most_deaths)
     throw environment_error(
         "workers died " + std::to_string(worker.deaths) + " times while they made heap " + std::to_string(heap),
         "workers", "look for the out-of-memory killer (dmesg), or use fewer --workers");
+  if (warn_) warn_(name + how + " while it made heap " + std::to_string(heap) + ", which is made again");
   give(worker, heap);
 }
 

@@ -21,7 +21,9 @@ namespace bin_scenes {
 class Workers {
  public:
   /// `work` runs in the workers. Its Error becomes {"error": what, "kind": code}.
-  Workers(std::size_t count, std::function<nlohmann::json(std::size_t heap)> work);
+  /// `warn` hears of each worker that died.
+  Workers(std::size_t count, std::function<nlohmann::json(std::size_t heap)> work,
+          std::function<void(const std::string&)> warn);
   ~Workers();  ///< kills them
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -44,9 +46,10 @@ class Workers {
   void start(Worker& worker);
   void give(Worker& worker, std::size_t heap);
   void hear(Worker& worker, const std::function<void(const nlohmann::json&)>& done);
-  static void end(Worker& worker);
+  static int end(Worker& worker);  ///< status of waitpid(); 0 if there was none
 
   std::function<nlohmann::json(std::size_t)> work_;
+  std::function<void(const std::string&)> warn_;
   std::vector<Worker> workers_;
 };
 

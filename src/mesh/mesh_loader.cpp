@@ -80,9 +80,9 @@ class Repair {
       : mesh_(loaded.mesh), report_(loaded.report), options_(options), where_(where), diagonal_(diagonal) {}
 
   void run() {
-    for (void (Repair::*step)() : {&Repair::weld, &Repair::remove_duplicates, &Repair::remove_slivers,
-                                   &Repair::agree_winding, &Repair::close_holes, &Repair::thicken,
-                                   &Repair::turn_outward, &Repair::unite, &Repair::judge}) {
+    for (void (Repair::*step)() :
+         {&Repair::weld, &Repair::remove_duplicates, &Repair::remove_slivers, &Repair::agree_winding,
+          &Repair::close_holes, &Repair::thicken, &Repair::turn_outward, &Repair::unite, &Repair::judge}) {
       stop_if_cancelled();
       (this->*step)();
     }
@@ -334,19 +334,21 @@ std::string text_of(const Vec3& size) {
   return number(size.x()) + " x " + number(size.y()) + " x " + number(size.z()) + " m";
 }
 
-/// The unit that makes a file of plausible size whose numbers, read in metres, span `size`. Parts are drawn in units
-/// that they are not much smaller than: no file of numbers below one half is taken for millimetres.
-std::optional<Unit> likely_unit(double size, double above, double below) {
+/// What to do about a file whose numbers, read in metres, span `size`: the units that make it larger than `above` and
+/// smaller than `below` (m), if there are any. Parts are drawn in units that they are not much smaller than: no file of
+/// numbers below one half is taken for millimetres. Numbers of a few units may be meant in several of them.
+std::string unit_advice(double size, double above, double below, const std::string& otherwise) {
+  std::vector<std::pair<std::string, std::string>> likely;  // unit, size
   for (const Unit unit : {Unit::millimetre, Unit::centimetre, Unit::inch}) {
     const double then = size * metres_per(unit);
-    if (size >= 0.5 && then > above && then < below) return unit;
+    if (size >= 0.5 && then > above && then < below)
+      likely.emplace_back(std::string("\"unit: ") + name_of(unit) + "\"", number(then) + " m");
   }
-  return std::nullopt;
-}
-
-std::string advice(Unit unit, double size) {
-  return std::string("probably it is meant in ") + name_of(unit) + ", which makes it " +
-         number(size * metres_per(unit)) + " m: give \"unit: " + name_of(unit) + "\"";
+  if (likely.empty()) return otherwise;
+  if (likely.size() == 1) return "probably its unit is missing: " + likely[0].first + " makes it " + likely[0].second;
+  std::string text = "give its unit: " + likely[0].first + " makes it " + likely[0].second;
+  for (std::size_t i = 1; i < likely.size(); ++i) text += ", " + likely[i].first + " " + likely[i].second;
+  return text;
 }
 
 }  // namespace
@@ -370,10 +372,7 @@ void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& p
                            (too_large ? "large" : "small") + " for " + place;
   std::string remedy = too_large ? "enlarge the bin, or check the part's unit and scale" : "give its unit, or a scale";
   if (bin.kind == Bin::Kind::mesh) remedy += "; check the bin's unit too";
-  if (!given) {
-    if (const std::optional<Unit> unit = likely_unit(diagonal, side / 200.0, 0.75 * side))
-      remedy = advice(*unit, diagonal);
-  }
+  if (!given) remedy = unit_advice(diagonal, side / 200.0, 0.75 * side, remedy);
   throw input_error(what, path, remedy);
 }
 
@@ -384,8 +383,7 @@ void check_plausible_bin(const Mesh& mesh, const Bin& bin, double largest_part) 
   if (bin.unit || !(alone || beside_parts)) return;
   std::string what = "the bin is " + text_of(size) + " read in its own unit or metres";
   if (beside_parts) what += ", and its largest part is " + number(largest_part) + " m across";
-  const std::optional<Unit> unit = likely_unit(size.norm(), largest_part, largest_unasked);
-  throw input_error(what, bin.mesh, unit ? advice(*unit, size.norm()) : "give its unit: bin.unit");
+  throw input_error(what, bin.mesh, unit_advice(size.norm(), largest_part, largest_unasked, "give its unit: bin.unit"));
 }
 
 }  // namespace bin_scenes

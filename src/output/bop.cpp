@@ -6,6 +6,7 @@
 #include "output/bop_image.hpp"
 #include "output/bop_visibility.hpp"
 #include "output/boxes.hpp"
+#include "output/tiff.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -77,6 +78,17 @@ void make_directory(const fs::path& path) {
 
 }  // namespace
 
+const char* const bop_misfit_remedy =
+    "change the request's sensors (rectified images have distortion 0), or leave such outputs out";
+
+std::string bop_misfit(const Sensor& sensor) {
+  if (sensor.model == SensorModel::laser_line)
+    return "BOP holds pinhole images, and the profiles of a laser_line sensor are none";
+  if (std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; }))
+    return "BOP holds pinhole images, and the lens of sensor '" + sensor.name + "' distorts";
+  return "";
+}
+
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts) {
   std::vector<int> ids;
   std::vector<PartModelPtr> distinct;
@@ -90,30 +102,12 @@ std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts) {
 
 namespace {
 
-/// What the labels tell: a pixel shows the part that is truly seen there.
-BopVisibility from_labels(const RangeImage& image, const std::vector<PixelBox>& boxes, const Mesh& mesh,
-                          const Pose& model_in_camera, int id, std::size_t valid) {
-  BopVisibility seen;
-  seen.box = projected_box(mesh, model_in_camera, image.sensor).xywh();
-  seen.visible_box = boxes[id].xywh();
-  seen.all = image.total.at(id);
-  seen.visible = image.visible.at(id);
-  seen.valid = valid;
-  seen.visible_mask = visible_mask(image, id, boxes[id]);
-  if (!image.silhouettes.empty()) seen.whole_mask = whole_mask(image.silhouettes.at(id));
-  return seen;
-}
-
-/// The depth image as its readers will see it, as distance from the camera; empty where the labels have to do: by them
-/// alone, or where no pinhole describes the image.
-std::vector<float> stored_distances(const RangeImage& image, const std::vector<std::uint16_t>& counts,
-                                    double tolerance) {
-  const Lens lens = lens_of(image.sensor);
-  if (!(tolerance > 0.0) || lens.distorts() || image.width != lens.width || image.height != lens.height) return {};
+/// The depth image as its readers will see it, as distance from the camera.
+std::vector<float> stored_distances(const RangeImage& image, const std::vector<std::uint16_t>& counts) {
   std::vector<float> depth(counts.size());
   std::transform(counts.begin(), counts.end(), depth.begin(),
                  [&](std::uint16_t count) { return static_cast<float>(count * image.sensor.depth_scale); });
-  return distances(depth, lens);
+  return distances(depth, lens_of(image.sensor));
 }
 
 BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vector<PartModelPtr>& parts,
@@ -126,16 +120,12 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
                 {"depth_scale", millimetres * image.sensor.depth_scale},
                 {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
                 {"cam_t_w2c", in_mm(bin_in_camera.position)}};
-  bop.width = image.sensor.width, bop.height = image.sensor.height;
+  bop.width = image.width, bop.height = image.height;
   bop.depth = png16(image.width, image.height, counts);
   bop.gray = gray_of(image);
-  bop.gray_width = image.width, bop.gray_height = image.height;
+  bop.seen = &image;
   const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
-  std::vector<std::size_t> valid(image.visible.size());
-  for (const std::uint16_t label : image.label) {
-    if (label) ++valid[label - 1u];
-  }
-  const std::vector<float> distance = stored_distances(image, counts, options.tolerance);
+  const std::vector<float> distance = options.tolerance > 0.0 ? stored_distances(image, counts) : std::vector<float>();
   std::vector<BopVisibility> seen(places.size());
   in_parallel(places.size(), [&](std::size_t i) {
     const ScenePart& part = *places[i];
@@ -144,7 +134,7 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
     std::optional<BopVisibility> measured;
     if (!distance.empty()) measured = bop_visibility(mesh, pose, lens_of(image.sensor), distance, options.tolerance);
     seen[i] = measured ? std::move(*measured)
-                       : from_labels(image, boxes, mesh, pose, part.id, valid.at(static_cast<std::size_t>(part.id)));
+                       : true_visibility(image, counts, part.id, boxes[static_cast<std::size_t>(part.id)], mesh, pose);
   });
   bop.truth = Json::array();
   bop.info = Json::array();
@@ -174,6 +164,10 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
                                  const std::vector<RangeImage>& images, const BopOptions& options) {
   const std::vector<const ScenePart*> places = in_places(scene);
+  for (const RangeImage& image : images) {
+    const std::string why = bop_misfit(image.sensor);
+    if (!why.empty()) throw input_error(why, "sensors: " + image.sensor.name, bop_misfit_remedy);
+  }
   std::vector<BopImage> all;
   for (const RangeImage& image : images) all.push_back(bop_image(places, parts, image, options));
   return all;
@@ -186,15 +180,16 @@ void write_bop(const std::string& directory, const std::vector<BopImage>& images
   for (std::size_t n = 0; n < images.size(); ++n) {
     const BopImage& image = images[n];
     const std::string key = std::to_string(n), file = six_digits(n);
-    if (!image.whole.empty()) make_directory(root / "mask");
+    const bool whole_known = image.whole.size() == image.ids.size();
+    if (whole_known) make_directory(root / "mask");
     camera[key] = image.camera;
     truth[key] = image.truth;
     info[key] = image.info;
     write_bytes((root / "depth" / (file + ".png")).string(), image.depth);
-    write_bytes((root / "gray" / (file + ".png")).string(), png8(image.gray_width, image.gray_height, 1, image.gray));
+    write_bytes((root / "gray" / (file + ".tiff")).string(), gray_tiff(image.width, image.height, image.gray));
     for (std::size_t i = 0; i < image.ids.size(); ++i) {
       const Bytes seen = mask_png(image.width, image.height, image.visible[i]);
-      const Bytes whole = image.whole.empty() ? Bytes() : mask_png(image.width, image.height, image.whole[i]);
+      const Bytes whole = whole_known ? mask_png(image.width, image.height, image.whole[i]) : Bytes();
       for (const std::size_t number : std::set<std::size_t>{i, static_cast<std::size_t>(image.ids[i])}) {
         const std::string name = file + "_" + six_digits(number) + ".png";
         write_bytes((root / "mask_visib" / name).string(), seen);
@@ -212,6 +207,37 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
   write_bop(directory, bop_images(scene, parts, images, {}));
 }
 
+namespace {
+
+/// Entry of models_info.json, mm.
+Json model_info(const PartModel& part, const Symmetries& symmetries) {
+  const Aabb box = part.mesh().bounds();
+  const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
+  Json info = {{"diameter", millimetres * diameter(part.mesh())},
+               {"min_x", lower.x()},
+               {"min_y", lower.y()},
+               {"min_z", lower.z()},
+               {"size_x", size.x()},
+               {"size_y", size.y()},
+               {"size_z", size.z()}};
+  for (const Pose& turn : symmetries.discrete) {
+    const Mat3 r = turn.orientation.toRotationMatrix();
+    const Vec3 t = millimetres * turn.position;
+    info["symmetries_discrete"].push_back({r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(), r(2, 0),
+                                           r(2, 1), r(2, 2), t.z(), 0.0, 0.0, 0.0, 1.0});
+  }
+  for (const Symmetries::Axis& axis : symmetries.continuous)
+    info["symmetries_continuous"].push_back(
+        {{"axis", {axis.direction.x(), axis.direction.y(), axis.direction.z()}}, {"offset", in_mm(axis.point)}});
+  return info;
+}
+
+}  // namespace
+
+std::string bop_model_info(const PartModel& part, const Symmetries& symmetries) {
+  return model_info(part, symmetries).dump();
+}
+
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
                       const std::vector<Symmetries>& given) {
   const fs::path models(directory);
@@ -222,26 +248,8 @@ void write_bop_models(const std::string& directory, const std::vector<PartModelP
     const std::string id = std::to_string(ids[i]);
     if (info.contains(id)) continue;
     const Mesh& mesh = parts[i]->mesh();
-    const Aabb box = mesh.bounds();
-    const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
     write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, millimetres);
-    info[id] = {{"diameter", millimetres * diameter(mesh)},
-                {"min_x", lower.x()},
-                {"min_y", lower.y()},
-                {"min_z", lower.z()},
-                {"size_x", size.x()},
-                {"size_y", size.y()},
-                {"size_z", size.z()}};
-    const Symmetries symmetries = i < given.size() ? given[i] : find_symmetries(*parts[i]);
-    for (const Pose& turn : symmetries.discrete) {
-      const Mat3 r = turn.orientation.toRotationMatrix();
-      const Vec3 t = millimetres * turn.position;
-      info[id]["symmetries_discrete"].push_back({r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(),
-                                                 r(2, 0), r(2, 1), r(2, 2), t.z(), 0.0, 0.0, 0.0, 1.0});
-    }
-    for (const Symmetries::Axis& axis : symmetries.continuous)
-      info[id]["symmetries_continuous"].push_back(
-          {{"axis", {axis.direction.x(), axis.direction.y(), axis.direction.z()}}, {"offset", in_mm(axis.point)}});
+    info[id] = model_info(*parts[i], i < given.size() ? given[i] : find_symmetries(*parts[i]));
   }
   write_text((models / "models_info.json").string(), info.dump(1) + "\n");
 }

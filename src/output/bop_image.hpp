@@ -17,13 +17,13 @@ struct BopImage {
   nlohmann::ordered_json camera;  ///< entry of scene_camera.json
   nlohmann::ordered_json truth;   ///< list of scene_gt.json, one entry a part
   nlohmann::ordered_json info;    ///< list of scene_gt_info.json
-  int width = 0, height = 0;      ///< of masks
-  Bytes depth;                    ///< PNG
+  int width = 0, height = 0;
+  Bytes depth;  ///< PNG
   std::vector<std::uint8_t> gray;
-  int gray_width = 0, gray_height = 0;
-  std::vector<int> ids;          ///< of the parts, by entry
-  std::vector<MaskBox> visible;  ///< by entry
-  std::vector<MaskBox> whole;    ///< by entry; empty: not known
+  const RangeImage* seen = nullptr;  ///< for its true labels and normals; has to outlive this
+  std::vector<int> ids;              ///< of the parts, by entry
+  std::vector<MaskBox> visible;      ///< by entry
+  std::vector<MaskBox> whole;        ///< by entry; fewer than `ids`: not known
 };
 
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
@@ -32,14 +32,12 @@ std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModel
 /// The scene's folder of BOP's layout by scenes.
 void write_bop(const std::string& directory, const std::vector<BopImage>& images);
 
-/// Samples of BOP's layout by images: {scene:06d}_{image:06d}.{depth.png, gray.tiff, camera.json, gt.json,
-/// gt_info.json, mask.json, mask_visib.json}, to be packed into shards.
+/// Samples of BOP's layout by images, to be packed into shards: {scene:06d}_{image:06d}.{depth.png, gray.tiff,
+/// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, and beside BOP's files truth_labels.png and
+/// truth_normal.png.
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images);
 
 /// Run lengths of a mask, column by column from the left, each from the top; the first run is one of zeros (COCO).
 std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height);
-
-/// 8-bit grey TIFF, deflated: what BOP's reader takes for a grey image of a shard.
-Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples);
 
 }  // namespace bin_scenes

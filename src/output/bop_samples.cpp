@@ -1,20 +1,13 @@
-#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "output/bop_image.hpp"
-
-#include <zlib.h>
+#include "output/tiff.hpp"
 
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 namespace bin_scenes {
 
 namespace {
-
-template <class Number>
-void put(Bytes& bytes, Number value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i) & 0xff));
-}
 
 nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int width, int height) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -53,41 +46,6 @@ std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height)
   return counts;
 }
 
-Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples) {
-  uLongf size = compressBound(static_cast<uLong>(samples.size()));
-  Bytes packed(size);
-  if (compress2(packed.data(), &size, samples.data(), static_cast<uLong>(samples.size()), 1) != Z_OK)
-    throw environment_error("zlib cannot pack an image", "image", "check free memory");
-  packed.resize(size);
-  if (packed.size() % 2 != 0) packed.push_back(0);  // what follows begins at an even byte
-  struct Entry {
-    std::uint16_t tag, type;
-    std::uint32_t value;
-  };
-  constexpr std::uint16_t shorts = 3, longs = 4;
-  const std::vector<Entry> entries = {{256, longs, static_cast<std::uint32_t>(width)},   // width
-                                      {257, longs, static_cast<std::uint32_t>(height)},  // height
-                                      {258, shorts, 8},                                  // bits a sample
-                                      {259, shorts, 8},                                  // deflate
-                                      {262, shorts, 1},                                  // 0 is black
-                                      {273, longs, 8},                                   // the only strip begins here
-                                      {277, shorts, 1},                                  // samples a pixel
-                                      {278, longs, static_cast<std::uint32_t>(height)},  // rows of the strip
-                                      {279, longs, static_cast<std::uint32_t>(size)}};   // bytes of the strip
-  Bytes bytes = {'I', 'I', 42, 0};
-  put(bytes, static_cast<std::uint32_t>(8 + packed.size()));
-  bytes.insert(bytes.end(), packed.begin(), packed.end());
-  put(bytes, static_cast<std::uint16_t>(entries.size()));
-  for (const Entry& entry : entries) {
-    put(bytes, entry.tag);
-    put(bytes, entry.type);
-    put(bytes, std::uint32_t{1});
-    put(bytes, entry.value);
-  }
-  put(bytes, std::uint32_t{0});
-  return bytes;
-}
-
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images) {
   for (std::size_t n = 0; n < images.size(); ++n) {
     const BopImage& image = images[n];
@@ -95,12 +53,15 @@ void write_bop_samples(const std::string& directory, std::size_t scene, const st
     std::snprintf(key, sizeof key, "%06zu_%06zu.", scene, n);
     const std::string base = (std::filesystem::path(directory) / key).string();
     write_bytes(base + "depth.png", image.depth);
-    write_bytes(base + "gray.tiff", gray_tiff(image.gray_width, image.gray_height, image.gray));
+    write_bytes(base + "gray.tiff", gray_tiff(image.width, image.height, image.gray));
+    write_bytes(base + "truth_labels.png", png16(image.width, image.height, image.seen->seen_label()));
+    write_bytes(base + "truth_normal.png",
+                png8(image.width, image.height, 3, counted_normals(image.seen->seen_normal())));
     write_text(base + "camera.json", image.camera.dump());
     write_text(base + "gt.json", image.truth.dump());
     write_text(base + "gt_info.json", image.info.dump());
     write_text(base + "mask_visib.json", run_lengths_of(image.visible, image.width, image.height).dump());
-    if (!image.whole.empty())
+    if (image.whole.size() == image.ids.size())
       write_text(base + "mask.json", run_lengths_of(image.whole, image.width, image.height).dump());
   }
 }

@@ -1,5 +1,7 @@
 #include "output/bop_visibility.hpp"
 
+#include "bin_scenes/sensor/resolve.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,6 +112,42 @@ std::vector<float> distances(const std::vector<float>& depth, const Lens& lens) 
     for (int x = 0; x < lens.width; ++x, ++i)
       distance[i] = static_cast<float>(static_cast<double>(depth[i]) * norm_of_ray(lens, x, y));
   return distance;
+}
+
+BopVisibility true_visibility(const RangeImage& image, const std::vector<std::uint16_t>& counts, int id,
+                              const PixelBox& seen_box, const Mesh& mesh, const Pose& model_in_camera) {
+  BopVisibility seen;
+  const auto place = static_cast<std::size_t>(id);
+  seen.visible = image.visible.at(place);
+  seen.all = image.total.at(place);
+  seen.visible_mask = visible_mask(image, id, seen_box);
+  if (!image.silhouettes.empty()) seen.whole_mask = whole_mask(image.silhouettes.at(place));
+  Bounds all;
+  const MaskBox& whole = seen.whole_mask;
+  for (int y = whole.top, i = 0; y < whole.top + whole.height; ++y) {
+    for (int x = whole.left; x < whole.left + whole.width; ++x, ++i) {
+      if (!whole.inside[static_cast<std::size_t>(i)]) continue;
+      all.add(x, y);
+      seen.valid +=
+          counts[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)] > 0;
+    }
+  }
+  // What lies beside the image counts as well: rays of the image know nothing of it.
+  if (const std::optional<Alone> canvas = alone(mesh, model_in_camera, lens_of(image.sensor))) {
+    std::size_t i = 0;
+    for (int y = canvas->top; y < canvas->top + canvas->height; ++y) {
+      for (int x = canvas->left; x < canvas->left + canvas->width; ++x, ++i) {
+        if (canvas->depth[i] == 0.0f) continue;
+        all.add(x, y);
+        seen.all += x < 0 || y < 0 || x >= image.width || y >= image.height;
+      }
+    }
+  }
+  if (seen.visible > 0) {
+    seen.box = all.box();
+    seen.visible_box = {seen_box.left, seen_box.top, seen_box.right - seen_box.left, seen_box.bottom - seen_box.top};
+  }
+  return seen;
 }
 
 std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_in_camera, const Lens& lens,

@@ -1,9 +1,10 @@
-/// What BOP says of a part in an image, by the definitions of bop_toolkit's calc_gt_info: from the depth image as it is
-/// stored and the depth of the part alone.
+/// What BOP says of a part in an image, by the definitions of bop_toolkit's calc_gt_info. Which pixels show a part is
+/// told by the true image, or by the depth image as it is stored and the depth of the part alone.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
 #include "bin_scenes/sensor/lens.hpp"
+#include "output/boxes.hpp"
 #include "output/mask_png.hpp"
 
 #include <array>
@@ -18,6 +19,11 @@ struct BopVisibility {
   std::size_t all = 0, valid = 0, visible = 0;  ///< pixels; `all` also of what lies beside the image
   MaskBox whole_mask, visible_mask;
 };
+
+/// A pixel is visible if it truly shows the part, whether it was measured or not. No pixel shows two parts.
+/// `counts`: the depth image as it is stored. `seen_box`: of the part's pixels.
+BopVisibility true_visibility(const RangeImage& image, const std::vector<std::uint16_t>& counts, int id,
+                              const PixelBox& seen_box, const Mesh& mesh, const Pose& model_in_camera);
 
 /// A pixel is visible if the part lies no more than `tolerance` (m) behind the measured distance, or if nothing was
 /// measured there. `distance`: of each pixel from the camera (m), 0 = not measured. None if part of the mesh lies

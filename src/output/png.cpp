@@ -91,7 +91,6 @@ std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double
   return samples;
 }
 
-/// Three channels of 8 bits: n = value / 127.5 - 1; black where there is nothing.
 std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals) {
   std::vector<std::uint8_t> samples;
   samples.reserve(3 * normals.size());
@@ -114,7 +113,10 @@ void write_pngs(const std::string& directory, const RangeImage& image) {
                   ? depth
                   : png16(sensor.width, sensor.height, counted_depth(image.truth_depth, sensor.depth_scale)));
   write_bytes(base + "_truth_normal.png", png8(sensor.width, sensor.height, 3, counted_normals(image.seen_normal())));
-  write_bytes(base + "_labels.png", png16(sensor.width, sensor.height, image.seen_label()));
+  const Bytes labels = png16(image.width, image.height, image.label);
+  write_bytes(base + "_labels.png", labels);
+  write_bytes(base + "_truth_labels.png",
+              image.truth_label.empty() ? labels : png16(sensor.width, sensor.height, image.truth_label));
   write_bytes(base + "_validity.png", png8(image.width, image.height, 1, image.validity));
   write_bytes(base + ".png", png8(image.width, image.height, 3, shaded_picture(image)));
   write_bytes(base + "_depth_picture.png", png_of(depth_picture(image)));

@@ -27,6 +27,9 @@ Bytes png_of(const Palette& picture);
 /// Depth in counts of the sensor's depth_scale, 0 where nothing is valid, 65535 where it is that many or more.
 std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double scale);
 
+/// Three channels of 8 bits: n = value / 127.5 - 1; black where there is nothing.
+std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals);
+
 /// The scene as a picture, RGB: a colour a part, light from the upper left, edges and hollows darkened.
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image);
 /// Depth in colours, with a bar that tells them in metres.

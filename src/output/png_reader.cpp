@@ -30,9 +30,12 @@ void on_read_warning(png_structp, png_const_charp) {}
 
 }  // namespace
 
-PngImage load_png(const std::string& path) {
-  const std::string bytes = read_file(path);
-  std::string name = path;
+LoadedImage load_png(const std::string& path) {
+  return png_from(read_file(path), path);
+}
+
+LoadedImage png_from(const std::string& bytes, const std::string& where) {
+  std::string name = where;
   Source source{&bytes, 0};
   struct Reader {
     png_structp png = nullptr;
@@ -46,7 +49,7 @@ PngImage load_png(const std::string& path) {
   png_set_palette_to_rgb(reader.png);
   png_set_expand_gray_1_2_4_to_8(reader.png);
   png_read_update_info(reader.png, reader.info);
-  PngImage image;
+  LoadedImage image;
   image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
   image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   image.channels = png_get_channels(reader.png, reader.info);

@@ -7,12 +7,14 @@
 
 namespace bin_scenes {
 
-struct PngImage {
+struct LoadedImage {
   int width = 0, height = 0, channels = 1, bits = 8;
   std::vector<std::uint16_t> samples;  ///< row-major, channels of a pixel together
 };
 
 /// Grey and RGB of 8 or 16 bits; colours of a palette as RGB. Throws an input Error that names the path.
-PngImage load_png(const std::string& path);
+LoadedImage load_png(const std::string& path);
+/// The same of a file's bytes; `where` names them in errors.
+LoadedImage png_from(const std::string& bytes, const std::string& where);
 
 }  // namespace bin_scenes

@@ -1,130 +1,333 @@
 #include "bin_scenes/part/symmetry.hpp"
 
+#include "core/in_parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bin_scenes {
 
 namespace {
 
-constexpr double equal_moments = 0.02;    ///< relative difference up to which an axis between two is tried
-constexpr int directions_between = 48;    ///< of those that are tried over half a turn
-constexpr std::size_t most_points = 600;  ///< of the surface that are moved
-constexpr int highest_order = 12;         ///< of a discrete symmetry; from there on a part counts as round
+constexpr double equal_moments = 0.02;        ///< relative difference up to which an axis between two is tried
+constexpr int directions_between = 48;        ///< of those that are tried over half a turn
+constexpr std::size_t most_points = 600;      ///< of the surface that are moved at first
+constexpr std::size_t many_vertices = 10000;  ///< that leave no part of a surface without one
+constexpr std::size_t most_normals = 32;      ///< of faces, the largest ones
+constexpr std::size_t most_far = 16;          ///< vertices
+constexpr int highest_order = 100;            ///< of a discrete symmetry
+constexpr int highest_near = 12;              ///< order of what is told as nearly a symmetry
+constexpr double nearly = 3.0;                ///< times the limit
+constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Points all over the surface: vertices, and the middles of faces, since large faces have few vertices.
+/// Points all over the surface: vertices, and of meshes with few of them the middles of faces, since large faces have
+/// few vertices.
 std::vector<Vec3> surface_points(const Mesh& mesh) {
   std::vector<Vec3> points = mesh.vertices;
+  if (points.size() > many_vertices) return points;
   for (const Triangle& t : mesh.triangles)
     points.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0);
+  return points;
+}
+
+std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
   const std::size_t step = points.size() / most_points + 1;
   std::vector<Vec3> some;
   for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
   return some;
 }
 
+struct Axis {
+  Vec3 direction = Vec3::UnitZ();
+  int order = 1;       ///< 0: any angle
+  double error = 0.0;  ///< m
+};
+
 class Search {
  public:
   Search(const PartModel& part, double tolerance)
       : part_(part),
         center_(part.mass().center),
-        points_(surface_points(part.mesh())),
+        all_(surface_points(part.mesh())),
+        some_(some_of(all_)),
         limit_(tolerance * part.diagonal()) {}
 
-  bool symmetric(const Quat& turn) const {
-    return std::all_of(points_.begin(), points_.end(), [&](const Vec3& point) {
-      return part_.query().nearest(center_ + turn * (point - center_), limit_).distance <= limit_;
+  /// How far the turned surface lies from the surface (m), infinite beyond `cap`: by points all over it.
+  double error(const Quat& turn, double cap) const { return error(some_, turn, cap); }
+  /// The same by every point, so that no mark is missed; no more than the limit, or infinite.
+  double exact_error(const Quat& turn) const {
+    if (error(some_, turn, limit_) == none) return none;
+    constexpr std::size_t at_once = 2048;
+    std::vector<double> errors((all_.size() + at_once - 1) / at_once, 0.0);
+    in_parallel(errors.size(), [&](std::size_t i) {
+      const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(i * at_once);
+      const auto end = all_.begin() + static_cast<std::ptrdiff_t>(std::min(all_.size(), (i + 1) * at_once));
+      errors[i] = error(std::vector<Vec3>(begin, end), turn, limit_);
     });
+    return *std::max_element(errors.begin(), errors.end());
   }
-  /// The order of the axis: 0 = any angle, 1 = none.
-  int order(const Vec3& axis) const {
-    const auto turned = [&](double angle) { return symmetric(Quat(Eigen::AngleAxisd(angle, axis))); };
+
+  Axis examine(const Vec3& direction) const {
+    const auto turned = [&](double angle) { return Quat(Eigen::AngleAxisd(angle, direction)); };
     // Angles that no order up to the highest has in common: a part that passes all of them is round.
-    if (turned(1.0) && turned(0.37) && turned(2.3)) return 0;
-    for (int n = highest_order; n > 1; --n)
-      if (turned(2.0 * M_PI / n)) return n;
-    return 1;
+    double round = 0.0;
+    for (const double angle : {1.0, 0.37, 2.3})
+      if (round < none) round = std::max(round, exact_error(turned(angle)));
+    if (round < none) return {direction, 0, round};
+    for (int n = highest_order; n > 1; --n) {
+      // A small turn moves nothing far: the others of its order have to hold as well.
+      bool all = true;
+      for (int k = 1; k <= n / 2 && all; ++k) all = error(some_, turned(2.0 * M_PI * k / n), limit_) < none;
+      const double exact = all ? exact_error(turned(2.0 * M_PI / n)) : none;
+      if (exact < none) return {direction, n, exact};
+    }
+    return {direction, 1, 0.0};
   }
+
+  /// The highest order that the axis nearly has; order 1: none.
+  SymmetryReport::Nearly examine_nearly(const Vec3& direction) const {
+    const double cap = nearly * limit_;
+    const auto worst = [&](const std::vector<double>& angles) {
+      double error = 0.0;
+      for (const double angle : angles) {
+        if (error == none) break;
+        const Quat turn(Eigen::AngleAxisd(angle, direction));
+        if (this->error(some_, turn, cap) == none) return none;
+        error = std::max(error, this->error(all_, turn, cap));
+      }
+      return error;
+    };
+    const double round = worst({1.0, 0.37, 2.3});
+    if (round < none) return {direction, 0, round};
+    for (int n = highest_near; n > 1; --n) {
+      std::vector<double> angles;
+      for (int k = 1; k <= n / 2; ++k) angles.push_back(2.0 * M_PI * k / n);
+      const double error = worst(angles);
+      if (error < none) return {direction, n, error};
+    }
+    return {direction, 1, 0.0};
+  }
+
   Pose about_center(const Quat& turn) const { return {center_ - turn * center_, turn}; }
   const Vec3& center() const { return center_; }
+  double limit() const { return limit_; }
 
  private:
+  double error(const std::vector<Vec3>& points, const Quat& turn, double cap) const {
+    double worst = 0.0;
+    for (const Vec3& point : points) {
+      worst = std::max(worst, part_.query().nearest(center_ + turn * (point - center_), cap).distance);
+      if (!(worst <= cap)) return none;
+    }
+    return worst;
+  }
+
   const PartModel& part_;
   Vec3 center_;
-  std::vector<Vec3> points_;
+  std::vector<Vec3> all_, some_;
   double limit_;
 };
 
-/// Axes of inertia, and axes between two with equal moments: there the principal axes are no more special than others.
+/// Normals of the largest flat faces.
+std::vector<Vec3> large_normals(const Mesh& mesh) {
+  std::vector<std::pair<double, Vec3>> faces;  // area, normal
+  constexpr std::size_t most = 400;            // that are told apart
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 area = mesh.area_vector(t);
+    if (!(area.norm() > 0.0)) continue;
+    const Vec3 normal = area.normalized();
+    const auto known = std::find_if(faces.begin(), faces.end(),
+                                    [&](const auto& face) { return std::abs(face.second.dot(normal)) > 1.0 - 1e-7; });
+    if (known != faces.end())
+      known->first += area.norm();
+    else if (faces.size() < most)
+      faces.emplace_back(area.norm(), normal);
+  }
+  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Vec3> normals;
+  for (std::size_t i = 0; i < std::min(most_normals, faces.size()); ++i) normals.push_back(faces[i].second);
+  return normals;
+}
+
+/// Towards the vertices that lie farthest from an axis, and between any two of them: a half turn across the axis leaves
+/// one of them in its place, or exchanges two.
+std::vector<Vec3> far_directions(const Mesh& mesh, const Vec3& center, const Vec3& axis) {
+  std::vector<Vec3> arms;
+  for (const Vec3& vertex : mesh.vertices) arms.push_back((vertex - center) - axis * axis.dot(vertex - center));
+  const auto longer = [](const Vec3& a, const Vec3& b) { return a.squaredNorm() > b.squaredNorm(); };
+  const std::size_t count = std::min(arms.size(), most_far);
+  std::partial_sort(arms.begin(), arms.begin() + static_cast<std::ptrdiff_t>(count), arms.end(), longer);
+  arms.resize(count);
+  for (Vec3& arm : arms) arm.normalize();
+  std::vector<Vec3> directions = arms;
+  for (std::size_t i = 0; i < arms.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) directions.push_back((arms[i] + arms[j]).normalized());
+  return directions;
+}
+
+/// Axes of inertia; where two moments are equal the principal axes are no more special than others across the third,
+/// and the shape itself has to tell.
 std::vector<Vec3> candidates(const PartModel& part) {
   const Vec3 moments = part.mass().principal;
   const Mat3 axes = part.mass().principal_axes.toRotationMatrix();
-  std::vector<Vec3> all = {axes.col(0), axes.col(1), axes.col(2), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  std::vector<Vec3> all, guessed;
+  bool any = false;
   for (int i = 0; i < 3; ++i) {
     const int a = i, b = (i + 1) % 3;
     if (std::abs(moments[a] - moments[b]) > equal_moments * moments.maxCoeff()) continue;
+    any = true;
+    for (const Vec3& arm : far_directions(part.mesh(), part.mass().center, axes.col((i + 2) % 3))) all.push_back(arm);
     for (int k = 1; k < directions_between; ++k) {
       const double angle = M_PI * k / directions_between;
-      all.push_back(std::cos(angle) * axes.col(a) + std::sin(angle) * axes.col(b));
+      guessed.push_back(std::cos(angle) * axes.col(a) + std::sin(angle) * axes.col(b));
     }
   }
+  if (any)
+    for (const Vec3& normal : large_normals(part.mesh())) all.push_back(normal);
+  all.insert(all.begin(), {axes.col(0), axes.col(1), axes.col(2), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()});
+  all.insert(all.end(), guessed.begin(), guessed.end());
   std::vector<Vec3> distinct;
   for (const Vec3& axis : all) {
     const bool known = std::any_of(distinct.begin(), distinct.end(),
                                    [&](const Vec3& other) { return std::abs(axis.dot(other)) > 1.0 - 1e-6; });
-    if (!known) distinct.push_back(axis);
+    const bool somewhere = axis.norm() > 0.5;  // not so between opposite vertices
+    if (!known && somewhere) distinct.push_back(axis);
   }
   return distinct;
 }
 
-bool same(const Quat& a, const Quat& b) {
-  return std::abs(a.dot(b)) > 1.0 - 1e-4;
+double angle_between(const Quat& a, const Quat& b) {
+  return 2.0 * std::acos(std::min(1.0, std::abs(a.dot(b))));
 }
 
-/// All products of the rotations found: the group that they span.
-std::vector<Quat> closed(std::vector<Quat> turns) {
-  constexpr std::size_t largest_group = 60;  // of the icosahedron; more: rounding has run away
-  for (std::size_t i = 0; i < turns.size() && turns.size() <= largest_group; ++i) {
-    for (std::size_t j = 0; j <= i && turns.size() <= largest_group; ++j) {
-      for (const Quat& next : {(turns[i] * turns[j]).normalized(), (turns[j] * turns[i]).normalized()}) {
-        const bool known = same(next, Quat::Identity()) ||
-                           std::any_of(turns.begin(), turns.end(), [&](const Quat& q) { return same(q, next); });
-        if (!known) turns.push_back(next);
+/// The turns after which the part looks the same, without the identity.
+class Group {
+ public:
+  Group(const Search& search, double tolerance) : search_(search), one_angle_(std::max(0.02, 2.0 * tolerance)) {}
+
+  bool near(const Quat& turn, double angle) const {
+    return std::any_of(turns_.begin(), turns_.end(), [&](const Quat& q) { return angle_between(q, turn) < angle; });
+  }
+  /// With all products; nothing is added where one of them is no symmetry: then the axis stands beside the one that is
+  /// meant, by what the tolerance allows.
+  void add(const Axis& axis) {
+    std::vector<Quat> grown = turns_;
+    for (int k = 1; k < axis.order; ++k) {
+      const Quat turn(Eigen::AngleAxisd(2.0 * M_PI * k / axis.order, axis.direction));
+      if (!near(turn, one_angle_)) grown.push_back(turn);
+    }
+    if (grown.size() == turns_.size() || !close(grown)) return;
+    turns_ = grown;
+  }
+  const std::vector<Quat>& turns() const { return turns_; }
+
+ private:
+  bool close(std::vector<Quat>& turns) const {
+    constexpr std::size_t largest = 2 * highest_order;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        for (const Quat& next : {(turns[i] * turns[j]).normalized(), (turns[j] * turns[i]).normalized()}) {
+          const auto is_one = [&](const Quat& q) { return angle_between(q, next) < one_angle_; };
+          if (is_one(Quat::Identity()) || std::any_of(turns.begin(), turns.end(), is_one)) continue;
+          if (turns.size() >= largest || !holds(next)) return false;
+          turns.push_back(next);
+        }
       }
     }
+    return true;
   }
-  return turns;
+  /// A small turn moves nothing far: its multiples have to hold as well.
+  bool holds(const Quat& turn) const {
+    constexpr double no_longer_small = 0.6;  // rad
+    Quat power = turn;
+    for (int k = 0; k < highest_order; ++k) {
+      if (search_.error(power, search_.limit()) == none) return false;
+      if (angle_between(power, Quat::Identity()) > no_longer_small) return true;
+      power = (power * turn).normalized();
+    }
+    return false;
+  }
+
+  const Search& search_;
+  double one_angle_;  ///< rad: turns that differ by less are one
+  std::vector<Quat> turns_;
+};
+
+/// The best ones, away from what is a symmetry and from each other.
+void thin_out(std::vector<SymmetryReport::Nearly>& nearly, const std::vector<Axis>& axes, const Group& group) {
+  constexpr double apart = 0.5;  // rad
+  const auto turn_of = [](const SymmetryReport::Nearly& axis) {
+    return Quat(Eigen::AngleAxisd(axis.order == 0 ? 1.0 : 2.0 * M_PI / axis.order, axis.direction));
+  };
+  std::stable_sort(nearly.begin(), nearly.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  std::vector<SymmetryReport::Nearly> kept;
+  for (const SymmetryReport::Nearly& one : nearly) {
+    const bool round = std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) {
+      const double along = std::abs(axis.direction.dot(one.direction));
+      return axis.order == 0 && (along < 0.1 || along > 0.9);
+    });
+    const auto beside = [&](const auto& other) { return angle_between(turn_of(other), turn_of(one)) < apart; };
+    if (!round && !group.near(turn_of(one), apart) && std::none_of(kept.begin(), kept.end(), beside))
+      kept.push_back(one);
+  }
+  nearly = kept;
 }
 
 }  // namespace
 
-Symmetries find_symmetries(const PartModel& part, double tolerance) {
-  Symmetries found;
+SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
+  SymmetryReport report;
+  Symmetries& found = report.symmetries;
   const Search search(part, tolerance);
-  std::vector<Quat> turns;
-  for (const Vec3& axis : candidates(part)) {
-    const auto along = [&](const Symmetries::Axis& round) { return std::abs(round.direction.dot(axis)) > 0.999; };
-    if (std::any_of(found.continuous.begin(), found.continuous.end(), along)) continue;
-    const int order = search.order(axis);
-    if (order == 0) found.continuous.push_back({axis, search.center()});
-    for (int k = 1; k < order; ++k) {
-      const Quat turn(Eigen::AngleAxisd(2.0 * M_PI * k / order, axis));
-      if (std::none_of(turns.begin(), turns.end(), [&](const Quat& q) { return same(q, turn); })) turns.push_back(turn);
+  report.limit = search.limit();
+  std::vector<Axis> axes;
+  for (const Vec3& direction : candidates(part)) {
+    const auto along = [&](const auto& axis) { return std::abs(axis.direction.dot(direction)) > 0.999; };
+    const auto known = std::find_if(axes.begin(), axes.end(), along);
+    if (known != axes.end() && known->order == 0) continue;
+    const Axis axis = search.examine(direction);
+    if (known != axes.end()) {
+      // Of axes within the tolerance of each other one is meant: the more exact one.
+      constexpr double clearly = 0.9;
+      if (axis.order == 0 || (axis.order >= known->order && axis.error < clearly * known->error)) *known = axis;
+    } else if (axis.order != 1) {
+      axes.push_back(axis);
+      const auto round = [](const Axis& one) { return one.order == 0; };
+      if (std::count_if(axes.begin(), axes.end(), round) == 2) break;  // a ball, which two axes describe
+    } else if (std::none_of(report.nearly.begin(), report.nearly.end(), along)) {
+      const SymmetryReport::Nearly close = search.examine_nearly(direction);
+      if (close.order != 1) report.nearly.push_back(close);
     }
   }
+  std::stable_sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.order > b.order; });
+  Group group(search, tolerance);
+  for (const Axis& axis : axes) {
+    if (axis.order > 0) group.add(axis);
+    if (axis.order > 0) continue;
+    found.continuous.push_back({axis.direction, search.center()});
+    report.continuous_error.push_back(axis.error);
+  }
+  thin_out(report.nearly, axes, group);
+  std::vector<Quat> turns = group.turns();
   if (!found.continuous.empty()) {
     // Around a round axis one half turn across it says all: the others are that one, turned about the axis.
     const Vec3 axis = found.continuous[0].direction;
     const auto across = [&](const Quat& q) { return std::abs(q.vec().normalized().dot(axis)) < 0.05; };
     turns.erase(std::remove_if(turns.begin(), turns.end(), [&](const Quat& q) { return !across(q); }), turns.end());
     if (turns.size() > 1) turns.resize(1);
-  } else {
-    turns = closed(turns);
-    turns.erase(std::remove_if(turns.begin(), turns.end(), [&](const Quat& q) { return !search.symmetric(q); }),
-                turns.end());
   }
-  for (const Quat& turn : turns) found.discrete.push_back(search.about_center(turn));
-  return found;
+  for (const Quat& turn : turns) {
+    const double error = search.error(turn, search.limit());
+    if (error == none) continue;
+    found.discrete.push_back(search.about_center(turn));
+    report.discrete_error.push_back(error);
+  }
+  return report;
+}
+
+Symmetries find_symmetries(const PartModel& part, double tolerance) {
+  return examine_symmetries(part, tolerance).symmetries;
 }
 
 double diameter(const Mesh& mesh) {

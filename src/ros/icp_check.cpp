@@ -13,6 +13,7 @@
 #include <pcl/point_types.h>
 #include <pcl/registration/correspondence_rejection_surface_normal.h>
 #include <pcl/registration/icp.h>
+#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
 #include <pcl_conversions/pcl_conversions.h>
 #include <resource_retriever/retriever.h>
 #include <ros/ros.h>
@@ -23,7 +24,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -104,13 +107,32 @@ Cloud::Ptr sampled(const bin_scenes::Mesh& mesh) {
   return cloud;
 }
 
+/// PCL's step of ICP, which divides by zero where correspondences leave a motion open (few points, a round part), and
+/// whose search trees abort over what comes out. Such a step is none, and is remembered.
+struct SafeStep : pcl::registration::TransformationEstimationPointToPlaneLLS<pcl::PointNormal, pcl::PointNormal> {
+  using Base = pcl::registration::TransformationEstimationPointToPlaneLLS<pcl::PointNormal, pcl::PointNormal>;
+  using Base::estimateRigidTransformation;
+  mutable bool failed = false;
+
+  void estimateRigidTransformation(const Cloud& source, const Cloud& target,
+                                   const pcl::Correspondences& correspondences, Matrix4& step) const override {
+    Base::estimateRigidTransformation(source, target, correspondences, step);
+    constexpr float farthest = 1e3f;  // m
+    if (step.allFinite() && step.cwiseAbs().maxCoeff() < farthest) return;
+    step.setIdentity();
+    failed = true;
+  }
+};
+
 /// A model, and the ICP that brings points onto it.
 struct Model {
   Cloud::Ptr points;
   Icp icp;
+  const pcl::shared_ptr<SafeStep> step = pcl::make_shared<SafeStep>();
 
   explicit Model(const visualization_msgs::Marker& marker) : points(sampled(mesh_of(marker))) {
     icp.setInputTarget(points);
+    icp.setTransformationEstimation(step);
     icp.setMaximumIterations(rounds);
     icp.setMaxCorrespondenceDistance(reach);
     icp.setTransformationEpsilon(1e-12);
@@ -119,11 +141,13 @@ struct Model {
     icp.addCorrespondenceRejector(same_side);  // thin sheets have another surface close behind
   }
 
-  /// Pose of the model in the frame of the points; `guess` is where to begin.
-  Isometry3d pose(const Cloud::Ptr& segment, const Isometry3d& guess) {
+  /// Pose of the model in the frame of the points; `guess` is where to begin. None if ICP does not converge.
+  std::optional<Isometry3d> pose(const Cloud::Ptr& segment, const Isometry3d& guess) {
     icp.setInputSource(segment);
     Cloud moved;
+    step->failed = false;
     icp.align(moved, guess.inverse().matrix().cast<float>());
+    if (!icp.hasConverged() || step->failed) return std::nullopt;
     return Isometry3d(icp.getFinalTransformation().cast<double>()).inverse();
   }
 
@@ -181,42 +205,50 @@ class IcpCheck {
     pcl::fromROSMsg(message, cloud);     // no field needs another name
     std::map<int, Cloud::Ptr> segments;  // by part id
     for (const LabelledPoint& p : cloud) {
-      if (p.label == 0 || !std::isfinite(p.z)) continue;
+      if (p.label == 0 || !std::isfinite(p.z) || !std::isfinite(p.normal_x)) continue;
       Cloud::Ptr& segment = segments[static_cast<int>(p.label) - 1];
       if (!segment) segment = pcl::make_shared<Cloud>();
       segment->push_back(point(p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()));
     }
-    int checked = 0, agree = 0;
+    int checked = 0, agree = 0, lost = 0;
     for (const auto& [id, segment] : segments) {
       const auto marker = marker_of_.find(id);
       if (marker == marker_of_.end() || static_cast<int>(segment->size()) < least_points_) continue;
       try {
-        agree += check_part(marker->second, segment, message.header);
         ++checked;
+        const std::optional<double> apart = check_part(marker->second, segment, message.header);
+        lost += !apart;
+        agree += apart && *apart <= tolerance_;
       } catch (const std::exception& error) {
         ROS_ERROR("part %d: %s", id, error.what());
       }
     }
-    ROS_INFO("%d of %d parts with at least %d points agree with TF within %.2g mm", agree, checked, least_points_,
-             1e3 * tolerance_);
+    ROS_INFO("%d of %d parts with at least %d points agree with TF within %.2g mm, %d did not converge", agree, checked,
+             least_points_, 1e3 * tolerance_, lost);
   }
 
-  bool check_part(const visualization_msgs::Marker& marker, const Cloud::Ptr& segment, const std_msgs::Header& header) {
+  /// Distance of the surfaces (m); none if ICP did not converge.
+  std::optional<double> check_part(const visualization_msgs::Marker& marker, const Cloud::Ptr& segment,
+                                   const std_msgs::Header& header) {
     char frame[32];
     std::snprintf(frame, sizeof frame, "part_%04d", marker.id);
     // The cloud's own stamp: part frames are found there however late this is.
     const Isometry3d truth =
         pose_of(buffer_.lookupTransform(header.frame_id, frame, header.stamp, ros::Duration(1.0)).transform);
     Model& model = model_of(marker);
-    const Isometry3d found = model.pose(segment, displaced(truth));
-    const double apart = model.surfaces_apart(truth, found);
+    const std::optional<Isometry3d> found = model.pose(segment, displaced(truth));
+    if (!found) {
+      ROS_INFO("%s: %zu points, ICP did not converge", frame, segment->size());
+      return std::nullopt;
+    }
+    const double apart = model.surfaces_apart(truth, *found);
     ROS_INFO("%s: %zu points, the model's surface %.3f mm from that on TF", frame, segment->size(), 1e3 * apart);
     geometry_msgs::TransformStamped message;
     message.header = header;
     message.child_frame_id = std::string("icp_") + frame;
-    message.transform = transform_of(found);
+    message.transform = transform_of(*found);
     broadcaster_.sendTransform(message);
-    return apart <= tolerance_;
+    return apart;
   }
 
   ros::NodeHandle node_;
@@ -237,6 +269,7 @@ class IcpCheck {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "icp_check");
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // as roscpp does for SIGINT
   const IcpCheck check;
   ros::spin();
 }

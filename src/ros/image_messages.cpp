@@ -93,12 +93,12 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
   message.row_step = message.point_step * message.width;
   message.data.resize(std::size_t(message.row_step) * message.height);
   std::uint8_t* out = message.data.data();
-  const std::vector<std::array<float, 3>> points = points_of(image);
+  const std::vector<std::array<float, 3>> points = points_of(image), normals = normals_of(image, points);
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
       const std::size_t pixel = std::size_t(row) * image.width + column;
       const auto& p = points[pixel];
-      const auto n = normal_at(image, pixel);
+      const auto& n = normals[pixel];
       const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
       std::memcpy(out, &point, sizeof point);
       out += sizeof point;
@@ -137,7 +137,9 @@ sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Hea
   return plane(image.validity, image, sensor_msgs::image_encodings::MONO8, header);
 }
 
-sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header) {
+std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header) {
+  if (!of_camera(image)) return std::nullopt;
+  const Sensor& sensor = image.sensor;
   if (sensor.k.size() != 9) {
     throw input_error("the intrinsic matrix has " + std::to_string(sensor.k.size()) + " values",
                       "sensor " + sensor.name, "give the nine of a 3x3 matrix, or leave K out");
@@ -160,7 +162,7 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, co
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = sensor_frame(image.sensor.name, frame_prefix);
-  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image.sensor, header),
+  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image, header),
           label_message(image, header), validity_message(image, header)};
 }
 

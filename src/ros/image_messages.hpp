@@ -8,13 +8,15 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 
+#include <optional>
+
 namespace bin_scenes {
 
 /// What one sensor publishes of one scene.
 struct ImageMessages {
   sensor_msgs::PointCloud2 points;
   sensor_msgs::Image depth;
-  sensor_msgs::CameraInfo camera_info;
+  std::optional<sensor_msgs::CameraInfo> camera_info;
   sensor_msgs::Image labels;
   sensor_msgs::Image validity;
 };
@@ -34,8 +36,8 @@ sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8: codes of sensor/validity.hpp; as taken.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
-/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. Throws an input Error unless K
-/// has 9 values.
-sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header);
+/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. None of a laser_line, whose
+/// rows are profiles: no camera model describes them. Throws an input Error unless K has 9 values.
+std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header);
 
 }  // namespace bin_scenes

@@ -4,6 +4,7 @@
 #include "master_watch.hpp"
 #include "scene_server.hpp"
 
+#include <ros/init.h>
 #include <ros/names.h>
 #include <ros/ros.h>
 #include <sys/time.h>
@@ -52,7 +53,8 @@ void end_within_half_a_second() {
 int main(int argc, char** argv) {
   bin_scenes::keep_freed_memory();
   ros::init(argc, argv, "bin_scenes");
-  ros::NodeHandle node;  // the log topic works from here on
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // as roscpp does for SIGINT
+  ros::NodeHandle node;                                       // the log topic works from here on
   try {
     const auto running = servers();
     const bin_scenes::MasterWatch watch;

@@ -35,8 +35,14 @@ struct Publication::SensorTopics {
   LazyTopicOptions options(Publication& p, const char* name) const {
     return {p.node_, space + name, [&p] { p.show_images(); }, p.in_process_};
   }
-  static sensor_msgs::CameraInfo model(const RangeImage& image, const std_msgs::Header& header) {
-    return camera_info_message(image.sensor, header);
+  static std::optional<sensor_msgs::CameraInfo> model(const RangeImage& image, const std_msgs::Header& header) {
+    auto message = camera_info_message(image, header);
+    if (!message)
+      ROS_WARN_ONCE(
+          "no camera_info of sensor %s: the rows of a laser_line's image are profiles, which no camera model "
+          "describes; take its cloud",
+          image.sensor.name.c_str());
+    return message;
   }
   static std::function<sensor_msgs::PointCloud2(const RangeImage&, const std_msgs::Header&)> clouds(bool rgb) {
     return [rgb](const RangeImage& image, const std_msgs::Header& header) {

@@ -78,6 +78,9 @@ class Keys {
   void value(const char* key, const Value& value) {
     map_[key] = value;
   }
+  void section(const char* key, const Keys& section) {
+    if (section.map().size() > 0) map_[key] = section.map();
+  }
   const YAML::Node& map() const { return map_; }
   const std::string& path() const { return path_; }
 
@@ -116,6 +119,26 @@ Keys bin_keys(const msgs::Bin& bin) {
   return keys;
 }
 
+Keys surface_keys(const msgs::Surface& surface, const std::string& path) {
+  Keys keys(path);
+  keys.optional("albedo", surface.albedo);
+  keys.optional("gloss", surface.gloss);
+  keys.optional("roughness", surface.roughness);
+  return keys;
+}
+
+Keys motion_keys(const msgs::Motion& motion, const std::string& path) {
+  Keys keys(path);
+  if (!motion.times.empty()) keys.value("times", motion.times);
+  if (!motion.poses.empty()) keys.value("poses", values(motion.poses));
+  if (is_set(motion.shake)) keys.value("shake", values(motion.shake));
+  if (is_set(motion.tilt)) keys.value("tilt", values(motion.tilt));
+  if (is_set(motion.belt)) keys.value("belt", values(motion.belt));
+  keys.optional("frequency", motion.frequency);
+  keys.optional("seconds", motion.seconds);
+  return keys;
+}
+
 Keys part_keys(const msgs::PartLine& part, const std::string& path) {
   Keys keys(path);
   keys.text("model", part.model);
@@ -130,6 +153,8 @@ Keys part_keys(const msgs::PartLine& part, const std::string& path) {
   if (!part.poses.empty()) keys.value("poses", values(part.poses));
   if (!part.velocities.empty()) keys.value("velocities", values(part.velocities));
   if (part.fixed) keys.value("fixed", true);
+  keys.section("surface", surface_keys(part.surface, path + ".surface"));
+  keys.section("motion", motion_keys(part.motion, path + ".motion"));
   return keys;
 }
 

@@ -22,6 +22,19 @@ std::string joined(const std::vector<std::string>& texts) {
 
 }  // namespace
 
+const std::vector<std::string>& live_finishes() {
+  using Finish = Pour::Finish;
+  static const std::vector<std::string> all = {"request", name_of(Finish::settled), name_of(Finish::pressed),
+                                               name_of(Finish::probed)};
+  return all;
+}
+
+const std::vector<std::string>& live_solvers() {
+  static const std::vector<std::string> all = {"request", name_of(SolverType::automatic), name_of(SolverType::sphere),
+                                               name_of(SolverType::bullet)};
+  return all;
+}
+
 SceneJobs::SceneJobs(Publication& publication, const Settings& settings)
     : publication_(publication),
       settings_(settings),
@@ -67,12 +80,12 @@ std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& re
 
 std::shared_ptr<Job> SceneJobs::next(Answer answer) {
   const auto make = [this](const RunHooks& hooks) -> MadeScene {
-    if (!maker_->has_scene() || maker_->request().parts.empty()) {  // none yet, or cleared
+    if (!maker_->has_scene()) {
       throw input_error("there is no scene, so that nobody knows what comes next", "next_scene",
                         "make one first: generate, generate_scene, ~request");
     }
     if (ahead_) return ahead_->take(hooks);
-    Request request = maker_->request();
+    Request request = maker_->asked();
     ++request.first;
     return maker_->pour(request, hooks);
   };
@@ -134,6 +147,7 @@ Outcome SceneJobs::show(MadeScene made) {
   MadeScene kept;  // what the maker has to know, while the topics take the rest
   kept.heap = made.heap;
   kept.request = made.request;
+  kept.asked = made.asked;
   kept.bin_model = made.bin_model;
   kept.scene.seed = made.scene.seed;
   kept.scene.index = made.scene.index;
@@ -145,7 +159,7 @@ Outcome SceneJobs::show(MadeScene made) {
   Outcome outcome;
   outcome.scene = publication_.show(std::move(made));
   maker_->keep(kept);
-  if (ahead_) ahead_->follow(kept.request, kept.scene.index);
+  if (ahead_) ahead_->follow(kept.asked, kept.scene.index);
   outcome.success = report.accepted;
   if (!report.accepted) {
     outcome.error_code = Code::SET_APART;

@@ -21,6 +21,9 @@ struct LiveSettings {
   std::string solver;  ///< solver.type
   bool noise = true;   ///< false: every random effect of the sensors is off
 };
+/// What `finish` and `solver` may be, "request" first: as the request says.
+const std::vector<std::string>& live_finishes();
+const std::vector<std::string>& live_solvers();
 
 class SceneJobs {
  public:

@@ -15,6 +15,7 @@ MadeScene SceneMaker::pour(const Request& request, const RunHooks& hooks) {
   }
   MadeScene made = settled(heap, hooks);
   made.scene.report.profile.merge(loading);
+  made.asked = request;
   return made;
 }
 
@@ -22,6 +23,7 @@ void SceneMaker::keep(const MadeScene& made) {
   heap_ = made.heap;
   has_scene_ = true;
   request_ = made.request;
+  asked_ = made.asked;
   bin_model_ = made.bin_model;
   last_.seed = made.scene.seed;
   last_.index = made.scene.index;
@@ -47,7 +49,9 @@ MadeScene SceneMaker::add(const std::vector<PartLine>& lines, const RunHooks& ho
     anew.parts = lines;
     anew.pour.scene.clear();
     if (anew.pour.pattern == Pour::Pattern::given) anew.pour.pattern = Pour::Pattern::rain;
-    return pour(anew, hooks);
+    MadeScene made = pour(anew, hooks);
+    made.asked = asked_;
+    return made;
   }
   heap_->add(generator_.new_parts(*heap_, lines, hooks));
   return settled(heap_, hooks);
@@ -68,6 +72,7 @@ MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks&
   made.scene = std::move(result.scene);
   made.images.resize(made.scene.sensors.size());
   made.request = heap->request();
+  made.asked = asked_;
   made.parts = heap->parts();
   made.bin_model = heap->bin_model();
   made.heap = heap;
@@ -79,6 +84,7 @@ MadeScene SceneMaker::emptied() const {
   empty.scene = last_;
   empty.scene.report.at_rest = empty.scene.report.accepted = true;
   empty.request = request_;
+  empty.asked = asked_;
   empty.request.parts.clear();
   empty.bin_model = bin_model_;
   empty.images.resize(empty.scene.sensors.size());

@@ -15,6 +15,7 @@ struct MadeScene {
   std::vector<PartModelPtr> parts;  ///< models, by part line
   PartModelPtr bin_model;
   std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody looks (Publication::look)
+  Request asked;                   ///< what was poured first: next_scene follows it, whatever was added since
   std::shared_ptr<Heap> heap;      ///< that it is a snapshot of; null: the bin was emptied
 };
 
@@ -42,7 +43,8 @@ class SceneMaker {
   MadeScene emptied() const;
 
   bool has_scene() const { return has_scene_; }
-  const Request& request() const { return request_; }
+  /// What was poured, with the index of the scene; the heap has changed since, perhaps.
+  const Request& asked() const { return asked_; }
 
  private:
   MadeScene settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks);
@@ -52,6 +54,7 @@ class SceneMaker {
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
   Request request_;  ///< of the scene that is kept
+  Request asked_;    ///< likewise: MadeScene::asked
   Scene last_;       ///< without parts: seed, index, sensors
   PartModelPtr bin_model_;
 };

@@ -1,6 +1,7 @@
 #include "settings.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "scene_jobs.hpp"
 
 #include <ros/package.h>
 
@@ -36,6 +37,15 @@ class Reader {
     if (value < lower || value > upper) {
       throw refusal(name, "is " + std::to_string(value), "give " + text(lower) + " to " + text(upper));
     }
+  }
+  /// One of several words; the first if the parameter is not set.
+  std::string read_choice(const std::string& name, const std::vector<std::string>& words) const {
+    std::string list, word = words.at(0);
+    for (const std::string& one : words) list += (list.empty() ? "" : ", ") + one;
+    read(name, word, list.c_str());
+    if (std::find(words.begin(), words.end(), word) == words.end())
+      throw refusal(name, "is '" + word + "'", "give one of " + list);
+    return word;
   }
   Error refusal(const std::string& name, const std::string& problem, const std::string& remedy) const {
     return input_error(problem, "parameter " + params_.resolveName(name), remedy);
@@ -103,10 +113,13 @@ Settings read_settings(const ros::NodeHandle& params, const std::string& frame_p
   reader.read("queue_size", s.queue_size, 1, 1000);
   reader.read("scenes_ahead", s.scenes_ahead, 0, 100);
   reader.read("rgb", s.rgb, "true or false");
-  std::string goals = "queue";
-  reader.read("goals", goals, "queue or preempt");
-  if (goals != "queue" && goals != "preempt") throw reader.refusal("goals", "is '" + goals + "'", "give queue or preempt");
-  s.preempt = goals == "preempt";
+  s.preempt = reader.read_choice("goals", {"queue", "preempt"}) == "preempt";
+
+  // These are served by dynamic_reconfigure, which takes any text and is silent about another type.
+  reader.read_choice("finish", live_finishes());
+  reader.read_choice("solver", live_solvers());
+  bool noise = true;
+  reader.read("noise", noise, "true or false");
 
   const std::string package = ros::package::getPath("bin_scenes");
   s.paths.roots = {(package.empty() ? std::string(".") : package) + "/models"};

@@ -30,6 +30,13 @@ struct InspectOptions {
 };
 int inspect(const InspectOptions& options);
 
+struct SymmetriesOptions {
+  std::string model, unit;
+  std::optional<double> tolerance_mm;  ///< none: a hundredth of the part's size
+  bool json = false;
+};
+int symmetries(const SymmetriesOptions& options);
+
 struct SensorOptions {
   std::string sensor;  ///< name of a preset, or a file of sensor keys
   std::string plot;    ///< SVG file; empty = none

@@ -59,8 +59,11 @@ std::string duration(double seconds) {
 class Teller {
  public:
   explicit Teller(bool json) : json_(json), terminal_(isatty(STDERR_FILENO) == 1) {}
-  ~Teller() {
-    if (shown_) std::fputs("\r\033[K", stderr);
+  ~Teller() { clear(); }
+
+  void warn(const std::string& text) {
+    clear();
+    std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str());
   }
 
   void tell(const RunProgress& p, bool last = false) {
@@ -91,6 +94,11 @@ class Teller {
   }
 
  private:
+  void clear() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+
   bool json_, terminal_, shown_ = false, told_ = false;
   std::chrono::steady_clock::time_point time_;
 };
@@ -107,16 +115,19 @@ int dataset(const DatasetOptions& options) {
   for (const std::string& note : plan.notes) std::fprintf(stderr, "bin_scenes: note: %s\n", note.c_str());
   listen();
   run.stop = &interrupted;
-  run.warn = [](const std::string& text) { std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str()); };
   RunProgress end;
   {
     Teller teller(options.json_progress);
+    run.warn = [&](const std::string& text) { teller.warn(text); };
     run.progress = [&](const RunProgress& progress) { teller.tell(progress); };
     end = run_dataset(plan, options.out, run);
     teller.tell(end, true);
   }
   if (!options.json_progress)
     std::printf("%zu scenes in %s; %zu attempts set apart\n", end.accepted, options.out.c_str(), end.rejected);
+  if (end.not_poured > 0)
+    std::fprintf(stderr, "bin_scenes: warning: %zu of %zu parts found no room: ask for fewer, or enlarge the bin\n",
+                 end.not_poured, end.asked_for);
   if (end.failed == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n",
                end.failed, end.heaps, plan.attempts, options.out.c_str());

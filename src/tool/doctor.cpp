@@ -120,8 +120,6 @@ void report_ros() {
        "for bags and the node, install ros-core and build with -DBIN_SCENES_ROS=ON");
   std::printf("%-9s      ROS_DISTRO %s, ROS_PACKAGE_PATH %s\n", "", distribution ? distribution : "not set",
               packages ? packages : "not set (package:// paths will not be found)");
-  line("pcl", pcd_supported(), pcd_supported() ? "built in: point clouds as PCD" : "not in this build",
-       "for PCD, install libpcl-dev and build with -DBIN_SCENES_PCL=ON");
 }
 
 void report_cache() {

@@ -1,6 +1,7 @@
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
@@ -9,6 +10,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -106,6 +108,12 @@ int generate(const GenerateOptions& options) {
   if (store.needs_sensors() && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
                       "add `sensors: [{name: camera}]`, or ask for --formats json,bag alone");
+  }
+  if (std::find(options.formats.begin(), options.formats.end(), "bop") != options.formats.end()) {
+    for (const Sensor& sensor : request.sensors) {
+      const std::string why = bop_misfit(sensor);
+      if (!why.empty()) throw input_error(why, "sensors: " + sensor.name, bop_misfit_remedy);
+    }
   }
   if (!options.trace.empty() && request.scenes != 1) {
     throw input_error("a trace holds one scene, but " + std::to_string(request.scenes) + " are asked for", "--trace",

@@ -30,7 +30,7 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--scenes", o.scenes, "number of scenes");
   app.add_option("--first", o.first, "index of the first scene, to split a job");
   app.add_option("--solver", o.solver, "auto, sphere or bullet");
-  app.add_option("--formats", o.formats, "of json, pcd, png, bop, bag; scene.json is always written")->delimiter(',');
+  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
   app.add_option("--trace", o.trace, "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
@@ -67,6 +67,14 @@ int run(int argc, char** argv) {
   inspect_app->add_option("--hulls", inspect_options.hulls,
                           "OBJ file to write the convex hulls to, an object each (m)");
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
+
+  SymmetriesOptions symmetries_options;
+  CLI::App* symmetries_app = app.add_subcommand("symmetries", "turns after which a part looks the same, as BOP lists them");
+  symmetries_app->add_option("PART", symmetries_options.model, "mesh file")->required();
+  symmetries_app->add_option("--unit", symmetries_options.unit, "unit of the file: m, cm, mm or inch");
+  symmetries_app->add_option("--tolerance", symmetries_options.tolerance_mm,
+                             "mm that surfaces may lie apart; left out: a hundredth of the part's size");
+  symmetries_app->add_flag("--json", symmetries_options.json, "as JSON");
 
   SensorOptions sensor_options;
   CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
@@ -119,6 +127,7 @@ int run(int argc, char** argv) {
   }
   if (generate_app->parsed()) return generate(generate_options);
   if (inspect_app->parsed()) return inspect(inspect_options);
+  if (symmetries_app->parsed()) return symmetries(symmetries_options);
   if (sensor_app->parsed()) return sensor(sensor_options);
   if (verify_app->parsed()) return dataset_verify(verify_options);
   if (merge_app->parsed()) return dataset_merge(merge_options);

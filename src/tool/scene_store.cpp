@@ -51,7 +51,7 @@ SceneStore::SceneStore(const std::string& directory, const std::vector<std::stri
 }
 
 bool SceneStore::needs_sensors() const {
-  return wants("pcd") || wants("png") || wants("bop");
+  return wants("pcd") || wants("ply") || wants("png") || wants("bop");
 }
 bool SceneStore::needs_images() const {
   return needs_sensors() || wants("bag");
@@ -79,6 +79,7 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
   if (wants("bag") && !there(base / "scene.bag")) return false;
   for (const Sensor& sensor : request.sensors) {
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
+    if (wants("ply") && !there(base / (sensor.name + ".ply"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
   }
   const fs::path bop = bop_folder(index, accepted);

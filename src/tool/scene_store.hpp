@@ -1,6 +1,6 @@
 /// The directory of a job: one folder a scene, which appears under its name only when it is whole.
 ///
-///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>*.png, scene.bag
+///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it

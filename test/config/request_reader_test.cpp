@@ -169,6 +169,13 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.memory_budget, 1e9);
 }
 
+TEST_F(ConfigTest, TheReferenceTellsTheLeastThatIsTaken) {
+  for (const config::Entry& entry : config::reference()) {
+    if (entry.path != "parts[].count" && entry.path != "scenes") continue;
+    EXPECT_EQ(entry.kind, "whole number, 1 or more") << entry.path;
+  }
+}
+
 TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
   const Request all = read(everything);
   const std::string written = write_request(all);

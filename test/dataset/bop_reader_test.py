@@ -12,9 +12,10 @@ import numpy as np
 
 import data_set
 from data_set import BAR, BOX, DataSetTest, ROOT
-from bin_scenes_data import Shards, read_png
+from bin_scenes_data import Shards, read_png, read_tiff
 
-TOLERANCE = 0.0015  # m, the default of a plan
+TOLERANCE = 0.0015  # m, the default of a plan with visible: measured
+MEASURED = "bop: {visible: measured}"
 
 
 def ray_depth(size, pose, rays):
@@ -30,10 +31,15 @@ def ray_depth(size, pose, rays):
 class Bop(DataSetTest):
     def setUp(self):
         super().setUp()
-        self.make(self.plan(scenes=4), "out")
         self.out = self.folder / "out"
 
-    def images(self):
+    def images(self, more="", noisy=False):
+        plan = self.plan(scenes=4, more=more)
+        if noisy:
+            path = self.folder / plan
+            path.write_text(path.read_text().replace("    - {name: camera, width: 96, height: 72}", """    - {name: camera, model: structured_light, width: 96,
+       height: 72, fov: 0.6, projector: {baseline: 0.15, fov: 0.8}}"""))
+        self.make(plan, "out")
         for scene in sorted((self.out / "bop/train").iterdir()):
             files = {name: json.loads((scene / (name + ".json")).read_text())
                      for name in ("scene_gt", "scene_gt_info", "scene_camera")}
@@ -42,7 +48,7 @@ class Bop(DataSetTest):
 
     def test_counts_boxes_and_fractions_agree_with_rays_of_our_own(self):
         compared = 0
-        for scene, key, truth, infos, camera in self.images():
+        for scene, key, truth, infos, camera in self.images(MEASURED):
             counts = read_png((scene / "depth" / ("%06d.png" % key)).read_bytes())
             k = np.array(camera["cam_K"]).reshape(3, 3)
             height, width = counts.shape
@@ -72,14 +78,52 @@ class Bop(DataSetTest):
                     compared += 1
         self.assertGreater(compared, 20)
 
+    def masks(self, scene, kind, key, parts):
+        return [read_png((scene / kind / ("%06d_%06d.png" % (key, i))).read_bytes()) > 0 for i in range(parts)]
+
+    def test_visible_is_what_is_truly_seen_whatever_the_sensor_measures(self):
+        missing = 0
+        for scene, key, truth, infos, _ in self.images(noisy=True):
+            folder = self.out / ("scenes/scene_" + scene.name)
+            name = ("camera", "side")[key]
+            labels = read_png((folder / (name + "_truth_labels.png")).read_bytes())
+            missing += (read_png((folder / (name + "_depth.png")).read_bytes()) == 0).sum()
+            seen, whole = (self.masks(scene, kind, key, len(truth)) for kind in ("mask_visib", "mask"))
+            for part, info, visible, alone in zip(truth, infos, seen, whole):
+                np.testing.assert_array_equal(visible, labels == part["id"] + 1)
+                self.assertFalse((visible & ~alone).any())
+                self.assertEqual(info["px_count_visib"], visible.sum())
+                self.assertGreaterEqual(info["px_count_all"], alone.sum())
+                if visible.any():
+                    rows, columns = visible.nonzero()
+                    self.assertEqual(info["bbox_visib"], [columns.min(), rows.min(), np.ptp(columns), np.ptp(rows)])
+            self.assertLessEqual(np.sum(seen, 0).max(initial=0), 1)
+        self.assertGreater(missing, 100, "the sensor misses something")
+        self.assertEqual(json.loads((self.out / "dataset.json").read_text())["bop_visible"], "truth")
+
+    def test_visible_by_what_was_measured_is_had_by_a_key(self):
+        several = sum((np.sum(self.masks(scene, "mask_visib", key, len(truth)), 0) > 1).sum()
+                      for scene, key, truth, _, _ in self.images(MEASURED, noisy=True))
+        self.assertGreater(several, 0, "where nothing is measured, every part counts as visible")
+        facts = json.loads((self.out / "dataset.json").read_text())
+        self.assertEqual((facts["bop_visible"], facts["bop_tolerance_m"]), ("measured", TOLERANCE))
+
     def test_shards_hold_what_the_folders_hold(self):
-        shards = Shards(self.out)
-        self.assertEqual(len(shards), 8)
-        for scene, key, truth, infos, camera in self.images():
+        for scene, key, truth, infos, camera in self.images(noisy=True):
+            shards = Shards(self.out)
+            self.assertEqual(len(shards), 8)
             sample = shards["%s_%06d" % (scene.name, key)]
             name = "%06d.png" % key
             self.assertEqual(sample.raw("depth.png"), (scene / "depth" / name).read_bytes())
-            np.testing.assert_array_equal(sample.gray, read_png((scene / "gray" / name).read_bytes()))
+            np.testing.assert_array_equal(sample.gray, read_tiff((scene / "gray" / ("%06d.tiff" % key)).read_bytes()))
+            truth_png = self.out / ("scenes/scene_%s/%s_truth_" % (scene.name, ("camera", "side")[key]))
+            np.testing.assert_array_equal(sample.labels, read_png(truth_png.with_name(truth_png.name + "labels.png").read_bytes()))
+            normals = read_png(truth_png.with_name(truth_png.name + "normal.png").read_bytes())
+            there = normals.any(-1)
+            np.testing.assert_array_equal(np.isfinite(sample.normals).all(-1), there)
+            np.testing.assert_allclose(sample.normals[there], normals[there] / 127.5 - 1, atol=1e-6)
+            self.assertLess(abs(np.linalg.norm(sample.normals[there], axis=-1) - 1).max(), 0.01)
+            np.testing.assert_array_equal(sample.ids, [part["id"] for part in truth])
             self.assertEqual(sample.info, infos)
             self.assertEqual(sample.objects.tolist(), [part["obj_id"] for part in truth])
             self.assertEqual(sample.camera_matrix.ravel().tolist(), camera["cam_K"])
@@ -89,6 +133,7 @@ class Bop(DataSetTest):
                     np.testing.assert_array_equal(mask, png > 0)
 
     def test_symmetries_and_diameters_are_those_of_boxes(self):
+        list(self.images())
         info = json.loads((self.out / "bop/models/models_info.json").read_text())
         for number, size, others in ((1, BOX, 3), (2, BAR, 7)):  # a box; a bar with a square end
             self.assertAlmostEqual(info[str(number)]["diameter"], 1e3 * np.linalg.norm(size), places=3)
@@ -96,12 +141,14 @@ class Bop(DataSetTest):
             self.assertNotIn("symmetries_continuous", info[str(number)])
 
     def test_the_example_shows_a_batch(self):
+        list(self.images())
         done = subprocess.run([sys.executable, ROOT / "python/examples/show_batch.py", self.out, "--size", "3"],
                               capture_output=True, text=True, env={"PYTHONPATH": str(ROOT / "python")})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len(done.stdout.splitlines()), 3)
 
     def test_samples_come_in_order_and_at_random(self):
+        list(self.images())
         shards = Shards(self.out)
         self.assertEqual([sample.key for sample in shards], shards.keys)
         self.assertEqual(shards[-1].key, shards.keys[-1])

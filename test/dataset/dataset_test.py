@@ -55,7 +55,7 @@ draw:
 
     def test_a_folder_of_another_plan_or_of_something_else_is_refused(self):
         self.make(self.plan(scenes=1, outputs="json"), "out")
-        other = self.plan(scenes=2, outputs="json", name="other.yaml")
+        other = self.plan(scenes=1, outputs="json", draw="  parts[1].friction: {uniform: [0.3, 0.7]}", name="other.yaml")
         self.assertIn("another plan", self.make(other, "out", code=2).stderr)
         facts = self.folder / "out/dataset.json"
         facts.write_text(facts.read_text().replace('"version": "', '"version": "9.'))
@@ -90,6 +90,19 @@ draw:
             self.assertEqual(len([t for t in lines if "bad.yaml:%d: " % line in t and words in t]), 1, "\n".join(lines))
         lines = self.errors("scenes: 2\noutputs: [shards]\nrequest: {parts: [{model: box.stl, count: 1}], sensors: [%s]}\n" % other)
         self.assertIn("laser_line", lines[0])
+        bent = "{name: a, width: 32, height: 24, distortion: [-0.1, 0, 0, 0, 0]}"
+        text = "scenes: 2\noutputs: [%s]\nrequest: {parts: [{model: box.stl, count: 1}], sensors: [%s]}\ndraw: {%s}\n"
+        draw = "'sensors[0].distortion': {choice: [[0, 0, 0, 0, 0], [-0.1, 0, 0, 0, 0]]}"
+        for plan in (text % ("bop", bent, ""), text % ("shards", bent, ""), text % ("shards", one, draw)):
+            lines = self.errors(plan)
+            self.assertEqual(len([t for t in lines if "distort" in t]), 1, "\n".join(lines))
+
+    def test_a_mistyped_distribution_is_answered_with_those_there_are(self):
+        text = "scenes: 2\nrequest: {parts: [{model: box.stl, count: 1}]}\ndraw: {'parts[0].friction': {%s: [0.3, 0.6]}}\n"
+        self.assertRegex(self.errors(text % "unifrom")[0], "'unifrom'.*uniform.*normal.*choice")
+        self.assertRegex(self.errors(text % "between")[0], "found a map.*uniform.*normal.*choice")
+        (self.folder / "bad.yaml").write_text("scenes: 1\nrequest: {parts: [{model: box.stl}]}\namount: {parts: {unifrom: [2, 3]}}\n")
+        self.assertRegex(self.make("bad.yaml", "out", code=2).stderr, "'unifrom'.*uniform")
 
     def test_a_disk_that_is_too_small_is_told_before_the_first_scene(self):
         # A billion scenes: what is looked through before is what is there, not what is asked for.

@@ -68,11 +68,11 @@ class Report(DataSetTest):
                               "from heaps where heap = 1", [(i,) for i in range(2, 10_000)])
             index.executemany("insert into scenes select ?, ?, state, verdict, path, sha256, summary from scenes where scene = 1",
                               [(i, i) for i in range(2, 10_000)])
-        picture = self.folder / "out/bop/train/000001/gray/000000.png"
+        picture = self.folder / "out/bop/train/000001/gray/000000.tiff"
         for scene in range(2, 10_000):
             folder = self.folder / ("out/bop/train/%06d/gray" % scene)
             folder.mkdir(parents=True)
-            os.link(picture, folder / "000000.png")
+            os.link(picture, folder / "000000.tiff")
         self.run_tool("report", "out")
         self.assertLess((self.folder / "out/report.html").stat().st_size, 5_000_000)
         dom = self.browse("--dump-dom").stdout

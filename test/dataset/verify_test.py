@@ -5,6 +5,7 @@ sound data set.
     verify_test.py TOOL
 """
 import json
+import re
 import shutil
 import sqlite3
 
@@ -70,15 +71,46 @@ def rename_key(root):
     path.write_bytes(path.read_bytes().replace(b"000001_000001.", b"000010_000001."))
 
 
-def longer_run(root):
-    """One pixel more in a run of a mask: bytes of the tar in place, same length."""
-    path = root / "shards/shard-000000.tar"
-    offset, size = json.loads(path.with_suffix(".json").read_text())["000001_000000"]["mask_visib.json"]
-    data = bytearray(path.read_bytes())
-    text = data[offset:offset + size]
+def change_in_shard(name, change):
+    """Changes bytes of a file of image 000001_000000 in place: its length stays."""
+    def corrupt(root):
+        path = root / "shards/shard-000000.tar"
+        offset, size = json.loads(path.with_suffix(".json").read_text())["000001_000000"][name]
+        data = bytearray(path.read_bytes())
+        text = data[offset:offset + size]
+        change(text)
+        data[offset:offset + size] = text
+        path.write_bytes(data)
+    return corrupt
+
+
+def longer_run(text):
+    """One pixel more in a run of a mask."""
     at = text.index(b'"counts":[') + 10
-    data[offset + at] = ord("8") if text[at] != ord("8") else ord("7")
-    path.write_bytes(data)
+    text[at] = ord("8") if text[at] != ord("8") else ord("7")
+
+
+def shifted_run(text):
+    """A pixel more before the first run of ones and one less behind it: counts stay, places do not."""
+    found = max(re.finditer(rb'"counts":\[(\d+),(\d+),(\d+)', text), key=lambda match: int(match[2]))
+    for group, step in ((1, 1), (3, -1)):
+        begin, end = found.span(group)
+        changed = str(int(found[group]) + step).encode()
+        assert len(changed) == end - begin
+        text[begin:end] = changed
+
+
+def flip_png(text):
+    """A bit of the packed image, so that it no longer unpacks to the same."""
+    text[len(text) // 2] ^= 1
+
+
+def overlap(root):
+    """A part is said to be visible where another one is: its mask becomes the union of both."""
+    folder = root / BOP / "mask_visib"
+    infos = json.loads((root / BOP / "scene_gt_info.json").read_text())["0"]
+    first, second = [i for i, info in enumerate(infos) if info["px_count_visib"] > 20][:2]
+    shutil.copy(folder / ("000000_%06d.png" % first), folder / ("000000_%06d.png" % second))
 
 
 def visible_of(infos):
@@ -120,12 +152,13 @@ CORRUPTIONS = [
     ("fraction_range", scene(lambda s: s["parts"][0]["visible_fraction"].update(camera=1.2))),
     ("truth_counts", scene(lambda s: s["sensors"][0]["truth"][0].update(visible_fraction=0.123))),
     ("truth_boxes", scene(lambda s: s["sensors"][0]["truth"][0].update(bbox_visib=[90, 70, 20, 20]))),
-    ("image_size", replace(SCENE + "camera_labels.png", SCENE + "side_labels.png")),
-    ("label_range", replace(SCENE + "camera_labels.png", SCENE + "camera_depth.png")),
-    ("label_counts", replace(SCENE + "camera_labels.png", "scenes/scene_000000/camera_labels.png")),
+    ("image_size", replace(SCENE + "camera_truth_labels.png", SCENE + "side_truth_labels.png")),
+    ("label_range", replace(SCENE + "camera_truth_labels.png", SCENE + "camera_depth.png")),
+    ("label_counts", replace(SCENE + "camera_truth_labels.png", "scenes/scene_000000/camera_truth_labels.png")),
     ("label_boxes", scene(lambda s: s["sensors"][0]["truth"][0].update(bbox_visib=[0, 0, 2, 2]))),
     ("depth_range", scene(lambda s: s["sensors"][0].update(far=0.1))),
-    ("validity_codes", replace(SCENE + "camera_validity.png", BOP + "gray/000000.png")),
+    ("validity_codes", replace(SCENE + "camera_validity.png", BOP + "mask/000000_000000.png")),
+    ("label_measured", replace(SCENE + "camera_labels.png", SCENE + "camera_depth.png")),
     ("bop_json", put(BOP + "scene_gt.json", "[")),
     ("bop_parts", bop("scene_gt", lambda gt: gt.pop())),
     ("bop_rotation", bop("scene_gt", lambda gt: gt[0].update(cam_R_m2c=[-x for x in gt[0]["cam_R_m2c"]]))),
@@ -144,7 +177,13 @@ CORRUPTIONS = [
     ("shard_keys", swap_keys),
     ("shard_complete", rename_key),
     ("shard_offsets", put("shards/shard-000000.json", "{}")),
-    ("shard_masks", longer_run),
+    ("shard_masks", change_in_shard("mask_visib.json", longer_run)),
+    ("shard_size", lambda root: edit_json(root / "dataset.json", lambda facts: facts.update(shard_size=2))),
+    ("shard_labels", change_in_shard("mask_visib.json", shifted_run)),
+    ("shard_images", change_in_shard("truth_normal.png", flip_png)),
+    ("bop_pinhole", scene(lambda s: s["sensors"][0].update(distortion=[0.1, 0, 0, 0, 0]))),
+    ("bop_disjoint", overlap),
+    ("bop_labels", replace(BOP + "mask_visib/000000_000000.png", BOP + "mask_visib/000000_000001.png")),
 ]
 
 
@@ -163,7 +202,7 @@ class Verify(DataSetTest):
                 corrupt(broken)
                 found = self.run_tool("dataset", "verify", "broken", code=1).stdout
                 self.assertIn("\n" + check + ": ", "\n" + found)
-        self.assertEqual(sorted(set(names) - {check for check, _ in CORRUPTIONS}), ["shard_size"])
+        self.assertEqual(sorted(set(names) - {check for check, _ in CORRUPTIONS}), [])
 
     def test_a_share_is_judged_by_what_belongs_to_it(self):
         plan = self.plan(scenes=4)

@@ -455,6 +455,10 @@ TEST_F(MeshLoader, ImplausibleSizesNameTheLikelyUnit) {
   EXPECT_CONTAINS(text(50.0, std::nullopt), "unit: mm");
   EXPECT_CONTAINS(text(5.0, std::nullopt), "unit: mm");  // 5 mm: small, but a part all the same
   EXPECT_CONTAINS(text(1.0, std::nullopt), "unit: cm");
+  const std::string inches = text(3.9, std::nullopt);  // of a part of 99 mm, which could be one of 4 mm as well
+  for (const char* choice : {"\"unit: mm\" makes it 0.00675", "\"unit: cm\" 0.0675", "\"unit: inch\" 0.172"})
+    EXPECT_CONTAINS(inches, choice);
+  EXPECT_FALSE(contains(inches, "probably"));
   EXPECT_CONTAINS(text(5e-5, std::nullopt), "too small");
   EXPECT_NO_THROW(check(5e-5, Unit::millimetre));
   const std::string large = text(1.0, Unit::metre);

@@ -1,7 +1,8 @@
 #include "bin_scenes/core/random.hpp"
-#include "output/mask_png.hpp"
+#include "output/bop_image.hpp"
 #include "output/output_fixture.hpp"
 #include "output/read_png.hpp"
+#include "output/tiff.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -66,15 +67,18 @@ TEST_F(Bop, CameraInfoMasksAndCountsBelongTogether) {
   EXPECT_EQ(camera.at("cam_K").get<std::vector<double>>(), image.sensor.k);
   const Png depth = read_png(path("depth/000000.png"));
   EXPECT_NEAR(depth.at(3, 0) * camera.at("depth_scale").get<double>(), 1e3 * image.depth[3], 0.05);
-  EXPECT_EQ(read_png(path("gray/000000.png")).at(0, 0), 128);
+  const LoadedImage gray = load_gray_tiff(path("gray/000000.tiff"));
+  EXPECT_EQ(gray.width, 8);
+  EXPECT_EQ(gray.height, 6);
+  EXPECT_EQ(gray.samples.at(0), 128);
 
   const Json info = json("scene_gt_info.json").at("0");
   EXPECT_EQ(info.at(0).at("visib_fract"), 0.5);
   EXPECT_EQ(info.at(0).at("px_count_all"), 24);
-  EXPECT_EQ(info.at(0).at("bbox_visib"), Json({1, 0, 2, 6}));
+  EXPECT_EQ(info.at(0).at("bbox_visib"), Json({1, 0, 1, 5}));
   EXPECT_EQ(info.at(1).at("visib_fract"), 0.0);
   EXPECT_EQ(info.at(1).at("bbox_visib"), Json({-1, -1, -1, -1}));
-  EXPECT_EQ(info.at(2).at("bbox_visib"), Json({5, 0, 1, 6}));
+  EXPECT_EQ(info.at(2).at("bbox_visib"), Json({5, 0, 0, 5}));
   for (int id = 0; id < 3; ++id) {
     const Png mask = read_png(path("mask_visib/000000_00000" + std::to_string(id) + ".png"));
     EXPECT_EQ(mask.depth, 8);
@@ -123,6 +127,51 @@ TEST_F(Bop, MasksAreOfTheVisibleAndOfTheWholePart) {
     EXPECT_EQ(whole.samples[i], y >= 1 && y < 5 && (x == 2 || x == 4) ? 255 : 0) << i;
     EXPECT_EQ(visible.samples[i], 0) << i;
   }
+}
+
+TEST_F(Bop, AnEmptyBinHasTheFilesOfAnyOther) {
+  Scene scene = small_scene();
+  scene.parts.clear();
+  RangeImage image = small_image();
+  image.label.assign(image.label.size(), 0);
+  image.visible.clear();
+  image.total.clear();
+  const std::vector<RangeImage> images = {image};
+  const std::vector<BopImage> bop = bop_images(scene, {}, images, {});
+  write_bop_samples(dir.string(), 3, bop);
+  for (const char* mask : {"000003_000000.mask.json", "000003_000000.mask_visib.json"}) EXPECT_EQ(text(mask), "{}");
+  EXPECT_EQ(text("000003_000000.gt.json"), "[]");
+  write_bop(path("folder"), bop);
+  for (const char* folder : {"folder/mask", "folder/mask_visib"})
+    EXPECT_TRUE(std::filesystem::is_directory(dir / folder));
+}
+
+TEST_F(Bop, PixelsBesideTheImageCountToThePart) {
+  Scene scene = small_scene();
+  scene.parts.resize(1);
+  scene.parts[0].pose.orientation = Quat::Identity();
+  scene.parts[0].pose.position = Vec3(0.1 - 0.5 * 0.4, -0.2, 0.4);  // its middle lies over the left edge, 4 pixels off
+  RangeImage image = small_image();
+  for (std::uint16_t& label : image.label) label = label == 1 ? 1 : 0;
+  image.visible = {12};
+  image.total = {12};
+  image.silhouettes.resize(1);
+  image.silhouettes[0] = {1, 0, 2, 6, 12, std::vector<std::uint64_t>(6, 0b11)};
+  write_bop(dir.string(), scene, {box(0.08)}, {image});
+  const Json info = json("scene_gt_info.json").at("0").at(0);
+  // 10 pixels / 0.46 m x 0.08 m = 1.7 pixels wide around column -0.9 and row 2.5, where pixels have whole numbers.
+  EXPECT_EQ(info.at("px_count_all"), 12 + 1 * 2) << info;
+  EXPECT_EQ(info.at("px_count_visib"), 12);
+  EXPECT_EQ(info.at("px_count_valid"), 12);
+}
+
+TEST_F(Bop, WhatIsNoPinholeImageIsRefused) {
+  RangeImage image = small_image();
+  image.sensor.distortion[0] = 0.1;
+  EXPECT_THROW(write_bop(dir.string(), small_scene(), {bolt, nut}, {image}), Error);
+  image.sensor.distortion[0] = 0.0;
+  image.sensor.model = SensorModel::laser_line;
+  EXPECT_THROW(write_bop(dir.string(), small_scene(), {bolt, nut}, {image}), Error);
 }
 
 TEST_F(Bop, MasksOfAnySizeReadBackAsTheyWere) {

@@ -44,7 +44,8 @@ TEST_F(Images, TruthStandsBesideWhatWasMeasured) {
   EXPECT_EQ(of_two, (std::vector<std::uint16_t>{163, 128, 5, 0, 0, 0}));  // 127.5 (n + 1), rounded; nothing there
   EXPECT_EQ(read_png(path("left_depth.png")).at(7, 0), 0);
   EXPECT_EQ(read_png(path("left_truth_depth.png")).at(7, 0), 9000);
-  EXPECT_EQ(read_png(path("left_labels.png")).samples, image.truth_label);
+  EXPECT_EQ(read_png(path("left_truth_labels.png")).samples, image.truth_label);
+  EXPECT_EQ(read_png(path("left_labels.png")).samples, image.label) << "as topic and bag have them";
 }
 
 TEST_F(Images, ValidityIsItsCodeAndThePictureExplainsIt) {

@@ -100,10 +100,19 @@ class HeapTest(NodeTestCase):
             asked = doors.scene(index=[2])
             self.assertEqual(asked.report.state_hash, hashes[1])
             self.assertEqual(doors.pick(ids=[1]).scene.parts[1].state, ScenePart.REMOVED)
+            # What lies in the bin changes nothing about what comes next: neither parts that were added, nor none at all.
+            nuts = PartLine(model="nut_hex.stl", unit="mm", count=4)
+            self.assertEqual(len(doors.add(parts=[nuts]).scene.parts), 9)
+            self.assertTrue(doors.next().success)
+            scene = doors.latched()
+            self.assertEqual((scene.index, len(scene.parts), scene.report.state_hash), (3, 5, hashes[2]))
             self.assertTrue(doors.clear().success)
-            after = doors.next()
-            self.assertFalse(after.success)
-            self.assertIn("there is no scene", after.message)
+            self.assertTrue(doors.next().success, "after clear_scene")
+            self.assertEqual((doors.latched().index, len(doors.latched().parts)), (4, 5))
+            self.assertTrue(doors.clear().success)
+            self.assertEqual(len(doors.add(parts=[nuts]).scene.parts), 4)
+            self.assertTrue(doors.next().success)
+            self.assertEqual((doors.latched().index, len(doors.latched().parts)), (5, 5))
 
     def test_images_of_scenes_to_come_are_made_ahead_too(self):
         ahead, said = Doors("/ahead/"), {}

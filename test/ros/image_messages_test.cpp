@@ -56,6 +56,18 @@ std::uint32_t label_at(const sensor_msgs::PointCloud2& cloud, int column, int ro
   return value;
 }
 
+TEST(ImageMessages, AnImageOfProfilesHasNoCameraInfo) {
+  RangeImage image = some_image();
+  image.sensor.width = 8, image.sensor.height = 6;
+  image.sensor.model = SensorModel::laser_line;
+  for (std::size_t i = 0; i < image.depth.size(); ++i)
+    image.points.push_back({0.01f * static_cast<float>(i % 4), 0.01f * static_cast<float>(i / 4), image.depth[i]});
+  const ImageMessages messages = image_messages(image, stamp);
+  EXPECT_FALSE(messages.camera_info) << "no pinhole made these rows";
+  EXPECT_EQ(messages.depth.width, 4u);
+  EXPECT_EQ(image_messages(some_image(), stamp).camera_info->width, some_image().sensor.width);
+}
+
 TEST(ImageMessages, CloudIsOrganised) {
   const auto cloud = image_messages(some_image(), stamp).points;
   EXPECT_EQ(cloud.width, 4u);
@@ -136,15 +148,15 @@ TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
 
 TEST(ImageMessages, OneStampOneFrame) {
   const auto m = image_messages(some_image(), stamp);
-  for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header,
-                                           &m.validity.header}) {
+  for (const std_msgs::Header* header :
+       {&m.points.header, &m.depth.header, &m.camera_info->header, &m.labels.header, &m.validity.header}) {
     EXPECT_EQ(header->stamp, stamp);
     EXPECT_EQ(header->frame_id, "camera_optical_frame");
   }
 }
 
 TEST(ImageMessages, CameraInfoIsAnIdealPinhole) {
-  const auto info = image_messages(some_image(), stamp).camera_info;
+  const auto info = *image_messages(some_image(), stamp).camera_info;
   EXPECT_EQ(info.width, 4u);
   EXPECT_EQ(info.height, 3u);
   EXPECT_EQ(info.distortion_model, "plumb_bob");

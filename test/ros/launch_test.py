@@ -3,13 +3,17 @@
 
 import glob
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
 import rosbag
+import rospkg
 import rospy
 import rostest
 import tf2_ros
@@ -112,6 +116,30 @@ class LaunchTest(LaunchTestCase):
                 t, q = apart.translation, apart.rotation
                 self.assertLess(np.linalg.norm([t.x, t.y, t.z]), 5e-4, part.frame_id)  # m; the guess is 2e-3 away
                 self.assertLess(2 * np.linalg.norm([q.x, q.y, q.z]), 0.01, part.frame_id)  # rad; likewise 0.03
+
+
+    def test_icp_check_with_a_sensor_that_misses_much(self):
+        """Segments of a noisy sensor that ICP cannot place are a result; models may come from anywhere."""
+        models = tempfile.mkdtemp(dir=self.folder.name)
+        shutil.copy(os.path.join(rospkg.RosPack().get_path("bin_scenes"), "models/ring_24.stl"), models)
+        request = os.path.join(tempfile.mkdtemp(dir=self.folder.name), "rings.yaml")
+        with open(request, "w") as file:
+            file.write("""
+seed: 1
+bin: {inner_size: [0.2, 0.15, 0.1]}
+parts: [{model: ring_24.stl, unit: mm, count: 10}]
+solver: {type: bullet}
+sensors: [{name: camera, model: structured_light, width: 640, height: 480, fov: 0.6, projector: {baseline: 0.15, fov: 0.8}}]
+""")
+        with Launched("icp_check.launch", "request:=" + request, "model_roots:=[%s]" % models, "least_points:=3",
+                      "offset:=0.05") as launched:
+            wait_until(lambda: "parts with at least 3 points" in launched.output(), 120)
+            said = launched.output()
+        self.assertNotIn("exit code", said, "icp_check has died")
+        checked, found = (int(n) for n in re.search(r"(\d+) of (\d+) parts with at least 3 points", said).groups())
+        self.assertGreaterEqual(found, 8)
+        self.assertGreater(said.count("did not converge"), 0)
+        self.assertIn("%d did not converge" % said.count("points, ICP did not converge"), said)
 
 
 if __name__ == "__main__":

@@ -70,6 +70,10 @@ class NodeletTest(NodeTestCase):
                          "pressed")
         stamps = set()
         wait_until(lambda: stamps.add(self.doors.latched().header.stamp) or len(stamps) > 2)
+        for name in ("finish", "solver"):  # refused: what was set stays, and later scenes are made
+            answered = config.update_configuration({name: "bogus"})
+            self.assertEqual(answered[name], {"finish": "settled", "solver": "request"}[name])
+        self.assertEqual(self.doors.scene(SMALL.replace("bullet", "sphere")).report.finish, "settled")
         config.update_configuration({"finish": "request", "publish_rate": 0.0})
         self.assertEqual(config.update_configuration({"tf_rate": 1e9})["tf_rate"], 1000.0)
 

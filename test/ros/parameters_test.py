@@ -2,6 +2,8 @@
 """Wrong parameters end the node with a reason; what a user types first works."""
 
 import os
+import signal
+import subprocess
 import sys
 
 import rospkg
@@ -25,6 +27,9 @@ WRONG = {
     "goals": ("pile",),
     "bins": ("left", ["no good"]),
     "request": (7,),
+    "finish": ("bogus", 1),
+    "solver": ("bogus",),
+    "noise": ("loud",),
 }
 
 
@@ -37,6 +42,19 @@ class ParametersTest(NodeTestCase):
             said = ended.stdout + ended.stderr
             self.assertEqual(ended.returncode, 2, (parameter, value, said))
             self.assertIn("parameter /wrong_%d/%s" % (i, parameter), said)
+
+    def test_a_signal_ends_the_node_in_order(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            name = "ended_by_%d" % number
+            node = subprocess.Popen([rospy.get_param("/node"), "__name:=" + name, "__ns:=ended"])
+            try:
+                Doors("/ended/")
+                node.send_signal(number)
+                self.assertEqual(node.wait(10), 0, name)
+                # It has told the master, which a process that is killed does not.
+                self.assertEqual(rospy.get_master().lookupNode("/ended/" + name)[0], -1)
+            finally:
+                node.kill()
 
     def test_rosrun_finds_the_node(self):
         rospy.set_param("found/tf_rate", 0)

@@ -97,6 +97,41 @@ accept: {escaped: true}
   EXPECT_EQ(write_request(request_from(m, all_rules)), write_request(file));
 }
 
+TEST(RequestMessage, SurfaceAndMotionAreThoseOfAFile) {
+  msgs::SceneRequest m = one_bolt();
+  msgs::PartLine& part = m.parts[0];
+  part.fixed = true;
+  part.poses.resize(1);
+  part.poses[0].position.z = 0.1;
+  part.surface.albedo = {0.2};
+  part.surface.gloss = {0.0};
+  part.surface.roughness = {0.7};
+  part.motion.times = {0.5, 1.0};
+  part.motion.poses.resize(2);
+  part.motion.poses[1].position.x = 0.05;
+  part.motion.shake.x = 0.01;
+  part.motion.tilt.z = 0.02;
+  part.motion.frequency = {3.0};
+  part.motion.seconds = {2.0};
+  const Request file = read_request_text(R"(
+parts:
+  - model: bolt_hex.stl
+    unit: mm
+    fixed: true
+    poses: [[0, 0, 0.1, 0, 0, 0, 1]]
+    surface: {albedo: 0.2, gloss: 0, roughness: 0.7}
+    motion: {times: [0.5, 1], poses: [[0, 0, 0, 0, 0, 0, 1], [0.05, 0, 0, 0, 0, 0, 1]], shake: [0.01, 0, 0],
+      tilt: [0, 0, 0.02], frequency: 3, seconds: 2}
+)",
+                                         models, {}, all_rules);
+  EXPECT_EQ(write_request(request_from(m, all_rules)), write_request(file));
+  part.motion = {};
+  part.motion.belt.y = 0.3;
+  EXPECT_EQ(request_from(m, all_rules).parts[0].motion.belt, Vec3(0, 0.3, 0));
+  part.surface.albedo = {0.2, 0.3};
+  EXPECT_NE(error_of(m).find("parts[0].surface.albedo"), std::string::npos) << error_of(m);
+}
+
 TEST(RequestMessage, BinsOfEveryKind) {
   msgs::SceneRequest m = one_bolt();
   m.bin.kind = "floor";

@@ -140,7 +140,7 @@ TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
 }
 
 TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten) {
-  std::vector<std::string> formats = {"pcd", "png", "bop"};
+  std::vector<std::string> formats = {"pcd", "ply", "png", "bop"};
   if (with_ros()) formats.push_back("bag");
   for (const std::string& format : formats) {
     const Outcome full = run("generate request.yaml --out " + format + " --formats " + format +
@@ -485,6 +485,28 @@ TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {
     EXPECT_TRUE(fs::exists(dir / file)) << file;
   }
   EXPECT_EQ(json("out/scene_000000/scene.json").at("sensors").at(0).at("K").size(), 9u);
+}
+
+TEST_F(CommandLine, BopRefusesWhatIsNoPinholeBeforeAnythingIsPoured) {
+  for (const char* kind : {"distortion: [0.1, 0, 0, 0, 0]", "model: laser_line"}) {
+    const std::string sensor = " --set 'sensors=[{name: top, width: 64, height: 48, " + std::string(kind) + "}]'";
+    const Outcome outcome = run("generate request.yaml --out out --formats bop" + sensor);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("pinhole"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(dir / "out"));
+  }
+}
+
+TEST_F(CommandLine, SymmetriesOfAPartAreListedAsBopHasThem) {
+  const Outcome outcome = run("symmetries box.stl --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = Json::parse(outcome.out);
+  EXPECT_EQ(report.at("models_info").at("symmetries_discrete").size(), 23u) << "a cube's, without the identity";
+  EXPECT_EQ(report.at("residuals_discrete_mm").size(), 23u);
+  EXPECT_NEAR(report.at("models_info").at("diameter").get<double>(), 40.0 * std::sqrt(3.0), 1e-3);
+  EXPECT_NE(run("symmetries box.stl").out.find("24 poses look alike"), std::string::npos);
+  EXPECT_EQ(run("symmetries box.stl --tolerance 0").code, 2);
+  EXPECT_EQ(run("symmetries nowhere.stl").code, 2);
 }
 
 TEST_F(CommandLine, InspectMeasuresAModel) {

@@ -50,14 +50,19 @@ class Plan {
   std::uint64_t seed = 0;
   std::size_t heaps = 1;             ///< to pour; key `scenes`
   std::size_t attempts = 3;          ///< for a heap: one that is not accepted is drawn and poured anew so many times
-  std::vector<std::string> formats;  ///< of json, pcd, png, bag, bop, shards; key `outputs`
-  double tolerance = 0.0015;         ///< m, bop: depth behind the measured surface up to which a part is visible
+  std::vector<std::string> formats;  ///< of json, pcd, ply, png, bag, bop, shards; key `outputs`
+  /// bop: 0: a pixel shows the part that is truly seen there; else m behind the measured surface up to which a part is
+  /// visible. Keys bop.visible and bop.tolerance.
+  double tolerance = 0.0;
+  double most_not_poured = 0.05;  ///< share of a heap's parts that may find no room; key `not_poured`
+  std::size_t shard_size = 1000;  ///< images in a shard
+  std::vector<std::pair<std::string, double>> split;  ///< name and share of heaps; empty: all are of "train"
   Depletion depletion;
   std::vector<PlanObject> objects;
   Request reference;               ///< the template, nothing drawn
   std::vector<std::string> notes;  ///< what the reader decided and its user should know
   std::string text;                ///< of the file
-  std::string sha256;              ///< of everything that decides the scenes: text, template and models
+  std::string sha256;              ///< of everything that decides a heap: keys but `scenes`, template and models
 
   std::size_t scenes() const { return heaps * (depletion.steps + 1); }
   bool wants(const std::string& format) const;

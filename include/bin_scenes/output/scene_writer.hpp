@@ -15,9 +15,9 @@
 namespace bin_scenes {
 
 /// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null, and so is the pose of a
-/// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of a
-/// request on one class of device.
-/// `images` add a block `truth` to each sensor: per part its visible fraction, boxes and counts of pixels.
+/// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of
+/// a request on one class of device. `images` add a block `truth` to each sensor: per part its visible fraction, boxes
+/// and counts of pixels.
 /// @param parts  parts[line] are the models; only with images
 std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images = {},
                        const std::vector<PartModelPtr>& parts = {});
@@ -26,14 +26,16 @@ Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
 
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity,
-/// where label is 0 for background and bin, id + 1 for a part, and validity a code of sensor/validity.hpp. Written by
-/// PCL: pcd_supported() is false, and this an environment Error, in a build without it.
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity
+/// truth_normal_x truth_normal_y truth_normal_z, where label is 0 for background and bin, id + 1 for a part, validity a
+/// code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
 void write_pcd(const std::string& path, const RangeImage& image);
-bool pcd_supported();
+/// The same as binary little-endian PLY; normals are called nx ny nz there, and truth_nx truth_ny truth_nz.
+void write_ply(const std::string& path, const RangeImage& image);
 
 /// 16 bit: <sensor>_depth.png and <sensor>_truth_depth.png, counts of Sensor::depth_scale, 0 = not valid, 65535 = that
-/// many or more; <sensor>_labels.png, id + 1, true. 8 bit: <sensor>_validity.png. To look at: <sensor>.png, shaded;
+/// many or more; <sensor>_labels.png, id + 1, 0 where nothing was measured; <sensor>_truth_labels.png, of what is truly
+/// seen. 8 bit: <sensor>_validity.png; <sensor>_truth_normal.png. To look at: <sensor>.png, shaded;
 /// <sensor>_depth_picture.png with a bar in metres; <sensor>_validity_picture.png with a legend.
 void write_pngs(const std::string& directory, const RangeImage& image);
 
@@ -46,10 +48,13 @@ void write_pngs(const std::string& directory, const RangeImage& image);
 /// and their masks are stored under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
+/// Why BOP's files cannot hold what a sensor sees, since they describe it by a camera matrix alone; empty: they can.
+std::string bop_misfit(const Sensor& sensor);
+extern const char* const bop_misfit_remedy;
 /// How BOP's files tell what is visible, and which object a part is.
 struct BopOptions {
-  /// m: as bop_toolkit defines visible pixels and boxes, from the depth image, up to so far behind the measured surface;
-  /// 0: from the true labels.
+  /// 0: a pixel shows the part that is truly seen there. Else, in m: it shows every part that lies no deeper than so
+  /// far behind the measured surface, or where nothing was measured (bop_toolkit's rule for images of real cameras).
   double tolerance = 0.0;
   std::vector<int> object_ids;  ///< by part line; empty: bop_object_ids()
 };
@@ -57,6 +62,8 @@ struct BopOptions {
 /// given, by part line, else those found on the mesh.
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
                       const std::vector<Symmetries>& given = {});
+/// Entry of models_info.json, JSON (mm): diameter, bounds and symmetries.
+std::string bop_model_info(const PartModel& part, const Symmetries& symmetries);
 /// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts);
 

@@ -17,9 +17,24 @@ struct Symmetries {
   std::vector<Pose> discrete;    ///< maps of the part onto itself, without the identity
 };
 
+/// Symmetries, and how exact they are: the largest distance (m) from the surface of a point of the turned surface.
+struct SymmetryReport {
+  Symmetries symmetries;
+  std::vector<double> continuous_error, discrete_error;  ///< by axis, by map
+  double limit = 0.0;                                    ///< what is no more is a symmetry
+  struct Nearly {
+    Vec3 direction = Vec3::UnitZ();
+    int order = 0;       ///< 0: any angle
+    double error = 0.0;  ///< above the limit, up to three times as much
+  };
+  std::vector<Nearly> nearly;  ///< axes that a mark or a chamfer keeps from being one
+};
+
 /// Rotations about the centre of mass that move no point of the surface by more than `tolerance` * diagonal away from
-/// the surface. Tried are the axes of inertia and, where two moments are equal, axes between them; orders 2 to 12 and
-/// full turns. A part that is symmetric about another axis is not found out.
+/// the surface. Tried are the axes of inertia and, where two moments are equal, axes between them, normals of large
+/// faces and directions of far vertices; orders 2 to 100 and full turns. A part that is symmetric about another axis is
+/// not found out.
+SymmetryReport examine_symmetries(const PartModel& part, double tolerance = 0.01);
 Symmetries find_symmetries(const PartModel& part, double tolerance = 0.01);
 
 /// Largest distance of two vertices (m).

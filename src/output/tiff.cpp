@@ -1,0 +1,102 @@
+#include "output/tiff.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "core/read_file.hpp"
+
+#include <zlib.h>
+
+#include <cstring>
+#include <map>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr std::size_t entry_bytes = 12;
+enum Tag : std::uint16_t {
+  columns = 256,
+  rows = 257,
+  sample_bits = 258,
+  packing = 259,
+  meaning = 262,
+  strip_begin = 273,
+  samples_a_pixel = 277,
+  strip_rows = 278,
+  strip_bytes = 279
+};
+
+template <class Number>
+void put(Bytes& bytes, Number value) {
+  for (std::size_t i = 0; i < sizeof value; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i) & 0xff));
+}
+
+template <class Number>
+Number number_at(const std::string& bytes, std::size_t at) {
+  Number value = 0;
+  if (at + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples) {
+  uLongf size = compressBound(static_cast<uLong>(samples.size()));
+  Bytes packed(size);
+  if (compress2(packed.data(), &size, samples.data(), static_cast<uLong>(samples.size()), 1) != Z_OK)
+    throw environment_error("zlib cannot pack an image", "image", "check free memory");
+  packed.resize(size);
+  if (packed.size() % 2 != 0) packed.push_back(0);  // what follows begins at an even byte
+  struct Entry {
+    std::uint16_t tag, type;
+    std::uint32_t value;
+  };
+  constexpr std::uint16_t shorts = 3, longs = 4;
+  const std::vector<Entry> entries = {{columns, longs, static_cast<std::uint32_t>(width)},
+                                      {rows, longs, static_cast<std::uint32_t>(height)},
+                                      {sample_bits, shorts, 8},
+                                      {packing, shorts, 8},  // deflate
+                                      {meaning, shorts, 1},  // 0 is black
+                                      {strip_begin, longs, 8},
+                                      {samples_a_pixel, shorts, 1},
+                                      {strip_rows, longs, static_cast<std::uint32_t>(height)},
+                                      {strip_bytes, longs, static_cast<std::uint32_t>(size)}};
+  Bytes bytes = {'I', 'I', 42, 0};
+  put(bytes, static_cast<std::uint32_t>(8 + packed.size()));
+  bytes.insert(bytes.end(), packed.begin(), packed.end());
+  put(bytes, static_cast<std::uint16_t>(entries.size()));
+  for (const Entry& entry : entries) {
+    put(bytes, entry.tag);
+    put(bytes, entry.type);
+    put(bytes, std::uint32_t{1});
+    put(bytes, entry.value);
+  }
+  put(bytes, std::uint32_t{0});
+  return bytes;
+}
+
+LoadedImage load_gray_tiff(const std::string& path) {
+  const std::string bytes = read_file(path);
+  std::map<std::uint16_t, std::uint32_t> tags;
+  const std::size_t directory = number_at<std::uint32_t>(bytes, 4);
+  const std::size_t count = number_at<std::uint16_t>(bytes, directory);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t entry = directory + 2 + entry_bytes * i;
+    tags[number_at<std::uint16_t>(bytes, entry)] = number_at<std::uint32_t>(bytes, entry + 8);
+  }
+  LoadedImage image;
+  image.width = static_cast<int>(tags[columns]);
+  image.height = static_cast<int>(tags[rows]);
+  const std::size_t begin = tags[strip_begin], size = tags[strip_bytes];
+  std::string plain(std::size_t{tags[columns]} * tags[rows], '\0');
+  uLongf length = plain.size();
+  const bool there = bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size();
+  if (!there ||
+      uncompress(reinterpret_cast<Bytef*>(plain.data()), &length, reinterpret_cast<const Bytef*>(bytes.data() + begin),
+                 size) != Z_OK ||
+      length != plain.size())
+    throw input_error("is no whole grey TIFF", path, "make the scene anew");
+  for (const char sample : plain) image.samples.push_back(static_cast<std::uint8_t>(sample));
+  return image;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,88 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/part/symmetry.hpp"
+#include "tool/commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double millimetres = 1e3;
+
+LoadOptions load_options(const std::string& unit) {
+  LoadOptions load;
+  load.require_closed = false;
+  if (unit.empty()) return load;
+  for (const Unit known : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
+    if (unit == name_of(known)) load.unit = known;
+  if (!load.unit) throw input_error("unknown unit '" + unit + "'", "--unit", "m, cm, mm or inch");
+  return load;
+}
+
+double largest(const std::vector<double>& errors) {
+  return errors.empty() ? 0.0 : millimetres * *std::max_element(errors.begin(), errors.end());
+}
+
+std::vector<double> in_mm(std::vector<double> errors) {
+  for (double& error : errors) error *= millimetres;
+  return errors;
+}
+
+Json json_of(const PartModel& part, const SymmetryReport& report) {
+  Json nearly = Json::array();
+  for (const SymmetryReport::Nearly& axis : report.nearly)
+    nearly.push_back({{"axis", {axis.direction.x(), axis.direction.y(), axis.direction.z()}},
+                      {"order", axis.order},
+                      {"residual_mm", millimetres * axis.error}});
+  return {{"tolerance_mm", millimetres * report.limit},
+          {"models_info", Json::parse(bop_model_info(part, report.symmetries))},
+          {"residuals_continuous_mm", in_mm(report.continuous_error)},
+          {"residuals_discrete_mm", in_mm(report.discrete_error)},
+          {"nearly", nearly}};
+}
+
+void print(const PartModel& part, const SymmetryReport& report) {
+  const Symmetries& found = report.symmetries;
+  for (std::size_t i = 0; i < found.continuous.size(); ++i) {
+    const Vec3& d = found.continuous[i].direction;
+    std::printf("any angle about (%.4f, %.4f, %.4f): residual %.4f mm\n", d.x(), d.y(), d.z(),
+                millimetres * report.continuous_error[i]);
+  }
+  std::printf("%zu %s, the identity among them: residual at most %.4f mm, tolerance %.4f mm\n",
+              found.discrete.size() + 1, found.continuous.empty() ? "poses look alike" : "beside these",
+              largest(report.discrete_error), millimetres * report.limit);
+  for (const SymmetryReport::Nearly& axis : report.nearly) {
+    const std::string order = axis.order == 0 ? "any angle" : "order " + std::to_string(axis.order);
+    std::printf("nearly: %s about (%.4f, %.4f, %.4f), off by %.4f mm\n", order.c_str(), axis.direction.x(),
+                axis.direction.y(), axis.direction.z(), millimetres * axis.error);
+  }
+  std::printf("models_info.json: %s\n", bop_model_info(part, found).c_str());
+}
+
+}  // namespace
+
+int symmetries(const SymmetriesOptions& options) {
+  const PartModelPtr part = PartModel::load(options.model, load_options(options.unit));
+  if (options.tolerance_mm && !(*options.tolerance_mm > 0.0 && *options.tolerance_mm < millimetres * part->diagonal()))
+    throw input_error(
+        "must be above 0 and below the part's size, " + std::to_string(millimetres * part->diagonal()) + " mm",
+        "--tolerance", "mm; left out: a hundredth of the size");
+  const SymmetryReport report = options.tolerance_mm
+                                    ? examine_symmetries(*part, *options.tolerance_mm / millimetres / part->diagonal())
+                                    : examine_symmetries(*part);
+  if (options.json)
+    std::printf("%s\n", json_of(*part, report).dump(1).c_str());
+  else
+    print(*part, report);
+  return exit_done;
+}
+
+}  // namespace bin_scenes
