@@ -56,10 +56,14 @@ class Stereo {
   double gain_ = 0.0;
 };
 
-/// Disparities (pixel) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in OpenCV); NaN
-/// unmatched.
+/// Disparities (pixel, in sixteenths) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in
+/// OpenCV), then refined; NaN unmatched.
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
                          int least_disparity);
+
+/// Moves each disparity by up to a pixel to where the windows of both images differ least (Lucas, Kanade 1981, "An
+/// iterative image registration technique"). The matcher's own parabola errs by up to 0.3 pixel towards whole ones.
+void refine(const Stereo::Pair& images, int width, int height, int window, std::vector<float>& disparities);
 
 /// Dots of a projector, blurred as a camera sees them whose pixels are `ratio` of the projector's: row-major, 0 to 1.
 std::vector<float> dot_pattern(int width, int height, double dots, double ratio);

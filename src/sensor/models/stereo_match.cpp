@@ -64,12 +64,14 @@ std::vector<float> match(const Stereo::Pair& images, int width, int height, cons
     const short* const in = found.ptr<short>(y) + rim;
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      // Sixteenths of a pixel; what would lie in the rim of the second image was not seen.
+      // Sixteenths of a pixel, drawn to whole ones; what would lie in the rim of the second image was not seen.
       const float disparity = static_cast<float>(in[x]) / 16.0f;
       const bool seen = in[x] > 0 && in[x] >= 16 * least_disparity && disparity <= static_cast<float>(x);
       disparities[i] = seen && good[i] ? disparity : std::numeric_limits<float>::quiet_NaN();
     }
   }
+  refine(images, width, height, s.window, disparities);
+  for (float& d : disparities) d = std::round(16.0f * d) / 16.0f;
   return disparities;
 }
 
