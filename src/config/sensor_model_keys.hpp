@@ -73,7 +73,8 @@ void visit(Visitor& v, StereoSettings& s) {
           s.uniqueness);
   v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers"}, s.max_difference);
   v.field({"min_texture", "grey levels",
-           "of 255: standard deviation in a window below which nothing is matched; 0 = noise is matched as well"},
+           "of 255: standard deviation in a window, beyond noise, below which nothing is matched; 0 = noise is matched "
+           "as well"},
           s.min_texture);
   v.field({"speckle_size", "pixel", "smaller islands of disparity are removed; 0 = none are"}, s.speckle_size);
   v.field({"disparity_noise", "pixel", "analytic: standard deviation at full signal"}, s.disparity_noise);

@@ -53,7 +53,8 @@ struct StereoSettings {
   double dots = 0.12;     ///< share of the projector's pixels that are dots; 0 = no pattern, passive stereo
   int uniqueness = 10;    ///< %, by which the best match must beat the second; more = more holes, fewer outliers
   double max_difference = 1.0;    ///< pixel, left-right check; smaller = more holes, fewer outliers
-  double min_texture = 1.0;       ///< grey levels of 255, standard deviation in a window below which nothing is matched
+  double min_texture = 1.0;       ///< grey levels of 255, standard deviation in a window, beyond noise, below which
+                                  ///< nothing is matched
   int speckle_size = 60;          ///< pixel: smaller islands of disparity are removed; 0 = none
   double disparity_noise = 0.08;  ///< analytic: pixel at full signal, standard deviation
   double min_signal = 0.02;       ///< analytic: signal below which nothing is matched (code 8)

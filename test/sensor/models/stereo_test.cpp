@@ -118,17 +118,24 @@ TEST(Stereo, IsNotDrawnToWholeDisparities) {
   }
 }
 
-TEST(Stereo, WithoutDotsAPlainPlateIsNotMatched) {
-  Targets targets;
-  add_plate(targets, 1.0);
+TEST(Stereo, WithoutDotsNoiseIsNotMatched) {
+  Targets plain, edged;
+  add_plate(plain, 1.0);
+  add_plate(edged, 1.0);
+  edged.add(box_target({0.3, 0.3, 0.002}), {Vec3(0, 0, 0.99), Quat::Identity()}, {0.05, 0.0, 0.4});
   Device device;
-  const auto matched_right = [&] {
-    const std::vector<double> errors = disparity_errors(shoot(targets, device, true), device);
-    return std::count_if(errors.begin(), errors.end(), [](double e) { return std::abs(e) < 1.0; });
+  const auto matched = [&](Targets& targets, bool decoded) {
+    const auto& v = shoot(targets, device, decoded).measured.validity;
+    return static_cast<double>(std::count(v.begin(), v.end(), Validity::valid)) / static_cast<double>(v.size());
   };
-  const auto with_dots = matched_right();
-  device.setup.settings.dots = 0.0;
-  EXPECT_LT(matched_right(), with_dots / 3);
+  for (const bool decoded : {false, true}) {
+    device.setup.settings.dots = 0.12;
+    EXPECT_GT(matched(plain, decoded), 0.7) << decoded;
+    device.setup.settings.dots = 0.0;
+    EXPECT_LT(matched(plain, decoded), 1e-3) << decoded;
+    EXPECT_GT(matched(edged, decoded), 0.005) << decoded;  // the border of dark and bright
+    EXPECT_LT(matched(edged, decoded), 0.15) << decoded;
+  }
 }
 
 TEST(Stereo, ErrorsOfNeighboursResembleEachOtherOverTheWindow) {
