@@ -1,5 +1,7 @@
 #include "sensor/models/illumination.hpp"
 
+#include "sensor/models/facets.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +12,9 @@ double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_ligh
   if (!(in > 0.0 && out > 0.0)) return 0.0;
   const double matte = diffuse_share(surface) * in;
   if (surface.gloss <= 0.0) return matte;
-  const double alpha = std::max(surface.roughness * surface.roughness, 1e-3), a2 = alpha * alpha;
+  const double alpha = std::max(surface.roughness * surface.roughness, 1e-3);
   const double half = normal.dot((to_light + to_eye).normalized());
-  const double bend = half * half * (a2 - 1.0) + 1.0;
-  const double facets = a2 / (M_PI * bend * bend);
-  const double visible =
-      0.5 / (in * std::sqrt(out * out * (1.0 - a2) + a2) + out * std::sqrt(in * in * (1.0 - a2) + a2));
-  return matte + M_PI * surface.albedo * surface.gloss * facets * visible * in;
+  return matte + surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half);
 }
 
 SeenPoint seen_point(const View& view, std::size_t pixel) {
