@@ -29,6 +29,9 @@ void visit(Visitor& v, ImagerSettings& s) {
           s.ambient);
   v.field({"full_well", "electrons", "at saturation; shot noise of a signal s is sqrt(s / full_well)"}, s.full_well);
   v.field({"read_noise", "electrons", "standard deviation; 0 = none"}, s.read_noise);
+  v.field({"blur", "pixel",
+           "structured_light: standard deviation of the camera's blur; depth errs where bright meets dark; 0 = sharp"},
+          s.blur);
   v.field({"bits", "", "of the analogue-digital converter, 1 to 16; fewer = coarser steps"}, s.bits);
 }
 
