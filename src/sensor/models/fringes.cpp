@@ -24,9 +24,13 @@ int bits_for(double halves) {
 /// sin(x) / x for x^2 up to pi^2, 0 beyond: a footprint of more than a period. By its series, within 1e-6.
 double box(double square) {
   if (square >= M_PI * M_PI) return 0.0;
-  double sum = 0.0;
-  for (int n = 15; n >= 3; n -= 2) sum = (sum + 1.0) * (-square / (n * (n - 1)));
-  return 1.0 + sum;
+  double sum = 1.0;
+  if (square < 1.0) {  // the usual footprint
+    for (const int n : {9, 7, 5, 3}) sum = 1.0 - sum * square * (1.0 / (n * (n - 1)));
+    return sum;
+  }
+  for (const int n : {15, 13, 11, 9, 7, 5, 3}) sum = 1.0 - sum * square * (1.0 / (n * (n - 1)));
+  return sum;
 }
 
 /// Share of a normal distribution below x.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace bin_scenes {
 
@@ -39,12 +40,18 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   std::vector<std::size_t> asked;
   rays.reserve(count);
   asked.reserve(count);
+  const bool distorts = projector.distorts();
+  const auto project = [&](const Vec3& point) -> std::optional<Eigen::Vector2d> {
+    if (distorts || !(point.z() > 0.0)) return projector.project(point);
+    const double x = point.x() / point.z(), y = point.y() / point.z();
+    return Eigen::Vector2d(projector.fx * x + projector.skew * y + projector.cx, projector.fy * y + projector.cy);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
     lit[i] = {};
     if (!p.hit) continue;
     lit[i].code = Validity::outside;
-    const auto pixel = projector.project(turn * (p.position - pose.position));
+    const auto pixel = project(turn * (p.position - pose.position));
     if (!pixel) continue;
     lit[i].column = pixel->x();
     lit[i].row = pixel->y();

@@ -9,6 +9,26 @@
 
 namespace bin_scenes {
 
+namespace {
+
+/// Normally distributed numbers, drawn in pairs.
+class Normals {
+ public:
+  explicit Normals(const Random& random) : random_(random) {}
+  double next() {
+    if (!spare_) random_.normals(first_, second_);
+    spare_ = !spare_;
+    return spare_ ? first_ : second_;
+  }
+
+ private:
+  Random random_;
+  double first_ = 0.0, second_ = 0.0;
+  bool spare_ = false;
+};
+
+}  // namespace
+
 StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
     : scenery_(scenery),
       view_(view),
@@ -22,7 +42,8 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       codes_(view.depth.size()),
       columns_(view.depth.size()),
       distances_(view.depth.size()),
-      whites_(view.depth.size()) {
+      whites_(view.depth.size()),
+      planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
   gain_ = gain();
 }
@@ -33,10 +54,10 @@ void StructuredLight::light_row(std::size_t row) {
   std::vector<Lit> lit(width);
   for (std::size_t x = 0; x < width; ++x) {
     const std::size_t i = row * width + x;
+    const Pixel p = pixel(x, row);
+    planes_[i] = view_.depth[i] * p.normal.dot(p.ray);
     if (std::isnan(view_.depth[i])) continue;
-    const auto& n = view_.normal[i];
-    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * rays_.at(x, row)), turn_ * Vec3(n[0], n[1], n[2]),
-                 view_.line[i], true};
+    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * p.ray), turn_ * p.normal, view_.line[i], true};
   }
   light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
         width);
@@ -74,19 +95,13 @@ StructuredLight::Pixel StructuredLight::pixel(std::size_t column, std::size_t ro
   p.ray = rays_.at(column, row);
   const auto& n = view_.normal[p.index];
   p.normal = {n[0], n[1], n[2]};
-  p.plane = view_.depth[p.index] * p.normal.dot(p.ray);
+  p.plane = planes_[p.index];
   return p;
 }
 
 /// Columns of the projector passed on a pixel's face from it to the next one, across and down.
 StructuredLight::Vec2 StructuredLight::slope(const Pixel& pixel) const {
-  const double z = view_.depth[pixel.index], facing = pixel.normal.dot(pixel.ray);
-  const Vec3 right(1.0 / view_.lens.fx, 0.0, 0.0), down(0.0, 1.0 / view_.lens.fy, 0.0);
-  const auto passed = [&](const Vec3& step) {
-    const Vec3 along = z * (step - pixel.ray * (pixel.normal.dot(step) / facing));
-    return triangulation_.columns_along(z * pixel.ray, along);
-  };
-  return {passed(right), passed(down)};
+  return triangulation_.slope(pixel.ray, view_.depth[pixel.index], pixel.normal, view_.lens);
 }
 
 double StructuredLight::ambient(std::size_t index) const {
@@ -124,7 +139,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
   const double turn = 2.0 * M_PI / setup_.settings.period;
   in_strips([&](const Strip& strip, int first, int last) {
     for (int row = first; row < last; ++row) {
-      Random draw = random.of_piece(static_cast<std::size_t>(row));
+      Normals normals(random.of_piece(static_cast<std::size_t>(row)));
       for (int x = 0; x < view_.lens.width; ++x) {
         const std::size_t i = static_cast<std::size_t>(row) * view_.lens.width + static_cast<std::size_t>(x);
         const Validity code = out.validity[i] = codes_[i];
@@ -146,15 +161,19 @@ Measurement StructuredLight::analytic(const Random& random) const {
         } else {
           f = fringe(p);
         }
-        double of_phase = 0.0, of_amplitude = 0.0;
-        if (setup_.noise) draw.normals(of_phase, of_amplitude);
-        const double sigma = std::sqrt(imager_.variance(f.mean));
+        const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
+        // The amplitude's noise matters where it may fall below the threshold.
+        double amplitude = f.amplitude;
+        const double spread = fringes_.amplitude_sigma(sigma);
+        if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread) {
+          amplitude += spread * normals.next();
+        }
         out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
         if (mixed) {
           out.validity[i] = Validity::mixed;
         } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {
           out.validity[i] = Validity::saturated;
-        } else if (f.amplitude + fringes_.amplitude_sigma(sigma) * of_amplitude < setup_.settings.min_modulation) {
+        } else if (amplitude < setup_.settings.min_modulation) {
           out.validity[i] = code == Validity::shadow ? code : Validity::dark;
         } else {
           deliver(out, p, column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);

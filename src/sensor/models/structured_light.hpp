@@ -80,6 +80,7 @@ class StructuredLight {
   std::vector<Validity> codes_;              ///< valid, nothing, shadow or outside
   std::vector<double> columns_, distances_;  ///< of the projector; m from it
   std::vector<double> whites_;               ///< reflected / distance^2
+  std::vector<double> planes_;               ///< Pixel::plane
   double gain_ = 0.0;                        ///< signal of the projector's white = gain * white
 };
 

@@ -160,11 +160,47 @@ StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel,
   return kind;
 }
 
+/// Of some rows: whether each pixel and its neighbours show one face in the same light. That spares most of them more.
+std::vector<char> StructuredLight::Strip::uniform(int first, int last) const {
+  const int top = std::max(0, first - 1), bottom = std::min(height_, last + 1);
+  const auto at = [&](int y, int x) {
+    return static_cast<std::size_t>(y - top) * width_ + static_cast<std::size_t>(x);
+  };
+  std::vector<char> across(at(bottom, 0), 1), down = across, all(static_cast<std::size_t>(last - first) * width_, 0);
+  for (int y = top; y < bottom; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      if (x + 1 < width_) across[at(y, x)] = alike(y, x, y, x + 1);
+      if (y + 1 < bottom) down[at(y, x)] = alike(y, x, y + 1, x);
+    }
+  }
+  for (int y = first; y < last; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      char same = down[at(y, x)] & (y > top ? down[at(y - 1, x)] : 1);
+      for (int v = std::max(top, y - 1); v < std::min(bottom, y + 2); ++v) {
+        same &= across[at(v, x)] & (x > 0 ? across[at(v, x - 1)] : 1);
+      }
+      all[static_cast<std::size_t>(y - first) * width_ + static_cast<std::size_t>(x)] = same;
+    }
+  }
+  return all;
+}
+
+/// Whether two pixels see one plane of one surface, lit alike.
+bool StructuredLight::Strip::alike(int row_a, int a, int row_b, int b) const {
+  const std::size_t i = static_cast<std::size_t>(row_a) * width_ + a, k = static_cast<std::size_t>(row_b) * width_ + b;
+  if (model_.codes_[i] != model_.codes_[k] || model_.view_.line[i] != model_.view_.line[k]) return false;
+  if (model_.view_.normal[i] != model_.view_.normal[k]) return false;
+  return std::abs(model_.planes_[i] - model_.planes_[k]) < 0.1 * least_step;
+}
+
 std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixels() const {
   std::vector<std::size_t> maybe;
   const double edge = model_.setup_.settings.edge_step;
-  for (int y = std::max(0, first_ - 2 * reach_); y < std::min(height_, last_ + 2 * reach_); ++y) {
+  const int from = std::max(0, first_ - 2 * reach_), to = std::min(height_, last_ + 2 * reach_);
+  const std::vector<char> plain = uniform(from, to);
+  for (int y = from; y < to; ++y) {
     for (int x = 0; x < width_; ++x) {
+      if (plain[static_cast<std::size_t>(y - from) * width_ + static_cast<std::size_t>(x)]) continue;
       const std::size_t index = static_cast<std::size_t>(y) * width_ + x;
       const Validity code = model_.codes_[index];
       if (code != Validity::valid && code != Validity::shadow) continue;
@@ -249,10 +285,9 @@ void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, 
 }
 
 /// Cells of one face in even light.
-void StructuredLight::Strip::add_flat(std::size_t index) {
+StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, const Vec2& slope) const {
   const Lens& lens = model_.view_.lens;
-  const Pixel pixel = model_.pixel(index % width_, index / width_);
-  const Vec2 slope = model_.slope(pixel);
+  const std::size_t index = pixel.index;
   Cells cells;
   cells.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
   cells.outside = model_.codes_[index] == Validity::outside;
@@ -263,23 +298,29 @@ void StructuredLight::Strip::add_flat(std::size_t index) {
     cells.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
     cells.depth[k] = static_cast<float>(pixel.plane / here);
   }
+  return cells;
+}
+
+void StructuredLight::Strip::add_flat(std::size_t index) {
+  const Pixel pixel = model_.pixel(index % width_, index / width_);
+  Cells cells = flat(pixel, model_.slope(pixel));
   add(index, cells);
 }
 
 /// Cells of faces that bend gently: their columns leave those of the centre's face towards each corner's.
 void StructuredLight::Strip::add_bent(const Uneven& bent) {
-  add_flat(bent.index);
-  Cells& cells = cells_.back();
-  const Vec2 slope = model_.slope(model_.pixel(bent.index % width_, bent.index / width_));
+  const Pixel pixel = model_.pixel(bent.index % width_, bent.index / width_);
+  const Vec2 slope = model_.slope(pixel);
+  Cells cells = flat(pixel, slope);
   for (int k = 0; k < per_pixel; ++k) {
     const double u = across(k), v = down(k);
     const int corner = (u > 0.0 ? 1 : 0) + (v > 0.0 ? 2 : 0), at = corner_cells[corner];
     const Seen& there = bent.corners[static_cast<std::size_t>(corner)];
     const double flat = model_.columns_[bent.index] + slope.x() * across(at) + slope.y() * down(at);
-    const double share = std::hypot(u, v) / std::hypot(across(at), down(at));
+    const double share = std::sqrt((u * u + v * v) / (across(at) * across(at) + down(at) * down(at)));
     cells.column[k] += static_cast<float>(share * (there.lit.column - flat));
   }
-  set_phases(cells);
+  add(bent.index, cells);
 }
 
 void StructuredLight::Strip::add(std::size_t index, Cells& cells) {

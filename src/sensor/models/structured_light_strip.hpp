@@ -49,6 +49,8 @@ class StructuredLight::Strip {
     std::int32_t line;
   };
 
+  std::vector<char> uniform(int first, int last) const;
+  bool alike(int row_a, int a, int row_b, int b) const;
   bool differs(int x, int y) const;
   double hidden_step(const Pixel& pixel) const;
   std::vector<Seen> cast(const std::vector<Spot>& spots) const;
@@ -64,6 +66,7 @@ class StructuredLight::Strip {
   void add_crossed(const std::vector<const Uneven*>& pixels);
   void add_mixed(const Uneven& pixel);
   void add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen);
+  Cells flat(const Pixel& pixel, const Vec2& slope) const;
   void add_flat(std::size_t index);
   void add_bent(const Uneven& pixel);
   void add(std::size_t index, Cells& cells);
