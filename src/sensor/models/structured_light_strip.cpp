@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace bin_scenes {
 
 namespace {
 
-constexpr int corner_cells[4] = {0, 3, 12, 15};
 constexpr double least_step = 2e-6;  // m; below it two faces are one, whatever the noise
-
-bool is_corner(int cell) {
-  return std::find(std::begin(corner_cells), std::end(corner_cells), cell) != std::end(corner_cells);
-}
 
 /// Share of a normal distribution below x.
 double below(double x, double sigma) {
@@ -43,7 +37,7 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
     for (int u = -reach_; u <= reach_; ++u) {
       shares_.push_back(0.0);
       for (int k = 0; k < per_pixel; ++k) {
-        weights_.push_back(seen(u + across(k)) * seen(v + down(k)));
+        weights_.push_back(seen(u + cells::across(k)) * seen(v + cells::down(k)));
         shares_.back() += weights_.back();
       }
       sum += shares_.back();
@@ -119,7 +113,7 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   std::vector<Hit> hits(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Vec3 middle = model_.rays_.at(spots[i].index % width_, spots[i].index / width_);
-    const Vec3 offset(across(spots[i].cell) / view.lens.fx, down(spots[i].cell) / view.lens.fy, 0.0);
+    const Vec3 offset(cells::across(spots[i].cell) / view.lens.fx, cells::down(spots[i].cell) / view.lens.fy, 0.0);
     rays[i] = {view.pose.position, model_.turn_ * (middle + offset), model_.setup_.near, model_.setup_.far};
   }
   model_.scenery_.first_hits(rays.data(), hits.data(), rays.size());
@@ -147,7 +141,7 @@ StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel,
   const Surface& own = model_.surfaces_.of(model_.view_.line[pixel.index]);
   Kind kind = Kind::even;
   for (int k = 0; k < 4; ++k) {
-    const double u = across(corner_cells[k]), v = down(corner_cells[k]);
+    const double u = cells::across(cells::corners[k]), v = cells::down(cells::corners[k]);
     const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
     const double off = std::abs(corners[k].depth - pixel.plane / here);
     const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line));
@@ -219,7 +213,7 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
   }
   std::vector<Spot> corners;
   for (const std::size_t index : maybe) {
-    for (const int cell : corner_cells) corners.push_back({index, cell});
+    for (const int cell : cells::corners) corners.push_back({index, cell});
   }
   const std::vector<Seen> seen = cast(corners);
   std::vector<Uneven> uneven;
@@ -232,13 +226,13 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
   return uneven;
 }
 
-void StructuredLight::Strip::set_phases(Cells& cells) const {
+void StructuredLight::Strip::set_phases(Cells& own) const {
   const double turn = 2.0 * M_PI / model_.setup_.settings.period;
   for (int k = 0; k < per_pixel; ++k) {
-    cells.cosine[k] = cells.sine[k] = 0.0f;
-    if (cells.white[k] <= 0.0f) continue;
-    cells.cosine[k] = static_cast<float>(cells.white[k] * std::cos(turn * cells.column[k]));
-    cells.sine[k] = static_cast<float>(cells.white[k] * std::sin(turn * cells.column[k]));
+    own.cosine[k] = own.sine[k] = 0.0f;
+    if (own.white[k] <= 0.0f) continue;
+    own.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
+    own.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
   }
 }
 
@@ -247,7 +241,7 @@ void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixel
   std::vector<Spot> spots;
   for (const Uneven* const pixel : pixels) {
     for (int k = 0; k < per_pixel; ++k) {
-      if (!is_corner(k)) spots.push_back({pixel->index, k});
+      if (!cells::is_corner(k)) spots.push_back({pixel->index, k});
     }
   }
   const std::vector<Seen> others = cast(spots);
@@ -255,7 +249,7 @@ void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixel
   for (const Uneven* const pixel : pixels) {
     std::array<Seen, per_pixel> seen;
     int corner = 0;
-    for (int k = 0; k < per_pixel; ++k) seen[k] = is_corner(k) ? pixel->corners[corner++] : others[next++];
+    for (int k = 0; k < per_pixel; ++k) seen[k] = cells::is_corner(k) ? pixel->corners[corner++] : others[next++];
     add_seen(pixel->index, seen);
   }
 }
@@ -264,69 +258,70 @@ void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixel
 void StructuredLight::Strip::add_mixed(const Uneven& pixel) {
   std::array<Seen, per_pixel> seen;
   for (int k = 0; k < per_pixel; ++k) {
-    seen[k] = pixel.corners[(across(k) > 0.0 ? 1u : 0u) + (down(k) > 0.0 ? 2u : 0u)];
+    seen[k] = pixel.corners[(cells::across(k) > 0.0 ? 1u : 0u) + (cells::down(k) > 0.0 ? 2u : 0u)];
   }
   add_seen(pixel.index, seen);
 }
 
 void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen) {
-  Cells cells;
+  Cells own;
   for (int k = 0; k < per_pixel; ++k) {
     const Seen& s = seen[k];
     const bool lit = s.lit.code == Validity::valid;
-    cells.column[k] = static_cast<float>(s.lit.column);
-    cells.white[k] = lit ? static_cast<float>(s.lit.reflected / (s.lit.distance * s.lit.distance)) : 0.0f;
-    cells.depth[k] = static_cast<float>(s.depth);
-    cells.outside = cells.outside || s.lit.code == Validity::outside;
+    own.column[k] = static_cast<float>(s.lit.column);
+    own.white[k] = lit ? static_cast<float>(s.lit.reflected / (s.lit.distance * s.lit.distance)) : 0.0f;
+    own.depth[k] = static_cast<float>(s.depth);
+    own.outside = own.outside || s.lit.code == Validity::outside;
     if (s.lit.code == Validity::nothing) continue;
-    cells.diffuse += static_cast<float>(diffuse_share(model_.surfaces_.of(s.line))) / per_pixel;
+    own.diffuse += static_cast<float>(diffuse_share(model_.surfaces_.of(s.line))) / per_pixel;
   }
-  add(index, cells);
+  add(index, own);
 }
 
 /// Cells of one face in even light.
 StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, const Vec2& slope) const {
   const Lens& lens = model_.view_.lens;
   const std::size_t index = pixel.index;
-  Cells cells;
-  cells.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
-  cells.outside = model_.codes_[index] == Validity::outside;
+  Cells own;
+  own.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
+  own.outside = model_.codes_[index] == Validity::outside;
   for (int k = 0; k < per_pixel; ++k) {
-    const double u = across(k), v = down(k);
+    const double u = cells::across(k), v = cells::down(k);
     const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
-    cells.column[k] = static_cast<float>(model_.columns_[index] + slope.x() * u + slope.y() * v);
-    cells.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
-    cells.depth[k] = static_cast<float>(pixel.plane / here);
+    own.column[k] = static_cast<float>(model_.columns_[index] + slope.x() * u + slope.y() * v);
+    own.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
+    own.depth[k] = static_cast<float>(pixel.plane / here);
   }
-  return cells;
+  return own;
 }
 
 void StructuredLight::Strip::add_flat(std::size_t index) {
   const Pixel pixel = model_.pixel(index % width_, index / width_);
-  Cells cells = flat(pixel, model_.slope(pixel));
-  add(index, cells);
+  Cells own = flat(pixel, model_.slope(pixel));
+  add(index, own);
 }
 
 /// Cells of faces that bend gently: their columns leave those of the centre's face towards each corner's.
 void StructuredLight::Strip::add_bent(const Uneven& bent) {
   const Pixel pixel = model_.pixel(bent.index % width_, bent.index / width_);
   const Vec2 slope = model_.slope(pixel);
-  Cells cells = flat(pixel, slope);
+  Cells own = flat(pixel, slope);
   for (int k = 0; k < per_pixel; ++k) {
-    const double u = across(k), v = down(k);
-    const int corner = (u > 0.0 ? 1 : 0) + (v > 0.0 ? 2 : 0), at = corner_cells[corner];
+    const double u = cells::across(k), v = cells::down(k);
+    const int corner = (u > 0.0 ? 1 : 0) + (v > 0.0 ? 2 : 0), at = cells::corners[corner];
     const Seen& there = bent.corners[static_cast<std::size_t>(corner)];
-    const double flat = model_.columns_[bent.index] + slope.x() * across(at) + slope.y() * down(at);
-    const double share = std::sqrt((u * u + v * v) / (across(at) * across(at) + down(at) * down(at)));
-    cells.column[k] += static_cast<float>(share * (there.lit.column - flat));
+    const double flat = model_.columns_[bent.index] + slope.x() * cells::across(at) + slope.y() * cells::down(at);
+    const double share =
+        std::sqrt((u * u + v * v) / (cells::across(at) * cells::across(at) + cells::down(at) * cells::down(at)));
+    own.column[k] += static_cast<float>(share * (there.lit.column - flat));
   }
-  add(bent.index, cells);
+  add(bent.index, own);
 }
 
-void StructuredLight::Strip::add(std::size_t index, Cells& cells) {
-  set_phases(cells);
+void StructuredLight::Strip::add(std::size_t index, Cells& own) {
+  set_phases(own);
   cells_of_[index - origin_] = static_cast<std::int32_t>(cells_.size());
-  cells_.push_back(cells);
+  cells_.push_back(own);
 }
 
 }  // namespace bin_scenes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/in_parallel.hpp"
+#include "sensor/models/cells.hpp"
 #include "sensor/models/structured_light.hpp"
 
 #include <algorithm>
@@ -16,11 +17,7 @@ namespace bin_scenes {
 /// neighbours within the blur's reach follow from their faces.
 class StructuredLight::Strip {
  public:
-  static constexpr int side = 4, per_pixel = side * side;  ///< cells of a pixel, row-major
-  /// Where in its pixel a cell is asked, -0.5 to 0.5. No two lie in one column or row, so that an edge along either
-  /// moves from cell to cell.
-  static double across(int k) { return (k % side + (k / side + 0.5) / side) / side - 0.5; }
-  static double down(int k) { return (k / side + (k % side + 0.5) / side) / side - 0.5; }
+  static constexpr int per_pixel = cells::per_pixel;
   /// The cells of one pixel. Without light, white is 0.
   struct Cells {
     float column[per_pixel], white[per_pixel], depth[per_pixel];
@@ -112,25 +109,25 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
         out.off_share += share;
         continue;
       }
-      const Cells& cells = cells_[at];
-      out.diffuse += share * cells.diffuse;
-      out.outside = out.outside || (cells.outside && share > 0.01);
+      const Cells& own = cells_[at];
+      out.diffuse += share * own.diffuse;
+      out.outside = out.outside || (own.outside && share > 0.01);
       for (int k = 0; k < per_pixel; ++k) {
         const double weight = weights_[per_pixel * neighbour + static_cast<std::size_t>(k)];
-        const double here =
-            facing + pixel.normal.x() * (u - x + across(k)) / lens.fx + pixel.normal.y() * (v - y + down(k)) / lens.fy;
-        if (!(std::abs(cells.depth[k] * here - pixel.plane) < s.settings.edge_step * std::abs(here))) {
+        const double here = facing + pixel.normal.x() * (u - x + cells::across(k)) / lens.fx +
+                            pixel.normal.y() * (v - y + cells::down(k)) / lens.fy;
+        if (!(std::abs(own.depth[k] * here - pixel.plane) < s.settings.edge_step * std::abs(here))) {
           out.off_share += weight;
         }
-        if (cells.white[k] <= 0.0f) continue;
-        out.white += weight * cells.white[k];
-        out.cosine += weight * cells.cosine[k];
-        out.sine += weight * cells.sine[k];
-        if (weight * cells.white[k] > brightest) {
-          brightest = weight * cells.white[k];
-          out.column = cells.column[k];
+        if (own.white[k] <= 0.0f) continue;
+        out.white += weight * own.white[k];
+        out.cosine += weight * own.cosine[k];
+        out.sine += weight * own.sine[k];
+        if (weight * own.white[k] > brightest) {
+          brightest = weight * own.white[k];
+          out.column = own.column[k];
         }
-        use(cells, k, weight);
+        use(own, k, weight);
       }
     }
   }
