@@ -150,7 +150,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
         Fringe f{0.0, 0.0};
         bool mixed = false;
         if (near_edge) {
-          const Blend blend = strip.blend(p, [](const Strip::Cells&, int, double) {});
+          const Blend blend = strip.blend(p, [](const Strip::Cells&, const Strip::Values&) {});
           if (blend.outside) out.validity[i] = Validity::outside;
           if (blend.outside || (code == Validity::shadow && blend.white <= 0.0)) continue;
           mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;

@@ -41,8 +41,11 @@ Measurement StructuredLight::decoded(const Random& random) const {
         double background = ambient(i);
         bool mixed = false;
         if (near_edge) {
-          const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, int k, double weight) {
-            fringes_.add_light(cells.column[k], gain_ * weight * cells.white[k], images.data());
+          const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, const Strip::Values& weight) {
+            for (int k = 0; k < Strip::per_pixel; ++k) {
+              const double white = gain_ * weight[k] * cells.white[k];
+              if (white > 0.0) fringes_.add_light(cells.column[k], white, images.data());
+            }
           });
           if (blend.outside) out.validity[i] = Validity::outside;
           if (blend.outside || (code == Validity::shadow && blend.white <= 0.0)) continue;

@@ -30,21 +30,24 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
       top_(std::max(0, first - reach_)),
       bottom_(std::min(height_, last + reach_)),
       origin_(static_cast<std::size_t>(top_) * width_) {
+  for (int k = 0; k < per_pixel; ++k) {
+    across_[k] = static_cast<float>(cells::across(k));
+    down_[k] = static_cast<float>(cells::down(k));
+  }
   const double blur = model.setup_.imager.blur;
   double sum = 0.0;
   const auto seen = [&](double at) { return blur > 0.0 ? below(at + 0.5, blur) - below(at - 0.5, blur) : 1.0; };
   for (int v = -reach_; v <= reach_; ++v) {
     for (int u = -reach_; u <= reach_; ++u) {
-      shares_.push_back(0.0);
+      weights_.emplace_back();
       for (int k = 0; k < per_pixel; ++k) {
-        weights_.push_back(seen(u + cells::across(k)) * seen(v + cells::down(k)));
-        shares_.back() += weights_.back();
+        const double weight = seen(u + cells::across(k)) * seen(v + cells::down(k));
+        weights_.back()[k] = static_cast<float>(weight);
+        sum += weight;
       }
-      sum += shares_.back();
     }
   }
-  for (double& w : weights_) w /= sum;
-  for (double& s : shares_) s /= sum;
+  for (Values& w : weights_) w /= static_cast<float>(sum);
 
   const std::size_t pixels = static_cast<std::size_t>(bottom_ - top_) * width_;
   near_.assign(pixels, 0);
@@ -68,6 +71,7 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
       }
     }
   }
+  cells_.reserve(cells_.size() + static_cast<std::size_t>(std::count(needed.begin(), needed.end(), 1)));
   add_crossed(crossed);
   for (std::size_t at = 0; at < pixels; ++at) {
     if (needed[at] && cells_of_[at] < 0 && model_.codes_[origin_ + at] != Validity::nothing) add_flat(origin_ + at);
@@ -226,6 +230,19 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
   return uneven;
 }
 
+/// Share of a neighbour's cells that lie off a pixel's face by edge_step or more.
+float StructuredLight::Strip::off_face(const Pixel& pixel, int right, int down, const Cells& cells,
+                                       const Values& weight) const {
+  const Lens& lens = model_.view_.lens;
+  const auto across = static_cast<float>(pixel.normal.x() / lens.fx),
+             along = static_cast<float>(pixel.normal.y() / lens.fy);
+  const auto middle = static_cast<float>(pixel.normal.dot(pixel.ray)) + across * static_cast<float>(right) +
+                      along * static_cast<float>(down);
+  const auto plane = static_cast<float>(pixel.plane), step = static_cast<float>(model_.setup_.settings.edge_step);
+  const Values here = middle + across * across_ + along * down_;
+  return ((cells.depth * here - plane).abs() < step * here.abs()).select(Values::Zero(), weight).sum();
+}
+
 void StructuredLight::Strip::set_phases(Cells& own) const {
   const double turn = 2.0 * M_PI / model_.setup_.settings.period;
   for (int k = 0; k < per_pixel; ++k) {
@@ -320,6 +337,7 @@ void StructuredLight::Strip::add_bent(const Uneven& bent) {
 
 void StructuredLight::Strip::add(std::size_t index, Cells& own) {
   set_phases(own);
+  own.white.maxCoeff(&own.brightest);
   cells_of_[index - origin_] = static_cast<std::int32_t>(cells_.size());
   cells_.push_back(own);
 }

@@ -18,12 +18,14 @@ namespace bin_scenes {
 class StructuredLight::Strip {
  public:
   static constexpr int per_pixel = cells::per_pixel;
+  using Values = Eigen::Array<float, per_pixel, 1, Eigen::DontAlign>;  ///< one a cell
   /// The cells of one pixel. Without light, white is 0.
   struct Cells {
-    float column[per_pixel], white[per_pixel], depth[per_pixel];
-    float cosine[per_pixel], sine[per_pixel];  ///< white, times those of the fringe's phase
-    float diffuse = 0.0f;                      ///< mean share of ambient light sent back
-    bool outside = false;                      ///< a part lies outside the projector's field
+    Values column, white, depth;
+    Values cosine, sine;   ///< white, times those of the fringe's phase
+    int brightest = 0;     ///< cell
+    float diffuse = 0.0f;  ///< mean share of ambient light sent back
+    bool outside = false;  ///< a part lies outside the projector's field
   };
 
   /// @param rows  first to last - 1
@@ -31,7 +33,7 @@ class StructuredLight::Strip {
 
   /// Whether the light of a pixel (of the strip's rows) has to be summed over cells.
   bool near_edge(std::size_t index) const { return near_[index - origin_] != 0; }
-  /// What it sums up to. Calls use(cells, cell, weight) for each cell that is lit.
+  /// What it sums up to. Calls use(cells, weights) for each pixel that is lit.
   template <class Use>
   Blend blend(const Pixel& pixel, const Use& use) const;
 
@@ -47,6 +49,7 @@ class StructuredLight::Strip {
   };
 
   std::vector<char> uniform(int first, int last) const;
+  float off_face(const Pixel& pixel, int right, int down, const Cells& cells, const Values& weight) const;
   bool alike(int row_a, int a, int row_b, int b) const;
   bool differs(int x, int y) const;
   double hidden_step(const Pixel& pixel) const;
@@ -77,7 +80,8 @@ class StructuredLight::Strip {
   std::vector<char> near_;
   std::vector<std::int32_t> cells_of_;  ///< index into cells_ by pixel; -1: none
   std::vector<Cells> cells_;
-  std::vector<double> weights_, shares_;  ///< of the cells of pixels from -reach_ to reach_, row-major; sums by pixel
+  Values across_, down_;         ///< places of cells in their pixel
+  std::vector<Values> weights_;  ///< of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
 };
 
 /// The light of a pixel near an edge.
@@ -93,42 +97,33 @@ struct StructuredLight::Blend {
 
 template <class Use>
 StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const Use& use) const {
-  const Setup& s = model_.setup_;
-  const Lens& lens = model_.view_.lens;
   const int x = static_cast<int>(pixel.index) % width_, y = static_cast<int>(pixel.index) / width_;
-  const double facing = pixel.normal.dot(pixel.ray);
   Blend out;
-  double brightest = 0.0, total = 0.0;
+  float brightest = 0.0f, total = 0.0f;
   for (int v = std::max(0, y - reach_); v <= std::min(height_ - 1, y + reach_); ++v) {
     for (int u = std::max(0, x - reach_); u <= std::min(width_ - 1, x + reach_); ++u) {
       const std::int32_t at = cells_of_[static_cast<std::size_t>(v) * width_ + u - origin_];
-      const std::size_t neighbour = static_cast<std::size_t>((v - y + reach_) * (2 * reach_ + 1) + u - x + reach_);
-      const double share = shares_[neighbour];
+      const Values& weight = weights_[static_cast<std::size_t>((v - y + reach_) * (2 * reach_ + 1) + u - x + reach_)];
+      const float share = weight.sum();
       total += share;
       if (at < 0) {  // nothing is there
         out.off_share += share;
         continue;
       }
-      const Cells& own = cells_[at];
+      const Cells& own = cells_[static_cast<std::size_t>(at)];
       out.diffuse += share * own.diffuse;
-      out.outside = out.outside || (own.outside && share > 0.01);
-      for (int k = 0; k < per_pixel; ++k) {
-        const double weight = weights_[per_pixel * neighbour + static_cast<std::size_t>(k)];
-        const double here = facing + pixel.normal.x() * (u - x + cells::across(k)) / lens.fx +
-                            pixel.normal.y() * (v - y + cells::down(k)) / lens.fy;
-        if (!(std::abs(own.depth[k] * here - pixel.plane) < s.settings.edge_step * std::abs(here))) {
-          out.off_share += weight;
-        }
-        if (own.white[k] <= 0.0f) continue;
-        out.white += weight * own.white[k];
-        out.cosine += weight * own.cosine[k];
-        out.sine += weight * own.sine[k];
-        if (weight * own.white[k] > brightest) {
-          brightest = weight * own.white[k];
-          out.column = own.column[k];
-        }
-        use(own, k, weight);
+      out.outside = out.outside || (own.outside && share > 0.01f);
+      if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) out.off_share += off_face(pixel, u - x, v - y, own, weight);
+      const float light = weight[own.brightest] * own.white[own.brightest];
+      if (light <= 0.0f) continue;
+      out.white += (weight * own.white).sum();
+      out.cosine += (weight * own.cosine).sum();
+      out.sine += (weight * own.sine).sum();
+      if (light > brightest) {
+        brightest = light;
+        out.column = own.column[own.brightest];
       }
+      use(own, weight);
     }
   }
   out.off_share /= total;
