@@ -133,6 +133,28 @@ TEST(StructuredLight, DecodedNoiseIsAsPredicted) {
   }
 }
 
+TEST(StructuredLight, BlurWeakensTheFringeAsPredicted) {
+  Targets targets = plate(1.0, 0.4);
+  Device sharp, blurred;
+  blurred.setup.imager.blur = 0.6;
+  std::size_t count;
+  EXPECT_NEAR(over_predicted(targets, blurred, true, 100000, count), 1.0, 0.03);
+  // A pixel covers 3.7 columns of a period of 16: its fringe is weaker by exp(-2 (pi 0.6 3.7 / 16)^2) = 0.69.
+  const Scenery scenery = targets.scenery();
+  const View view = look(scenery, sharp.camera, Pose(), 0.05, 10.0);
+  const std::size_t middle = 75 * 200 + 100;
+  const StructuredLight a(scenery, view, targets.surfaces(), sharp.setup),
+      b(scenery, view, targets.surfaces(), blurred.setup);
+  const Pose back = sharp.setup.projector_pose.inverse();
+  const auto column = [&](double x) {
+    const Vec3 ray = sharp.camera.ray(x, 75.0);
+    return sharp.setup.projector.project(back * (view.depth[middle] * ray))->x();
+  };
+  const double columns = column(100.5) - column(99.5);
+  const double weaker = std::exp(-2.0 * std::pow(M_PI * 0.6 * columns / 16.0, 2));
+  EXPECT_NEAR(a.depth_sigma(middle) / b.depth_sigma(middle), weaker, 0.005);
+}
+
 double mean_sigma(const Device& device, double z) {
   Targets targets = plate(z);
   const Shot shot = shoot(targets, device, false);
