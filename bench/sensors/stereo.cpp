@@ -7,19 +7,12 @@
 namespace bin_scenes::bench {
 namespace {
 
-/// Errors of the disparity (pixel) without the mean of each row, which holds the matcher's liking for whole pixels on a
-/// plate turned about x. NaN: not matched, or matched wrongly by a pixel or more.
+/// Errors of the disparity (pixel). NaN: not matched, or matched wrongly by a pixel or more.
 std::vector<double> disparity_errors(const Shot& shot, double scale) {
-  const auto width = static_cast<std::size_t>(shot.view.lens.width);
   std::vector<double> errors(shot.view.depth.size());
-  for (std::size_t row = 0; row < errors.size(); row += width) {
-    double sum = 0.0, matched = 0.0;
-    for (std::size_t i = row; i < row + width; ++i) {
-      errors[i] = scale / shot.measured.depth[i] - scale / shot.view.depth[i];
-      if (!(std::abs(errors[i]) < 1.0)) errors[i] = std::numeric_limits<double>::quiet_NaN();
-      if (!std::isnan(errors[i])) sum += errors[i], ++matched;
-    }
-    for (std::size_t i = row; i < row + width; ++i) errors[i] -= sum / matched;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    errors[i] = scale / shot.measured.depth[i] - scale / shot.view.depth[i];
+    if (!(std::abs(errors[i]) < 1.0)) errors[i] = std::numeric_limits<double>::quiet_NaN();
   }
   return errors;
 }

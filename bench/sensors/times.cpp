@@ -24,6 +24,18 @@ void add_balls(test::Stage& stage) {
   }
 }
 
+/// 50 boxes and rings in all poses on a plate.
+void add_heap(test::Stage& stage) {
+  stage.place(stage.model(box_target({4.0, 4.0, 0.02})), test::at(0, 0, 1.06));
+  const std::size_t lines[] = {stage.model(test::box_mesh({0.07, 0.05, 0.03})),
+                               stage.model(test::torus_mesh(0.03, 0.01, 48, 24))};
+  Random random(2, 0, Stream::probe);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 place(random.uniform(-0.17, 0.17), random.uniform(-0.13, 0.13), random.uniform(0.95, 1.03));
+    stage.place(lines[i % 2], {place, random.orientation()});
+  }
+}
+
 /// Several runs after one that makes the search trees of the models. The goal is for two cores that do nothing else.
 void time(Run& out, const std::string& what, double goal_s, const std::function<void()>& work) {
   const Figure figure{"time: " + what};
@@ -44,10 +56,12 @@ void time(Run& out, const std::string& what, double goal_s, const std::function<
 }
 
 void view_times(Run& out) {
-  test::Stage stage;
+  test::Stage stage, heap;
   add_balls(stage);
+  add_heap(heap);
   SensorRig rig;
-  const auto whole = [&](const std::string& what, double goal_s, SensorModel model, Fidelity fidelity) {
+  const auto whole_of = [&](test::Stage& stage, const std::string& what, double goal_s, SensorModel model,
+                            Fidelity fidelity) {
     Sensor sensor;
     sensor.model = model;
     sensor.fidelity = fidelity;
@@ -59,6 +73,9 @@ void view_times(Run& out) {
     stage.scene.sensors = {resolved(sensor, stage.request.bin)};
     time(out, what, goal_s, [&] { rig.look(stage.scene, stage.request, stage.models); });
   };
+  const auto whole = [&](const std::string& what, double goal_s, SensorModel model, Fidelity fidelity) {
+    whole_of(stage, what, goal_s, model, fidelity);
+  };
   whole("ideal 1280 x 1024, all truth", 0.4, SensorModel::ideal, Fidelity::analytic);
   {
     const Scenery scenery = stage.scenery();
@@ -67,6 +84,7 @@ void view_times(Run& out) {
     time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
   }
   whole("structured light, analytic", 0.6, SensorModel::structured_light, Fidelity::analytic);
+  whole_of(heap, "structured light, analytic, 50 parts", 0.15, SensorModel::structured_light, Fidelity::analytic);
   whole("structured light, decoded", 3.0, SensorModel::structured_light, Fidelity::decoded);
   whole("laser line, 1000 profiles", 1.0, SensorModel::laser_line, Fidelity::analytic);
   whole("stereo 848 x 480, 128 disparities, matched", 0.5, SensorModel::stereo, Fidelity::decoded);

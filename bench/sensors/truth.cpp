@@ -145,7 +145,7 @@ void shadow_width(Run& out, double height) {
   const double end = -half - (half + sensor.projector.pose->position.x()) * height / (z - height);
   const double begin = -half * z / (z - height);
   const Lens lens = lens_of(sensor);
-  const double expected = (begin - end) / z * lens.fx;
+  const double expected = (begin - end) / z * lens.fx - 1.0;  // pixels wholly in it: at each end one is halved
   double worst = 0.0;
   for (const Fidelity fidelity : {Fidelity::analytic, Fidelity::decoded}) {
     sensor.fidelity = fidelity;

@@ -29,6 +29,9 @@ void visit(Visitor& v, ImagerSettings& s) {
           s.ambient);
   v.field({"full_well", "electrons", "at saturation; shot noise of a signal s is sqrt(s / full_well)"}, s.full_well);
   v.field({"read_noise", "electrons", "standard deviation; 0 = none"}, s.read_noise);
+  v.field({"blur", "pixel",
+           "structured_light: standard deviation of the camera's blur; depth errs where bright meets dark; 0 = sharp"},
+          s.blur);
   v.field({"bits", "", "of the analogue-digital converter, 1 to 16; fewer = coarser steps"}, s.bits);
 }
 
@@ -73,7 +76,8 @@ void visit(Visitor& v, StereoSettings& s) {
           s.uniqueness);
   v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers"}, s.max_difference);
   v.field({"min_texture", "grey levels",
-           "of 255: standard deviation in a window below which nothing is matched; 0 = noise is matched as well"},
+           "of 255: standard deviation in a window, beyond noise, below which nothing is matched; 0 = noise is matched "
+           "as well"},
           s.min_texture);
   v.field({"speckle_size", "pixel", "smaller islands of disparity are removed; 0 = none are"}, s.speckle_size);
   v.field({"disparity_noise", "pixel", "analytic: standard deviation at full signal"}, s.disparity_noise);

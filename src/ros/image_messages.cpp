@@ -48,19 +48,27 @@ sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& ima
   return message;
 }
 
-/// Depth as a camera without distortion would have it.
+/// Depth as a camera without distortion would have it: of the nearest pixel, moved on its surface to the new ray.
 std::vector<float> rectified(const RangeImage& image) {
   const Lens taken = lens_of(image.sensor);
   Lens pinhole = taken;
   pinhole.distortion = {};
+  const std::vector<std::array<float, 3>> points = points_of(image);
   std::vector<float> depth(image.depth.size(), std::numeric_limits<float>::quiet_NaN());
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
-      const auto pixel = taken.project(pinhole.ray(column, row));
+      const Vec3 ray = pinhole.ray(column, row);
+      const auto pixel = taken.project(ray);
       if (!pixel || !taken.inside(*pixel)) continue;
       const auto x = static_cast<std::size_t>(std::clamp(std::lround(pixel->x()), 0l, image.width - 1l));
       const auto y = static_cast<std::size_t>(std::clamp(std::lround(pixel->y()), 0l, image.height - 1l));
-      depth[static_cast<std::size_t>(row) * image.width + column] = image.depth[y * image.width + x];
+      const std::size_t nearest = y * image.width + x;
+      const auto &n = image.normal[nearest], &p = points[nearest];
+      const Vec3 normal(n[0], n[1], n[2]);
+      const double z = normal.dot(Vec3(p[0], p[1], p[2])) / normal.dot(ray);
+      // Of a face seen edge on the plane leads anywhere.
+      const bool near = std::abs(z - image.depth[nearest]) < 0.1 * image.depth[nearest];
+      depth[static_cast<std::size_t>(row) * image.width + column] = near ? static_cast<float>(z) : image.depth[nearest];
     }
   }
   return depth;

@@ -30,7 +30,7 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
 /// marker, the bin in grey.
 sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const std_msgs::Header& header);
 /// 32FC1, metres along the optical axis, NaN where nothing is valid (REP 118). Of a lens that distorts, rectified: each
-/// pixel has the depth of the nearest one of the image as taken.
+/// pixel has the depth of the nearest one of the image as taken, moved on its surface.
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header);
 /// 16UC1: 0 = background, part id + 1 otherwise; as taken.
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);

@@ -85,6 +85,7 @@ void check_sensor_models(const std::string& key, const Sensor& sensor) {
                                  {"ambient", i.ambient, 0.0, 10.0, "share of the full well"},
                                  {"full_well", i.full_well, 1.0, 1e9, "electrons"},
                                  {"read_noise", i.read_noise, 0.0, 1e6, deviation},
+                                 {"blur", i.blur, 0.0, 3.0, "pixels; 0 = sharp, 0.5 to 0.7 is usual"},
                                  {"bits", double(i.bits), 1, 16, "8 to 12 is usual"}});
   check_structured_light(key, sensor);
   const LaserLineSettings& l = sensor.laser_line;

@@ -113,6 +113,17 @@ Targets plate(const Vec3& middle, const Quat& turn, double size) {
   return targets;
 }
 
+/// Points of the plate's face without a rim of a twentieth of its size: its sides are seen there, and edges.
+std::vector<Vec3> points_on_face(const RangeImage& image, const Vec3& middle, const Quat& turn, double size) {
+  std::vector<Vec3> points = points_with(image, 1);
+  const auto on_rim = [&](const Vec3& p) {
+    const Vec3 there = turn.conjugate() * (p - middle);
+    return there.head<2>().cwiseAbs().maxCoeff() > 0.45 * size;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), on_rim), points.end());
+  return points;
+}
+
 void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
   const double size = 4.0 * half_field(sensor, m.distances[2]).maxCoeff();
   const double tilt = M_PI / 6.0;
@@ -128,9 +139,11 @@ void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
       {m.distances[2], Quat::Identity()},
   }};
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const bool upright = poses[i].second.isApprox(Quat::Identity());
-    Targets targets = plate({0, 0, poses[i].first}, poses[i].second, upright ? size : tilted);
-    m.flatness[i] = range_of(fit_plane(points_with(shot(sensor, targets, 0), 1)).residuals);
+    const Vec3 middle(0, 0, poses[i].first);
+    const Quat& turn = poses[i].second;
+    const double side = turn.isApprox(Quat::Identity()) ? size : tilted;
+    Targets targets = plate(middle, turn, side);
+    m.flatness[i] = range_of(fit_plane(points_on_face(shot(sensor, targets, 0), middle, turn, side)).residuals);
   }
 }
 

@@ -107,6 +107,28 @@ double scale_for(double depth) {
   }
 }
 
+/// In the material of a box's walls, which rise from the floor to the rim.
+bool in_wall(const Bin& bin, const Vec3& position) {
+  if (bin.kind != Bin::Kind::box || position.z() < 0.0 || position.z() > bin.inner_size.z()) return false;
+  const Eigen::Array2d out = position.head<2>().array().abs() - 0.5 * bin.inner_size.head<2>().array();
+  return out.maxCoeff() > 0.0 && out.maxCoeff() < bin.wall_thickness;
+}
+
+/// Whether the sheet meets the room in some profile.
+bool sheet_meets(const Aabb& room, const Sensor& sensor) {
+  constexpr int rays = 32, places = 16;
+  const double half = std::tan(0.5 * sensor.laser_line.fan), way = sensor.scan.step * (sensor.scan.profiles - 1);
+  for (int k = 0; k <= places; ++k) {
+    const Vec3 start = sensor.laser.pose->position +
+                       way * (static_cast<double>(k) / places - 0.5) * sensor.scan.direction.normalized();
+    for (int i = 0; i <= rays; ++i) {
+      const Vec3 ray(0.0, half * (2.0 * i / rays - 1.0), 1.0);
+      if (crosses(room, start, sensor.laser.pose->orientation * ray, 2.0 * sensor.far)) return true;
+    }
+  }
+  return false;
+}
+
 bool looks_at(const Aabb& room, const Lens& lens, const Pose& pose, double far) {
   constexpr int steps = 16;
   for (int y = 0; y <= steps; ++y) {
@@ -126,6 +148,9 @@ void check_place(const std::string& what, const std::string& where, const Vec3& 
   if (!room.empty() && position.z() <= room.lower.z()) {
     refuse("the " + what + " stands " + std::to_string(room.lower.z() - position.z()) + " m below the floor", where,
            "give it a pose with positive z");
+  }
+  if (in_wall(request.bin, position)) {
+    refuse("the " + what + " stands inside the bin's wall", where, "move it out of the wall, or above the rim");
   }
   for (std::size_t line = 0; line < parts.size(); ++line) {
     for (std::size_t i = 0; i < request.parts[line].poses.size(); ++i) {
@@ -171,6 +196,15 @@ void check_sensor(const Sensor& sensor, const Request& request, const Aabb* boun
   }
   if (sensor.model == SensorModel::laser_line) {
     check_place("laser", where, sensor.laser.pose->position, room, request, parts);
+    if (!room.empty() && !sheet_meets(room, sensor)) {
+      refuse("the laser looks away from the bin", where,
+             "z of its frame points forward, in the middle of the sheet; turn it, or leave its pose out");
+    }
+    const Vec3 sheet = sensor.laser.pose->orientation * Vec3::UnitX();
+    if (std::abs(sheet.dot(sensor.laser.pose->position - sensor.pose->position)) < 1e-6) {
+      refuse("the sheet of light passes the camera: there is no triangle to measure with", where,
+             "move the laser across its sheet (x of its frame), or give it a baseline");
+    }
   }
 }
 

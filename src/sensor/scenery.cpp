@@ -96,6 +96,12 @@ struct MeshTree {
   PartModelPtr owner;  // none: `own` is the mesh
   Mesh own;
   RTCScene embree = nullptr;
+  /// Of each triangle: normal (unit) and its product with any point of the plane.
+  struct Plane {
+    Vec3 normal;
+    double offset;
+  };
+  std::vector<Plane> planes;
 
   const Mesh& mesh() const { return owner ? owner->mesh() : own; }
 
@@ -114,7 +120,13 @@ struct MeshTree {
     for (const Vec3& v : m.vertices) {
       for (int k = 0; k < 3; ++k) *corners++ = static_cast<float>(v[k]);
     }
-    for (const Triangle& t : m.triangles) indices = std::copy(t.begin(), t.end(), indices);
+    planes.reserve(m.triangles.size());
+    for (const Triangle& t : m.triangles) {
+      indices = std::copy(t.begin(), t.end(), indices);
+      const Vec3& a = m.vertices[t[0]];
+      const Vec3 normal = (m.vertices[t[1]] - a).cross(m.vertices[t[2]] - a).normalized();
+      planes.push_back({normal, normal.dot(a)});
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(embree, geometry);
     rtcReleaseGeometry(geometry);
@@ -223,17 +235,15 @@ Scenery::Scenery(Scenery&&) noexcept = default;
 Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const {
   Hit hit;
   const Body& body = bodies[packet.hit.instID[0][lane]];
-  const Mesh& mesh = body.tree->mesh();
   hit.triangle = packet.hit.primID[lane];
-  const Triangle& corners = mesh.triangles[hit.triangle];
-  const Vec3& a = mesh.vertices[corners[0]];
-  const Vec3 normal = body.turn * (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a);
+  const MeshTree::Plane& plane = body.tree->planes[hit.triangle];
+  const Vec3 normal = body.turn * plane.normal;
   const double rise = normal.dot(ray.direction);
-  hit.distance = normal.dot(body.turn * a + body.pose.position - ray.origin) / rise;
+  hit.distance = (plane.offset + normal.dot(body.pose.position - ray.origin)) / rise;
   // Of a triangle seen edge on, the plane says nothing; what single precision found does.
   const double single = packet.ray.tfar[lane];
   if (!(std::abs(hit.distance - single) <= 1e-4 * single)) hit.distance = single;
-  hit.normal = normal * ((rise > 0.0 ? -1.0 : 1.0) / normal.norm());
+  hit.normal = rise > 0.0 ? Vec3(-normal) : normal;
   hit.label = body.label;
   hit.line = body.line;
   return hit;

@@ -4,6 +4,8 @@
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -24,6 +26,26 @@ void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>
     const auto id = static_cast<std::size_t>(scene.parts[i].id);
     image.total[id] = alone[i].count;
     image.silhouettes[id] = std::move(alone[i]);
+  }
+}
+
+/// A heap may grow around what looks at it: such an image is empty, or of a part's inside.
+void flag_what_stands_inside(const Sensor& sensor, Scene& scene, const std::vector<PartModelPtr>& parts) {
+  std::vector<std::pair<const char*, Vec3>> places{{"camera", sensor.pose->position}};
+  const bool projects = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
+  if (projects) places.emplace_back("projector", sensor.projector.pose->position);
+  if (sensor.model == SensorModel::laser_line) places.emplace_back("laser", sensor.laser.pose->position);
+  for (const auto& [what, place] : places) {
+    for (const ScenePart& part : scene.parts) {
+      if (!is_there(part.state) || !part.pose.finite()) continue;
+      const PartModel& model = *parts[part.line];
+      const Vec3 here = part.pose.inverse() * place;
+      if ((here - model.mass().center).norm() > model.radius() || !model.query().inside(here)) continue;
+      scene.report.flags.push_back({"sensor_inside_part",
+                                    std::string("the ") + what + " of sensor '" + sensor.name +
+                                        "' stands inside part " + std::to_string(part.id),
+                                    "move it away from the heap, or pour fewer parts"});
+    }
   }
 }
 
@@ -50,6 +72,7 @@ void SensorRig::look(Scene& scene, const Request& request, const std::vector<Par
   const Surfaces surfaces = surfaces_of(request);
   for (const std::size_t s : to_make) {
     const Sensor& sensor = scene.sensors[s];
+    flag_what_stands_inside(sensor, scene, parts);
     View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
     std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};

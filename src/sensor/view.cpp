@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/view.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/pixel_rays.hpp"
 
 namespace bin_scenes {
 
@@ -13,19 +14,19 @@ View look(const Scenery& scenery, const Lens& lens, const Pose& pose, double nea
   view.label.resize(width * height);
   view.normal.resize(width * height);
   view.line.resize(width * height);
-  const Mat3 turn = pose.orientation.toRotationMatrix();
+  const Mat3 turn = pose.orientation.toRotationMatrix(), back = turn.transpose();
+  const PixelRays directions(lens);
   in_parallel(height, [&](std::size_t row) {
     std::vector<Ray> rays(width);
     std::vector<Hit> hits(width);
     for (std::size_t column = 0; column < width; ++column) {
-      const Vec3 direction = lens.ray(static_cast<double>(column), static_cast<double>(row));
-      rays[column] = {pose.position, turn * direction, near, far};
+      rays[column] = {pose.position, turn * directions.at(column, row), near, far};
     }
     scenery.first_hits(rays.data(), hits.data(), width);
     for (std::size_t column = 0; column < width; ++column) {
       const std::size_t i = row * width + column;
       const Hit& hit = hits[column];
-      const Vec3 normal = turn.transpose() * hit.normal;
+      const Vec3 normal = back * hit.normal;
       view.depth[i] = hit.distance;
       view.label[i] = hit.label;
       view.normal[i] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())};

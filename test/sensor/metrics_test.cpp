@@ -33,6 +33,19 @@ TEST(SensorMetrics, OfAnIdealSensorAreThoseOfTheTargets) {
   for (const PredictedSigma& p : m.predicted) EXPECT_EQ(p.sigma, 0.0);
 }
 
+TEST(SensorMetrics, FlatnessIsThatOfThePlatesFace) {
+  // A scan that passes a tilted plate's sides too. Without noise its face is flat but for the converter's steps.
+  Sensor laser = small(SensorModel::laser_line);
+  laser.noise = false;
+  laser.fov = 0.825;
+  laser.near = 0.35;
+  laser.far = 0.72;
+  laser.laser.baseline = 0.25;
+  laser.scan.step = 0.005;
+  const SensorMetrics m = measure_sensor(laser);
+  for (int i = 0; i < 7; ++i) EXPECT_LT(m.flatness[i], 1e-5) << i;
+}
+
 /// Predicted for the middle distance, facing.
 double predicted(const SensorMetrics& m, double albedo) {
   for (const PredictedSigma& p : m.predicted) {

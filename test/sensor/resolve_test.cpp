@@ -125,6 +125,38 @@ TEST(Resolve, ProjectorIsChecked) {
   EXPECT_NE(refusal(sensor).find("no triangle"), std::string::npos);
 }
 
+TEST(Resolve, ACameraInTheWallIsToldSo) {
+  Sensor sensor;
+  sensor.model = SensorModel::structured_light;
+  sensor.pose = Pose{Vec3(0.2025, 0, 0.1), Quat(0, 1, 0, 0)};  // in the middle of a wall of 5 mm
+  EXPECT_NE(refusal(sensor).find("camera stands inside the bin's wall"), std::string::npos);
+  sensor.pose->position.z() = 0.6;
+  EXPECT_EQ(refusal(sensor), "");
+}
+
+TEST(Resolve, LaserIsChecked) {
+  Sensor sensor;
+  sensor.model = SensorModel::laser_line;
+  EXPECT_EQ(refusal(sensor), "");
+  sensor.laser.pose = resolved(sensor, Bin()).laser.pose;
+  sensor.laser.pose->orientation = Quat::Identity();  // z up
+  EXPECT_NE(refusal(sensor).find("laser looks away"), std::string::npos);
+  // A sheet through the camera's centre: the line stays in one column whatever it falls on.
+  sensor.pose = Pose{Vec3(0, 0, 1.0), Quat(0, 1, 0, 0)};
+  sensor.laser.pose = Pose{Vec3(0, 0.2, 1.0), Quat(0, 1, 0, 0)};
+  EXPECT_NE(refusal(sensor).find("no triangle"), std::string::npos);
+}
+
+TEST(Resolve, ALaserMayPassTheBinOnlyInThatPartOfTheScan) {
+  Sensor sensor;
+  sensor.model = SensorModel::laser_line;
+  sensor.pose = Pose{Vec3(-0.25, 0, 1.0), Quat(0, 1, 0, 0)};
+  sensor.laser.pose = Pose{Vec3(-0.35, 0, 1.0), Quat(0, 1, 0, 0)};  // straight down, beside the bin
+  sensor.scan.step = 1e-3;
+  sensor.scan.profiles = 1000;
+  EXPECT_EQ(refusal(sensor), "");
+}
+
 TEST(Resolve, RefusesADistortionThatFoldsTheImage) {
   Sensor sensor;
   sensor.fov = 1.6;

@@ -113,6 +113,27 @@ TEST(SensorRig, SilhouettesAreOfEachPartAlone) {
   EXPECT_EQ(covered, alone.visible[1]);
 }
 
+TEST(SensorRig, WhatStandsInAHeapIsFlagged) {
+  Stage stage;
+  const std::size_t box = stage.model(box_mesh({0.2, 0.2, 0.2}));
+  stage.place(box, at(0, 0, 1));
+  stage.look();
+  EXPECT_TRUE(stage.scene.report.flags.empty());
+  stage.place(box, at(0, 0, 0.05));
+  stage.look();
+  ASSERT_EQ(stage.scene.report.flags.size(), 1u);
+  EXPECT_EQ(stage.scene.report.flags[0].code, "sensor_inside_part");
+  EXPECT_EQ(stage.scene.report.flags[0].text, "the camera of sensor 'camera' stands inside part 1");
+  EXPECT_FALSE(stage.scene.report.flags[0].remedy.empty());
+  stage.scene.parts[1].pose = at(0.3, 0, 0);
+  stage.request.sensors[0].model = SensorModel::structured_light;
+  stage.request.sensors[0].projector.pose = at(0.3, 0, 0);
+  stage.scene.report.flags.clear();
+  stage.look();
+  ASSERT_EQ(stage.scene.report.flags.size(), 1u);
+  EXPECT_EQ(stage.scene.report.flags[0].text, "the projector of sensor 'camera' stands inside part 1");
+}
+
 TEST(SensorRig, ManyEqualPartsKeepTheirOwnLabels) {
   Stage stage;
   const std::size_t box = stage.model(box_mesh({0.02, 0.02, 0.02}));

@@ -19,7 +19,8 @@ struct ImagerSettings {
   double ambient = 0.02;            ///< signal of a white surface without the sensor's light; adds shot noise only
   double full_well = 10000.0;       ///< electrons at saturation; shot noise of a signal s is sqrt(s / full_well)
   double read_noise = 5.0;          ///< electrons, standard deviation; 0 = none
-  int bits = 12;                    ///< of the analogue-digital converter, 1 to 16; fewer = coarser steps
+  double blur = 0.0;  ///< structured_light: camera pixels, standard deviation of the lens's blur; 0 = sharp
+  int bits = 12;      ///< of the analogue-digital converter, 1 to 16; fewer = coarser steps
 };
 
 /// Fringe projection: a phase shift of `steps` images, periods told apart by a Gray code.
@@ -53,7 +54,8 @@ struct StereoSettings {
   double dots = 0.12;     ///< share of the projector's pixels that are dots; 0 = no pattern, passive stereo
   int uniqueness = 10;    ///< %, by which the best match must beat the second; more = more holes, fewer outliers
   double max_difference = 1.0;    ///< pixel, left-right check; smaller = more holes, fewer outliers
-  double min_texture = 1.0;       ///< grey levels of 255, standard deviation in a window below which nothing is matched
+  double min_texture = 1.0;       ///< grey levels of 255, standard deviation in a window, beyond noise, below which
+                                  ///< nothing is matched
   int speckle_size = 60;          ///< pixel: smaller islands of disparity are removed; 0 = none
   double disparity_noise = 0.08;  ///< analytic: pixel at full signal, standard deviation
   double min_signal = 0.02;       ///< analytic: signal below which nothing is matched (code 8)

@@ -21,6 +21,18 @@ int bits_for(double halves) {
   return bits;
 }
 
+/// sin(x) / x for x^2 up to pi^2, 0 beyond: a footprint of more than a period. By its series, within 1e-6.
+double box(double square) {
+  if (square >= M_PI * M_PI) return 0.0;
+  double sum = 1.0;
+  if (square < 1.0) {  // the usual footprint
+    for (const int n : {9, 7, 5, 3}) sum = 1.0 - sum * square * (1.0 / (n * (n - 1)));
+    return sum;
+  }
+  for (const int n : {15, 13, 11, 9, 7, 5, 3}) sum = 1.0 - sum * square * (1.0 / (n * (n - 1)));
+  return sum;
+}
+
 /// Share of a normal distribution below x.
 double below(double x) {
   return 0.5 * std::erfc(-x * M_SQRT1_2);
@@ -135,8 +147,10 @@ Fringes::Reading Fringes::read(const float* images) const {
   return {column, modulation};
 }
 
-double Fringes::seen_through(double columns) const {
-  return std::cos(std::min(0.5 * M_PI * columns / period_, 0.5 * M_PI));
+double Fringes::seen_through(double across, double down, double blur) const {
+  const double a = M_PI / period_ * across, b = M_PI / period_ * down;
+  const double factor = box(a * a) * box(b * b);
+  return blur > 0.0 ? factor * std::exp(-2.0 * blur * blur * (a * a + b * b)) : factor;
 }
 
 double Fringes::brightest(double column) const {

@@ -28,8 +28,9 @@ class Fringes {
   // The same without images, for a white of 1: mean and amplitude of the fringe.
   double mean() const { return 0.5 * (1.0 + black_); }
   double amplitude() const { return amplitude_; }
-  /// By which factor a footprint of this many columns weakens the amplitude, seen through two samples half of it apart.
-  double seen_through(double columns) const;
+  /// By which factor a pixel weakens the amplitude that covers so many columns from one side to the other, across and
+  /// down: its box's and that of a blur (pixel, standard deviation).
+  double seen_through(double across, double down, double blur) const;
   /// Largest value of cos over the images at this column: what saturates first.
   double brightest(double column) const;
   /// Standard deviation of the column for that of an image's value: sqrt(2 / steps) * sigma / modulation is the

@@ -1,7 +1,10 @@
 #include "sensor/models/illumination.hpp"
 
+#include "sensor/models/facets.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace bin_scenes {
 
@@ -10,13 +13,9 @@ double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_ligh
   if (!(in > 0.0 && out > 0.0)) return 0.0;
   const double matte = diffuse_share(surface) * in;
   if (surface.gloss <= 0.0) return matte;
-  const double alpha = std::max(surface.roughness * surface.roughness, 1e-3), a2 = alpha * alpha;
+  const double alpha = std::max(surface.roughness * surface.roughness, 1e-3);
   const double half = normal.dot((to_light + to_eye).normalized());
-  const double bend = half * half * (a2 - 1.0) + 1.0;
-  const double facets = a2 / (M_PI * bend * bend);
-  const double visible =
-      0.5 / (in * std::sqrt(out * out * (1.0 - a2) + a2) + out * std::sqrt(in * in * (1.0 - a2) + a2));
-  return matte + M_PI * surface.albedo * surface.gloss * facets * visible * in;
+  return matte + surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half);
 }
 
 SeenPoint seen_point(const View& view, std::size_t pixel) {
@@ -41,12 +40,18 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
   std::vector<std::size_t> asked;
   rays.reserve(count);
   asked.reserve(count);
+  const bool distorts = projector.distorts();
+  const auto project = [&](const Vec3& point) -> std::optional<Eigen::Vector2d> {
+    if (distorts || !(point.z() > 0.0)) return projector.project(point);
+    const double x = point.x() / point.z(), y = point.y() / point.z();
+    return Eigen::Vector2d(projector.fx * x + projector.skew * y + projector.cx, projector.fy * y + projector.cy);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
     lit[i] = {};
     if (!p.hit) continue;
     lit[i].code = Validity::outside;
-    const auto pixel = projector.project(turn * (p.position - pose.position));
+    const auto pixel = project(turn * (p.position - pose.position));
     if (!pixel) continue;
     lit[i].column = pixel->x();
     lit[i].row = pixel->y();

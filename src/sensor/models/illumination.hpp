@@ -9,8 +9,8 @@
 namespace bin_scenes {
 
 /// Light that a surface sends to an eye, over that which a white matte surface sends that faces the light: a matte
-/// share and a lobe of microfacets (Walter et al. 2007, "Microfacet models for refraction", GGX). All directions are
-/// unit and point away from the surface. 0 where one of them lies behind it.
+/// share and a lobe of facets (facets.hpp). Over the hemisphere it sends back its albedo. All directions are unit and
+/// point away from the surface. 0 where one of them lies behind it.
 double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye);
 /// The share of light from everywhere that a surface sends back: what ambient light makes of it.
 inline double diffuse_share(const Surface& surface) {

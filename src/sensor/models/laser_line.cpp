@@ -35,20 +35,23 @@ void add_speckle(double contrast, Random& draw, std::vector<float>& window) {
 
 }  // namespace
 
+/// The laser's light on a surface, as one sample of the camera sees it.
+struct LaserLine::Line {
+  int sample;
+  double across, depth, signal;  ///< pixel, m along the optical axis, share of the full well
+  Vec3 point, normal;            ///< bin frame
+  std::uint16_t label;
+  bool visible;
+};
+
 struct LaserLine::Lines {
-  struct Line {
-    int sample;
-    double across, depth, signal;  ///< pixel, m along the optical axis, share of the full well
-    Vec3 point, normal;            ///< bin frame
-    std::uint16_t label;
-    bool visible;
-  };
   std::vector<Line> lines;      ///< by sample
   std::vector<Validity> codes;  ///< by sample: why there is none
 };
 
 LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup)
     : scenery_(scenery), surfaces_(surfaces), setup_(setup), imager_(setup.imager, setup.noise) {
+  to_camera_ = setup_.camera_pose.orientation.toRotationMatrix().transpose();
   sheet_ = setup_.laser_pose.orientation * Vec3::UnitX();
   const Vec3 seen = setup_.camera_pose.orientation.conjugate() * sheet_;
   upright_ = std::abs(seen.x()) >= std::abs(seen.y());
@@ -79,11 +82,10 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
 /// whole.
 void LaserLine::keep_what_the_camera_can_see() {
   if (setup_.camera.distorts()) return;
-  const Mat3 to_camera = setup_.camera_pose.orientation.toRotationMatrix().transpose();
-  const Vec3 laser = to_camera * (setup_.laser_pose.position - setup_.camera_pose.position);
+  const Vec3 laser = to_camera_ * (setup_.laser_pose.position - setup_.camera_pose.position);
   /// -1: before the image's first sample, 1: behind its last one, 0: perhaps in it.
   const auto side = [&](const Vec3& direction) {
-    const Vec3 way = to_camera * direction;
+    const Vec3 way = to_camera_ * direction;
     if (!(way.z() > 0.0)) return 0;
     int sides[2];
     for (const int end : {0, 1}) {
@@ -119,86 +121,151 @@ double LaserLine::sigma_at(double depth) const {
   return std::hypot(setup_.settings.blur, 0.25 * setup_.line_width * focal / depth);
 }
 
+/// The line that a sample shows on the plane of what ray `own` hit, lit through the fan between the rays a and b, whose
+/// samples on that plane are `at_a` and `at_b`. By secants: exact on a plane, whatever the lens does.
+std::optional<LaserLine::Line> LaserLine::line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own,
+                                                  std::size_t a, double at_a, std::size_t b, double at_b) const {
+  const double plane = hit.distance * hit.normal.dot(directions_[own]);
+  double share = (sample - at_a) / (at_b - at_a);
+  Vec3 direction, point;
+  std::optional<Eigen::Vector2d> pixel;
+  for (int k = 0; k < 4; ++k) {
+    direction = (1.0 - share) * directions_[a] + share * directions_[b];
+    point = at.laser + plane / hit.normal.dot(direction) * direction;
+    pixel = pixel_of(at, point);
+    if (!pixel) return std::nullopt;
+    const double off = sample - along(*pixel);
+    if (std::abs(off) < 1e-9) break;
+    share += off / (at_b - at_a);
+  }
+  const double limit = (upright_ ? setup_.camera.width : setup_.camera.height) - 0.5;
+  if (across(*pixel) < -0.5 || across(*pixel) > limit) return std::nullopt;
+  // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
+  const double distance = (at.laser - point).norm();
+  const double light =
+      reflected(surfaces_.of(hit.line), hit.normal, (at.laser - point) / distance, (at.eye - point).normalized());
+  return Line{sample,
+              across(*pixel),
+              (to_camera_ * (point - at.eye)).z(),
+              setup_.settings.power * light * reference_ / distance,
+              point,
+              hit.normal,
+              hit.label,
+              light > 0.0};
+}
+
+/// Between a ray and its neighbour that does not meet the same surface, each surface goes on to its edge. Which samples
+/// it still covers is asked by a ray to each.
+void LaserLine::extend(const Carriage& at, const std::vector<Hit>& hits, std::size_t own, std::size_t next,
+                       std::vector<Line>& asked) const {
+  const Hit& hit = hits[own];
+  const double distance = hit.distance * hit.normal.dot(directions_[own]) / hit.normal.dot(directions_[next]);
+  if (!(distance > 0.0 && std::isfinite(distance))) return;  // the plane ends before
+  const auto from = pixel_of(at, at.laser + hit.distance * directions_[own]),
+             to = pixel_of(at, at.laser + distance * directions_[next]);
+  if (!from || !to) return;
+  const double begin = along(*from), end = along(*to);
+  const int first = std::max(0, static_cast<int>(std::ceil(std::min(begin, end))));
+  const int last = std::min(samples_ - 1, static_cast<int>(std::floor(std::max(begin, end))));
+  for (int s = first; s <= last; ++s) {
+    if (s == begin) continue;  // belongs to the rays on the other side
+    if (const auto line = line_at(at, s, hit, own, own, begin, next, end)) asked.push_back(*line);
+  }
+}
+
 void LaserLine::find_lines(const Vec3& offset, Lines& out) const {
-  const Vec3 laser = setup_.laser_pose.position + offset, eye = setup_.camera_pose.position + offset;
-  const Mat3 to_camera = setup_.camera_pose.orientation.toRotationMatrix().transpose();
-  const std::vector<Hit> hits = fan(laser);
-  const auto pixel_of = [&](const Vec3& point) { return setup_.camera.project(to_camera * (point - eye)); };
-  const auto sample_of = [&](const Hit& hit, const Vec3& direction) -> std::optional<double> {
-    if (std::isnan(hit.distance)) return std::nullopt;
-    const auto pixel = pixel_of(laser + hit.distance * direction);
+  const Carriage at{setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
+  const std::vector<Hit> hits = fan(at.laser);
+  const auto sample_of = [&](std::size_t i) -> std::optional<double> {
+    if (std::isnan(hits[i].distance)) return std::nullopt;
+    const auto pixel = pixel_of(at, at.laser + hits[i].distance * directions_[i]);
     return pixel ? std::optional<double>(along(*pixel)) : std::nullopt;
   };
   out.lines.clear();
   out.codes.assign(static_cast<std::size_t>(samples_), Validity::outside);
+  const auto first_of = [&](double a, double b) { return std::max(0, static_cast<int>(std::ceil(std::min(a, b)))); };
+  const auto last_of = [&](double a, double b) {
+    return std::min(samples_ - 1, static_cast<int>(std::floor(std::max(a, b))));
+  };
   const auto fill = [&](double a, double b, Validity code) {
-    const int first = std::max(0, static_cast<int>(std::ceil(std::min(a, b))));
-    const int last = std::min(samples_ - 1, static_cast<int>(std::floor(std::max(a, b))));
-    for (int s = first; s <= last; ++s) out.codes[static_cast<std::size_t>(s)] = code;
+    for (int s = first_of(a, b); s <= last_of(a, b); ++s) out.codes[static_cast<std::size_t>(s)] = code;
   };
 
-  const Vec3 fan_way = to_camera * (directions_.back() - directions_.front());
+  const Vec3 fan_way = to_camera_ * (directions_.back() - directions_.front());
   const bool rising = (upright_ ? fan_way.y() : fan_way.x()) > 0.0;  // samples, from the first ray to the last
   const double first_side = rising ? 0.0 : samples_, last_side = rising ? samples_ : 0.0;
+  std::vector<Line> asked;
   std::optional<double> before;  // sample of the last hit
-  std::size_t at = 0;            // and its number
+  std::size_t last = 0;          // and its number
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::optional<double> here = sample_of(hits[i], directions_[i]);
+    const std::optional<double> here = sample_of(i);
     if (!here) continue;
-    if (!before) {
-      if (i > 0) fill(*here, first_side, Validity::nothing);
-    } else if (at + 1 < i) {
-      fill(*before, *here, Validity::nothing);  // rays between them met nothing
-    } else if (!one_surface(hits[at], directions_[at], hits[i], directions_[i])) {
-      fill(*before, *here, Validity::shadow);
-    } else {
-      const int first = std::max(0, static_cast<int>(std::ceil(std::min(*before, *here))));
-      const int last = std::min(samples_ - 1, static_cast<int>(std::floor(std::max(*before, *here))));
-      for (int s = first; s <= last; ++s) {
-        // The ray between the two that falls on this sample, by secants: exact on a plane, whatever the lens does.
-        double share = (s - *before) / (*here - *before);
-        const Hit& hit = hits[share < 0.5 ? at : i];
-        const double plane = hit.distance * hit.normal.dot(directions_[share < 0.5 ? at : i]);
-        Vec3 point = Vec3::Zero();
-        std::optional<Eigen::Vector2d> pixel;
-        for (int k = 0; k < 4; ++k) {
-          const Vec3 direction = (1.0 - share) * directions_[at] + share * directions_[i];
-          point = laser + plane / hit.normal.dot(direction) * direction;
-          pixel = pixel_of(point);
-          if (!pixel) break;
-          const double off = s - along(*pixel);
-          if (std::abs(off) < 1e-9) break;
-          share += off / (*here - *before);
-        }
-        if (!pixel) continue;
-        const double limit = (upright_ ? setup_.camera.width : setup_.camera.height) - 0.5;
-        if (across(*pixel) < -0.5 || across(*pixel) > limit) continue;
-        // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
-        const double distance = (laser - point).norm();
-        const double light =
-            reflected(surfaces_.of(hit.line), hit.normal, (laser - point) / distance, (eye - point).normalized());
-        out.lines.push_back({s, across(*pixel), (to_camera * (point - eye)).z(),
-                             setup_.settings.power * light * reference_ / distance, point, hit.normal, hit.label,
-                             light > 0.0});
-        out.codes[static_cast<std::size_t>(s)] = Validity::shadow;  // unless the camera sees it
+    const bool neighbours = before && last + 1 == i;
+    if (neighbours && one_surface(hits[last], directions_[last], hits[i], directions_[i])) {
+      for (int s = first_of(*before, *here); s <= last_of(*before, *here); ++s) {
+        const std::size_t own = std::abs(s - *before) < std::abs(s - *here) ? last : i;
+        if (const auto line = line_at(at, s, hits[own], own, last, *before, i, *here)) out.lines.push_back(*line);
       }
+    } else {
+      if (before) fill(*before, *here, neighbours ? Validity::shadow : Validity::nothing);
+      if (!before && i > 0) fill(*here, first_side, Validity::nothing);
+      if (before) extend(at, hits, last, last + 1, asked);
+      if (i > 0) extend(at, hits, i, i - 1, asked);
     }
     before = here;
-    at = i;
+    last = i;
   }
   if (!before) fill(0.0, samples_, Validity::nothing);
-  if (before && at + 1 < hits.size()) fill(*before, last_side, Validity::nothing);
+  if (before && last + 1 < hits.size()) {
+    fill(*before, last_side, Validity::nothing);
+    extend(at, hits, last, last + 1, asked);
+  }
+  const auto by_sample = [](const Line& a, const Line& b) { return a.sample < b.sample; };
+  std::stable_sort(asked.begin(), asked.end(), by_sample);
+  keep_lit(at, asked, out.lines);
+  for (const Line& line : out.lines) {
+    out.codes[static_cast<std::size_t>(line.sample)] = Validity::shadow;  // unless the camera sees it
+  }
+  hide(at, out.lines);
+  std::stable_sort(out.lines.begin(), out.lines.end(), by_sample);
+}
 
-  std::vector<Ray> rays(out.lines.size());
+/// Adds those of the lines asked, sorted by sample, that the laser meets where they were expected. Of two that it meets
+/// in one place, on both sides of a crease, the nearer guess.
+void LaserLine::keep_lit(const Carriage& at, const std::vector<Line>& asked, std::vector<Line>& lines) const {
+  std::vector<Ray> rays(asked.size());
+  std::vector<Hit> hits(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) rays[i] = {at.laser, asked[i].point - at.laser, 0.0, 2.0};
+  scenery_.first_hits(rays.data(), hits.data(), rays.size());
+  const std::size_t first = lines.size();
+  std::vector<double> offs(first);  // by line
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const Line& line = asked[i];
+    const double off = std::abs(hits[i].distance - 1.0) * rays[i].direction.norm();
+    if (!(off < edge && hits[i].label == line.label)) continue;
+    std::size_t k = lines.size();
+    while (k > first && lines[k - 1].sample == line.sample && (lines[k - 1].point - line.point).norm() > edge) --k;
+    const bool known = k > first && lines[k - 1].sample == line.sample;
+    if (!known) {
+      lines.push_back(line);
+      offs.push_back(off);
+    } else if (off < offs[k - 1]) {
+      lines[k - 1] = line;
+      offs[k - 1] = off;
+    }
+  }
+}
+
+/// Marks what the camera does not see.
+void LaserLine::hide(const Carriage& at, std::vector<Line>& lines) const {
+  std::vector<Ray> rays(lines.size());
   std::vector<std::uint8_t> hidden(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = ray_between(out.lines[i].point, out.lines[i].normal, eye);
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = ray_between(lines[i].point, lines[i].normal, at.eye);
   scenery_.blocked(rays.data(), hidden.data(), rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    Lines::Line& line = out.lines[i];
+    Line& line = lines[i];
     line.visible = line.visible && !hidden[i] && line.depth >= setup_.near && line.depth <= setup_.far;
   }
-  std::stable_sort(out.lines.begin(), out.lines.end(),
-                   [](const Lines::Line& a, const Lines::Line& b) { return a.sample < b.sample; });
 }
 
 void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, Profiles& out,
@@ -266,7 +333,7 @@ double LaserLine::depth_sigma() const {
   constexpr int draws = 4000;  // know a standard deviation within 1 %
   Lines lines;
   find_lines(Vec3::Zero(), lines);
-  for (const Lines::Line& line : lines.lines) {
+  for (const Line& line : lines.lines) {
     if (line.sample != samples_ / 2 || !line.visible || line.signal < setup_.settings.min_signal) continue;
     const double sigma = sigma_at(line.depth);
     const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;

@@ -10,6 +10,7 @@
 #include "sensor/models/imager.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -44,13 +45,26 @@ class LaserLine {
   double depth_sigma() const;
 
  private:
+  struct Line;
   struct Lines;  ///< what a profile's camera could see
+  struct Carriage {
+    Vec3 laser, eye;  ///< bin frame, at one profile
+  };
 
   double along(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.y() : pixel.x(); }
   double across(const Eigen::Vector2d& pixel) const { return upright_ ? pixel.x() : pixel.y(); }
   void keep_what_the_camera_can_see();
   std::vector<Hit> fan(const Vec3& origin) const;
+  std::optional<Eigen::Vector2d> pixel_of(const Carriage& at, const Vec3& point) const {
+    return setup_.camera.project(to_camera_ * (point - at.eye));
+  }
   void find_lines(const Vec3& offset, Lines& lines) const;
+  std::optional<Line> line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own, std::size_t a,
+                              double at_a, std::size_t b, double at_b) const;
+  void extend(const Carriage& at, const std::vector<Hit>& hits, std::size_t own, std::size_t next,
+              std::vector<Line>& asked) const;
+  void keep_lit(const Carriage& at, const std::vector<Line>& asked, std::vector<Line>& lines) const;
+  void hide(const Carriage& at, std::vector<Line>& lines) const;
   void read_lines(const Vec3& offset, const Lines& lines, Random draw, Profiles& out, std::size_t profile) const;
   double sigma_at(double depth) const;
 
@@ -61,6 +75,7 @@ class LaserLine {
   bool upright_;  ///< the line runs along the image's columns: a sample is a row
   int samples_;
   std::vector<Vec3> directions_;  ///< of the fan, bin frame
+  Mat3 to_camera_;                ///< from the bin frame
   Vec3 sheet_;                    ///< normal, bin frame
   double reference_ = 1.0;        ///< m from the laser
 };

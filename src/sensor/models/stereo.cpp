@@ -125,7 +125,8 @@ Measurement Stereo::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
   const Pair pair = images(random);
   const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
-  const std::vector<float> disparity = match(pair, view_.lens.width, view_.lens.height, setup_.settings, least);
+  const std::vector<float> disparity =
+      match(pair, view_.lens.width, view_.lens.height, setup_.settings, imager_, least);
   for (std::size_t i = 0; i < disparity.size(); ++i) {
     out.intensity[i] = static_cast<float>(pair.first[i]) / 255.0f;
     const double z = of_disparity(disparity[i]);
@@ -150,11 +151,22 @@ double Stereo::depth_sigma(std::size_t pixel) const {
   return sigma * z * z / of_disparity(1.0);
 }
 
+/// What can be matched without dots. Surfaces have one albedo each: it is their borders.
+std::vector<char> Stereo::surface_texture() const {
+  const std::vector<float> values = signals(view_, lit_);
+  std::vector<std::uint8_t> bytes(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * std::min(values[i], 1.0f)));
+  }
+  return textured(bytes, view_.lens.width, view_.lens.height, setup_.settings, imager_);
+}
+
 Measurement Stereo::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
   const auto width = static_cast<std::size_t>(view_.lens.width);
   const StereoSettings& s = setup_.settings;
   std::vector<float> field;
+  const std::vector<char> texture = s.dots > 0.0 ? std::vector<char>() : surface_texture();
   if (setup_.noise) field = correlated_noise(view_.lens.width, view_.lens.height, s.window, random);
   in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
     std::vector<Ray> rays(width);
@@ -174,7 +186,7 @@ Measurement Stereo::analytic(const Random& random) const {
       out.intensity[i] = static_cast<float>(std::min(signal, 1.0));
       const double truth = of_disparity(view_.depth[i]);
       const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
-      if (hidden[x] || !in_second || signal < s.min_signal) continue;
+      if (hidden[x] || !in_second || signal < s.min_signal || (!texture.empty() && !texture[i])) continue;
       if (imager_.saturated(signal)) {
         out.validity[i] = Validity::saturated;
         continue;

@@ -1,5 +1,5 @@
 /// Two cameras side by side and a dot projector. `decoded` renders both images and matches them; `analytic` errs as
-/// such a matcher does: by a disparity whose noise is the same over a window.
+/// such a matcher does: by a disparity whose noise is the same over a window; without dots it matches edges only.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -43,6 +43,7 @@ class Stereo {
   std::vector<Lit> lit(const View& view) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit) const;
   std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const Random& random) const;
+  std::vector<char> surface_texture() const;
   double disparity_sigma(double signal) const;
   double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
 
@@ -56,10 +57,18 @@ class Stereo {
   double gain_ = 0.0;
 };
 
-/// Disparities (pixel) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in OpenCV); NaN
-/// unmatched.
+/// Disparities (pixel, in sixteenths) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in
+/// OpenCV), then refined; NaN unmatched.
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
-                         int least_disparity);
+                         const Imager& imager, int least_disparity);
+
+/// Whether the window around each pixel varies by StereoSettings::min_texture more than noise does.
+std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height,
+                           const StereoSettings& settings, const Imager& imager);
+
+/// Moves each disparity by up to a pixel to where the windows of both images differ least (Lucas, Kanade 1981, "An
+/// iterative image registration technique"). The matcher's own parabola errs by up to 0.3 pixel towards whole ones.
+void refine(const Stereo::Pair& images, int width, int height, int window, std::vector<float>& disparities);
 
 /// Dots of a projector, blurred as a camera sees them whose pixels are `ratio` of the projector's: row-major, 0 to 1.
 std::vector<float> dot_pattern(int width, int height, double dots, double ratio);

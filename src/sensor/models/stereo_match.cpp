@@ -19,9 +19,13 @@ cv::Mat with_rim(const std::vector<std::uint8_t>& bytes, int width, int height, 
   return image;
 }
 
-/// Whether the window around each pixel varies by at least that standard deviation, by sums over rows and columns.
-std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height, int window, double least) {
-  const int wide = width + 1, reach = window / 2;
+constexpr double white = 255.0;  // grey level of the full well
+
+}  // namespace
+
+std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height, const StereoSettings& s,
+                           const Imager& imager) {
+  const int wide = width + 1, reach = s.window / 2;
   std::vector<double> sum(static_cast<std::size_t>(wide) * (height + 1), 0.0), square = sum;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -41,16 +45,18 @@ std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, in
         return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
       };
       const double n = static_cast<double>(right - left) * (bottom - top), mean = total(sum) / n;
-      good[static_cast<std::size_t>(y) * width + x] = total(square) / n - mean * mean >= least * least;
+      // Noise alone varies by its variance, and that of a window by sqrt(2 / n) of it.
+      const double noise = white * white * imager.variance(mean / white) + 1.0 / 12.0;
+      const double least = s.min_texture > 0.0 ? noise * (1.0 + 6.0 * std::sqrt(2.0 / n)) : 0.0;
+      good[static_cast<std::size_t>(y) * width + x] =
+          total(square) / n - mean * mean >= least + s.min_texture * s.min_texture;
     }
   }
   return good;
 }
 
-}  // namespace
-
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& s,
-                         int least_disparity) {
+                         const Imager& imager, int least_disparity) {
   // Penalties for a change of disparity by one and by more, as OpenCV's documentation advises for one channel.
   const int area = s.window * s.window, rim = least_disparity + s.disparities;
   const cv::Ptr<cv::StereoSGBM> matcher = cv::StereoSGBM::create(
@@ -58,18 +64,20 @@ std::vector<float> match(const Stereo::Pair& images, int width, int height, cons
       31, s.uniqueness, s.speckle_size, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat found;
   matcher->compute(with_rim(images.first, width, height, rim), with_rim(images.second, width, height, rim), found);
-  const std::vector<char> good = textured(images.first, width, height, s.window, s.min_texture);
+  const std::vector<char> good = textured(images.first, width, height, s, imager);
   std::vector<float> disparities(images.first.size());
   for (int y = 0; y < height; ++y) {
     const short* const in = found.ptr<short>(y) + rim;
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      // Sixteenths of a pixel; what would lie in the rim of the second image was not seen.
+      // Sixteenths of a pixel, drawn to whole ones; what would lie in the rim of the second image was not seen.
       const float disparity = static_cast<float>(in[x]) / 16.0f;
       const bool seen = in[x] > 0 && in[x] >= 16 * least_disparity && disparity <= static_cast<float>(x);
       disparities[i] = seen && good[i] ? disparity : std::numeric_limits<float>::quiet_NaN();
     }
   }
+  refine(images, width, height, s.window, disparities);
+  for (float& d : disparities) d = std::round(16.0f * d) / 16.0f;
   return disparities;
 }
 

@@ -4,6 +4,10 @@
 /// With s the signal of the projector's white at a pixel, the fringe there has mean A = ambient + s * mean and
 /// amplitude B = s * amplitude * (blur by the pixel's footprint). The chip's noise sigma(A) makes the phase err by
 /// sqrt(2 / steps) sigma / B and the column by period / 2 pi of that; the ray meets the plane of that column.
+///
+/// Where a pixel sees one face in even light, what its centre sees tells all. Near edges of faces, of light and of
+/// albedo, the light is summed over cells of a sixteenth of a pixel, weighted by the pixel's box and the lens's blur
+/// (structured_light_strip.hpp).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -13,6 +17,7 @@
 #include "sensor/models/imager.hpp"
 #include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
+#include "sensor/pixel_rays.hpp"
 
 #include <vector>
 
@@ -37,33 +42,28 @@ class StructuredLight {
   double depth_sigma(std::size_t pixel) const;
 
  private:
-  /// A pixel of the camera and the light that falls on what its centre sees.
+  using Vec2 = Eigen::Vector2d;
   struct Pixel {
     std::size_t index;  ///< in the image, row-major
-    Vec3 ray;           ///< through its centre, camera frame, z = 1
-    Lit lit;
+    Vec3 ray, normal;   ///< through its centre (z = 1) and of its face, camera frame
+    double plane;       ///< depth * normal . ray: what all points of the face share
   };
   struct Fringe {
     double mean, amplitude;  ///< A and B, shares of the full well
   };
-  struct Samples;  ///< four rays through each of several pixels
-  struct Reading {
-    double column;  ///< of the projector, without noise
-    Fringe fringe;
-  };
+  class Strip;
+  struct Blend;
 
-  std::vector<Pixel> lit(std::vector<std::size_t> indices) const;
-  std::vector<Pixel> lit_row(std::size_t row) const;
+  void light_row(std::size_t row);
   double gain() const;
-  SeenPoint seen(std::size_t index, const Vec3& ray) const;
-  double ambient(const Pixel& pixel) const;
+  Pixel pixel(std::size_t column, std::size_t row) const;
+  Vec2 slope(const Pixel& pixel) const;
+  double ambient(std::size_t index) const;
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
-  double footprint(const Pixel& pixel) const;
-  bool is_uneven(const Pixel& pixel, const Fringe& fringe) const;
-  double step_beside(const Pixel& pixel) const;
-  void sample(const std::vector<Pixel>& pixels, Samples& samples) const;
-  Reading summed(const Pixel& pixel, const Lit* samples) const;
+  void add_face(const Pixel& pixel, float* images) const;
+  template <class Work>
+  void in_strips(const Work& work) const;
   void deliver(Measurement& out, const Pixel& pixel, double column) const;
 
   const Scenery& scenery_;
@@ -73,8 +73,15 @@ class StructuredLight {
   Fringes fringes_;
   Imager imager_;
   Triangulation triangulation_;
-  Mat3 turn_;          ///< of the camera
-  double gain_ = 0.0;  ///< signal of the projector's white = gain * reflected / distance^2
+  PixelRays rays_;
+  Mat3 turn_;  ///< of the camera
+
+  // Of the light that falls on what each pixel's centre sees, row-major.
+  std::vector<Validity> codes_;              ///< valid, nothing, shadow or outside
+  std::vector<double> columns_, distances_;  ///< of the projector; m from it
+  std::vector<double> whites_;               ///< reflected / distance^2
+  std::vector<double> planes_;               ///< Pixel::plane
+  double gain_ = 0.0;                        ///< signal of the projector's white = gain * white
 };
 
 }  // namespace bin_scenes

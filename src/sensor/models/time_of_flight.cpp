@@ -1,49 +1,122 @@
 #include "sensor/models/time_of_flight.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/models/cells.hpp"
 #include "sensor/models/time_of_flight_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace bin_scenes {
 
 namespace {
 
-constexpr int samples = 4;  // rays through the middles of a pixel's quarters
-
 struct Returned {
-  double depth = 0.0, signal = 0.0;  ///< of the light that comes back: weighted mean, sum of weights
+  double depth = 0.0, signal = 0.0;  ///< of the light that comes back: weighted mean, mean over the cells
   bool mixed = false;
 };
 
-/// Light of the samples of one pixel. What lies on the face that its centre sees has the centre's depth: jitter of the
-/// ray moves edges, not planes.
-Returned returned(const View& view, std::size_t pixel, const Surfaces& surfaces, const Ray* rays, const Hit* hits,
-                  double edge_step) {
-  const auto& n = view.normal[pixel];
-  const Vec3 normal = view.pose.orientation * Vec3(n[0], n[1], n[2]);
-  const auto width = static_cast<std::size_t>(view.lens.width);
-  const Vec3 middle =
-      view.pose.orientation * view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
-  const double plane = view.depth[pixel] * normal.dot(middle);
-  Returned sum;
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-  for (int k = 0; k < samples; ++k) {
-    if (std::isnan(hits[k].distance)) continue;
-    const bool same = std::abs(hits[k].distance - plane / normal.dot(rays[k].direction)) < edge_step;
-    const double depth = same ? view.depth[pixel] : hits[k].distance;
-    const Vec3 back = -rays[k].direction.normalized();
-    const double signal = reflected(surfaces.of(hits[k].line), hits[k].normal, back, back) / (depth * depth) / samples;
+/// Pixels of a row and the rays through their cells.
+class Row {
+ public:
+  Row(const Scenery& scenery, const View& view, const Surfaces& surfaces, std::size_t row, double near, double far,
+      double edge_step)
+      : scenery_(scenery),
+        view_(view),
+        surfaces_(surfaces),
+        row_(row),
+        near_(near),
+        far_(far),
+        edge_step_(edge_step),
+        turn_(view.pose.orientation.toRotationMatrix()) {}
+
+  Vec3 middle(std::size_t x) const { return view_.lens.ray(static_cast<double>(x), static_cast<double>(row_)); }
+
+  /// @param jitter  of each pixel's rays (pixel)
+  std::vector<Returned> returned(const std::vector<Eigen::Vector2d>& jitter) const {
+    std::vector<Cell> corners, others;
+    for (std::size_t x = 0; x < jitter.size(); ++x) {
+      for (const int k : cells::corners) corners.push_back({x, k});
+    }
+    std::vector<Ray> rays = rays_of(corners, jitter), more_rays;
+    std::vector<Hit> hits(rays.size());
+    scenery_.first_hits(rays.data(), hits.data(), rays.size());
+    std::vector<char> crossed(jitter.size(), 0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!on_face(corners[i].pixel, rays[i], hits[i])) crossed[corners[i].pixel] = 1;
+    }
+    for (std::size_t x = 0; x < jitter.size(); ++x) {
+      for (int k = 0; crossed[x] && k < cells::per_pixel; ++k) {
+        if (!cells::is_corner(k)) others.push_back({x, k});
+      }
+    }
+    more_rays = rays_of(others, jitter);
+    std::vector<Hit> more_hits(more_rays.size());
+    scenery_.first_hits(more_rays.data(), more_hits.data(), more_rays.size());
+
+    std::vector<Returned> out(jitter.size());
+    std::size_t next = 0;
+    for (std::size_t x = 0; x < jitter.size(); ++x) {
+      Sum sum;
+      for (std::size_t k = 4 * x; k < 4 * x + 4; ++k) add(x, rays[k], hits[k], sum);
+      for (; next < others.size() && others[next].pixel == x; ++next) add(x, more_rays[next], more_hits[next], sum);
+      if (sum.signal > 0.0) out[x].depth = sum.depth / sum.signal;
+      out[x].signal = sum.signal / (crossed[x] ? cells::per_pixel : 4);
+      out[x].mixed = sum.farthest - sum.nearest > edge_step_;
+    }
+    return out;
+  }
+
+ private:
+  struct Cell {
+    std::size_t pixel;
+    int number;
+  };
+  struct Sum {
+    double depth = 0.0, signal = 0.0, nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+  };
+
+  std::vector<Ray> rays_of(const std::vector<Cell>& asked, const std::vector<Eigen::Vector2d>& jitter) const {
+    std::vector<Ray> rays;
+    rays.reserve(asked.size());
+    for (const Cell& cell : asked) {
+      const Eigen::Vector2d& j = jitter[cell.pixel];
+      const Vec3 offset((j.x() + cells::across(cell.number)) / view_.lens.fx,
+                        (j.y() + cells::down(cell.number)) / view_.lens.fy, 0.0);
+      rays.push_back({view_.pose.position, turn_ * (middle(cell.pixel) + offset), near_, far_});
+    }
+    return rays;
+  }
+  /// Whether a ray meets the face that its pixel's centre sees.
+  bool on_face(std::size_t x, const Ray& ray, const Hit& hit) const {
+    const std::size_t i = row_ * static_cast<std::size_t>(view_.lens.width) + x;
+    const auto& n = view_.normal[i];
+    const Vec3 normal = turn_ * Vec3(n[0], n[1], n[2]);
+    const double plane = view_.depth[i] * normal.dot(turn_ * middle(x));
+    return std::abs(hit.distance - plane / normal.dot(ray.direction)) < edge_step_;
+  }
+  /// What lies on the face that the centre sees has the centre's depth: jitter of the ray moves edges, not planes.
+  void add(std::size_t x, const Ray& ray, const Hit& hit, Sum& sum) const {
+    if (std::isnan(hit.distance)) return;
+    const std::size_t i = row_ * static_cast<std::size_t>(view_.lens.width) + x;
+    const double depth = on_face(x, ray, hit) ? view_.depth[i] : hit.distance;
+    const Vec3 back = -ray.direction.normalized();
+    const double signal = reflected(surfaces_.of(hit.line), hit.normal, back, back) / (depth * depth);
     sum.depth += signal * depth;
     sum.signal += signal;
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+    sum.nearest = std::min(sum.nearest, depth);
+    sum.farthest = std::max(sum.farthest, depth);
   }
-  if (sum.signal > 0.0) sum.depth /= sum.signal;
-  sum.mixed = farthest - nearest > edge_step;
-  return sum;
-}
+
+  const Scenery& scenery_;
+  const View& view_;
+  const Surfaces& surfaces_;
+  std::size_t row_;
+  double near_, far_, edge_step_;
+  Mat3 turn_;
+};
 
 }  // namespace
 
@@ -51,48 +124,37 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
                            const TimeOfFlightSettings& s, bool noise, double near, double far, const Random& random) {
   Measurement out(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
-  const Mat3 turn = view.pose.orientation.toRotationMatrix();
-  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
-    Random draw = random.of_piece(row);
-    std::vector<Ray> rays(samples * width);
-    std::vector<Hit> hits(rays.size());
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t y) {
+    Random draw = random.of_piece(y);
+    const Row row(scenery, view, surfaces, y, near, far, s.edge_step);
     std::vector<double> incidence(width, 0.0);
+    std::vector<Eigen::Vector2d> jitter(width, Eigen::Vector2d::Zero());
     for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = row * width + x;
-      const Vec3 middle = view.lens.ray(static_cast<double>(x), static_cast<double>(row));
+      const std::size_t i = y * width + x;
       if (!std::isnan(view.depth[i])) {
         const auto& n = view.normal[i];
-        incidence[x] = std::acos(std::clamp(-Vec3(n[0], n[1], n[2]).dot(middle.normalized()), 0.0, 1.0));
+        incidence[x] = std::acos(std::clamp(-Vec3(n[0], n[1], n[2]).dot(row.middle(x).normalized()), 0.0, 1.0));
       }
-      double u = 0.0, v = 0.0;
-      if (noise) {
-        draw.normals(u, v);
-        const double sigma = lateral_sigma(s, incidence[x]);
-        u *= sigma;
-        v *= sigma;
-      }
-      for (int k = 0; k < samples; ++k) {
-        const Vec3 offset((u + (k & 1 ? 0.25 : -0.25)) / view.lens.fx, (v + (k & 2 ? 0.25 : -0.25)) / view.lens.fy,
-                          0.0);
-        rays[samples * x + k] = {view.pose.position, turn * (middle + offset), near, far};
-      }
+      if (!noise) continue;
+      draw.normals(jitter[x].x(), jitter[x].y());
+      jitter[x] *= lateral_sigma(s, incidence[x]);
     }
-    scenery.first_hits(rays.data(), hits.data(), rays.size());
+    const std::vector<Returned> light = row.returned(jitter);
     for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = row * width + x;
+      const std::size_t i = y * width + x;
       double axial = 0.0, unused = 0.0;
       if (noise) draw.normals(axial, unused);
       if (std::isnan(view.depth[i])) continue;
-      const Returned light = returned(view, i, surfaces, &rays[samples * x], &hits[samples * x], s.edge_step);
-      out.intensity[i] = static_cast<float>(std::min(light.signal, 1.0));
-      if (light.signal < s.min_signal) {
+      out.intensity[i] = static_cast<float>(std::min(light[x].signal, 1.0));
+      if (light[x].signal < s.min_signal) {
         out.validity[i] = Validity::dark;
-      } else if (light.mixed && s.mixed == MixedPixels::remove) {
+      } else if (light[x].mixed && s.mixed == MixedPixels::remove) {
         out.validity[i] = Validity::mixed;
       } else {
         // Cosine and distance are in the formula already; what is left of the signal is the surface's.
-        const double facing = light.signal * light.depth * light.depth / std::max(std::cos(incidence[x]), 1e-3);
-        const double z = light.depth + axial * (noise ? axial_sigma(s, light.depth, incidence[x], facing) : 0.0);
+        const double facing =
+            light[x].signal * light[x].depth * light[x].depth / std::max(std::cos(incidence[x]), 1e-3);
+        const double z = light[x].depth + axial * (noise ? axial_sigma(s, light[x].depth, incidence[x], facing) : 0.0);
         const bool in_range = z >= near && z <= far;
         out.validity[i] = in_range ? Validity::valid : Validity::nothing;
         if (in_range) out.depth[i] = z;

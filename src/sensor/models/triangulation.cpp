@@ -10,18 +10,21 @@ Triangulation::Triangulation(const Lens& projector, const Pose& projector_in_cam
   const Pose camera = projector_in_camera.inverse();
   turn_ = camera.orientation.toRotationMatrix();
   origin_ = camera.position;
+  const Vec3 row(projector.fx, projector.skew, projector.cx);
+  share_ = turn_.transpose() * row;
+  ahead_ = turn_.row(2).transpose();
+  share_there_ = row.dot(origin_);
+  ahead_there_ = origin_.z();
 }
 
 double Triangulation::depth(const Vec3& ray, double column) const {
-  const Vec3 direction = turn_ * ray;
-  // Points of an undistorted column c lie in the plane fx x + skew y + (cx - c) z = 0.
-  const auto on_plane = [&](double c) {
-    const Vec3 plane(projector_.fx, projector_.skew, projector_.cx - c);
-    return -plane.dot(origin_) / plane.dot(direction);
-  };
+  const Along a = along(ray);
+  // share_there + z share = column (ahead_there + z depth)
+  const auto on_plane = [&](double c) { return (c * ahead_there_ - share_there_) / (a.share - c * a.depth); };
   double z = on_plane(column);
   if (distorted_) {
     // The distorted column of where the plane is met tells by how much to move the plane; distortion varies slowly.
+    const Vec3 direction = turn_ * ray;
     double plane = column;
     for (int i = 0; i < 20; ++i) {
       const auto seen = projector_.project(origin_ + z * direction);
@@ -32,19 +35,28 @@ double Triangulation::depth(const Vec3& ray, double column) const {
       if (std::abs(error) < 1e-9) break;
     }
   }
-  const bool in_front = z > 0.0 && (origin_ + z * direction).z() > 0.0;
+  const bool in_front = z > 0.0 && ahead_there_ + z * a.depth > 0.0;
   return in_front ? z : std::numeric_limits<double>::quiet_NaN();
 }
 
-double Triangulation::columns_along(const Vec3& point, const Vec3& way) const {
-  const Vec3 at = origin_ + turn_ * point, step = turn_ * way;
-  return (projector_.fx * (step.x() * at.z() - at.x() * step.z()) +
-          projector_.skew * (step.y() * at.z() - at.y() * step.z())) /
-         (at.z() * at.z());
+Eigen::Vector2d Triangulation::slope(const Vec3& ray, double depth, const Vec3& normal, const Lens& camera) const {
+  const Along a = along(ray);
+  const double ahead = ahead_there_ + depth * a.depth, share = share_there_ + depth * a.share;
+  const double facing = normal.dot(ray), scale = depth / (ahead * ahead);
+  // On the face the next pixel's point lies off by depth * (step - ray * (normal . step) / facing).
+  const auto passed = [&](int axis, double focal) {
+    const double turn = normal[axis] / facing;
+    return scale / focal * ((share_[axis] - turn * a.share) * ahead - share * (ahead_[axis] - turn * a.depth));
+  };
+  return {passed(0, camera.fx), passed(1, camera.fy)};
 }
 
 double Triangulation::depth_per_column(const Vec3& ray, double depth) const {
-  if (!distorted_) return 1.0 / std::abs(columns_along(depth * ray, ray));
+  if (!distorted_) {
+    const Along a = along(ray);
+    const double ahead = ahead_there_ + depth * a.depth, share = share_there_ + depth * a.share;
+    return ahead * ahead / std::abs(a.share * ahead - share * a.depth);
+  }
   const Vec3 direction = turn_ * ray;
   const double h = 1e-5 * depth;
   const auto a = projector_.project(origin_ + (depth - h) * direction);

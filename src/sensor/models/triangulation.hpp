@@ -17,14 +17,23 @@ class Triangulation {
   double depth(const Vec3& ray, double column) const;
   /// |d depth / d column| (m) at a depth.
   double depth_per_column(const Vec3& ray, double depth) const;
-  /// Columns passed on a short way from a point (camera frame), distortion left out.
-  double columns_along(const Vec3& point, const Vec3& way) const;
+  /// Columns passed on a face with that normal from the point at a depth to the next pixel of the camera, across and
+  /// down; distortion left out.
+  Eigen::Vector2d slope(const Vec3& ray, double depth, const Vec3& normal, const Lens& camera) const;
 
  private:
+  /// Column = share / depth in the projector's frame, of a point depth * ray: what both are for a depth of 1.
+  struct Along {
+    double share, depth;
+  };
+  Along along(const Vec3& ray) const { return {share_.dot(ray), ahead_.dot(ray)}; }
+
   Lens projector_;
   bool distorted_;
-  Mat3 turn_;    ///< camera to projector
-  Vec3 origin_;  ///< the camera in the projector's frame
+  Mat3 turn_;                         ///< camera to projector
+  Vec3 origin_;                       ///< the camera in the projector's frame
+  Vec3 share_, ahead_;                ///< by a direction of the camera's frame
+  double share_there_, ahead_there_;  ///< of the camera itself
 };
 
 }  // namespace bin_scenes

@@ -108,6 +108,64 @@ TEST(LaserLine, BehindAStepNeitherLaserNorCameraSees) {
   EXPECT_GT(shadowed, 0u);
 }
 
+/// Blocks of random height side by side along the line, so narrow that a ray of the fan often meets another one than
+/// its neighbour does; gaps between some of them.
+Targets staircase() {
+  Targets targets;
+  Random random(3, 0, Stream::probe);
+  for (int i = 0; i < 60; ++i) {
+    const double top = 1.0 - (i % 3 == 0 ? 0.0 : random.uniform(0.0, 0.02)), wide = random.uniform(0.004, 0.0065);
+    targets.add(box_target({0.5, wide, 0.1}), {Vec3(0, -0.195 + 0.0065 * i, top + 0.05), Quat::Identity()},
+                {0.6, 0.0, 0.4});
+  }
+  return targets;
+}
+
+TEST(LaserLine, EverySampleThatSeesTheLineHasAPoint) {
+  LaserLine::Setup setup = device();
+  setup.noise = false;
+  setup.profiles = 1;
+  Targets targets = staircase();
+  const Profiles found = scan(targets, setup);
+  // The same sheet by rays a hundred times as dense. Where two of them are on one face on both sides of a sample, the
+  // line passes it; sides are left out, which light meets at a glancing angle.
+  const int rays = 100 * 900;
+  const double half = std::tan(0.5 * setup.settings.fan);
+  std::vector<Ray> fan;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 way(0.0, half * (2.0 * i / (rays - 1) - 1.0), 1.0);
+    fan.push_back({setup.laser_pose.position, setup.laser_pose.orientation * way, 1e-3, 10.0});
+  }
+  std::vector<Hit> hits(fan.size());
+  const Scenery scenery = targets.scenery();
+  scenery.first_hits(fan.data(), hits.data(), hits.size());
+  std::vector<Ray> to_camera;
+  std::vector<std::size_t> samples;
+  double before = 0.0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (std::isnan(hits[i].distance)) continue;
+    const Vec3 point = fan[i].origin + hits[i].distance * fan[i].direction;
+    const double here = setup.camera.project(point)->y();
+    const bool same = i > 0 && hits[i - 1].label == hits[i].label && hits[i - 1].normal == hits[i].normal;
+    if (same && std::floor(before) != std::floor(here) && hits[i].normal.z() < -0.9) {
+      to_camera.push_back(ray_between(point, hits[i].normal, Vec3::Zero()));
+      samples.push_back(static_cast<std::size_t>(std::lround(here)));
+    }
+    before = here;
+  }
+  std::vector<std::uint8_t> hidden(to_camera.size());
+  scenery.blocked(to_camera.data(), hidden.data(), hidden.size());
+  int seen = 0, missing = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (hidden[i] || samples[i] >= 300) continue;
+    ++seen;
+    const Validity code = found.validity[samples[i]];  // dark: a line that is hidden by a brighter one beside it
+    missing += code != Validity::valid && code != Validity::dark;
+  }
+  EXPECT_GT(seen, 200);
+  EXPECT_EQ(missing, 0);
+}
+
 TEST(LaserLine, TheBrighterOfTwoLinesInAColumnIsReported) {
   // A narrow bar in front of the plate, lit edge beside lit plate: where its sides are seen both lines lie in one
   // sample.

@@ -133,6 +133,28 @@ TEST(StructuredLight, DecodedNoiseIsAsPredicted) {
   }
 }
 
+TEST(StructuredLight, BlurWeakensTheFringeAsPredicted) {
+  Targets targets = plate(1.0, 0.4);
+  Device sharp, blurred;
+  blurred.setup.imager.blur = 0.6;
+  std::size_t count;
+  EXPECT_NEAR(over_predicted(targets, blurred, true, 100000, count), 1.0, 0.03);
+  // A pixel covers 3.7 columns of a period of 16: its fringe is weaker by exp(-2 (pi 0.6 3.7 / 16)^2) = 0.69.
+  const Scenery scenery = targets.scenery();
+  const View view = look(scenery, sharp.camera, Pose(), 0.05, 10.0);
+  const std::size_t middle = 75 * 200 + 100;
+  const StructuredLight a(scenery, view, targets.surfaces(), sharp.setup),
+      b(scenery, view, targets.surfaces(), blurred.setup);
+  const Pose back = sharp.setup.projector_pose.inverse();
+  const auto column = [&](double x) {
+    const Vec3 ray = sharp.camera.ray(x, 75.0);
+    return sharp.setup.projector.project(back * (view.depth[middle] * ray))->x();
+  };
+  const double columns = column(100.5) - column(99.5);
+  const double weaker = std::exp(-2.0 * std::pow(M_PI * 0.6 * columns / 16.0, 2));
+  EXPECT_NEAR(a.depth_sigma(middle) / b.depth_sigma(middle), weaker, 0.005);
+}
+
 double mean_sigma(const Device& device, double z) {
   Targets targets = plate(z);
   const Shot shot = shoot(targets, device, false);
@@ -182,7 +204,7 @@ TEST(StructuredLight, ShadowBehindAStepIsAsWideAsGeometrySays) {
       for (int x = 0; x < device.camera.width; ++x) {
         pixels += shot.measured.validity[static_cast<std::size_t>(row) * device.camera.width + x] == Validity::shadow;
       }
-      ASSERT_NEAR(pixels, width, 1.0) << "row " << row;
+      ASSERT_NEAR(pixels, width - 1.0, 1.0) << "row " << row;  // wholly in shadow: at each end a pixel is halved
     }
     EXPECT_GT(width, 5.0);
   }
@@ -199,6 +221,12 @@ TEST(StructuredLight, OutsideTheProjectorsFieldNothingIsMeasured) {
     const Vec3 ray = device.camera.ray(static_cast<double>(i % 200), static_cast<double>(i / 200));
     const auto pixel = device.setup.projector.project(to_projector * (shot.view.depth[i] * ray));
     const bool expected = !pixel || !device.setup.projector.inside(*pixel);
+    // On the border of the field a pixel is outside with any part of it.
+    const Lens& projector = device.setup.projector;
+    const auto to_border = [](double at, int size) { return std::min(std::abs(at + 0.5), std::abs(at - size + 0.5)); };
+    if (pixel && std::min(to_border(pixel->x(), projector.width), to_border(pixel->y(), projector.height)) < 6.0) {
+      continue;  // a pixel of the camera is eleven of the projector's
+    }
     EXPECT_EQ(shot.measured.validity[i] == Validity::outside, expected);
     outside += expected;
   }
@@ -240,6 +268,7 @@ TEST(StructuredLight, BothFidelitiesAgree) {
   for (std::size_t i = 0; i < a.sigma.size(); ++i) {
     same += a.measured.validity[i] == d.measured.validity[i];
     if (a.measured.validity[i] != Validity::valid || d.measured.validity[i] != Validity::valid) continue;
+    if (std::isnan(a.sigma[i])) continue;  // half in shadow
     of_analytic.push_back(std::abs(a.measured.depth[i] - a.view.depth[i]) / a.sigma[i]);
     of_decoded.push_back(std::abs(d.measured.depth[i] - d.view.depth[i]) / d.sigma[i]);
   }

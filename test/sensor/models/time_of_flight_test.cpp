@@ -97,6 +97,39 @@ TEST(TimeOfFlight, EdgesAreMovedByTheLateralNoiseAndMixed) {
   EXPECT_GT(std::count(removed.measured.validity.begin(), removed.measured.validity.end(), Validity::mixed), 10);
 }
 
+TEST(TimeOfFlight, OverAStepAPixelMixesBothDepthsByTheirShares) {
+  const double turn = 0.021;  // the edge passes every share of a pixel
+  Targets targets;
+  targets.add(box_target({2.0, 2.0, 0.01}), {Vec3(-1.0, 0, 0.705), Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()))},
+              {0.6, 0.0, 0.4});
+  add_plate(targets, 0.75, 0.0, 0.6);
+  const Shot shot = shoot(targets, {}, false);
+  constexpr int fine = 24;
+  double worst = 0.0, sum = 0.0;
+  int crossed = 0;
+  for (std::size_t i = 0; i < shot.view.depth.size(); ++i) {
+    double signal = 0.0, depths = 0.0;
+    int near = 0;
+    for (int k = 0; k < fine * fine; ++k) {
+      const Vec3 ray = shot.view.lens.ray(static_cast<double>(i % width) + (k % fine + 0.5) / fine - 0.5,
+                                          static_cast<double>(i / width) + (k / fine + 0.5) / fine - 0.5);
+      const bool on_near = (0.70 * ray.x() + 1.0) * std::cos(turn) + 0.70 * ray.y() * std::sin(turn) < 1.0;
+      const double z = on_near ? 0.70 : 0.75;
+      near += on_near;
+      signal += 1.0 / (z * z);
+      depths += 1.0 / z;
+    }
+    if (near == 0 || near == fine * fine) continue;
+    const double off = std::abs(shot.measured.depth[i] - depths / signal);
+    worst = std::max(worst, off);
+    sum += off;
+    ++crossed;
+  }
+  ASSERT_GT(crossed, 150);
+  EXPECT_LT(worst, 0.008);
+  EXPECT_LT(sum / crossed, 0.0025);
+}
+
 TEST(TimeOfFlight, DarkSurfacesDropOut) {
   Targets targets;
   add_plate(targets, 1.0, 0.0, 0.005);

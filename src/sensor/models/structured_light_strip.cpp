@@ -1,0 +1,345 @@
+#include "sensor/models/structured_light_strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double least_step = 2e-6;  // m; below it two faces are one, whatever the noise
+
+/// Share of a normal distribution below x.
+double below(double x, double sigma) {
+  return 0.5 * std::erfc(-x / sigma * M_SQRT1_2);
+}
+
+bool same(const Surface& a, const Surface& b) {
+  return a.albedo == b.albedo && a.gloss == b.gloss && a.roughness == b.roughness;
+}
+
+}  // namespace
+
+StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
+    : model_(model),
+      width_(model.view_.lens.width),
+      height_(model.view_.lens.height),
+      reach_(static_cast<int>(std::ceil(3.0 * model.setup_.imager.blur))),
+      first_(first),
+      last_(last),
+      top_(std::max(0, first - reach_)),
+      bottom_(std::min(height_, last + reach_)),
+      origin_(static_cast<std::size_t>(top_) * width_) {
+  for (int k = 0; k < per_pixel; ++k) {
+    across_[k] = static_cast<float>(cells::across(k));
+    down_[k] = static_cast<float>(cells::down(k));
+  }
+  const double blur = model.setup_.imager.blur;
+  double sum = 0.0;
+  const auto seen = [&](double at) { return blur > 0.0 ? below(at + 0.5, blur) - below(at - 0.5, blur) : 1.0; };
+  for (int v = -reach_; v <= reach_; ++v) {
+    for (int u = -reach_; u <= reach_; ++u) {
+      weights_.emplace_back();
+      for (int k = 0; k < per_pixel; ++k) {
+        const double weight = seen(u + cells::across(k)) * seen(v + cells::down(k));
+        weights_.back()[k] = static_cast<float>(weight);
+        sum += weight;
+      }
+    }
+  }
+  for (Values& w : weights_) w /= static_cast<float>(sum);
+
+  const std::size_t pixels = static_cast<std::size_t>(bottom_ - top_) * width_;
+  near_.assign(pixels, 0);
+  cells_of_.assign(pixels, -1);
+  const std::vector<Uneven> uneven = uneven_pixels();
+  if (uneven.empty()) return;
+  std::vector<const Uneven*> crossed;
+  std::vector<char> needed(pixels, 0);
+  for (const Uneven& pixel : uneven) {
+    const int x = static_cast<int>(pixel.index % width_), y = static_cast<int>(pixel.index / width_);
+    if (y >= top_ && y < bottom_) {
+      if (pixel.kind == Kind::bent) add_bent(pixel);
+      if (pixel.kind == Kind::mixed) add_mixed(pixel);
+      if (pixel.kind == Kind::crossed) crossed.push_back(&pixel);
+    }
+    for (int v = std::max(top_, y - 2 * reach_); v <= std::min(bottom_ - 1, y + 2 * reach_); ++v) {
+      for (int u = std::max(0, x - 2 * reach_); u <= std::min(width_ - 1, x + 2 * reach_); ++u) {
+        const std::size_t at = static_cast<std::size_t>(v) * width_ + u - origin_;
+        needed[at] = 1;
+        if (std::abs(u - x) <= reach_ && std::abs(v - y) <= reach_) near_[at] = 1;
+      }
+    }
+  }
+  cells_.reserve(cells_.size() + static_cast<std::size_t>(std::count(needed.begin(), needed.end(), 1)));
+  add_crossed(crossed);
+  for (std::size_t at = 0; at < pixels; ++at) {
+    if (needed[at] && cells_of_[at] < 0 && model_.codes_[origin_ + at] != Validity::nothing) add_flat(origin_ + at);
+  }
+}
+
+/// Whether a neighbour is lit differently, sees nothing or has another surface.
+bool StructuredLight::Strip::differs(int x, int y) const {
+  const std::size_t own = static_cast<std::size_t>(y) * width_ + x;
+  for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+      const std::size_t i = static_cast<std::size_t>(v) * width_ + u;
+      if (model_.codes_[i] != model_.codes_[own]) return true;
+      const std::int32_t a = model_.view_.line[own], b = model_.view_.line[i];
+      if (a != b && !same(model_.surfaces_.of(a), model_.surfaces_.of(b))) return true;
+    }
+  }
+  return false;
+}
+
+/// By how much a neighbour lies off the plane of this pixel's face (m); 0 if by less than least_step.
+double StructuredLight::Strip::hidden_step(const Pixel& pixel) const {
+  const Lens& lens = model_.view_.lens;
+  const int x = static_cast<int>(pixel.index % width_), y = static_cast<int>(pixel.index / width_);
+  const double facing = pixel.normal.dot(pixel.ray);
+  const double across = pixel.normal.x() / lens.fx, down = pixel.normal.y() / lens.fy;
+  double largest = 0.0;
+  for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+    const double* const depth = &model_.view_.depth[static_cast<std::size_t>(v) * width_];
+    for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+      const double here = std::abs(facing + across * (u - x) + down * (v - y));
+      const double off = std::abs(depth[u] * (facing + across * (u - x) + down * (v - y)) - pixel.plane);
+      if (off > least_step * here) largest = std::max(largest, off / here);
+    }
+  }
+  return largest;
+}
+
+/// What cells see, each asked by a ray through its middle.
+std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std::vector<Spot>& spots) const {
+  const View& view = model_.view_;
+  std::vector<Ray> rays(spots.size());
+  std::vector<Hit> hits(spots.size());
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const Vec3 middle = model_.rays_.at(spots[i].index % width_, spots[i].index / width_);
+    const Vec3 offset(cells::across(spots[i].cell) / view.lens.fx, cells::down(spots[i].cell) / view.lens.fy, 0.0);
+    rays[i] = {view.pose.position, model_.turn_ * (middle + offset), model_.setup_.near, model_.setup_.far};
+  }
+  model_.scenery_.first_hits(rays.data(), hits.data(), rays.size());
+  std::vector<SeenPoint> points(spots.size());
+  std::vector<Lit> lit(spots.size());
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const Hit& hit = hits[i];
+    points[i] = {rays[i].origin + hit.distance * rays[i].direction, hit.normal, hit.line, !std::isnan(hit.distance)};
+  }
+  light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
+        points.data(), lit.data(), lit.size());
+  std::vector<Seen> seen(spots.size());
+  for (std::size_t i = 0; i < spots.size(); ++i) seen[i] = {hits[i].distance, lit[i], hits[i].line};
+  return seen;
+}
+
+/// What noise hides is even.
+StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel, const Seen* corners) const {
+  const Lens& lens = model_.view_.lens;
+  const Validity code = model_.codes_[pixel.index];
+  double tolerance = least_step;
+  if (code == Validity::valid) {
+    tolerance = std::max(tolerance, 0.5 * model_.depth_sigma(pixel, model_.fringe(pixel)));
+  }
+  const Surface& own = model_.surfaces_.of(model_.view_.line[pixel.index]);
+  Kind kind = Kind::even;
+  for (int k = 0; k < 4; ++k) {
+    const double u = cells::across(cells::corners[k]), v = cells::down(cells::corners[k]);
+    const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
+    const double off = std::abs(corners[k].depth - pixel.plane / here);
+    const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line));
+    // A sixteenth of the pixel is enough to be mixed, and of what is removed nobody asks how much.
+    const bool removed = reach_ == 0 && model_.setup_.settings.mixed == MixedPixels::remove;
+    if (!(off < model_.setup_.settings.edge_step)) return removed ? Kind::mixed : Kind::crossed;
+    if (other) kind = Kind::crossed;
+    if (off > tolerance && kind == Kind::even) kind = Kind::bent;
+  }
+  return kind;
+}
+
+/// Of some rows: whether each pixel and its neighbours show one face in the same light. That spares most of them more.
+std::vector<char> StructuredLight::Strip::uniform(int first, int last) const {
+  const int top = std::max(0, first - 1), bottom = std::min(height_, last + 1);
+  const auto at = [&](int y, int x) {
+    return static_cast<std::size_t>(y - top) * width_ + static_cast<std::size_t>(x);
+  };
+  std::vector<char> across(at(bottom, 0), 1), down = across, all(static_cast<std::size_t>(last - first) * width_, 0);
+  for (int y = top; y < bottom; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      if (x + 1 < width_) across[at(y, x)] = alike(y, x, y, x + 1);
+      if (y + 1 < bottom) down[at(y, x)] = alike(y, x, y + 1, x);
+    }
+  }
+  for (int y = first; y < last; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      char same = down[at(y, x)] & (y > top ? down[at(y - 1, x)] : 1);
+      for (int v = std::max(top, y - 1); v < std::min(bottom, y + 2); ++v) {
+        same &= across[at(v, x)] & (x > 0 ? across[at(v, x - 1)] : 1);
+      }
+      all[static_cast<std::size_t>(y - first) * width_ + static_cast<std::size_t>(x)] = same;
+    }
+  }
+  return all;
+}
+
+/// Whether two pixels see one plane of one surface, lit alike.
+bool StructuredLight::Strip::alike(int row_a, int a, int row_b, int b) const {
+  const std::size_t i = static_cast<std::size_t>(row_a) * width_ + a, k = static_cast<std::size_t>(row_b) * width_ + b;
+  if (model_.codes_[i] != model_.codes_[k] || model_.view_.line[i] != model_.view_.line[k]) return false;
+  if (model_.view_.normal[i] != model_.view_.normal[k]) return false;
+  return std::abs(model_.planes_[i] - model_.planes_[k]) < 0.1 * least_step;
+}
+
+std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixels() const {
+  std::vector<std::size_t> maybe;
+  const double edge = model_.setup_.settings.edge_step;
+  const int from = std::max(0, first_ - 2 * reach_), to = std::min(height_, last_ + 2 * reach_);
+  const std::vector<char> plain = uniform(from, to);
+  for (int y = from; y < to; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      if (plain[static_cast<std::size_t>(y - from) * width_ + static_cast<std::size_t>(x)]) continue;
+      const std::size_t index = static_cast<std::size_t>(y) * width_ + x;
+      const Validity code = model_.codes_[index];
+      if (code != Validity::valid && code != Validity::shadow) continue;
+      if (differs(x, y)) {
+        maybe.push_back(index);
+        continue;
+      }
+      const Pixel pixel = model_.pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
+      const double step = hidden_step(pixel);
+      // Cells lie up to 3/8 of a pixel from the centre and see as much of the step to a neighbour.
+      if (step >= edge ||
+          (step > 0.0 && code == Validity::valid && step > 2.0 * model_.depth_sigma(pixel, model_.fringe(pixel)))) {
+        maybe.push_back(index);
+      }
+    }
+  }
+  std::vector<Spot> corners;
+  for (const std::size_t index : maybe) {
+    for (const int cell : cells::corners) corners.push_back({index, cell});
+  }
+  const std::vector<Seen> seen = cast(corners);
+  std::vector<Uneven> uneven;
+  for (std::size_t i = 0; i < maybe.size(); ++i) {
+    const Pixel pixel = model_.pixel(maybe[i] % width_, maybe[i] / width_);
+    const Seen* const own = &seen[4 * i];
+    const Kind kind = kind_of(pixel, own);
+    if (kind != Kind::even) uneven.push_back({maybe[i], kind, {own[0], own[1], own[2], own[3]}});
+  }
+  return uneven;
+}
+
+/// Share of a neighbour's cells that lie off a pixel's face by edge_step or more.
+float StructuredLight::Strip::off_face(const Pixel& pixel, int right, int down, const Cells& cells,
+                                       const Values& weight) const {
+  const Lens& lens = model_.view_.lens;
+  const auto across = static_cast<float>(pixel.normal.x() / lens.fx),
+             along = static_cast<float>(pixel.normal.y() / lens.fy);
+  const auto middle = static_cast<float>(pixel.normal.dot(pixel.ray)) + across * static_cast<float>(right) +
+                      along * static_cast<float>(down);
+  const auto plane = static_cast<float>(pixel.plane), step = static_cast<float>(model_.setup_.settings.edge_step);
+  const Values here = middle + across * across_ + along * down_;
+  return ((cells.depth * here - plane).abs() < step * here.abs()).select(Values::Zero(), weight).sum();
+}
+
+void StructuredLight::Strip::set_phases(Cells& own) const {
+  const double turn = 2.0 * M_PI / model_.setup_.settings.period;
+  for (int k = 0; k < per_pixel; ++k) {
+    own.cosine[k] = own.sine[k] = 0.0f;
+    if (own.white[k] <= 0.0f) continue;
+    own.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
+    own.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
+  }
+}
+
+/// Cells asked by rays; the corners of pixels are known.
+void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixels) {
+  std::vector<Spot> spots;
+  for (const Uneven* const pixel : pixels) {
+    for (int k = 0; k < per_pixel; ++k) {
+      if (!cells::is_corner(k)) spots.push_back({pixel->index, k});
+    }
+  }
+  const std::vector<Seen> others = cast(spots);
+  std::size_t next = 0;
+  for (const Uneven* const pixel : pixels) {
+    std::array<Seen, per_pixel> seen;
+    int corner = 0;
+    for (int k = 0; k < per_pixel; ++k) seen[k] = cells::is_corner(k) ? pixel->corners[corner++] : others[next++];
+    add_seen(pixel->index, seen);
+  }
+}
+
+/// Cells of a pixel that will be removed as mixed: each sees what its corner does.
+void StructuredLight::Strip::add_mixed(const Uneven& pixel) {
+  std::array<Seen, per_pixel> seen;
+  for (int k = 0; k < per_pixel; ++k) {
+    seen[k] = pixel.corners[(cells::across(k) > 0.0 ? 1u : 0u) + (cells::down(k) > 0.0 ? 2u : 0u)];
+  }
+  add_seen(pixel.index, seen);
+}
+
+void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen) {
+  Cells own;
+  for (int k = 0; k < per_pixel; ++k) {
+    const Seen& s = seen[k];
+    const bool lit = s.lit.code == Validity::valid;
+    own.column[k] = static_cast<float>(s.lit.column);
+    own.white[k] = lit ? static_cast<float>(s.lit.reflected / (s.lit.distance * s.lit.distance)) : 0.0f;
+    own.depth[k] = static_cast<float>(s.depth);
+    own.outside = own.outside || s.lit.code == Validity::outside;
+    if (s.lit.code == Validity::nothing) continue;
+    own.diffuse += static_cast<float>(diffuse_share(model_.surfaces_.of(s.line))) / per_pixel;
+  }
+  add(index, own);
+}
+
+/// Cells of one face in even light.
+StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, const Vec2& slope) const {
+  const Lens& lens = model_.view_.lens;
+  const std::size_t index = pixel.index;
+  Cells own;
+  own.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
+  own.outside = model_.codes_[index] == Validity::outside;
+  for (int k = 0; k < per_pixel; ++k) {
+    const double u = cells::across(k), v = cells::down(k);
+    const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
+    own.column[k] = static_cast<float>(model_.columns_[index] + slope.x() * u + slope.y() * v);
+    own.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
+    own.depth[k] = static_cast<float>(pixel.plane / here);
+  }
+  return own;
+}
+
+void StructuredLight::Strip::add_flat(std::size_t index) {
+  const Pixel pixel = model_.pixel(index % width_, index / width_);
+  Cells own = flat(pixel, model_.slope(pixel));
+  add(index, own);
+}
+
+/// Cells of faces that bend gently: their columns leave those of the centre's face towards each corner's.
+void StructuredLight::Strip::add_bent(const Uneven& bent) {
+  const Pixel pixel = model_.pixel(bent.index % width_, bent.index / width_);
+  const Vec2 slope = model_.slope(pixel);
+  Cells own = flat(pixel, slope);
+  for (int k = 0; k < per_pixel; ++k) {
+    const double u = cells::across(k), v = cells::down(k);
+    const int corner = (u > 0.0 ? 1 : 0) + (v > 0.0 ? 2 : 0), at = cells::corners[corner];
+    const Seen& there = bent.corners[static_cast<std::size_t>(corner)];
+    const double flat = model_.columns_[bent.index] + slope.x() * cells::across(at) + slope.y() * cells::down(at);
+    const double share =
+        std::sqrt((u * u + v * v) / (cells::across(at) * cells::across(at) + cells::down(at) * cells::down(at)));
+    own.column[k] += static_cast<float>(share * (there.lit.column - flat));
+  }
+  add(bent.index, own);
+}
+
+void StructuredLight::Strip::add(std::size_t index, Cells& own) {
+  set_phases(own);
+  own.white.maxCoeff(&own.brightest);
+  cells_of_[index - origin_] = static_cast<std::int32_t>(cells_.size());
+  cells_.push_back(own);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "core/in_parallel.hpp"
+#include "sensor/models/cells.hpp"
+#include "sensor/models/structured_light.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace bin_scenes {
+
+/// Some rows of the image and what their pixels near edges see. A pixel is *uneven* if a neighbour lies off its face,
+/// is lit differently or has another surface, and rays through its corners confirm it. Where they meet an edge, all its
+/// cells are asked by rays; where they meet faces that bend gently, cells lie between centre and corners. Cells of
+/// neighbours within the blur's reach follow from their faces.
+class StructuredLight::Strip {
+ public:
+  static constexpr int per_pixel = cells::per_pixel;
+  using Values = Eigen::Array<float, per_pixel, 1, Eigen::DontAlign>;  ///< one a cell
+  /// The cells of one pixel. Without light, white is 0.
+  struct Cells {
+    Values column, white, depth;
+    Values cosine, sine;   ///< white, times those of the fringe's phase
+    int brightest = 0;     ///< cell
+    float diffuse = 0.0f;  ///< mean share of ambient light sent back
+    bool outside = false;  ///< a part lies outside the projector's field
+  };
+
+  /// @param rows  first to last - 1
+  Strip(const StructuredLight& model, int first, int last);
+
+  /// Whether the light of a pixel (of the strip's rows) has to be summed over cells.
+  bool near_edge(std::size_t index) const { return near_[index - origin_] != 0; }
+  /// What it sums up to. Calls use(cells, weights) for each pixel that is lit.
+  template <class Use>
+  Blend blend(const Pixel& pixel, const Use& use) const;
+
+ private:
+  struct Spot {
+    std::size_t index;  ///< pixel
+    int cell;
+  };
+  struct Seen {
+    double depth;
+    Lit lit;
+    std::int32_t line;
+  };
+
+  std::vector<char> uniform(int first, int last) const;
+  float off_face(const Pixel& pixel, int right, int down, const Cells& cells, const Values& weight) const;
+  bool alike(int row_a, int a, int row_b, int b) const;
+  bool differs(int x, int y) const;
+  double hidden_step(const Pixel& pixel) const;
+  std::vector<Seen> cast(const std::vector<Spot>& spots) const;
+  /// How the corner cells of a pixel lie to its face.
+  enum class Kind { even, bent, mixed, crossed };
+  struct Uneven {
+    std::size_t index;  ///< pixel
+    Kind kind;
+    std::array<Seen, 4> corners;
+  };
+  Kind kind_of(const Pixel& pixel, const Seen* corners) const;
+  std::vector<Uneven> uneven_pixels() const;
+  void add_crossed(const std::vector<const Uneven*>& pixels);
+  void add_mixed(const Uneven& pixel);
+  void add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen);
+  Cells flat(const Pixel& pixel, const Vec2& slope) const;
+  void add_flat(std::size_t index);
+  void add_bent(const Uneven& pixel);
+  void add(std::size_t index, Cells& cells);
+  void set_phases(Cells& cells) const;
+
+  const StructuredLight& model_;
+  int width_, height_, reach_;
+  int first_, last_;    ///< rows whose pixels are read
+  int top_, bottom_;    ///< rows whose cells they need
+  std::size_t origin_;  ///< index of the first pixel of row top_
+  std::vector<char> near_;
+  std::vector<std::int32_t> cells_of_;  ///< index into cells_ by pixel; -1: none
+  std::vector<Cells> cells_;
+  Values across_, down_;         ///< places of cells in their pixel
+  std::vector<Values> weights_;  ///< of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
+};
+
+/// The light of a pixel near an edge.
+struct StructuredLight::Blend {
+  static constexpr double tolerated = 0.03;  ///< of off_share: more is a mixed pixel
+  double white = 0.0;                        ///< mean over its footprint
+  double cosine = 0.0, sine = 0.0;
+  double column = 0.0;     ///< of the brightest cell
+  double diffuse = 0.0;    ///< share of ambient light sent back
+  double off_share = 0.0;  ///< of the footprint that lies on other faces by more than edge_step
+  bool outside = false;    ///< a part lies outside the projector's field
+};
+
+template <class Use>
+StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const Use& use) const {
+  const int x = static_cast<int>(pixel.index) % width_, y = static_cast<int>(pixel.index) / width_;
+  Blend out;
+  float brightest = 0.0f, total = 0.0f;
+  for (int v = std::max(0, y - reach_); v <= std::min(height_ - 1, y + reach_); ++v) {
+    for (int u = std::max(0, x - reach_); u <= std::min(width_ - 1, x + reach_); ++u) {
+      const std::int32_t at = cells_of_[static_cast<std::size_t>(v) * width_ + u - origin_];
+      const Values& weight = weights_[static_cast<std::size_t>((v - y + reach_) * (2 * reach_ + 1) + u - x + reach_)];
+      const float share = weight.sum();
+      total += share;
+      if (at < 0) {  // nothing is there
+        out.off_share += share;
+        continue;
+      }
+      const Cells& own = cells_[static_cast<std::size_t>(at)];
+      out.diffuse += share * own.diffuse;
+      out.outside = out.outside || (own.outside && share > 0.01f);
+      if (std::abs(u - x) <= 1 && std::abs(v - y) <= 1) out.off_share += off_face(pixel, u - x, v - y, own, weight);
+      const float light = weight[own.brightest] * own.white[own.brightest];
+      if (light <= 0.0f) continue;
+      out.white += (weight * own.white).sum();
+      out.cosine += (weight * own.cosine).sum();
+      out.sine += (weight * own.sine).sum();
+      if (light > brightest) {
+        brightest = light;
+        out.column = own.column[own.brightest];
+      }
+      use(own, weight);
+    }
+  }
+  out.off_share /= total;
+  return out;
+}
+
+/// Work on all rows, in strips: work(strip, first row, last row + 1).
+template <class Work>
+void StructuredLight::in_strips(const Work& work) const {
+  constexpr int rows = 32;
+  const int height = view_.lens.height;
+  in_parallel(static_cast<std::size_t>((height + rows - 1) / rows), [&](std::size_t k) {
+    const int first = static_cast<int>(k) * rows, last = std::min(first + rows, height);
+    work(Strip(*this, first, last), first, last);
+  });
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,28 @@
+/// Directions of a camera's pixels: Lens::ray at pixel centres, with what is the same for a row or a column found once.
+#pragma once
+
+#include "bin_scenes/sensor/lens.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace bin_scenes {
+
+class PixelRays {
+ public:
+  explicit PixelRays(const Lens& lens) : lens_(lens), plain_(!lens.distorts() && lens.skew == 0.0) {
+    for (int x = 0; plain_ && x < lens.width; ++x) x_.push_back((x - lens.cx) / lens.fx);
+    for (int y = 0; plain_ && y < lens.height; ++y) y_.push_back((y - lens.cy) / lens.fy);
+  }
+  Vec3 at(std::size_t column, std::size_t row) const {
+    if (plain_) return {x_[column], y_[row], 1.0};
+    return lens_.ray(static_cast<double>(column), static_cast<double>(row));
+  }
+
+ private:
+  Lens lens_;
+  bool plain_;
+  std::vector<double> x_, y_;
+};
+
+}  // namespace bin_scenes
