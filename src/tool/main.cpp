@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(errors.kind());
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) {
-      std::signal(SIGALRM, SIG_IGN);  // the patience of generate(): it would say so once more
+      std::signal(SIGALRM, SIG_IGN);  // the patience of stop_on_signals(): it would say so once more
       _exit(complain("cancelled; finished scenes are kept", exit_interrupted));
     }
     return complain(error.what(), static_cast<int>(error.kind()));
