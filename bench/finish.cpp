@@ -36,8 +36,8 @@ void rows(Run& out, const std::string& part, const Request& asked, const std::st
       choose_solver(request, solver);
       finish_as(request, finish);
       warm_up(request);
-      out.row(Row(key).append(over_all(judged_scenes(out.scratch(), request, pieces, {},
-                                                     {out.quick() ? 20.0 : 120.0, scenes_each}, scenes_each))));
+      out.row(Row(key).append(over_all(
+          judged_scenes(out.scratch(), request, pieces, {}, {out.quick() ? 20.0 : 120.0, scenes_each}, scenes_each))));
     }
 }
 

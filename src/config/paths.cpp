@@ -146,12 +146,11 @@ std::string resolve_file(const std::string& written, const std::string& base, co
   }
   if (!fs::exists(real, error)) {
     const std::string similar = similar_file(path);
-    throw input_error(
-        "there is no file '" + path.string() + "'", where,
-        !similar.empty()        ? "did you mean '" + similar + "'?"
-        : rules.roots.empty() ? "relative paths start at the request's directory"
-                              : "relative paths start at the request file's folder or at one of " + rules.roots_name +
-                                    " (" + listed(rules.roots) + ")");
+    throw input_error("there is no file '" + path.string() + "'", where,
+                      !similar.empty()      ? "did you mean '" + similar + "'?"
+                      : rules.roots.empty() ? "relative paths start at the request's directory"
+                                            : "relative paths start at the request file's folder or at one of " +
+                                                  rules.roots_name + " (" + listed(rules.roots) + ")");
   }
   if (!fs::is_regular_file(real, error)) {
     throw input_error("'" + path.string() + "' is not a file", where, "name a file");

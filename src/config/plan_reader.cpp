@@ -32,7 +32,8 @@ class PlanFile {
     const YAML::Node root = config::load_yaml(plan_.text, path_);
     if (!root.IsMap()) throw input_error("the plan is no map of keys", path_, "see docs/use/datasets.md");
     if (!own_value(root, "request") && own_value(root, "parts"))
-      throw input_error("this is a request, no plan of a data set", path_, "write scenes: N and request: FILE in a plan");
+      throw input_error("this is a request, no plan of a data set", path_,
+                        "write scenes: N and request: FILE in a plan");
     auto state = std::make_shared<Plan::State>();
     state_ = state.get();
     read_keys(root);

@@ -199,7 +199,7 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
     return request;
   };
   Request request = read_over(Request());
-  if (all && !all->empty()) return request;  // what follows builds on values that are not there
+  if (all && !all->empty()) return request;                      // what follows builds on values that are not there
   if (request.solver.preset == SolverSettings::Preset::quick) {  // what is not given is the preset's
     Request quick;
     apply(SolverSettings::Preset::quick, quick);

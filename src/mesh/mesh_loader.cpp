@@ -80,9 +80,9 @@ class Repair {
       : mesh_(loaded.mesh), report_(loaded.report), options_(options), where_(where), diagonal_(diagonal) {}
 
   void run() {
-    for (void (Repair::*step)() : {&Repair::weld, &Repair::remove_duplicates, &Repair::remove_slivers,
-                                   &Repair::agree_winding, &Repair::close_holes, &Repair::thicken,
-                                   &Repair::turn_outward, &Repair::unite, &Repair::judge}) {
+    for (void (Repair::*step)() :
+         {&Repair::weld, &Repair::remove_duplicates, &Repair::remove_slivers, &Repair::agree_winding,
+          &Repair::close_holes, &Repair::thicken, &Repair::turn_outward, &Repair::unite, &Repair::judge}) {
       stop_if_cancelled();
       (this->*step)();
     }

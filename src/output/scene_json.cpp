@@ -114,18 +114,11 @@ Json json_of(const Quantiles& q) {
 }
 
 Json json_of(const Report& report) {
-  Json json = {{"at_rest", report.at_rest},
-               {"accepted", report.accepted},
-               {"reasons", report.reasons},
-               {"solver", report.solver},
-               {"solver_reason", report.solver_reason},
-               {"device", report.device},
-               {"finish", report.finish},
-               {"simulated_s", report.simulated_s},
-               {"wall_s", report.wall_s},
-               {"steps", report.steps},
-               {"stages_ms", report.profile.stages_ms},
-               {"counters", report.profile.counters}};
+  Json json = {
+      {"at_rest", report.at_rest}, {"accepted", report.accepted},           {"reasons", report.reasons},
+      {"solver", report.solver},   {"solver_reason", report.solver_reason}, {"device", report.device},
+      {"finish", report.finish},   {"simulated_s", report.simulated_s},     {"wall_s", report.wall_s},
+      {"steps", report.steps},     {"stages_ms", report.profile.stages_ms}, {"counters", report.profile.counters}};
   const PenetrationReport& p = report.penetration;
   Json& penetration = json["penetration"] = json_of(static_cast<const Quantiles&>(p));
   penetration["pair"] = p.pair;
@@ -192,9 +185,8 @@ Pose pose_of(const Json& json) {
 }
 
 PartState state_of(const std::string& name) {
-  for (const PartState state :
-       {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed, PartState::not_poured,
-        PartState::removed}) {
+  for (const PartState state : {PartState::resting, PartState::moving, PartState::escaped, PartState::fixed,
+                                PartState::not_poured, PartState::removed}) {
     if (name == name_of(state)) return state;
   }
   throw std::runtime_error("'" + name + "' is no state of a part");

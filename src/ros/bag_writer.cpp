@@ -11,7 +11,8 @@ ros::Time bag_stamp(std::size_t index) {
 
 void write_bag(const std::string& path, const Scene& scene, const Request& request,
                const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
-               const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames, const std::string& name_space) {
+               const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames,
+               const std::string& name_space) {
   const SceneMessages messages = scene_messages(scene, request, parts, bin_model, frames, stamp);
   SceneBag::unharmed(path, [&] {
     SceneBag bag(path, name_space);
@@ -24,7 +25,9 @@ void write_bag(const std::string& path, const Scene& scene, const Request& reque
     write(topic::markers, messages.markers, Latch::yes);
     for (std::size_t i = 0; i < images.size(); ++i) {
       const ImageMessages image = image_messages(images[i], stamp, frames.prefix);
-      const auto name = [&](const char* relative) { return topic::of_sensor(relative, images[i].sensor.name, images.size()); };
+      const auto name = [&](const char* relative) {
+        return topic::of_sensor(relative, images[i].sensor.name, images.size());
+      };
       write(name(topic::points), image.points, Latch::yes);
       write(name(topic::depth), image.depth, Latch::yes);
       write(name(topic::camera_info), image.camera_info, Latch::yes);

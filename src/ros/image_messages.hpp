@@ -34,8 +34,8 @@ sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8: codes of sensor/validity.hpp; as taken.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
-/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. Throws an input Error unless K
-/// has 9 values.
+/// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. Throws an input Error
+/// unless K has 9 values.
 sensor_msgs::CameraInfo camera_info_message(const Sensor& sensor, const std_msgs::Header& header);
 
 }  // namespace bin_scenes

@@ -105,7 +105,8 @@ Settings read_settings(const ros::NodeHandle& params, const std::string& frame_p
   reader.read("rgb", s.rgb, "true or false");
   std::string goals = "queue";
   reader.read("goals", goals, "queue or preempt");
-  if (goals != "queue" && goals != "preempt") throw reader.refusal("goals", "is '" + goals + "'", "give queue or preempt");
+  if (goals != "queue" && goals != "preempt")
+    throw reader.refusal("goals", "is '" + goals + "'", "give queue or preempt");
   s.preempt = goals == "preempt";
 
   const std::string package = ros::package::getPath("bin_scenes");

@@ -33,7 +33,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--formats", o.formats, "of json, pcd, png, bop, bag; scene.json is always written")->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
-  app.add_option("--trace", o.trace, "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
+  app.add_option("--trace", o.trace,
+                 "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
   app.add_flag(

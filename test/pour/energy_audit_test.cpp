@@ -48,7 +48,8 @@ TEST_F(EnergyAuditTest, FreeFallAndRestGainNothing) {
 
 TEST_F(EnergyAuditTest, APartThrownUpGainsItsKineticEnergy) {
   const double v = std::sqrt(2.0 * g * 5.0 * d);  // as high as five diagonals
-  const EnergyReport report = between({away(0), at(0.0, 1.0), away(2)}, {away(0), at(0.0, 1.0, Vec3(0, 0, v)), away(2)});
+  const EnergyReport report =
+      between({away(0), at(0.0, 1.0), away(2)}, {away(0), at(0.0, 1.0, Vec3(0, 0, v)), away(2)});
   EXPECT_NEAR(report.gain, 5.0, 0.01);
   EXPECT_EQ(report.part, 1);
   EXPECT_NEAR(report.time, dt, 1e-12);
@@ -62,15 +63,15 @@ TEST_F(EnergyAuditTest, SpinCounts) {
 
 TEST_F(EnergyAuditTest, WhatANeighbourGaveIsNoGain) {
   const double v = 2.0;
-  const EnergyReport report =
-      between({at(0.0, 1.0, Vec3(v, 0, 0)), at(edge, 1.0), away(2)}, {at(0.0, 1.0), at(edge, 1.0, Vec3(v, 0, 0)), away(2)});
+  const EnergyReport report = between({at(0.0, 1.0, Vec3(v, 0, 0)), at(edge, 1.0), away(2)},
+                                      {at(0.0, 1.0), at(edge, 1.0, Vec3(v, 0, 0)), away(2)});
   EXPECT_LT(report.gain, 1e-9);
 }
 
 TEST_F(EnergyAuditTest, WhatAFarPartLosesExplainsNothing) {
   const double v = std::sqrt(2.0 * g * d);
-  const EnergyReport report =
-      between({at(0.0, 1.0), at(10.0, 1.0, Vec3(2 * v, 0, 0)), away(2)}, {at(0.0, 1.0, Vec3(v, 0, 0)), at(10.0, 1.0), away(2)});
+  const EnergyReport report = between({at(0.0, 1.0), at(10.0, 1.0, Vec3(2 * v, 0, 0)), away(2)},
+                                      {at(0.0, 1.0, Vec3(v, 0, 0)), at(10.0, 1.0), away(2)});
   EXPECT_NEAR(report.gain, 1.0, 0.01);
   EXPECT_EQ(report.part, 0);
 }

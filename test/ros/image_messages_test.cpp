@@ -136,8 +136,8 @@ TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
 
 TEST(ImageMessages, OneStampOneFrame) {
   const auto m = image_messages(some_image(), stamp);
-  for (const std_msgs::Header* header : {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header,
-                                           &m.validity.header}) {
+  for (const std_msgs::Header* header :
+       {&m.points.header, &m.depth.header, &m.camera_info.header, &m.labels.header, &m.validity.header}) {
     EXPECT_EQ(header->stamp, stamp);
     EXPECT_EQ(header->frame_id, "camera_optical_frame");
   }

@@ -15,9 +15,9 @@
 namespace bin_scenes {
 
 /// scene.json as text (format "bin_scenes/1"). Numbers read back as the same bits; NaN is null, and so is the pose of a
-/// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of a
-/// request on one class of device.
-/// `images` add a block `truth` to each sensor: per part its visible fraction, boxes and counts of pixels.
+/// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of
+/// a request on one class of device. `images` add a block `truth` to each sensor: per part its visible fraction, boxes
+/// and counts of pixels.
 /// @param parts  parts[line] are the models; only with images
 std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images = {},
                        const std::vector<PartModelPtr>& parts = {});
@@ -26,9 +26,9 @@ Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
 
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity,
-/// where label is 0 for background and bin, id + 1 for a part, and validity a code of sensor/validity.hpp. Written by
-/// PCL: pcd_supported() is false, and this an environment Error, in a build without it.
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label
+/// validity, where label is 0 for background and bin, id + 1 for a part, and validity a code of sensor/validity.hpp.
+/// Written by PCL: pcd_supported() is false, and this an environment Error, in a build without it.
 void write_pcd(const std::string& path, const RangeImage& image);
 bool pcd_supported();
 
@@ -48,8 +48,8 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
                const std::vector<RangeImage>& images);
 /// How BOP's files tell what is visible, and which object a part is.
 struct BopOptions {
-  /// m: as bop_toolkit defines visible pixels and boxes, from the depth image, up to so far behind the measured surface;
-  /// 0: from the true labels.
+  /// m: as bop_toolkit defines visible pixels and boxes, from the depth image, up to so far behind the measured
+  /// surface; 0: from the true labels.
   double tolerance = 0.0;
   std::vector<int> object_ids;  ///< by part line; empty: bop_object_ids()
 };

@@ -24,16 +24,16 @@ struct Quantiles {
 Quantiles quantiles(std::vector<double> values);
 
 struct PenetrationReport : Quantiles {
-  std::array<int, 2> pair = {-1, -1};  ///< ids of the worst pair; {-1, -1} if nothing overlaps
-  double p95_relative = 0.0, max_relative = 0.0;  ///< / smaller part's bounding diagonal
-  std::size_t pairs = 0;               ///< overlapping pairs
+  std::array<int, 2> pair = {-1, -1};                     ///< ids of the worst pair; {-1, -1} if nothing overlaps
+  double p95_relative = 0.0, max_relative = 0.0;          ///< / smaller part's bounding diagonal
+  std::size_t pairs = 0;                                  ///< overlapping pairs
   double bin_median = 0.0, bin_p95 = 0.0, bin_max = 0.0;  ///< over the parts that overlap the bin (m)
-  int bin_part = -1;                   ///< id of the worst of them; -1 if none
+  int bin_part = -1;                                      ///< id of the worst of them; -1 if none
 };
 
-struct DriftReport : Quantiles {       ///< m: move of the centre of mass in 0.5 s of a re-run
+struct DriftReport : Quantiles {  ///< m: move of the centre of mass in 0.5 s of a re-run
   bool measured = false;
-  double turn_p95 = 0.0;               ///< rad
+  double turn_p95 = 0.0;  ///< rad
 };
 
 /// Energy that a part gained and that nothing gave it: a solver whose contacts throw parts about.
@@ -46,21 +46,21 @@ struct EnergyReport {
 struct Report {
   bool at_rest = false;
   bool accepted = false;
-  std::vector<std::string> reasons;    ///< why not accepted
-  std::string solver;                  ///< "sphere", "sphere/thesis", "bullet"
-  std::string solver_reason;           ///< why `auto` chose it
-  std::string device;                  ///< GL_RENDERER, or "cpu"
-  std::string finish;                  ///< "settled", "pressed", "probed": what was done; "none": time ran out before
+  std::vector<std::string> reasons;  ///< why not accepted
+  std::string solver;                ///< "sphere", "sphere/thesis", "bullet"
+  std::string solver_reason;         ///< why `auto` chose it
+  std::string device;                ///< GL_RENDERER, or "cpu"
+  std::string finish;                ///< "settled", "pressed", "probed": what was done; "none": time ran out before
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t steps = 0;
   Profile profile;
   PenetrationReport penetration;
-  Quantiles gap;                       ///< m: free fall of the parts at rest
+  Quantiles gap;  ///< m: free fall of the parts at rest
   DriftReport drift;
   EnergyReport energy;
-  std::vector<int> escaped;            ///< ids outside the bin, below the floor or not finite
-  std::vector<int> not_poured;         ///< ids that found no room above the heap
-  std::uint64_t state_hash = 0;        ///< of all final poses, bit for bit
+  std::vector<int> escaped;      ///< ids outside the bin, below the floor or not finite
+  std::vector<int> not_poured;   ///< ids that found no room above the heap
+  std::uint64_t state_hash = 0;  ///< of all final poses, bit for bit
   std::vector<Flag> flags;
 };
 
