@@ -58,7 +58,7 @@ void run(Run& out) {
     request.parts[0].model = "part.obj";
     request.parts[0].path = folder + "/part.obj";
     request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
-    rows(out, name, request, folder, 1);
+    rows(out, name, request, folder + "/pieces.obj", 1);
   }
 }
 

@@ -85,7 +85,7 @@ std::vector<Setting> settings_of_solvers(bool quick) {
   return all;
 }
 
-/// Stock Bullet on the exact pieces of a folder.
+/// Stock Bullet on the exact pieces of a file.
 std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool quick) {
   std::vector<Setting> all;
   const auto add = [&](const std::string& varied, double rate, int iterations) {
