@@ -36,8 +36,8 @@ void rows(Run& out, const std::string& part, const Request& asked, const std::st
       choose_solver(request, solver);
       finish_as(request, finish);
       warm_up(request);
-      out.row(Row(key).append(over_all(judged_scenes(out.scratch(), request, pieces, {},
-                                                     {out.quick() ? 20.0 : 120.0, scenes_each}, scenes_each))));
+      out.row(Row(key).append(over_all(
+          judged_scenes(out.scratch(), request, pieces, {}, {out.quick() ? 20.0 : 120.0, scenes_each}, scenes_each))));
     }
 }
 
@@ -58,7 +58,7 @@ void run(Run& out) {
     request.parts[0].model = "part.obj";
     request.parts[0].path = folder + "/part.obj";
     request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
-    rows(out, name, request, folder, 1);
+    rows(out, name, request, folder + "/pieces.obj", 1);
   }
 }
 

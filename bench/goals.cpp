@@ -98,7 +98,7 @@ void made_part_row(Run& out, const std::string& name, const Write& write, const 
   request.bin.inner_size = size;
   choose_solver(request, "sphere");
   warm_up(request);
-  heap_row(out, Row(key).exact("pieces", pieces), request, folder, seeds, {limit_cpu_s, seeds});
+  heap_row(out, Row(key).exact("pieces", pieces), request, folder + "/pieces.obj", seeds, {limit_cpu_s, seeds});
 }
 
 void unseen(Run& out) {

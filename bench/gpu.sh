@@ -40,6 +40,7 @@ tests() {
   local name start=$SECONDS limit=150
   [[ ${BIN_SCENES_GL:-} == software ]] && limit=300  # s, of one
   mkdir -p "$out/tests"
+  # shellcheck disable=SC2016  # the inner shell expands them
   (cd "$bundle/tests" && find "$@" -type f | sort) |
     xargs -P "$(( $(nproc) < 16 ? $(nproc) : 16 ))" -I{} bash -c '
       log=$2/$(basename {}).log; timeout "$3" "$1/run" tests/{} > "$log" 2>&1 </dev/null; echo $? > "${log%.log}.code"

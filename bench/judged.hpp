@@ -13,9 +13,9 @@ struct Judged {
   int judged = 1;             ///< scenes, the first ones, that the referee sees; 0 where the part has no exact pieces
 };
 
-/// Pours `request`, of one part line, for seeds 1 to `seeds`, each in a process of its own, and has the referee judge the
-/// scenes in others: both set globals of Bullet. A row a scene; ends at the first that failed. Figures of figures_of(),
-/// then the referee's: drift_median_rel, drift_p95_rel, drift_max_rel, turn_p95_deg, its own
+/// Pours `request`, of one part line, for seeds 1 to `seeds`, each in a process of its own, and has the referee judge
+/// the scenes in others: both set globals of Bullet. A row a scene; ends at the first that failed. Figures of
+/// figures_of(), then the referee's: drift_median_rel, drift_p95_rel, drift_max_rel, turn_p95_deg, its own
 /// referee_penetration_p95_rel, .._penetration_max_rel and .._bin_penetration_max_rel, and the largest difference
 /// between these and the report's, report_to_referee_rel.
 /// @param pieces  folder of the part's exact convex pieces, in millimetres

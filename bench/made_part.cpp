@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -20,19 +19,17 @@ namespace {
 using Prism = std::vector<Vec3>;
 using Prisms = std::vector<Prism>;
 
-/// FOLDER/part.obj, the prisms as overlapping solids of one file, and FOLDER/hull_KK.obj, their vertices alone as in
+/// FOLDER/part.obj, the prisms as overlapping solids of one file, and FOLDER/pieces.obj, their vertices alone as in
 /// models/pieces. Returns the number of prisms.
 int write_pieces(const std::string& folder, const Prisms& prisms) {
   std::filesystem::create_directories(folder);
-  std::ostringstream part;
+  std::ostringstream part, pieces;
   std::size_t first = 1;
   for (std::size_t k = 0; k < prisms.size(); ++k) {
     std::ostringstream vertices;
     vertices.precision(9);
     for (const Vec3& vertex : prisms[k]) vertices << "v " << vertex.transpose() << '\n';
-    char name[32];
-    std::snprintf(name, sizeof name, "/hull_%02d.obj", static_cast<int>(k));
-    write_text(folder + name, vertices.str());
+    pieces << "o piece_" << k << '\n' << vertices.str();
     part << vertices.str();
     const std::size_t sides = prisms[k].size() / 2;
     for (std::size_t i = 0; i < sides; ++i) {
@@ -48,6 +45,7 @@ int write_pieces(const std::string& folder, const Prisms& prisms) {
     first += prisms[k].size();
   }
   write_text(folder + "/part.obj", part.str());
+  write_text(folder + "/pieces.obj", pieces.str());
   return static_cast<int>(prisms.size());
 }
 

@@ -8,10 +8,10 @@
 
 namespace bin_scenes::bench {
 
-/// Writes a part drawn from a seed to FOLDER/part.obj, and its pieces beside it, as in models/pieces (mm). Two to six
-/// prisms with 4 to 10 sides, some tapered, turned by right angles or freely, each through some place of an earlier
-/// one; 45 to 65 mm from corner to corner of the bounding box, no piece thinner than a twentieth of that. Returns the
-/// number of pieces.
+/// Writes a part drawn from a seed to FOLDER/part.obj, and its pieces to FOLDER/pieces.obj, as in models/pieces (mm).
+/// Two to six prisms with 4 to 10 sides, some tapered, turned by right angles or freely, each through some place of an
+/// earlier one; 45 to 65 mm from corner to corner of the bounding box, no piece thinner than a twentieth of that.
+/// Returns the number of pieces.
 int write_random_part(const std::string& folder, std::uint64_t seed);
 
 /// Parts that are mostly edge or face, where a solver that knows a part by samples has the least to hold it by: sheet,

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -142,25 +141,18 @@ class World {
 
 }  // namespace
 
-Pieces read_pieces(const std::string& folder, double scale) {
-  std::vector<std::filesystem::path> files;
-  std::error_code missing;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
-    if (entry.path().filename().string().rfind("hull_", 0) == 0) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+Pieces read_pieces(const std::string& path, double scale) {
+  std::ifstream file(path);
   Pieces pieces;
-  for (const auto& path : files) {
-    std::ifstream file(path);
-    std::vector<Vec3> vertices;
-    for (std::string line; std::getline(file, line);) {
-      std::istringstream words(line);
-      std::string word;
-      Vec3 v;
-      if (words >> word >> v.x() >> v.y() >> v.z() && word == "v") vertices.push_back(v * scale);
-    }
-    if (!vertices.empty()) pieces.push_back(std::move(vertices));
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "o") pieces.emplace_back();
+    Vec3 v;
+    if (word == "v" && !pieces.empty() && words >> v.x() >> v.y() >> v.z()) pieces.back().push_back(v * scale);
   }
-  if (pieces.empty()) throw input_error("no convex pieces", folder, "give a part that models/pieces/ has");
+  if (pieces.empty()) throw input_error("no convex pieces", path, "give a part that models/pieces/ has");
   return pieces;
 }
 

@@ -13,8 +13,9 @@ namespace bin_scenes::bench {
 
 /// Vertices of the convex pieces that a part is made of, in its model frame (m).
 using Pieces = std::vector<std::vector<Vec3>>;
-/// Reads FOLDER/hull_*.obj (vertices only, `scale` metres a unit). Throws an input Error if there is none.
-Pieces read_pieces(const std::string& folder, double scale);
+/// Reads an OBJ file with the vertices of each piece behind a line `o NAME` (`scale` metres a unit). Throws an input
+/// Error if there is none.
+Pieces read_pieces(const std::string& path, double scale);
 
 /// Overlap as the referee sees it, as shares of a part's diagonal.
 struct Overlap {

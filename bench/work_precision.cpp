@@ -38,7 +38,10 @@ std::vector<Setting> settings_of_solvers(bool quick) {
   add("sphere/quick", "default", 0, [](SolverSettings&) {});
   for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed, Pour::Finish::probed}) {
     if (finish == Pour().finish) continue;  // the default
-    all.push_back({"sphere", "yes", "finish", name_of(finish),
+    all.push_back({"sphere",
+                   "yes",
+                   "finish",
+                   name_of(finish),
                    [=](Request& request) {
                      choose_solver(request, "sphere");
                      request.pour.finish = finish;
@@ -82,7 +85,7 @@ std::vector<Setting> settings_of_solvers(bool quick) {
   return all;
 }
 
-/// Stock Bullet on the exact pieces of a folder.
+/// Stock Bullet on the exact pieces of a file.
 std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool quick) {
   std::vector<Setting> all;
   const auto add = [&](const std::string& varied, double rate, int iterations) {

@@ -96,7 +96,7 @@ std::string Run::part(const std::string& name) {
   return models() + "/" + name + ".stl";
 }
 std::string Run::pieces(const std::string& name) {
-  return models() + "/pieces/" + name;
+  return models() + "/pieces/" + name + ".obj";
 }
 
 bool Run::wanted(const Row& keys) const {

@@ -45,7 +45,7 @@ class Run {
   void amend(const Row& row);
   /// All rows so far, those kept from an earlier run included.
   const Table& table() const { return table_; }
-  /// Paths in models/: a part's mesh, and the folder of its exact convex pieces (channel_u and ring_24 have them).
+  /// Paths in models/: a part's mesh, and the file of its exact convex pieces (channel_u and ring_24 have them).
   static std::string part(const std::string& name);
   static std::string pieces(const std::string& name);
   /// A folder for this run alone, removed afterwards.

@@ -1,4 +1,4 @@
-"""Reads data sets that `bin_scenes dataset` made with output `shards`. Needs numpy alone.
+"""Reads data sets that `bin_scenes dataset` made with output `shards`. Needs numpy and Pillow.
 
     from bin_scenes_data import Shards
     shards = Shards("DIR")

@@ -117,15 +117,16 @@ void KeyReader::bin_kind(Bin& bin, const BinKeys& keys) {
   if (keys.floor) chosen.emplace_back("floor", Kind::floor);
   if (keys.none) chosen.emplace_back("none", Kind::none);
   if (chosen.size() > 1) {
-    source_.complain(input_error(
-        std::string("'bin.") + chosen[0].first + "' and 'bin." + chosen[1].first + "' are two kinds of bin",
-        source_.where(path_of(chosen[1].first)), "keep one of inner_size, mesh, floor and none"));
+    source_.complain(
+        input_error(std::string("'bin.") + chosen[0].first + "' and 'bin." + chosen[1].first + "' are two kinds of bin",
+                    source_.where(path_of(chosen[1].first)), "keep one of inner_size, mesh, floor and none"));
   }
   if (!chosen.empty()) bin.kind = chosen[0].second;
   const auto only = [&](const char* name, Kind kind, const char* owner) {
     if (has(name) && bin.kind != kind) {
       source_.complain(input_error("'bin." + std::string(name) + "' has no meaning for this kind of bin",
-                                   source_.where(path_of(name)), std::string("it belongs to ") + owner + "; remove it"));
+                                   source_.where(path_of(name)),
+                                   std::string("it belongs to ") + owner + "; remove it"));
     }
   };
   only("wall_thickness", Kind::box, "a box");

@@ -21,7 +21,8 @@ class Source {
       : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
   void remember(const std::string& path, const YAML::Node& node);
-  /// "file:12", "--set path" or the like, or the place of the nearest enclosing key if `path` itself is not in the file.
+  /// "file:12", "--set path" or the like, or the place of the nearest enclosing key if `path` itself is not in the
+  /// file.
   std::string where(std::string path) const;
   bool knows(const std::string& path) const { return lines_.count(path) != 0 || overrides_.count(path) != 0; }
 

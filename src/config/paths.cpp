@@ -102,7 +102,7 @@ fs::path located(const fs::path& relative, const std::string& base, const PathRu
   return beside;
 }
 
-std::string joined(const std::vector<std::string>& texts) {
+std::string listed(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
   return all;
@@ -141,17 +141,16 @@ std::string resolve_file(const std::string& written, const std::string& base, co
   const fs::path real = fs::weakly_canonical(path, error);
   if (error) throw input_error("cannot follow '" + path.string() + "': " + error.message(), where, "check the path");
   if (!allowed(real, rules)) {
-    throw input_error("'" + written + "' lies outside of " + rules.roots_name + " (" + joined(rules.roots) + ")", where,
+    throw input_error("'" + written + "' lies outside of " + rules.roots_name + " (" + listed(rules.roots) + ")", where,
                       "move it there, or add its folder to " + rules.roots_name);
   }
   if (!fs::exists(real, error)) {
     const std::string similar = similar_file(path);
-    throw input_error(
-        "there is no file '" + path.string() + "'", where,
-        !similar.empty()        ? "did you mean '" + similar + "'?"
-        : rules.roots.empty() ? "relative paths start at the request's directory"
-                              : "relative paths start at the request file's folder or at one of " + rules.roots_name +
-                                    " (" + joined(rules.roots) + ")");
+    throw input_error("there is no file '" + path.string() + "'", where,
+                      !similar.empty()      ? "did you mean '" + similar + "'?"
+                      : rules.roots.empty() ? "relative paths start at the request's directory"
+                                            : "relative paths start at the request file's folder or at one of " +
+                                                  rules.roots_name + " (" + listed(rules.roots) + ")");
   }
   if (!fs::is_regular_file(real, error)) {
     throw input_error("'" + path.string() + "' is not a file", where, "name a file");

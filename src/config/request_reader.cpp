@@ -34,7 +34,7 @@ std::vector<std::string> split(const std::string& path) {
 }
 
 /// parts.0.count -> parts[0].count, as messages spell it.
-std::string joined(const std::vector<std::string>& words) {
+std::string path_of(const std::vector<std::string>& words) {
   std::string path;
   for (const std::string& word : words) {
     const bool index = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
@@ -76,7 +76,7 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
     }
   }
   node = value;
-  const std::string path = joined(words);
+  const std::string path = path_of(words);
   return {path, override.origin.empty() ? "--set " + path : override.origin};
 }
 
@@ -199,7 +199,7 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
     return request;
   };
   Request request = read_over(Request());
-  if (all && !all->empty()) return request;  // what follows builds on values that are not there
+  if (all && !all->empty()) return request;                      // what follows builds on values that are not there
   if (request.solver.preset == SolverSettings::Preset::quick) {  // what is not given is the preset's
     Request quick;
     apply(SolverSettings::Preset::quick, quick);

@@ -27,7 +27,8 @@ std::string escaped(unsigned char byte) {
   return text;
 }
 
-/// The text from `from` on as a terminal can show it; of what is longer than `most` bytes the first ones, and not whole.
+/// The text from `from` on as a terminal can show it; of what is longer than `most` bytes the first ones, and not
+/// whole.
 struct Shown {
   std::string text;
   bool whole = true;
@@ -44,7 +45,8 @@ Shown shown(const std::string& text, std::size_t from, std::size_t most) {
   return line;
 }
 
-/// One line of at most `most` bytes: what a file or a request put in is shown as text, without its middle if it is long.
+/// One line of at most `most` bytes: what a file or a request put in is shown as text, without its middle if it is
+/// long.
 std::string line_of(const std::string& text, std::size_t most) {
   const Shown all = shown(text, 0, most);
   if (all.whole) return all.text;

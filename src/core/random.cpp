@@ -18,11 +18,17 @@ Random Random::of_piece(std::uint64_t piece) const {
   return Random(mix(mix(state_ + golden) ^ mix(piece + golden)));
 }
 
-std::uint64_t Random::next() { return mix(state_ += golden); }
+std::uint64_t Random::next() {
+  return mix(state_ += golden);
+}
 
-double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+double Random::uniform() {
+  return static_cast<double>(next() >> 11) * 0x1.0p-53;
+}
 
-double Random::uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+double Random::uniform(double lower, double upper) {
+  return lower + (upper - lower) * uniform();
+}
 
 std::uint64_t Random::below(std::uint64_t count) {
   // Reject the short last stretch of the 64-bit range, where some remainders would come once too often.

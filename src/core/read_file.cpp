@@ -53,8 +53,8 @@ std::size_t RegularFile::read(char* to, std::size_t size) {
 std::string read_file(const std::string& path, std::size_t most) {
   RegularFile file(path);
   if (file.size() > most) {
-    throw input_error("has " + std::to_string(file.size() >> 20) + " MiB, more than the " +
-                          std::to_string(most >> 20) + " MiB that are read",
+    throw input_error("has " + std::to_string(file.size() >> 20) + " MiB, more than the " + std::to_string(most >> 20) +
+                          " MiB that are read",
                       path, "give a smaller file");
   }
   std::string bytes(file.size() + 1, '\0');  // one more, so that the end is seen

@@ -1,5 +1,6 @@
-/// Regular files read whole or hashed. Never waits for another process: a pipe, a device or a folder is refused at once.
-/// Both throw an input Error that names the path, and Error(cancelled) once this thread's work is no longer wanted.
+/// Regular files read whole or hashed. Never waits for another process: a pipe, a device or a folder is refused at
+/// once. Both throw an input Error that names the path, and Error(cancelled) once this thread's work is no longer
+/// wanted.
 #pragma once
 
 #include <cstddef>

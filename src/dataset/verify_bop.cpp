@@ -1,6 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
 #include "core/read_file.hpp"
+#include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "output/png_reader.hpp"
 #include "output/tiff.hpp"
@@ -46,16 +47,7 @@ std::optional<Json> json_in(const fs::path& path) {
   return json.is_object() ? std::optional<Json>(json) : std::nullopt;
 }
 
-/// x, y, and last pixel less first, as BOP has them.
-struct Extent {
-  std::size_t count = 0;
-  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-  void add(int x, int y) {
-    ++count;
-    left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
-  }
-};
-
+/// BOP has x, y, and last pixel less first.
 bool near_box(const Json& box, const Extent& e, int tolerance) {
   const std::array<int, 4> mine = {e.left, e.top, e.right - e.left, e.bottom - e.top};
   for (std::size_t i = 0; i < 4; ++i)

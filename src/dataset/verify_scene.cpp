@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
+#include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "dataset/whole_folders.hpp"
 #include "output/png_reader.hpp"
@@ -48,14 +49,11 @@ void verify_parts(const Json& scene, const std::string& where, Findings& finding
       "part_ids", where, "ids do not count from 0 to " + std::to_string(count - 1));
 }
 
-struct Extent {
-  std::size_t count = 0;
-  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-  std::array<int, 4> box() const {
-    return count ? std::array<int, 4>{left, top, right - left + 1, bottom - top + 1}
-                 : std::array<int, 4>{-1, -1, -1, -1};
-  }
-};
+/// Of scene.json: x, y, width, height.
+std::array<int, 4> box_of(const Extent& e) {
+  if (e.count == 0) return {-1, -1, -1, -1};
+  return {e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1};
+}
 
 void verify_truth(const Json& sensor, const std::string& where, Findings& findings) {
   const int width = sensor.at("width"), height = sensor.at("height");
@@ -106,10 +104,7 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
         ++strange;
         continue;
       }
-      Extent& e = extents[label - 1u];
-      ++e.count;
-      e.left = std::min(e.left, x), e.right = std::max(e.right, x), e.top = std::min(e.top, y),
-      e.bottom = std::max(e.bottom, y);
+      extents[label - 1u].add(x, y);
     }
   }
   findings.expect(strange == 0, "label_range", where, std::to_string(strange) + " pixels carry the label of no part");
@@ -117,7 +112,7 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
     const Extent& e = extents.at(part.at("id").get<std::size_t>());
     findings.expect(e.count == part.at("px_count_visib").get<std::size_t>(), "label_counts", where,
                     name_of(part) + " has " + std::to_string(e.count) + " pixels");
-    findings.expect(e.box() == part.at("bbox_visib").get<std::array<int, 4>>(), "label_boxes", where,
+    findings.expect(box_of(e) == part.at("bbox_visib").get<std::array<int, 4>>(), "label_boxes", where,
                     name_of(part) + ": pixels do not fill the box");
   }
   const double scale = sensor.at("depth_scale"), near = sensor.at("near"), far = sensor.at("far");

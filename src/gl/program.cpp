@@ -133,10 +133,16 @@ void Program::set(const char* uniform, float value) const {
 
 void barrier(Barrier kind) {
   switch (kind) {
-    case Barrier::none: return;
-    case Barrier::storage: glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); break;
-    case Barrier::arguments: glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT); break;
-    case Barrier::all: glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    case Barrier::none:
+      return;
+    case Barrier::storage:
+      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+      break;
+    case Barrier::arguments:
+      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+      break;
+    case Barrier::all:
+      glMemoryBarrier(GL_ALL_BARRIER_BITS);
   }
   ++traffic().barriers;
   if (kind != Barrier::storage) ++traffic().argument_barriers;

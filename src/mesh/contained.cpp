@@ -58,7 +58,8 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn]] void child(const std::function<std::string()>& work, const ContainedLimits& limits, pid_t parent, int out) {
+[[noreturn]] void child(const std::function<std::string()>& work, const ContainedLimits& limits, pid_t parent,
+                        int out) {
   // It dies with the thread that waits for it.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);

@@ -35,7 +35,8 @@ void check_file(const std::string& path) {
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) {
-    throw input_error("no such model file", path, "check the path; in a request, relative ones start from its file's folder");
+    throw input_error("no such model file", path,
+                      "check the path; in a request, relative ones start from its file's folder");
   }
   if (failed) throw input_error("cannot be looked at: " + failed.message(), path, "check the folder's permissions");
   if (status.type() == fs::file_type::directory) throw input_error("is a folder", path, formats);

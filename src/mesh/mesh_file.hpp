@@ -19,7 +19,8 @@ struct MeshFile {
   std::vector<Flag> flags;                ///< what had to be mended in memory, what was left out
 };
 
-/// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where that can be told), nothing but points or lines.
+/// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where
+/// that can be told), nothing but points or lines.
 MeshFile parse_mesh_file(const ModelFile& file);
 
 }  // namespace bin_scenes

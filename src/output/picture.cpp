@@ -9,7 +9,7 @@ namespace {
 
 using Colour = Eigen::Array3d;
 
-constexpr double outline = 0.35;           ///< brightness left on the line between two parts
+constexpr double outline = 0.35;       ///< brightness left on the line between two parts
 constexpr double hollow_color = 0.65;  ///< how much of its light a hollow may lose
 constexpr int neighbourhood = 10;      ///< pixels around one that tell whether it lies in a hollow
 

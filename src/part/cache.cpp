@@ -110,7 +110,8 @@ void Cache::write(const std::string& kind, const std::string& key, const Bytes& 
 
   const std::string name = file_name(kind, key);
   const std::string target = (fs::path(folder) / name).string();
-  // Each writer works under a name of its own; a cache that loses power may lose what it holds, so nothing waits for it.
+  // Each writer works under a name of its own; a cache that loses power may lose what it holds, so nothing waits for
+  // it.
   static std::once_flag once;
   std::call_once(once, [&] { remove_leftovers(folder); });
   Temporary file(target);

@@ -20,7 +20,8 @@ std::string key_of(const SampleOptions& o) {
   return std::to_string(o.count) + " " + key_text(o.sharp_angle);
 }
 std::string key_of(const HullOptions& o) {
-  return key_text(o.max_error) + key_text(o.max_volume_error) + std::to_string(o.max_hulls) + " " + std::to_string(o.max_vertices);
+  return key_text(o.max_error) + key_text(o.max_volume_error) + std::to_string(o.max_hulls) + " " +
+         std::to_string(o.max_vertices);
 }
 std::string key_of(const VoxelOptions& o) {
   std::string key = std::to_string(o.voxels) + " " + key_text(o.tightness) + (o.keep_interior ? "keep " : "");

@@ -218,7 +218,8 @@ class Cutter {
       const double low = hull_volume(hull_of(surfaces.first, cells.first)) / whole;
       const double high = hull_volume(hull_of(surfaces.second, cells.second)) / whole;
       if (!(std::min(low, high) > 0)) return;
-      costs[i] = low + high + uneven * (low * low + high * high) + voxels_across * piece.surplus * crossed(piece, planes[i]);
+      costs[i] =
+          low + high + uneven * (low * low + high * high) + voxels_across * piece.surplus * crossed(piece, planes[i]);
     });
     std::pair<double, CutPlane> best{never, {}};
     for (std::size_t i = 0; i < planes.size(); ++i)

@@ -1,5 +1,5 @@
-/// Makes `--formats bag` (output/scene_writer.hpp) and `--trace FILE.bag` (output/trace.hpp) known to the program that this
-/// file is linked into.
+/// Makes `--formats bag` (output/scene_writer.hpp) and `--trace FILE.bag` (output/trace.hpp) known to the program that
+/// this file is linked into.
 #include "bag_trace.hpp"
 #include "bag_writer.hpp"
 

@@ -11,8 +11,8 @@
 
 namespace bin_scenes {
 
-/// /tf_static once, then one message a sample on /tf: bin frame -> part frame of each part that is in. Stamps are those of
-/// the scene's other bag (bag_stamp()) plus the simulated time. The file appears with finish().
+/// /tf_static once, then one message a sample on /tf: bin frame -> part frame of each part that is in. Stamps are those
+/// of the scene's other bag (bag_stamp()) plus the simulated time. The file appears with finish().
 class BagTrace final : public Trace {
  public:
   /// Throws an environment Error where no file can be written.

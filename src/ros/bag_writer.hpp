@@ -8,14 +8,14 @@
 
 namespace bin_scenes {
 
-/// Stamp of scene `index` in a bag: second `index` of the year 2025, because the same request has to give the same file,
-/// and because tools take a time near 0 for a simulated clock.
+/// Stamp of scene `index` in a bag: second `index` of the year 2025, because the same request has to give the same
+/// file, and because tools take a time near 0 for a simulated clock.
 ros::Time bag_stamp(std::size_t index);
 
 /// Writes one scene to a bag of its own: the topics, types and latching of a recording of the live node, every message
 /// with the same stamp. Written to a temporary name and renamed. `images`: none, or one for each sensor of the scene.
-/// `name_space`: of the topics, as of a node; /tf and /tf_static stay where they are. Throws an environment Error if the
-/// file cannot be written.
+/// `name_space`: of the topics, as of a node; /tf and /tf_static stay where they are. Throws an environment Error if
+/// the file cannot be written.
 void write_bag(const std::string& path, const Scene& scene, const Request& request,
                const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
                const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames = {},

@@ -58,7 +58,8 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& par
   updater_.add("memory", [this](Status& status) { memory(status); });
   updater_.add("sensors", [this](Status& status) { sensors(status); });
   // Wall time: a machine is also watched while a simulated clock stands still.
-  timer_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  timer_ =
+      node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
 void Diagnostics::device(Status& status) const {

@@ -10,7 +10,7 @@ namespace {
 
 using Code = bin_scenes_msgs::ErrorCode;
 
-constexpr double feedback_rate = 10.0;  ///< Hz
+constexpr double feedback_rate = 10.0;   ///< Hz
 constexpr double least_fraction = 0.02;  ///< of the work, before the rest of it is estimated
 
 bin_scenes_msgs::GenerateSceneResult result_of(const Outcome& outcome) {

@@ -4,8 +4,8 @@
 ///     service calls ├──► waiting ──► running ──► committed ──► ended      answer() is called once, at the end
 ///     first scene  ─┘       └───────────┴── cancel() ───────────┘
 ///
-/// A cancelled job is answered at once; the thread leaves its work within a fraction of a second after that. What it has
-/// made by then is dropped, because only a committed job may publish.
+/// A cancelled job is answered at once; the thread leaves its work within a fraction of a second after that. What it
+/// has made by then is dropped, because only a committed job may publish.
 #pragma once
 
 #include "bin_scenes/pour/pour.hpp"

@@ -3,10 +3,10 @@
 
 #include "latched.hpp"
 
-#include <boost/make_shared.hpp>
 #include <ros/advertise_options.h>
 #include <ros/node_handle.h>
 #include <ros/single_subscriber_publisher.h>
+#include <boost/make_shared.hpp>
 
 #include <functional>
 #include <optional>

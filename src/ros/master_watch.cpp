@@ -10,8 +10,11 @@
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
 #include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpc.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bin_scenes {
@@ -19,26 +22,6 @@ namespace bin_scenes {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-using Services = std::list<ros::ServicePublicationPtr>;
-
-// roscpp has no list of its services, and keeps to itself how it learns of publishers. An explicit instantiation may
-// name private members ([temp.spec.general]); its friends then reach them.
-using Update = bool (ros::TopicManager::*)(const std::string&, const std::vector<std::string>&);
-Services& services_of(ros::ServiceManager& manager);
-boost::mutex& services_mutex_of(ros::ServiceManager& manager);
-void update_publishers(ros::TopicManager& manager, const std::string& topic, const std::vector<std::string>& uris);
-
-template <Services ros::ServiceManager::*services, boost::mutex ros::ServiceManager::*mutex, Update update>
-struct Unlocked {
-  friend Services& services_of(ros::ServiceManager& manager) { return manager.*services; }
-  friend boost::mutex& services_mutex_of(ros::ServiceManager& manager) { return manager.*mutex; }
-  friend void update_publishers(ros::TopicManager& manager, const std::string& topic,
-                                const std::vector<std::string>& uris) {
-    (manager.*update)(topic, uris);
-  }
-};
-template struct Unlocked<&ros::ServiceManager::service_publications_, &ros::ServiceManager::service_publications_mutex_,
-                         &ros::TopicManager::pubUpdate>;
 
 /// A call of the master's interface: what it returns, and whether it refused.
 struct Answer {
@@ -56,7 +39,32 @@ Answer ask(const char* method, const std::vector<std::string>& arguments) {
   return answer;
 }
 
-void register_everything() {
+/// Tells this process who publishes a topic as a master does: by the interface that each node has for masters.
+void tell_publishers(const std::string& topic, const XmlRpcValue& uris) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(ros::XMLRPCManager::instance()->getServerURI(), host, port)) return;
+  XmlRpcValue request, response;
+  request[0] = "/master";
+  request[1] = topic;
+  request[2] = uris;
+  XmlRpc::XmlRpcClient(host.c_str(), static_cast<int>(port), "/").execute("publisherUpdate", request, response);
+}
+
+/// Of the services that the master knows, those of this process; roscpp has no list of them.
+std::vector<std::string> services_here() {
+  std::vector<std::string> names;
+  Answer state = ask("getSystemState", {});
+  if (!state.accepted) return names;
+  XmlRpcValue& services = state.value[2];
+  for (int i = 0; i < services.size(); ++i) {
+    const std::string name = services[i][0];
+    if (ros::ServiceManager::instance()->lookupServicePublication(name)) names.push_back(name);
+  }
+  return names;
+}
+
+void register_everything(const std::vector<std::string>& services) {
   const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   ros::TopicManager& topics = *ros::TopicManager::instance();
   std::vector<std::string> names;
@@ -66,29 +74,14 @@ void register_everything() {
       ask("registerPublisher", {name, publication->getDataType(), uri});
 
   topics.getSubscribedTopics(names);
-  for (const std::string& name : names) {
-    Answer answer = ask("registerSubscriber", {name, "*", uri});
-    if (!answer.accepted) continue;
-    std::vector<std::string> publishers;
-    for (int i = 0; i < answer.value.size(); ++i) publishers.push_back(answer.value[i]);
-    update_publishers(topics, name, publishers);
-  }
+  for (const std::string& name : names)
+    if (Answer answer = ask("registerSubscriber", {name, "*", uri}); answer.accepted)
+      tell_publishers(name, answer.value);
 
-  ros::ServiceManager& services = *ros::ServiceManager::instance();
   const std::string address =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
-  names.clear();
-  {
-    const boost::mutex::scoped_lock lock(services_mutex_of(services));
-    for (const ros::ServicePublicationPtr& service : services_of(services)) names.push_back(service->getName());
-  }
-  for (const std::string& name : names) ask("registerService", {name, address, uri});
-}
-
-void look() {
-  if (!ros::ok() || !ask("lookupNode", {ros::this_node::getName()}).refused) return;
-  ROS_WARN("the master does not know this node any more, as after a restart: registering everything anew");
-  register_everything();
+  for (const std::string& name : services)
+    if (ros::ServiceManager::instance()->lookupServicePublication(name)) ask("registerService", {name, address, uri});
 }
 
 }  // namespace
@@ -96,12 +89,23 @@ void look() {
 MasterWatch::MasterWatch() {
   ros::NodeHandle node;
   node.setCallbackQueue(thread_.queue());
-  timer_ = node.createWallTimer(ros::WallDuration(1.0), [](const ros::WallTimerEvent&) { look(); });
+  timer_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { ask_master(); });
 }
 
 MasterWatch::~MasterWatch() {
   timer_.stop();
   thread_.stop();
+}
+
+void MasterWatch::ask_master() {
+  if (!ros::ok()) return;
+  const Answer known = ask("lookupNode", {ros::this_node::getName()});
+  if (known.refused) {
+    ROS_WARN("the master does not know this node any more, as after a restart: registering everything anew");
+    register_everything(services_);
+  } else if (known.accepted && asked_++ % 10 == 0) {  // the answer is long where there are many nodes
+    if (std::vector<std::string> services = services_here(); !services.empty()) services_ = std::move(services);
+  }
 }
 
 }  // namespace bin_scenes

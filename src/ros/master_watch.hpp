@@ -7,6 +7,10 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 namespace bin_scenes {
 
 class MasterWatch {
@@ -16,6 +20,10 @@ class MasterWatch {
   ~MasterWatch();
 
  private:
+  void ask_master();
+
+  std::vector<std::string> services_;  ///< of this process; what was offered in the last ten seconds may be missing
+  std::size_t asked_ = 0;
   ThreadQueue thread_;
   ros::WallTimer timer_;
 };

@@ -1,5 +1,14 @@
 #include "scene_server.hpp"
 
+#include "diagnostics.hpp"
+#include "generate_action.hpp"
+#include "live_config.hpp"
+#include "publication.hpp"
+#include "scene_jobs.hpp"
+#include "scene_services.hpp"
+#include "settings.hpp"
+#include "thread_queue.hpp"
+
 namespace bin_scenes {
 
 namespace {
@@ -11,26 +20,42 @@ ros::NodeHandle served_by(ThreadQueue& thread, ros::NodeHandle node) {
 
 }  // namespace
 
+struct SceneServer::Parts {
+  Parts(const ros::NodeHandle& node, const ros::NodeHandle& params, Host host, const std::string& frame_prefix)
+      : settings(read_settings(params, frame_prefix)),
+        node(served_by(control, node)),
+        publication(this->node, settings, host == Host::nodelet),
+        jobs(publication, settings),
+        action(this->node, jobs, settings.preempt),
+        services(this->node, jobs),
+        params(served_by(control, params)),
+        live(this->params, jobs, publication),
+        diagnostics(this->node, this->params, jobs, publication, settings) {}
+
+  const Settings settings;
+  ThreadQueue control;
+  ros::NodeHandle node;  ///< its callbacks run in `control`
+  Publication publication;
+  SceneJobs jobs;
+  GenerateAction action;
+  SceneServices services;
+  ros::NodeHandle params;
+  LiveConfig live;
+  Diagnostics diagnostics;
+};
+
 SceneServer::SceneServer(const ros::NodeHandle& node, const ros::NodeHandle& params, Host host,
                          const std::string& frame_prefix)
-    : settings_(read_settings(params, frame_prefix)),
-      node_(served_by(control_, node)),
-      publication_(node_, settings_, host == Host::nodelet),
-      jobs_(publication_, settings_),
-      action_(node_, jobs_, settings_.preempt),
-      services_(node_, jobs_),
-      params_(served_by(control_, params)),
-      live_(params_, jobs_, publication_),
-      diagnostics_(node_, params_, jobs_, publication_, settings_) {
-  if (settings_.request.empty()) return;
+    : parts_(std::make_unique<Parts>(node, params, host, frame_prefix)) {
+  if (parts_->settings.request.empty()) return;
   bin_scenes_msgs::SceneRequest first;
-  first.file = settings_.request;
-  jobs_.generate(first, [](const Outcome&) {});  // the jobs have logged what there is to say
+  first.file = parts_->settings.request;
+  parts_->jobs.generate(first, [](const Outcome&) {});  // the jobs have logged what there is to say
 }
 
 SceneServer::~SceneServer() {
-  control_.stop();  // no more goals, cancels and timers
-  jobs_.cancel_all("the node ends");
+  parts_->control.stop();  // no more goals, cancels and timers
+  parts_->jobs.cancel_all("the node ends");
 }
 
 }  // namespace bin_scenes

@@ -8,16 +8,10 @@
 ///     ahead         a generator of its own            scenes for next_scene, if wanted
 #pragma once
 
-#include "diagnostics.hpp"
-#include "generate_action.hpp"
-#include "live_config.hpp"
-#include "publication.hpp"
-#include "scene_jobs.hpp"
-#include "scene_services.hpp"
-#include "settings.hpp"
-#include "thread_queue.hpp"
-
 #include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
 
 namespace bin_scenes {
 
@@ -35,16 +29,8 @@ class SceneServer {
   ~SceneServer();
 
  private:
-  const Settings settings_;
-  ThreadQueue control_;
-  ros::NodeHandle node_;  ///< its callbacks run in `control_`
-  Publication publication_;
-  SceneJobs jobs_;
-  GenerateAction action_;
-  SceneServices services_;
-  ros::NodeHandle params_;
-  LiveConfig live_;
-  Diagnostics diagnostics_;
+  struct Parts;
+  const std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace bin_scenes

@@ -46,16 +46,17 @@ SceneServices::SceneServices(const ros::NodeHandle& node, SceneJobs& jobs) : job
   offer<bin_scenes_msgs::GenerateScene>(blocking, "generate_scene", [this](const auto& request, const auto& answer) {
     return jobs_.generate(request.request, answer);
   });
-  offer<bin_scenes_msgs::PickPart>(blocking, "pick_part",
-                                   [this](const auto& request, const auto& answer) { return jobs_.pick(request, answer); });
-  offer<bin_scenes_msgs::AddParts>(blocking, "add_parts",
-                                   [this](const auto& request, const auto& answer) { return jobs_.add(request, answer); });
+  offer<bin_scenes_msgs::PickPart>(
+      blocking, "pick_part", [this](const auto& request, const auto& answer) { return jobs_.pick(request, answer); });
+  offer<bin_scenes_msgs::AddParts>(
+      blocking, "add_parts", [this](const auto& request, const auto& answer) { return jobs_.add(request, answer); });
   offer_trigger(blocking, "next_scene", &SceneJobs::next);
   offer_trigger(blocking, "clear_scene", &SceneJobs::clear);
 
   ros::NodeHandle quick = node;
   services_.push_back(advertise<std_srvs::Trigger>(quick, "cancel", [this](Event<std_srvs::Trigger>& event) {
-    event.getResponse().message = std::to_string(jobs_.cancel_all("cancelled by the service cancel")) + " jobs cancelled";
+    event.getResponse().message =
+        std::to_string(jobs_.cancel_all("cancelled by the service cancel")) + " jobs cancelled";
     event.getResponse().success = true;
     return true;
   }));
@@ -81,8 +82,7 @@ void SceneServices::offer_trigger(ros::NodeHandle& node, const std::string& name
   offer<std_srvs::Trigger>(node, name, [this, ask](const auto&, const auto& answer) { return (jobs_.*ask)(answer); });
 }
 
-Outcome SceneServices::wait_for(const std::string& service, const ros::M_string& header,
-                                const Submit& submit) {
+Outcome SceneServices::wait_for(const std::string& service, const ros::M_string& header, const Submit& submit) {
   const ServiceCaller caller(service, header);
   const auto ended = std::make_shared<std::promise<Outcome>>();
   auto outcome = ended->get_future();

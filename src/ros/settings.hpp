@@ -12,11 +12,12 @@ namespace bin_scenes {
 
 struct Settings {
   /// ~bin_frame ("bin"), ~parent_frame ("world"; "" = the bin frame is the root of the tree) and ~bin_pose
-  /// ([x, y, z, qx, qy, qz, qw] in m, identity): where the bin stands in the user's cell. ~frame_prefix ("") goes before
-  /// the names of all frames but the parent's.
+  /// ([x, y, z, qx, qy, qz, qw] in m, identity): where the bin stands in the user's cell. ~frame_prefix ("") goes
+  /// before the names of all frames but the parent's.
   Frames frames;
-  /// ~tf_rate (Hz, 10) and ~tf_span (s, 8): how often and how long after a scene its part frames are sent again under the
-  /// present time. Consumers whose tf2 buffer is shorter than the span lose the scene's own stamp (part_frames.hpp).
+  /// ~tf_rate (Hz, 10) and ~tf_span (s, 8): how often and how long after a scene its part frames are sent again under
+  /// the present time. Consumers whose tf2 buffer is shorter than the span lose the scene's own stamp
+  /// (part_frames.hpp).
   double tf_rate = 10.0, tf_span = 8.0;
   /// ~publish_rate (Hz, 0): > 0 publishes everything again at this rate, each time under a new stamp.
   double publish_rate = 0.0;
@@ -35,7 +36,8 @@ struct Settings {
   bool rgb = false;
 };
 
-/// `frame_prefix`: if ~frame_prefix is not set. Throws an input Error for a parameter of the wrong type or without sense.
+/// `frame_prefix`: if ~frame_prefix is not set. Throws an input Error for a parameter of the wrong type or without
+/// sense.
 Settings read_settings(const ros::NodeHandle& params, const std::string& frame_prefix);
 
 }  // namespace bin_scenes

@@ -1,8 +1,8 @@
 /// A thread with a callback queue of its own: what roscpp calls back and what is posted runs there, one by one.
 #pragma once
 
-#include <boost/make_shared.hpp>
 #include <ros/callback_queue.h>
+#include <boost/make_shared.hpp>
 
 #include <atomic>
 #include <functional>

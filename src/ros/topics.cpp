@@ -2,7 +2,6 @@
 
 #include "bin_scenes/scene/sensor_name.hpp"
 
-
 namespace bin_scenes {
 
 std::string topic::of_sensor(const char* name, const std::string& sensor, std::size_t sensors) {
@@ -21,7 +20,8 @@ SceneMessages scene_messages(const Scene& scene, const Request& request, const s
                              const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp) {
   SceneMessages messages = {scene_message(scene, request, frames, stamp),
                             scene_markers(scene, request, parts, bin_model, frames, stamp),
-                            part_transforms(scene, frames, stamp), static_transforms(scene, frames, stamp),
+                            part_transforms(scene, frames, stamp),
+                            static_transforms(scene, frames, stamp),
                             {}};
   messages.done = messages.scene.header;
   return messages;

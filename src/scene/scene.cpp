@@ -4,12 +4,18 @@ namespace bin_scenes {
 
 const char* name_of(PartState state) {
   switch (state) {
-    case PartState::resting: return "resting";
-    case PartState::moving: return "moving";
-    case PartState::escaped: return "escaped";
-    case PartState::fixed: return "fixed";
-    case PartState::not_poured: return "not_poured";
-    case PartState::removed: return "removed";
+    case PartState::resting:
+      return "resting";
+    case PartState::moving:
+      return "moving";
+    case PartState::escaped:
+      return "escaped";
+    case PartState::fixed:
+      return "fixed";
+    case PartState::not_poured:
+      return "not_poured";
+    case PartState::removed:
+      return "removed";
   }
   return "?";
 }

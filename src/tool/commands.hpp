@@ -18,7 +18,7 @@ struct GenerateOptions {
   std::string trace;        ///< CSV file; empty = none
   double trace_rate = 100;  ///< Hz of simulated time
   bool overwrite = false;
-  bool verify = false;      ///< read every file of the scenes that are there
+  bool verify = false;  ///< read every file of the scenes that are there
   bool verbose = false;
 };
 int generate(const GenerateOptions& options);

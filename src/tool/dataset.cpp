@@ -4,10 +4,10 @@
 #include "dataset/slurm.hpp"
 #include "dataset/verify.hpp"
 #include "tool/commands.hpp"
+#include "tool/interrupt.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,23 +21,10 @@ namespace bin_scenes {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-
-void give_up(int) {
-  _exit(exit_interrupted);  // workers die with this process, and what they left is removed by the next run
-}
-
-void stop(int) {
-  if (interrupted.exchange(true)) give_up(0);
-  std::signal(SIGALRM, give_up);
-  const itimerval once{{0, 0}, {0, 700'000}};
-  setitimer(ITIMER_REAL, &once, nullptr);
-}
-
-void listen() {
-  std::signal(SIGINT, stop);
-  std::signal(SIGTERM, stop);
+/// Workers die with this process, and what they left is removed by the next run.
+const std::atomic<bool>& listen() {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is an error like a full disk
+  return stop_on_signals(700'000, nullptr);
 }
 
 /// "2/8": the share with number 2, from 0, of 8.
@@ -113,8 +100,7 @@ int dataset(const DatasetOptions& options) {
   if (!options.shard.empty()) read_shard(options.shard, run);
   const Plan plan = read_plan(options.plan);
   for (const std::string& note : plan.notes) std::fprintf(stderr, "bin_scenes: note: %s\n", note.c_str());
-  listen();
-  run.stop = &interrupted;
+  run.stop = &listen();
   RunProgress end;
   {
     Teller teller(options.json_progress);
@@ -155,8 +141,7 @@ int dataset_verify(const VerifyOptions& options) {
 }
 
 int dataset_merge(const MergeOptions& options) {
-  listen();
-  const Merged merged = merge_datasets(options.shares, options.out, &interrupted);
+  const Merged merged = merge_datasets(options.shares, options.out, &listen());
   std::printf("%zu scenes in %s; %zu attempts set apart\n", merged.scenes, options.out.c_str(), merged.rejected);
   if (merged.missing == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu heaps are in no share; make them, and merge again\n", merged.missing);
@@ -165,7 +150,7 @@ int dataset_merge(const MergeOptions& options) {
 
 int dataset_submit(const SubmitOptions& options) {
   const Plan plan = read_plan(options.plan);  // its errors are told here, not by every task
-  listen();
+  const std::atomic<bool>& interrupted = listen();
   const auto tell = [](const std::string& text) {
     std::printf("%s\n", text.c_str());
     std::fflush(stdout);

@@ -4,15 +4,12 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
 #include "tool/commands.hpp"
+#include "tool/interrupt.hpp"
 #include "tool/progress_bar.hpp"
 #include "tool/scene_store.hpp"
 
-#include <sys/time.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -21,24 +18,6 @@
 namespace bin_scenes {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-/// What does not stop by itself (a driver that compiles, a library that is not ours) ends here: nothing is half-written,
-/// since files appear whole, and the next run removes what is left under hidden names.
-void give_up(int) {
-  constexpr char text[] = "bin_scenes: cancelled; finished scenes are kept\n";
-  static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
-  _exit(exit_interrupted);
-}
-
-void stop(int) {
-  constexpr suseconds_t patience_us = 500'000;
-  if (interrupted.exchange(true)) give_up(0);  // asked twice
-  std::signal(SIGALRM, give_up);
-  const itimerval once{{0, 0}, {0, patience_us}};
-  setitimer(ITIMER_REAL, &once, nullptr);
-}
 
 /// The options that stand for keys of the request.
 std::vector<Override> overrides_of(const GenerateOptions& options) {
@@ -100,8 +79,8 @@ std::string joined(const std::vector<std::string>& reasons) {
 }  // namespace
 
 int generate(const GenerateOptions& options) {
-  std::signal(SIGINT, stop);
-  std::signal(SIGTERM, stop);
+  // Nothing is half-written, since files appear whole, and the next run removes what is left under hidden names.
+  const std::atomic<bool>& interrupted = stop_on_signals(500'000, "bin_scenes: cancelled; finished scenes are kept\n");
   const CancelScope scope(&interrupted);
   Request request = read_request(options.request, overrides_of(options));
   SceneStore store(options.out, options.formats, options.verify);

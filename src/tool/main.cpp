@@ -33,7 +33,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
-  app.add_option("--trace", o.trace, "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
+  app.add_option("--trace", o.trace,
+                 "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
   app.add_flag(
@@ -150,7 +151,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(errors.kind());
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) {
-      std::signal(SIGALRM, SIG_IGN);  // the patience of generate(): it would say so once more
+      std::signal(SIGALRM, SIG_IGN);  // the patience of stop_on_signals(): it would say so once more
       _exit(complain("cancelled; finished scenes are kept", exit_interrupted));
     }
     return complain(error.what(), static_cast<int>(error.kind()));

@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 namespace {
-constexpr int width = 20;                        ///< characters; leaves room for the text in 80 columns
+constexpr int bar_width = 20;                    ///< characters; leaves room for the text in 80 columns
 constexpr std::chrono::milliseconds pause(100);  ///< between two updates: a terminal is slow
 }  // namespace
 
@@ -22,8 +22,8 @@ void ProgressBar::show(const Progress& progress) {
   if (!terminal_ || (shown_ && now - last_ < pause)) return;
   last_ = now;
   shown_ = true;
-  const int full = static_cast<int>(progress.fraction * width);
-  const std::string bar = std::string(full, '#') + std::string(width - full, '.');
+  const int full = static_cast<int>(progress.fraction * bar_width);
+  const std::string bar = std::string(full, '#') + std::string(bar_width - full, '.');
   // Without wrapping (?7l), so that a narrow terminal cuts the line and has but one to clear.
   std::fprintf(stderr, "\r\033[K\033[?7l[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
   if (progress.simulated_s > 0) {  // other phases know nothing of rest

@@ -17,10 +17,6 @@ namespace {
 constexpr double width = 400.0, height = 240.0, top = 30.0;  // of a panel, SVG units
 const char* const colours[] = {"#000", "#a33", "#36a", "#2a2"};
 
-double degrees(double radians) {
-  return radians * 180.0 / M_PI;
-}
-
 /// Whole decades that hold all values; sigma is drawn between them.
 struct Decades {
   double first, last;

@@ -3,9 +3,14 @@
 
 #include "bin_scenes/sensor/metrics.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace bin_scenes {
+
+inline double degrees(double radians) {
+  return radians * 180.0 / M_PI;
+}
 
 /// SVG with two panels, a curve for each albedo, sigma on one logarithmic scale: over distance, facing, and over
 /// incidence at the middle distance. Throws an input Error for a sensor without noise, an environment Error if it

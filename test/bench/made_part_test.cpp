@@ -55,7 +55,7 @@ TEST_F(MadePart, IsOneClosedSolid) {
     EXPECT_LE(part->diagonal(), 0.065) << seed;
     EXPECT_GE(pieces_, 2) << seed;
     EXPECT_LE(pieces_, 6) << seed;
-    EXPECT_EQ(read_pieces(folder_.string(), 1e-3).size(), static_cast<std::size_t>(pieces_)) << seed;
+    EXPECT_EQ(read_pieces((folder_ / "pieces.obj").string(), 1e-3).size(), static_cast<std::size_t>(pieces_)) << seed;
     std::filesystem::remove_all(folder_);
   }
 }
@@ -66,7 +66,7 @@ TEST_F(MadePart, HasTheVolumeOfItsUnion) {
   for (const std::uint64_t seed : {1, 2, 15, 177, 297}) {
     const PartModelPtr part = load(seed);
     std::vector<HullPlanes> prisms;
-    for (const std::vector<Vec3>& piece : read_pieces(folder_.string(), 1e-3))
+    for (const std::vector<Vec3>& piece : read_pieces((folder_ / "pieces.obj").string(), 1e-3))
       prisms.emplace_back(convex_hull(piece, 1000));
     const Aabb box = part->mesh().bounds();
     Random random(seed, 0, Stream::probe);

@@ -26,7 +26,7 @@ struct Sample {
     LoadOptions options;
     options.unit = Unit::millimetre;
     part = PartModel::load(models + "/" + name + ".stl", options);
-    for (const std::vector<Vec3>& piece : read_pieces(models + "/pieces/" + name, 1e-3))
+    for (const std::vector<Vec3>& piece : read_pieces(models + "/pieces/" + name + ".obj", 1e-3))
       if (const Mesh hull = convex_hull(piece, 1000); !hull.triangles.empty())
         hulls.emplace_back(hull);
       else
@@ -39,7 +39,7 @@ std::vector<std::string> samples() {
   std::vector<std::string> names;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::getenv("BIN_SCENES_MODELS") + std::string("/pieces")))
-    names.push_back(entry.path().filename().string());
+    names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

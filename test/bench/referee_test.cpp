@@ -150,7 +150,7 @@ TEST(Referee, WhatFloatsFalls) {
 }
 
 std::string pieces_of(const std::string& part) {
-  return std::getenv("BIN_SCENES_MODELS") + ("/pieces/" + part);
+  return std::getenv("BIN_SCENES_MODELS") + ("/pieces/" + part + ".obj");
 }
 
 TEST(Referee, ReadsThePiecesOfASample) {

@@ -65,11 +65,37 @@ class Scripts(unittest.TestCase):
     def test_publish_says_which_build_made_what(self):
         lines = TABLE.replace("status\n", "status,commit\n").splitlines()
         lines[-3:] = ["ring,sphere,1,,,,,0123456789", "tee,sphere,1,,,,,9876543210-dirty", "tee,bullet,1,,,,,0123456789"]
-        (self.root / "bench/results/device/older.csv").write_text("\n".join(lines))
+        older = self.root / "bench/results/amd-epyc-2-cores/finish.csv"  # of those that publish excepts
+        older.parent.mkdir()
+        older.write_text("\n".join(lines))
         self.run_script("publish")
         text = (self.root / "bench/results/README.md").read_text()
         self.assertIn("| device | scenes | bullet: abc 1; sphere: abc 2 |", text)
-        self.assertIn("| device | older | bullet: 0123456 1; sphere: 0123456 1, 9876543-dirty 1 |", text)
+        self.assertIn("| amd-epyc-2-cores | finish | bullet: 0123456 1; sphere: 0123456 1, 9876543-dirty 1 |", text)
+
+    def refusal(self, *commits):
+        """What publish says of a file whose rows are of these commits; it writes nothing."""
+        lines = TABLE.replace("status\n", "status,commit\n").splitlines()
+        lines[-3:] = ["part_%d,sphere,1,,,,,%s" % of for of in enumerate(commits)]
+        (self.root / "bench/results/device/mixed.csv").write_text("\n".join(lines))
+        for arguments in ((), ("--check",)):
+            run = self.run_script("publish", *arguments)
+            self.assertEqual(run.returncode, 1)
+            self.assertEqual(self.doc(), DOC % "")
+        return run.stderr
+
+    def test_publish_refuses_what_is_not_of_one_commit(self):
+        self.assertIn("bench/results/device/mixed.csv: made by a tree with uncommitted changes (0123456789-dirty)",
+                      self.refusal("0123456789-dirty"))
+        self.assertIn("bench/results/device/mixed.csv: rows of 2 commits (0123456789, 9876543210)",
+                      self.refusal("9876543210", "0123456789", "9876543210"))
+
+    def test_publish_takes_what_is_of_one_commit(self):
+        lines = TABLE.replace("status\n", "status,commit\n").splitlines()
+        lines[-3:] = ["ring,sphere,1,,,,,0123456789", "tee,sphere,1,,,,,0123456789"]
+        (self.root / "bench/results/device/scenes.csv").write_text("\n".join(lines))
+        self.assertEqual(self.run_script("publish").returncode, 0)
+        self.assertIn("commit 0123456789", self.doc())
 
     def test_publish_chooses_rows(self):
         (self.root / "docs/lab/accuracy.md").write_text(DOC % "where: solver=sphere part=r*\n")

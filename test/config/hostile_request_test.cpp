@@ -1,4 +1,5 @@
-/// Requests that no person writes: each is refused by one printable line, and none takes time or memory beyond its size.
+/// Requests that no person writes: each is refused by one printable line, and none takes time or memory beyond its
+/// size.
 #include "bin_scenes/core/cancel.hpp"
 #include "config/yaml_text.hpp"
 #include "config_fixture.hpp"
@@ -25,8 +26,8 @@ class HostileRequest : public ConfigTest {
 
 // yaml-cpp finds a null document before a token that starts no value, and does not get past it.
 TEST_F(HostileRequest, PunctuationAtTheEndOfADocumentDoesNotLoop) {
-  for (const char* text : {",", "{a: 1},", "]", "}", "[1],", ", ,", "a: 1\n,", "--- ,", "? ,", "[]]", "{}}", "*a", "&a ,",
-                           "!t ,", "- ,", "%,", "|,\n ,"}) {
+  for (const char* text : {",", "{a: 1},", "]", "}", "[1],", ", ,", "a: 1\n,", "--- ,", "? ,", "[]]", "{}}", "*a",
+                           "&a ,", "!t ,", "- ,", "%,", "|,\n ,"}) {
     expect_one_line(text);
   }
   expect_one_line("{}", {Override("seed=,")});

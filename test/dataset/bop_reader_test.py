@@ -4,9 +4,12 @@
     bop_reader_test.py TOOL
 """
 import json
+import struct
 import subprocess
 import sys
 import time
+import unittest
+import zlib
 
 import numpy as np
 
@@ -26,6 +29,34 @@ def ray_depth(size, pose, rays):
         ends = np.stack([(sign * np.array(size) / 2 - origin) / directions for sign in (-1, 1)])
     near, far = ends.min(0).max(-1), ends.max(0).min(-1)
     return np.where((near <= far) & (near > 0), near, np.inf)
+
+
+def png(width, height, bits, colour, rows):
+    """A PNG file of rows that carry their filter byte."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    header = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+class Images(unittest.TestCase):
+    def test_grey_of_16_bits_is_read_as_it_stands(self):
+        values = np.array([[0, 1, 256], [40000, 65535, 7]], np.uint16)
+        rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in values)
+        image = read_png(png(3, 2, 16, 0, rows))
+        self.assertEqual(image.dtype, np.uint16)
+        np.testing.assert_array_equal(image, values)
+
+    def test_rgb_of_8_bits(self):
+        np.testing.assert_array_equal(read_png(png(2, 1, 8, 2, b"\0\1\2\3\4\5\6")), [[[1, 2, 3], [4, 5, 6]]])
+
+    def test_what_it_cannot_read_is_refused(self):
+        whole = png(64, 64, 8, 0, bytes(range(65)) * 64)
+        for data in (b"", b"no picture", whole[:-40], png(1, 1, 16, 2, bytes(7)), png(1, 1, 8, 6, bytes(5))):
+            with self.assertRaises(ValueError):
+                read_png(data)
+        with self.assertRaises(ValueError):
+            read_tiff(whole)
 
 
 class Bop(DataSetTest):

@@ -10,7 +10,6 @@ import signal
 import sqlite3
 import subprocess
 import time
-import unittest
 
 import data_set
 from data_set import DataSetTest, children, processor_time

@@ -1,5 +1,5 @@
 /// What all fuzzers share. A fuzzer is one file with one function, LLVMFuzzerTestOneInput: libFuzzer links it as
-/// fuzz_<name>, and the test fuzz_corpus_<name> replays its corpus in an ordinary build.
+/// fuzz_<name>, and the test fuzz_corpus_<name> replays its corpus, an archive, in an ordinary build.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -1,6 +1,6 @@
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
-#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "mesh_repair.hpp"
 #include "part/closed_forms.hpp"
 

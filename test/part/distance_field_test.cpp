@@ -1,6 +1,6 @@
+#include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "part/closed_forms.hpp"
 

@@ -1,7 +1,7 @@
+#include "plane_cuts.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
 #include "part/closed_forms.hpp"
-#include "plane_cuts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
+#include "bin_scenes/part/samples.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/features.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
-#include "bin_scenes/part/samples.hpp"
 #include "part/closed_forms.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
+#include "bin_scenes/part/spheres.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
-#include "bin_scenes/part/spheres.hpp"
 #include "part/closed_forms.hpp"
 
 #include <gtest/gtest.h>

@@ -28,6 +28,7 @@ DEBIAN = {
 }
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
+        "clang-format", "clang-tidy", "shellcheck", "pyflakes3",  # for test/project/style_test.py
         "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
         "glslang-tools", "spirv-tools", "spirv-headers",  # rosdep has no key of them; where one is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too

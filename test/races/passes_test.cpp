@@ -92,7 +92,8 @@ std::string unnoticed(const Observations& seen) {
     for (Word k = 0; k < module.barriers.size(); ++k) {
       const std::string finding = without(seen, record.pass, k);
       const std::string place = module.place_of(module.code[module.barriers[k]].line);
-      if (finding == "nothing" || finding == "never reached") text += record.pass.name + ": " + place + ": " + finding + "\n";
+      if (finding == "nothing" || finding == "never reached")
+        text += record.pass.name + ": " + place + ": " + finding + "\n";
     }
   }
   return text;

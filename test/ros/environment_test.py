@@ -32,22 +32,26 @@ class Process:
         self.process.wait()
 
 
+def masters_of_our_own():
+    """Environment of a port that is free; what a command says there; and a master that is started there."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    there = {"ROS_MASTER_URI": "http://127.0.0.1:%d" % port}
+
+    def asked(*command):
+        return run(*command, env={**os.environ, **there}).stdout
+
+    def master():
+        started = Process("rosmaster", "--core", "-p", str(port))
+        wait_until(lambda: asked("rostopic", "list") != "", 30)
+        return started
+    return there, asked, master
+
+
 class EnvironmentTest(NodeTestCase):
     def test_a_master_that_is_started_again_finds_the_node(self):
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
-        there = {"ROS_MASTER_URI": "http://127.0.0.1:%d" % port}
-        everything = {**os.environ, **there}
-
-        def asked(*command):
-            return run(*command, env=everything).stdout
-
-        def master():
-            started = Process("rosmaster", "--core", "-p", str(port))
-            wait_until(lambda: asked("rostopic", "list") != "", 30)
-            return started
-
+        there, asked, master = masters_of_our_own()
         call = ["rosservice", "call", "/generate_scene", "request: {yaml: '%s'}" % ONE]
         stamp = ["rostopic", "echo", "-n1", "/scene/header/stamp"]
         with master() as first, Process(rospy.get_param("/node"), "__name:=bin_scenes", **there) as node:
@@ -65,6 +69,21 @@ class EnvironmentTest(NodeTestCase):
                 self.assertNotEqual(asked(*stamp), before)
                 # Subscriptions too: the action hears of goals that are sent by a node which came after the master.
                 self.assertIn("/bin_scenes", asked("rostopic", "info", "/generate/goal"))
+
+    def test_who_publishes_before_the_node_is_back_is_heard(self):
+        there, asked, master = masters_of_our_own()
+        goal = ("rostopic", "pub", "/generate/goal", "bin_scenes/GenerateSceneActionGoal",
+                "goal: {request: {yaml: '%s'}}" % ONE)
+        with master() as first, Process(rospy.get_param("/node"), "__name:=bin_scenes", **there) as node:
+            wait_until(lambda: "/generate/goal" in asked("rostopic", "list"), 30)
+            node.process.send_signal(signal.SIGSTOP)  # the master and the publisher are there first
+            first.process.send_signal(signal.SIGKILL)
+            first.process.wait()
+            with master(), Process(*goal, **there):
+                wait_until(lambda: "/rostopic" in asked("rostopic", "info", "/generate/goal"), 30)
+                node.process.send_signal(signal.SIGCONT)
+                wait_until(lambda: "/scene" in asked("rostopic", "list").split(), 30)
+                self.assertIn("secs", asked("timeout", "20", "rostopic", "echo", "-n1", "/scene/header/stamp"))
 
     def test_without_opengl_the_node_serves_what_needs_none_and_tries_again_when_asked(self):
         self.assertTrue(DRIVERS)

@@ -305,8 +305,9 @@ TEST_F(CommandLine, GoesOnWhereAnEarlierRunStopped) {
 }
 
 TEST_F(CommandLine, AFileThatIsNotWholeIsNoScene) {
-  const std::string job = "generate request.yaml --out out --formats json,png,bop --scenes 2 "
-                          "--set 'sensors=[{name: top, width: 64, height: 48}]'";
+  const std::string job =
+      "generate request.yaml --out out --formats json,png,bop --scenes 2 "
+      "--set 'sensors=[{name: top, width: 64, height: 48}]'";
   ASSERT_EQ(run(job).code, 0);
   const fs::path scene = "out/scene_000000", bop = "out/bop/train/000000";
   const auto kept = [&](const std::string& more = "") {

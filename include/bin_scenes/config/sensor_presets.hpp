@@ -8,7 +8,8 @@
 
 namespace bin_scenes {
 
-/// Folder of the presets: $BIN_SCENES_SENSORS, else of the source tree or the installation. Throws an environment Error.
+/// Folder of the presets: $BIN_SCENES_SENSORS, else of the source tree or the installation. Throws an environment
+/// Error.
 std::string sensor_preset_directory();
 /// Names of all presets, sorted.
 std::vector<std::string> sensor_presets();

@@ -20,8 +20,8 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Contents are on the disk before the name changes, and the name before this returns; what lies in a directory that is
-  /// itself temporary gets there with it. Throws an environment Error.
+  /// Contents are on the disk before the name changes, and the name before this returns; what lies in a directory that
+  /// is itself temporary gets there with it. Throws an environment Error.
   void commit();
 
  private:

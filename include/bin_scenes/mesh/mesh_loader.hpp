@@ -18,12 +18,12 @@ namespace bin_scenes {
 constexpr std::uintmax_t max_model_file_size = std::uintmax_t{1} << 30;
 
 struct LoadOptions {
-  std::optional<Unit> unit;          ///< none: metres (or the file's own unit where the format states one, as DAE does)
-  double scale = 1.0;                ///< multiplies after the unit
-  double weld = 1e-6;                ///< vertices closer than this / diagonal are one
-  double max_hole = 0.02;            ///< holes with a perimeter below this / diagonal are closed (1 = every hole)
-  std::optional<double> thickness;   ///< m: an open surface becomes a shell of this thickness
-  bool require_closed = true;        ///< false: report openness instead of throwing (inspect, bins)
+  std::optional<Unit> unit;         ///< none: metres (or the file's own unit where the format states one, as DAE does)
+  double scale = 1.0;               ///< multiplies after the unit
+  double weld = 1e-6;               ///< vertices closer than this / diagonal are one
+  double max_hole = 0.02;           ///< holes with a perimeter below this / diagonal are closed (1 = every hole)
+  std::optional<double> thickness;  ///< m: an open surface becomes a shell of this thickness
+  bool require_closed = true;       ///< false: report openness instead of throwing (inspect, bins)
 };
 
 /// A model file, read once: what its digest says is what becomes of it, whoever writes to the file meanwhile.
@@ -39,16 +39,16 @@ struct LoadReport {
   std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;
   std::size_t welded_vertices = 0, degenerate_removed = 0, duplicate_removed = 0, holes_closed = 0;
   std::size_t t_junctions_split = 0;  ///< vertices inserted into long edges that met several short ones
-  std::size_t turned = 0;            ///< triangles whose winding disagreed with their neighbours'
-  std::size_t open_edges = 0;        ///< left after repair
-  std::size_t shells = 0;            ///< connected components
-  bool inverted = false;             ///< winding was inside out and has been turned
-  bool closed = false;               ///< after repair
-  Unit unit = Unit::metre;           ///< the one used, where it has a name
-  double metres_per_unit = 1.0;      ///< the one used, scale not included
+  std::size_t turned = 0;             ///< triangles whose winding disagreed with their neighbours'
+  std::size_t open_edges = 0;         ///< left after repair
+  std::size_t shells = 0;             ///< connected components
+  bool inverted = false;              ///< winding was inside out and has been turned
+  bool closed = false;                ///< after repair
+  Unit unit = Unit::metre;            ///< the one used, where it has a name
+  double metres_per_unit = 1.0;       ///< the one used, scale not included
   double file_metres_per_unit = 1.0;  ///< the one that the file states (DAE); 1 where its format states none
-  std::vector<Flag> flags;           ///< one per repair; plain welding of equal vertices is none
-  std::string content_sha256;        ///< of the file's bytes
+  std::vector<Flag> flags;            ///< one per repair; plain welding of equal vertices is none
+  std::string content_sha256;         ///< of the file's bytes
 };
 
 struct LoadedMesh {

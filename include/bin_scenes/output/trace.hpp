@@ -22,7 +22,8 @@ class Trace {
   virtual void finish() = 0;
 };
 
-/// For the one scene of `request`. Throws an environment Error where no file can be written, before anything is simulated.
+/// For the one scene of `request`. Throws an environment Error where no file can be written, before anything is
+/// simulated.
 std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request);
 
 using BagTraceMaker = std::function<std::unique_ptr<Trace>(const std::string& path, const Request& request)>;

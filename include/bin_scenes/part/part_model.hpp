@@ -2,6 +2,7 @@
 /// first needs it, once per content and parameters, and kept in memory and in the disk cache.
 #pragma once
 
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/part/convex_hulls.hpp"
 #include "bin_scenes/part/distance_field.hpp"
 #include "bin_scenes/part/mass_properties.hpp"
@@ -9,7 +10,6 @@
 #include "bin_scenes/part/samples.hpp"
 #include "bin_scenes/part/shape_error.hpp"
 #include "bin_scenes/part/spheres.hpp"
-#include "bin_scenes/mesh/mesh_loader.hpp"
 
 #include <memory>
 #include <string>
@@ -35,9 +35,9 @@ class PartModel {
   const Mesh& mesh() const;
   const LoadReport& load_report() const;
   const std::string& mesh_key() const;  ///< hash of the mesh: cache key of everything that depends on the mesh alone
-  const MassProperties& mass() const;  ///< density 1
-  double diagonal() const;             ///< of the bounding box (m): the unit of every relative error
-  double radius() const;               ///< largest vertex distance from the centre of mass (m)
+  const MassProperties& mass() const;   ///< density 1
+  double diagonal() const;              ///< of the bounding box (m): the unit of every relative error
+  double radius() const;                ///< largest vertex distance from the centre of mass (m)
 
   struct State;  ///< defined in src/part
 

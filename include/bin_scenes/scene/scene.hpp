@@ -19,11 +19,11 @@ inline bool is_there(PartState state) {
 }
 
 struct ScenePart {
-  int id = 0;             ///< stable across every output
-  std::size_t line = 0;   ///< index into Request::parts
-  std::string model;      ///< as the user wrote it
-  Pose pose;              ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured or removed
-  Twist velocity;         ///< of the centre of mass, when the simulation ended
+  int id = 0;            ///< stable across every output
+  std::size_t line = 0;  ///< index into Request::parts
+  std::string model;     ///< as the user wrote it
+  Pose pose;  ///< model file's own frame (scaled to metres) in the bin frame; Pose::none() if not poured or removed
+  Twist velocity;  ///< of the centre of mass, when the simulation ended
   PartState state = PartState::moving;
   std::map<std::string, double> visible_fraction;  ///< by sensor name
 };
