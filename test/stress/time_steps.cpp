@@ -50,6 +50,7 @@ std::vector<Row> time_steps(bool soak) {
       if (hertz == 15) row.known["sphere: " + c.name] = sinks;
       if (hertz < 60) row.known["bullet: " + c.name] = sinks;
     }
+    if (hertz == 15) row.known.erase("sphere: angles");
     if (hertz == 30) row.known["sphere: rings"] = sinks;
     if (hertz == 30) row.known.erase("bullet: angles");
     rows.push_back(row);
