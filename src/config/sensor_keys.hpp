@@ -8,11 +8,9 @@
 namespace bin_scenes::config {
 
 inline Names<SensorModel> names(SensorModel) {
-  return {{"ideal", SensorModel::ideal},
-          {"structured_light", SensorModel::structured_light},
-          {"laser_line", SensorModel::laser_line},
-          {"stereo", SensorModel::stereo},
-          {"time_of_flight", SensorModel::time_of_flight}};
+  Names<SensorModel> all;
+  for (const SensorModel model : sensor_models) all.emplace_back(name_of(model), model);
+  return all;
 }
 inline Names<Fidelity> names(Fidelity) {
   return {{"analytic", Fidelity::analytic}, {"decoded", Fidelity::decoded}};

@@ -123,10 +123,7 @@ bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
 Sensor sensor_from(const bin_scenes_msgs::Sensor& message) {
   Sensor sensor;
   sensor.name = message.name;
-  for (const SensorModel model : {SensorModel::ideal, SensorModel::structured_light, SensorModel::laser_line,
-                                  SensorModel::stereo, SensorModel::time_of_flight}) {
-    if (message.model == name_of(model)) sensor.model = model;
-  }
+  sensor.model = sensor_model(message.model);
   sensor.preset = message.preset;
   if (message.D.size() == 5) std::copy(message.D.begin(), message.D.end(), sensor.distortion.begin());
   sensor.width = static_cast<int>(message.width);

@@ -67,7 +67,19 @@ const char* name_of(SensorModel model) {
     case SensorModel::time_of_flight:
       return "time_of_flight";
   }
-  return "?";
+  no_sensor_model("number " + std::to_string(static_cast<int>(model)));
+}
+
+SensorModel sensor_model(const std::string& name) {
+  for (const SensorModel model : sensor_models)
+    if (name == name_of(model)) return model;
+  no_sensor_model("'" + name + "'");
+}
+
+void no_sensor_model(const std::string& found) {
+  std::string known;
+  for (const SensorModel model : sensor_models) known += (known.empty() ? "" : ", ") + std::string(name_of(model));
+  throw input_error(found + " is no sensor model", "sensors[].model", "one of " + known);
 }
 
 const char* name_of(Pour::Finish finish) {

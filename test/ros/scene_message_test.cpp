@@ -1,4 +1,5 @@
 #include "scene_message.hpp"
+#include "bin_scenes/core/error.hpp"
 
 #include "scenes.hpp"
 
@@ -62,6 +63,22 @@ TEST(SceneMessage, PartsAndSensorsComeBackBitForBit) {
     EXPECT_TRUE(same(*a.pose, *b.pose));
     EXPECT_EQ(a.near, b.near);
     EXPECT_EQ(a.far, b.far);
+  }
+}
+
+TEST(SceneMessage, EverySensorModelComesBackAndAnotherIsRefused) {
+  for (const SensorModel model : sensor_models) {
+    Sensor sensor;
+    sensor.model = model;
+    EXPECT_EQ(sensor_from(sensor_message(sensor)).model, model) << name_of(model);
+  }
+  bin_scenes_msgs::Sensor message = sensor_message(Sensor());
+  message.model = "sonar";
+  try {
+    sensor_from(message);
+    ADD_FAILURE() << "taken for another model";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("'sonar'"), std::string::npos) << error.what();
   }
 }
 

@@ -164,7 +164,12 @@ enum class SensorModel {
   stereo,            ///< two cameras, and a projector of dots
   time_of_flight
 };
+constexpr SensorModel sensor_models[] = {SensorModel::ideal, SensorModel::structured_light, SensorModel::laser_line,
+                                         SensorModel::stereo, SensorModel::time_of_flight};
+/// These three throw an input Error for what is no model: none is taken for another.
 const char* name_of(SensorModel model);
+SensorModel sensor_model(const std::string& name);
+[[noreturn]] void no_sensor_model(const std::string& found);
 
 /// structured_light and stereo: how deep the simulation goes.
 enum class Fidelity {

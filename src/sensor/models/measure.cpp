@@ -12,26 +12,30 @@ Surfaces surfaces_of(const Request& request) {
   return surfaces;
 }
 
-RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
-                   const Draw& draw) {
-  RangeImage image;
+namespace {
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
   switch (sensor.model) {
     case SensorModel::ideal:
-      image = measure_ideal(std::move(view));
-      break;
+      return measure_ideal(std::move(view));
     case SensorModel::structured_light:
-      image = measure_structured_light(scenery, std::move(view), sensor, surfaces, draw);
-      break;
+      return measure_structured_light(scenery, std::move(view), sensor, surfaces, draw);
     case SensorModel::laser_line:
-      image = measure_laser_line(scenery, std::move(view), sensor, surfaces, draw);
-      break;
+      return measure_laser_line(scenery, std::move(view), sensor, surfaces, draw);
     case SensorModel::stereo:
-      image = measure_stereo(scenery, std::move(view), sensor, surfaces, draw);
-      break;
+      return measure_stereo(scenery, std::move(view), sensor, surfaces, draw);
     case SensorModel::time_of_flight:
-      image = measure_time_of_flight(scenery, std::move(view), sensor, surfaces, draw);
-      break;
+      return measure_time_of_flight(scenery, std::move(view), sensor, surfaces, draw);
   }
+  no_sensor_model("number " + std::to_string(static_cast<int>(sensor.model)));
+}
+
+}  // namespace
+
+RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                   const Draw& draw) {
+  RangeImage image = measured(scenery, std::move(view), sensor, surfaces, draw);
   image.sensor = sensor;
   if (image.width == 0) image.width = sensor.width, image.height = sensor.height;
   return image;
