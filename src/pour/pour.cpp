@@ -52,9 +52,8 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
   return hash;
 }
 
-void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
-          const std::function<void(std::size_t, Scene&&)>& poured) {
+void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver, const SceneList& scenes,
+          const RunHooks& hooks, PartModelPtr bin_model, const std::function<void(std::size_t, Scene&&)>& poured) {
   const CancelScope scope(hooks.cancel);
   struct Running {
     std::unique_ptr<HeapCore> heap;

@@ -12,8 +12,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Layout still to come: remove a line when its files are formatted.
-PENDING = ("shaders/", "include/bin_scenes/pour/", "src/pour/", "src/solver/", "test/solver/")
+# What is GLSL alone is laid out by hand: clang-format breaks a buffer's block over five lines.
+BY_HAND = re.compile(r"shaders/(?!shared/sphere/)")
 # clang-tidy takes seconds a file: of these layers, which all others use.
 TIDY = ("src/core/", "src/scene/")
 TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr/include/eigen3"]
@@ -54,7 +54,7 @@ class Style(unittest.TestCase):
         version = re.search(r"version (\d+)", subprocess.check_output([program, "--version"], text=True))[1]
         if version != "14":
             self.skipTest("clang-format %s lays out otherwise than 14, which Debian 12 has" % version)
-        files = [p for p in PATHS if p.endswith((".cpp", ".hpp", ".h", ".comp")) and not p.startswith(PENDING)]
+        files = [p for p in PATHS if p.endswith((".cpp", ".hpp", ".h", ".comp")) and not BY_HAND.match(p)]
         self.assertGreater(len(files), 400)
         self.assertEqual(complaints([program, "--dry-run", "-Werror", *files]), "", "run clang-format -i on these")
 

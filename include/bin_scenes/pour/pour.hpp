@@ -54,8 +54,8 @@ struct SceneList {
 ///
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
-void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-          const SceneList& scenes, const RunHooks& hooks, PartModelPtr bin_model,
+void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver, const SceneList& scenes,
+          const RunHooks& hooks, PartModelPtr bin_model,
           const std::function<void(std::size_t place, Scene&& scene)>& poured);
 
 /// The same, with all scenes at the end, in order of `indices`.

@@ -1,5 +1,5 @@
-// The directions in which a point of a part's surface can be pressed: its normal cone. Before it: Cone, bounds_of(cone),
-// bound_at(cone, i), axis_of(cone), spread_of(cone).
+// The directions in which a point of a part's surface can be pressed: its normal cone. Before it: Cone,
+// bounds_of(cone), bound_at(cone, i), axis_of(cone), spread_of(cone).
 //
 // The grid of a distance field rounds edges off, so within a cell of one its gradient leans over; of two parts whose
 // edges lie flush it would press one sideways off the other. What the point of the sample's own surface cannot feel is

@@ -1,17 +1,18 @@
 // Numbers that both forms of the default sphere solver go by, as macros: they also give the sizes of arrays.
 #ifndef SHARED_SPHERE_CONSTANTS_H
 #define SHARED_SPHERE_CONSTANTS_H
-#define SPHERE_MAX_CONTACTS 8    // per pair, after reduction; with more, faces on each other sway
-#define SPHERE_CLUSTER 16        // nodes
-#define SPHERE_MAX_WAYS 4u       // out of a point near sharp edges
-#define SPHERE_MAX_WALLS 6u      // that a point in a crease stands before
-#define SPHERE_EDGE_BLOCK 4u     // cells of the field on a side of a block of edges
-#define SPHERE_EDGE_REACH 3.0f   // cells: edges within it of a point are in the list of its block
-#define SPHERE_AXIS 7u           // in place of the number of a cone's bounds: it is an axis with its spread
+#define SPHERE_MAX_CONTACTS 8   // per pair, after reduction; with more, faces on each other sway
+#define SPHERE_CLUSTER 16       // nodes
+#define SPHERE_MAX_WAYS 4u      // out of a point near sharp edges
+#define SPHERE_MAX_WALLS 6u     // that a point in a crease stands before
+#define SPHERE_EDGE_BLOCK 4u    // cells of the field on a side of a block of edges
+#define SPHERE_EDGE_REACH 3.0f  // cells: edges within it of a point are in the list of its block
+#define SPHERE_AXIS 7u          // in place of the number of a cone's bounds: it is an axis with its spread
 
-#define SPHERE_GROUND 0xffffffffu   // body index of the bin's walls and floor
-#define SPHERE_SIDE_B 0x80000000u   // feature: sample of b against the field of a, whose normal it is
-#define SPHERE_EDGE 0x40000000u     // feature: edge, not node
-#define SPHERE_TURNED 0x20000000u   // feature: the normal is that of the sample's own surface; side: as if it were the field
-#define SPHERE_PLANE 0x1000000u     // feature of a ground contact: node + plane times this; in a crease: + wall times this
+#define SPHERE_GROUND 0xffffffffu  // body index of the bin's walls and floor
+#define SPHERE_SIDE_B 0x80000000u  // feature: sample of b against the field of a, whose normal it is
+#define SPHERE_EDGE 0x40000000u    // feature: edge, not node
+#define SPHERE_TURNED \
+  0x20000000u  // feature: the normal is that of the sample's own surface; side: as if it were the field
+#define SPHERE_PLANE 0x1000000u  // feature of a ground contact: node + plane times this; in a crease: + wall times this
 #endif

@@ -1,7 +1,7 @@
-// Contacts in creases: sharp edges where a surface folds inwards, as those of a pit or a slot. The distance there is the
-// least of those to the walls that meet. The grid of a field lets it bend over two cells, short of the walls: what fits
-// into the crease stood off its walls by up to a third of a cell, and a peg did not enter its hole. And a point in a
-// crease is held by each wall, not by the nearest alone.
+// Contacts in creases: sharp edges where a surface folds inwards, as those of a pit or a slot. The distance there is
+// the least of those to the walls that meet. The grid of a field lets it bend over two cells, short of the walls: what
+// fits into the crease stood off its walls by up to a third of a cell, and a peg did not enter its hole. And a point in
+// a crease is held by each wall, not by the nearest alone.
 //
 // Before it: edge.h.
 

@@ -9,7 +9,9 @@ struct Cell {
   float outside;
 };
 
-INLINE float between(float a, float b, float t) { return a + (b - a) * t; }
+INLINE float between(float a, float b, float t) {
+  return a + (b - a) * t;
+}
 
 INLINE float value_in(IN(Cell) c) {
   float x0 = between(c.c0, c.c1, c.u), x1 = between(c.c2, c.c3, c.u);

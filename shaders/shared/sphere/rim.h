@@ -28,7 +28,9 @@ INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius
 }
 
 // In the frame of the part.
-INLINE vec3 on_rim(IN(Rim) rim, IN(mat3) rotation, float t) { return turned_back(rotation, rim.start + t * rim.along); }
+INLINE vec3 on_rim(IN(Rim) rim, IN(mat3) rotation, float t) {
+  return turned_back(rotation, rim.start + t * rim.along);
+}
 
 INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i) {
   return sample_field(field, on_rim(rim, rotation, rim.step_size * float(i)));

@@ -1,11 +1,11 @@
-// Where a contact's levers, its normal and its gap are of, while it is solved. Levers and normals are of the mean of the
-// sub-steps' beginnings: those of the step's start turn what hangs into what gains energy (a yoke on a ridge 8 % a
+// Where a contact's levers, its normal and its gap are of, while it is solved. Levers and normals are of the mean of
+// the sub-steps' beginnings: those of the step's start turn what hangs into what gains energy (a yoke on a ridge 8 % a
 // second), with those of the middle of the whole step it loses as much.
 
 const float LEAST_TURN = 1e-5f;  // rad; below, a lever moves by less than contacts overlap
 
-// Takes the levers and the normal of the step's start half way through it, by way (m) and turn (rad) of both bodies. The
-// point goes with the sample, the normal with the field; of_a: the field is a's.
+// Takes the levers and the normal of the step's start half way through it, by way (m) and turn (rad) of both bodies.
+// The point goes with the sample, the normal with the field; of_a: the field is a's.
 INLINE void go_half_way(bool of_a, IN(vec3) way_a, IN(vec3) turn_a, IN(vec3) way_b, IN(vec3) turn_b, INOUT(vec3) ra,
                         INOUT(vec3) rb, INOUT(vec3) normal) {
   if (max(dot(turn_a, turn_a), dot(turn_b, turn_b)) <= LEAST_TURN * LEAST_TURN) return;

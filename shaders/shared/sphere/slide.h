@@ -1,6 +1,7 @@
 // What the nodes of a body are tested against, and how nodes of curved faces move on them. Before it: field.h, cone.h,
-// Samples, node_at(samples, i), cone_at(samples, i), face_spacing_of(samples), Plane, normal_of(plane), offset_of(plane),
-// is_wall(plane), Carry (rotation, offset), and Solid: a field, or a plane of a bin whose walls end at `top` (m).
+// Samples, node_at(samples, i), cone_at(samples, i), face_spacing_of(samples), Plane, normal_of(plane),
+// offset_of(plane), is_wall(plane), Carry (rotation, offset), and Solid: a field, or a plane of a bin whose walls end
+// at `top` (m).
 
 // Distance to the solid beyond a plane, and the direction out of it. A wall ends at the bin's top: it is the corner
 // between its inner face and the rim's level, as thick as it takes.
@@ -22,10 +23,10 @@ INLINE float distance_to(IN(Solid) solid, IN(vec3) p, OUT(vec3) away) {
   return sample_field(solid.field, p, away);
 }
 
-// A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The way
-// follows from the angle between the node's normal and the gradient of the depth, and from how fast the normals turn
-// (cone); the part's own field brings the point back to the surface. `point`, `gradient` and `distance` are the node's
-// own in the frame of the solid, and are replaced. `carry`: from the node's frame to the solid's.
+// A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
+// way follows from the angle between the node's normal and the gradient of the depth, and from how fast the normals
+// turn (cone); the part's own field brings the point back to the surface. `point`, `gradient` and `distance` are the
+// node's own in the frame of the solid, and are replaced. `carry`: from the node's frame to the solid's.
 INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node, IN(Solid) solid, INOUT(vec3) point,
                   INOUT(vec3) gradient, INOUT(float) distance) {
   const float flat_angle = 0.02f;  // rad: below it the node itself is deep enough
@@ -46,8 +47,7 @@ INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node
     vec3 carried = carry.rotation * there + carry.offset;
     float deeper = distance_to(solid, carried, slope);
     // Past the deepest point, over the rim of the face, or where another node stands.
-    if (deeper >= distance || abs(sample_field(own, there)) > 0.1f * own.cell ||
-        length(there - start) > face_spacing) {
+    if (deeper >= distance || abs(sample_field(own, there)) > 0.1f * own.cell || length(there - start) > face_spacing) {
       way_per_angle *= 0.5f;
       continue;
     }

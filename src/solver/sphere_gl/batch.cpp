@@ -51,8 +51,8 @@ gl::Program pass(const char* name, const gl::Defines& defines = {}) {
   return gl::Program::compute(std::string("sphere/") + name + ".comp", defines);
 }
 
-/// A pass of a group a world. A color of 256 parts has some 70 manifolds, and there are as many bodies as invocations; on
-/// a software device an invocation that waits costs as much as one that works.
+/// A pass of a group a world. A color of 256 parts has some 70 manifolds, and there are as many bodies as invocations;
+/// on a software device an invocation that waits costs as much as one that works.
 gl::Program world_pass(const char* name, const Capacity& capacity) {
   std::size_t group = capacity.world_group;
   if (group == 0) group = gl::Device::current().software() ? SPHERE_WORLD_GROUP : 256;
@@ -262,7 +262,8 @@ void Batch::grow_pairs(Slot slot, gpu::SphereProgress& progress) {
   else
     move_within(pairs_, 2 * old_first + old, 2 * r.first_pair + r.capacity, progress.pairs);
   move_within(manifolds_, old_first, r.first_pair, old);
-  move_within(contacts_, SPHERE_MAX_CONTACTS * old_first, SPHERE_MAX_CONTACTS * r.first_pair, SPHERE_MAX_CONTACTS * old);
+  move_within(contacts_, SPHERE_MAX_CONTACTS * old_first, SPHERE_MAX_CONTACTS * r.first_pair,
+              SPHERE_MAX_CONTACTS * old);
   move_within(free_, old_first, r.first_pair, progress.free_slots);
   std::vector<gpu::uint> fresh(r.capacity - old);
   std::iota(fresh.begin(), fresh.end(), static_cast<gpu::uint>(old));

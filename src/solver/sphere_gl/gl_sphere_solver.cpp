@@ -71,7 +71,8 @@ class GlSphereSolver final : public Solver {
     r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
       return shapes_.of(part, profile_);
     });
-    if (device_->software()) r.world.settings.most_impact_sweeps = r.world.settings.blow_sweeps;  // it ends longer loops
+    if (device_->software())
+      r.world.settings.most_impact_sweeps = r.world.settings.blow_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));
@@ -325,7 +326,8 @@ std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t stor
   constexpr double body_bytes = 4200.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
   const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
   const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
-  const double largest_list = static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;
+  const double largest_list =
+      static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;
   const double fit = std::min({most, most * SPHERE_MAX_BODIES / bodies, capacity.memory / (body_bytes * bodies),
                                0.5 * static_cast<double>(storage_bytes) / largest_list});
   return static_cast<std::size_t>(std::max(1.0, fit));

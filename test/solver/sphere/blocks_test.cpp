@@ -1,7 +1,7 @@
 /// Blocks: what they must hold, and that a solve in blocks is the solve of the whole.
+#include "solver/sphere/passes/blocks.hpp"
 #include "bin_scenes/core/random.hpp"
 #include "boxes.hpp"
-#include "solver/sphere/passes/blocks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "bin_scenes/core/random.hpp"
 #include "solver/sphere/shapes/point_grid.hpp"
+#include "bin_scenes/core/random.hpp"
 
 #include <gtest/gtest.h>
 

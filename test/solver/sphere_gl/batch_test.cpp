@@ -203,8 +203,8 @@ TEST(SphereGlBatch, WidthsOfTheDriversVectorsDoNotMatter) {
 }
 
 /// What is asked of the device while worlds of the solver go on by `seconds`, the first time that no list grows.
-gl::Traffic asked_for(Solver& solver, const std::vector<WorldId>& ids, double seconds,
-                      const std::function<void()>& before_it = [] {}) {
+gl::Traffic asked_for(
+    Solver& solver, const std::vector<WorldId>& ids, double seconds, const std::function<void()>& before_it = [] {}) {
   const auto repeated = [&] {
     const auto& counters = solver.profile().counters;
     const auto at = counters.find("steps_repeated");
