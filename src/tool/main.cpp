@@ -30,7 +30,8 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--scenes", o.scenes, "number of scenes");
   app.add_option("--first", o.first, "index of the first scene, to split a job");
   app.add_option("--solver", o.solver, "auto, sphere or bullet");
-  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")->delimiter(',');
+  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")
+      ->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
   app.add_option("--trace", o.trace,
@@ -70,7 +71,8 @@ int run(int argc, char** argv) {
   inspect_app->add_flag("--json", inspect_options.json, "as JSON");
 
   SymmetriesOptions symmetries_options;
-  CLI::App* symmetries_app = app.add_subcommand("symmetries", "turns after which a part looks the same, as BOP lists them");
+  CLI::App* symmetries_app =
+      app.add_subcommand("symmetries", "turns after which a part looks the same, as BOP lists them");
   symmetries_app->add_option("PART", symmetries_options.model, "mesh file")->required();
   symmetries_app->add_option("--unit", symmetries_options.unit, "unit of the file: m, cm, mm or inch");
   symmetries_app->add_option("--tolerance", symmetries_options.tolerance_mm,

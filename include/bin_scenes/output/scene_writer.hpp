@@ -26,9 +26,9 @@ Scene read_scene_json(const std::string& path);
 
 void write_text(const std::string& path, const std::string& text);
 
-/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label validity
-/// truth_normal_x truth_normal_y truth_normal_z, where label is 0 for background and bin, id + 1 for a part, validity a
-/// code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
+/// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label
+/// validity truth_normal_x truth_normal_y truth_normal_z, where label is 0 for background and bin, id + 1 for a part,
+/// validity a code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
 void write_pcd(const std::string& path, const RangeImage& image);
 /// The same as binary little-endian PLY; normals are called nx ny nz there, and truth_nx truth_ny truth_nz.
 void write_ply(const std::string& path, const RangeImage& image);

@@ -43,8 +43,8 @@ std::array<float, 3> point_at(const RangeImage& image, int column, int row);
 /// The same for a whole image: what it costs to remove a lens's distortion is spent on all cores.
 std::vector<std::array<float, 3>> points_of(const RangeImage& image);
 /// Normals of points_of(image), towards the camera: of planes through the points of neighbouring pixels, as drivers of
-/// real sensors compute them; of the ideal model, which measures exactly, the true ones. NaN where depth is, and where too
-/// few neighbours lie on one surface.
+/// real sensors compute them; of the ideal model, which measures exactly, the true ones. NaN where depth is, and where
+/// too few neighbours lie on one surface.
 std::vector<std::array<float, 3>> normals_of(const RangeImage& image, const std::vector<std::array<float, 3>>& points);
 
 }  // namespace bin_scenes
