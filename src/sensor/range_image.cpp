@@ -11,8 +11,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr std::array<float, 3> no_vector = {nan, nan, nan};
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
+constexpr std::array<float, 3> no_vector = {no_value, no_value, no_value};
 
 std::array<float, 3> on_ray(const RangeImage& image, const Lens& lens, std::size_t column, std::size_t row) {
   const double z = image.depth[row * static_cast<std::size_t>(image.width) + column];

@@ -87,4 +87,55 @@ inline Quat turned_to(First first, const PartModelPtr& part, std::uint64_t seed)
   return Quat(Eigen::AngleAxisd(random.uniform(0.2, 0.6), flat * edge)) * flat;
 }
 
+/// Features that meet.
+enum class Meeting { corner_face, edge_edge, face_face };
+
+struct Exchange {
+  double angle;     ///< between the first change of velocity and the exact normal, degrees
+  double momentum;  ///< change of the sum / momentum of the first at the start
+  double energy;    ///< highest / at the start
+};
+/// Two free boxes of unequal mass that meet at a metre a second, aslant and off centre, without friction.
+inline Exchange meet(Lab lab, Meeting meeting, std::uint64_t seed) {
+  Random random(seed, 0, Stream::probe);
+  const Quat all = random.orientation();
+  const auto about = [](double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis)); };
+  const double half = 0.02, yaw = random.uniform(0.3, 1.2), diagonal = std::sqrt(2.0) * half;
+  // The first comes down along z onto the second: `low` and `high`, how far they reach.
+  Quat above = about(yaw, Vec3::UnitZ()), below = Quat::Identity();
+  double low = half, high = half;
+  if (meeting == Meeting::corner_face) {
+    above = above * Quat::FromTwoVectors(Vec3(1, 1, 1).normalized(), -Vec3::UnitZ());
+    low = std::sqrt(3.0) * half;
+  } else if (meeting == Meeting::edge_edge) {
+    above = above * about(M_PI / 4, Vec3::UnitX());
+    below = about(M_PI / 4, Vec3::UnitY());
+    low = high = diagonal;
+  }
+  lab.def().bin.kind = Bin::Kind::none;
+  lab.def().gravity.setZero();
+  const Vec3 aside(0.3 * half * random.uniform(-1, 1), 0.3 * half * random.uniform(-1, 1), 0);
+  const auto cube = box(Vec3::Constant(2.0 * half));
+  const double gap = random.uniform(0.001, 0.005);
+  const auto a =
+      lab.place(cube, all * Vec3(aside + Vec3(0, 0, low + high + gap)), all * above, material(0.0, 0.0, 0.2));
+  const auto b = lab.place(cube, Vec3::Zero(), all * below, material(0.0, 0.0, 0.5));
+  lab.start(a).velocity.linear = all * Vec3(0.2, 0.1, -1.0);
+  const auto momentum = [&] { return Vec3(lab.momentum(a) + lab.momentum(b)); };
+  const auto energy = [&] { return lab.kinetic_energy(a) + lab.kinetic_energy(b); };
+  lab.begin(phases::pour);
+  const Vec3 before = lab.state(a).velocity.linear, sum = momentum();
+  const double energy_before = energy(), scale = lab.momentum(a).norm();
+  Exchange out{180.0, 0.0, 0.0};
+  while (lab.time() < 0.1) {
+    lab.simulate(lab.solver().step_size());
+    const Vec3 change = lab.state(a).velocity.linear - before;
+    if (out.angle == 180.0 && change.norm() > 1e-3)
+      out.angle = std::acos(std::min(1.0, change.normalized().dot(all * Vec3::UnitZ()))) * 180.0 / M_PI;
+    out.momentum = std::max(out.momentum, (momentum() - sum).norm() / scale);
+    out.energy = std::max(out.energy, energy() / energy_before);
+  }
+  return out;
+}
+
 }  // namespace bin_scenes::testing
