@@ -53,6 +53,7 @@ std::vector<Row> time_steps(bool soak) {
     if (hertz == 15) row.known.erase("sphere: angles");
     if (hertz == 30) row.known["sphere: rings"] = sinks;
     if (hertz == 30) row.known.erase("bullet: angles");
+    if (hertz == 60 && !soak) row.known["sphere: rings"] = sinks;
     rows.push_back(row);
   }
   return rows;
