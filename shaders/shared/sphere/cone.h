@@ -2,8 +2,8 @@
 // bounds_of(cone), bound_at(cone, i), axis_of(cone), spread_of(cone).
 //
 // The grid of a distance field rounds edges off, so within a cell of one its gradient leans over; of two parts whose
-// edges lie flush it would press one sideways off the other. What the point of the sample's own surface cannot feel is
-// taken out of the gradient.
+// edges lie flush it would press one sideways off the other. Such a direction is turned into the cone (touch.h says
+// when).
 
 const float LEAST_LEFT = 0.1f;  // of a unit direction: what leans over more than 84 degrees does not press
 const int CONE_SWEEPS = 8;      // of cyclic projection; two suffice where the bounds are perpendicular
