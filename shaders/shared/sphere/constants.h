@@ -12,7 +12,6 @@
 #define SPHERE_GROUND 0xffffffffu  // body index of the bin's walls and floor
 #define SPHERE_SIDE_B 0x80000000u  // feature: sample of b against the field of a, whose normal it is
 #define SPHERE_EDGE 0x40000000u    // feature: edge, not node
-#define SPHERE_TURNED \
-  0x20000000u  // feature: the normal is that of the sample's own surface; side: as if it were the field
+#define SPHERE_TURNED 0x20000000u  // feature: the normal is the sample's, and the side as if it were the field's
 #define SPHERE_PLANE 0x1000000u  // feature of a ground contact: node + plane times this; in a crease: + wall times this
 #endif

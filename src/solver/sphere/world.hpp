@@ -38,13 +38,12 @@ struct Settings {
   float settled = 0.1f;    ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
                            ///< blow in a wedge or a chain gives energy
   int blow_sweeps = 12;    ///< most sweeps for that; fewer = the same
-  int impact_sweeps = 24;  ///< most sweeps in a step with an impact, times the ratio of the masses of heaviest and
-                           ///< lightest part: so many does it take to stop the one on the other; fewer = the light one
-                           ///< is thrown out at a third of the speed
-  int most_impact_sweeps = 2400;  ///< more = at 1:10,000 ten times the time, and no less error
-  std::size_t blow_bodies =
-      48;               ///< larger worlds leave a blow to the next sub-steps: in a heap that is poured there is
-                        ///< always one, soon shared among many, and the sweeps would cost a tenth of its time
+  int impact_sweeps = 24;  ///< most in a step with an impact, times heaviest / lightest part; with half as many a light
+                           ///< part under one of a hundred times its mass leaves at 7 % of the impact's speed
+  int most_impact_sweeps = 2400;  ///< whatever the masses; at 1:10,000 no number suffices
+  /// Larger worlds leave a blow to the next sub-steps: in a heap that is poured there is always one, soon shared among
+  /// many, and the sweeps would cost a tenth of its time.
+  std::size_t blow_bodies = 48;
   int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
   int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
