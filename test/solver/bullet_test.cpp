@@ -3,6 +3,7 @@
 #include "solver/extremes.hpp"
 #include "solver/hard_contacts.hpp"
 #include "solver/impacts.hpp"
+#include "solver/pressed.hpp"
 #include "solver/tight_fits.hpp"
 
 namespace bin_scenes::testing {
@@ -82,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Bullet, Stacks, ::testing::Values(bullet_default), name
 INSTANTIATE_TEST_SUITE_P(Bullet, Extremes, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, HardContacts, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, TightFits, ::testing::Values(bullet_default), name);
+INSTANTIATE_TEST_SUITE_P(Bullet, Pressing, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, CoarseSteps, ::testing::Values(bullet_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, UncutSteps, ::testing::Values(bullet_uncut), name);
 

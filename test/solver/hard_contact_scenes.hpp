@@ -120,32 +120,44 @@ inline Rebound pile_up_cubes(Lab lab, int count) {
   return out;
 }
 
-/// A house of cards of three levels on friction 0.5, its leaning cards 0.42 rad off the upright: farthest that a card
-/// moves in six seconds / its length.
-inline double card_house_drift(Lab lab, Phase phase) {
-  const double length = 0.09, width = 0.06, thickness = 0.001, lean = 0.42;
-  const double up = 0.5 * (length * std::cos(lean) + thickness * std::sin(lean));   // half a leaning card's height
-  const double out = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean));  // and half of its reach
-  const double pitch = 4.0 * out, level_height = 2.0 * up + thickness;
-  const PartModelPtr card = box({thickness, width, length}), roof = box({0.98 * pitch, width, thickness});
-  lab.def().bin.friction = 0.5;
-  std::vector<Vec3> starts;
-  const auto put = [&](const PartModelPtr& part, const Vec3& at, double turn) {
-    lab.place(part, at, Quat(Eigen::AngleAxisd(turn, Vec3::UnitY())), material(0.5));
-    starts.push_back(at);
-  };
-  for (int level = 0; level < 3; ++level) {
-    const int pairs = 3 - level;
-    const double base = level * level_height, first = -0.5 * (pairs - 1) * pitch;
-    for (int i = 0; i < pairs; ++i)
-      for (const double side : {-1.0, 1.0}) put(card, Vec3(first + i * pitch + side * out, 0, base + up), -side * lean);
-    for (int i = 0; i + 1 < pairs; ++i)
-      put(roof, Vec3(first + (i + 0.5) * pitch, 0, base + 2.0 * up + 0.5 * thickness), 0.0);
+/// A house of cards of three levels, its leaning cards 0.42 rad off the upright.
+struct CardHouse {
+  static constexpr double length = 0.09, width = 0.06, thickness = 0.001, lean = 0.42, friction = 0.5;
+  double up = 0.5 * (length * std::cos(lean) + thickness * std::sin(lean));   // half a leaning card's height
+  double out = 0.5 * (length * std::sin(lean) + thickness * std::cos(lean));  // and half of its reach
+  double pitch = 4.0 * out, level_height = 2.0 * up + thickness;
+  double height() const { return 3.0 * level_height; }
+
+  /// Its cards are the next bodies, each of `mass` (kg); returns where their centres are.
+  std::vector<Vec3> place(Lab& lab, double mass = 1.0) const {
+    const PartModelPtr card = box({thickness, width, length}), roof = box({0.98 * pitch, width, thickness});
+    lab.def().bin.friction = friction;
+    std::vector<Vec3> starts;
+    const auto put = [&](const PartModelPtr& part, const Vec3& at, double turn) {
+      lab.place(part, at, Quat(Eigen::AngleAxisd(turn, Vec3::UnitY())), material(friction, 0.0, mass));
+      starts.push_back(at);
+    };
+    for (int level = 0; level < 3; ++level) {
+      const int pairs = 3 - level;
+      const double base = level * level_height, first = -0.5 * (pairs - 1) * pitch;
+      for (int i = 0; i < pairs; ++i)
+        for (const double side : {-1.0, 1.0})
+          put(card, Vec3(first + i * pitch + side * out, 0, base + up), -side * lean);
+      for (int i = 0; i + 1 < pairs; ++i)
+        put(roof, Vec3(first + (i + 0.5) * pitch, 0, base + 2.0 * up + 0.5 * thickness), 0.0);
+    }
+    return starts;
   }
+};
+
+/// Farthest that a card of a house that stands moves in six seconds / its length.
+inline double card_house_drift(Lab lab, Phase phase) {
+  const std::vector<Vec3> starts = CardHouse().place(lab);
   lab.begin(phase);
   lab.simulate(6.0);
   double most = 0.0;
-  for (std::size_t b = 0; b < starts.size(); ++b) most = std::max(most, (lab.center(b) - starts[b]).norm() / length);
+  for (std::size_t b = 0; b < starts.size(); ++b)
+    most = std::max(most, (lab.center(b) - starts[b]).norm() / CardHouse::length);
   return most;
 }
 

@@ -3,6 +3,7 @@
 #include "solver/extremes.hpp"
 #include "solver/hard_contacts.hpp"
 #include "solver/impacts.hpp"
+#include "solver/pressed.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
@@ -28,6 +29,21 @@ const SolverCase sphere_uncut{"sphere", [] {
                               }};
 
 const auto name = [](const auto& info) { return info.param.name; };
+
+/// The default, in steps 1, 2, 4 and 8 times as short.
+std::vector<SolverCase> sphere_steps() {
+  std::vector<SolverCase> cases;
+  for (const int part : {1, 2, 4, 8})
+    cases.push_back({"sphere_step_" + std::to_string(part),
+                     [part] {
+                       SphereSettings settings;
+                       settings.time_step /= part;
+                       return make_sphere_solver(settings);
+                     },
+                     1e-4});
+  return cases;
+}
+class SphereSteps : public SolverTest {};
 
 TEST(SphereCounters, PairsAreCulledUntilTheyTouch) {
   Lab lab(make_sphere_solver({}));
@@ -236,6 +252,20 @@ TEST(SphereTightFits, ARoundPegEntersItsHole) {
       }
 }
 
+// A card left at thirteen times the speed of what fell. What is squeezed out may be a few times as fast as a ladder
+// that slips.
+TEST_P(SphereSteps, BlocksThrowNoCardOfAHouse) {
+  EXPECT_LT(blocks_on_cards(lab()), 2.0);
+}
+
+// It turned back, climbed by 20 mm, and in a quarter of the step left the nut. The facets of its thread brake it.
+TEST_P(SphereSteps, ALongBoltScrewsDown) {
+  const Screw screw = screw_down(lab(), 0.0004, 2.0, 30);
+  EXPECT_GT(screw.way, 0.015);
+  EXPECT_LT(screw.way, 0.1);
+  EXPECT_LT(screw.risen, 2e-3);
+}
+
 // Without losses it would come down by 0.05 m/s2 t2 / 2, 25 mm in a second; the facets of the thread brake it.
 TEST(SphereTightFits, ABoltScrewsDown) {
   for (const double play : {0.0003, 0.0004}) {
@@ -342,6 +372,8 @@ INSTANTIATE_TEST_SUITE_P(Sphere, Stacks, ::testing::Values(sphere_default), name
 INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, TightFits, ::testing::Values(sphere_default), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, Pressing, ::testing::ValuesIn(sphere_steps()), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, SphereSteps, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);
 

@@ -179,11 +179,11 @@ inline double spike_into_hole(Lab lab, double turn, double tilt, double aside, d
 }
 
 /// A bolt of a helical thread (10 mm radius, 3 mm pitch, depth 1.2 mm) in a fixed nut wider by `play` (m), without
-/// friction, its head up: way down in `seconds` (m), and EnergyRise.
+/// friction, three turns deep in it: way down in `seconds` (m), and EnergyRise.
 struct Screw {
   double way, risen;
 };
-inline Screw screw_down(Lab lab, double play, double seconds) {
+inline Screw screw_down(Lab lab, double play, double seconds, std::uint32_t turns = 8) {
   constexpr std::uint32_t around = 48, per_turn = 8;
   constexpr double radius = 0.01, depth = 0.0012, pitch = 0.003;
   const auto thread = [&](std::uint32_t turns, double outer, bool is_nut) {
@@ -226,7 +226,7 @@ inline Screw screw_down(Lab lab, double play, double seconds) {
     return mesh;
   };
   lab.def().bin.kind = Bin::Kind::none;
-  const PartModelPtr bolt = PartModel::from_mesh(thread(8, radius, false), "bolt");
+  const PartModelPtr bolt = PartModel::from_mesh(thread(turns, radius, false), "bolt");
   const Vec3 start = Vec3(0, 0, 3.0 * pitch) + bolt->mass().center;
   lab.place(bolt, start, Quat::Identity(), material(0.0));
   place_fixed(lab, PartModel::from_mesh(thread(4, radius + play, true), "nut"), 0.0);

@@ -1,0 +1,42 @@
+/// What presses others apart, or is pressed, gives nothing away, however short the steps: instantiate as
+/// closed_forms.hpp, with a case for each step.
+#pragma once
+
+#include "solver/fixture.hpp"
+#include "solver/pressed_scenes.hpp"
+
+namespace bin_scenes::testing {
+
+class Pressing : public SolverTest {};
+
+// Once it gained 0.4 % by default and 7 % in an eighth of the step, and hopped.
+TEST_P(Pressing, APointBetweenOthersGainsNothing) {
+  for (const Point point : {Point::wedge, Point::spike})
+    for (const bool stands : {true, false})
+      for (const double size : {0.02, 0.2, 2.0})
+        for (const double slim : {0.1, 0.6})
+          for (const double gap : {0.0, 1e-3})
+            for (const auto& [friction, load] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.5, 20.0}}) {
+              const Pressed pressed = press_between(lab(), {point, size, slim, friction, gap, load, stands});
+              EXPECT_LT(pressed.risen, 2e-3)
+                  << static_cast<int>(point) << ", " << size << " m, " << slim << ", gap " << gap << ", friction "
+                  << friction << ", " << load << " kg, below " << (stands ? "fixed" : "free");
+              EXPECT_LT(pressed.hop, 1e-3);
+            }
+}
+
+// An edge that caught its tip took 40 %.
+TEST_P(Pressing, ASpikeSlidesOverARim) {
+  for (const double size : {0.02, 0.2, 2.0}) {
+    const double lost = slide_over_rim(lab(), size);
+    EXPECT_LT(lost, 0.02) << size << " m";
+    EXPECT_GT(lost, -GetParam().rounding) << size << " m";
+  }
+}
+
+// It got 56 to 104 % back.
+TEST_P(Pressing, AChainThatComesToItsEndGivesNothingBack) {
+  for (const int links : {8, 16, 32, 64}) EXPECT_LT(given_back_by_a_chain(lab(), links, 0.8), 0.02) << links;
+}
+
+}  // namespace bin_scenes::testing
