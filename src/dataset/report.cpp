@@ -66,11 +66,11 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
   if (json && json->is_object())
     for (const Json& sensor : json->value("sensors", Json::array()))
       candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
-  candidates.push_back(folder.bop(facts, scene) / "gray" / "000000.tiff");
+  candidates.push_back(folder.bop(facts, scene) / bop_picture(facts.bop));
   const auto path =
       std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
   if (path == candidates.end()) return "";
-  const LoadedImage image = path->extension() == ".tiff" ? load_gray_tiff(path->string()) : load_png(path->string());
+  const LoadedImage image = path->extension() != ".png" ? load_tiff(path->string()) : load_png(path->string());
   const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
   std::vector<std::uint8_t> small;
   for (int y = 0; y < height; ++y) {
@@ -80,7 +80,8 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
         for (int dy = 0; dy < step; ++dy)
           for (int dx = 0; dx < step; ++dx)
             sum += image.samples[static_cast<std::size_t>(
-                ((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
+                       ((y * step + dy) * image.width + x * step + dx) * image.channels + c)] >>
+                   (image.bits - 8);
         small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step)));
       }
     }

@@ -64,6 +64,7 @@ Json json_of(const Sensor& sensor) {
                {"far", sensor.far},
                {"depth_scale", sensor.depth_scale},
                {"noise", sensor.noise}};
+  if (!sensor.view_of.empty()) json["view_of"] = sensor.view_of;
   if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
     const Projector& p = sensor.projector;
     json["projector"] = {{"pose", json_of(p.pose.value_or(Pose()))},

@@ -64,6 +64,12 @@ struct MergeOptions {
 };
 int dataset_merge(const MergeOptions& options);
 
+struct ToolkitOptions {
+  std::string directory, name;
+};
+/// What bop_toolkit has to be told of a data set, for people to paste.
+int dataset_toolkit(const ToolkitOptions& options);
+
 struct SubmitOptions {
   std::string plan, out;
   std::size_t shares = 4, cpus = 1;

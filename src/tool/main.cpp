@@ -98,6 +98,12 @@ int run(int argc, char** argv) {
   merge_app->add_option("DIR", merge_options.shares, "directories of the shares")->required();
   merge_app->add_option("--out", merge_options.out, "directory of the whole data set")->required();
 
+  ToolkitOptions toolkit_options;
+  CLI::App* toolkit_app = dataset_app->add_subcommand(
+      "toolkit", "entry of the data set for dataset_params.py of bop_toolkit; DIR/bop is its folder there");
+  toolkit_app->add_option("DIR", toolkit_options.directory, "directory of the data set")->required();
+  toolkit_app->add_option("--name", toolkit_options.name, "name that bop_toolkit shall know it by")->required();
+
   SubmitOptions submit_options;
   CLI::App* submit_app = dataset_app->add_subcommand("submit", "make a data set on a cluster: submit, watch, merge");
   submit_app->add_flag("--slurm", submit_options.slurm, "by an array job of Slurm")->required();
@@ -134,6 +140,7 @@ int run(int argc, char** argv) {
   if (sensor_app->parsed()) return sensor(sensor_options);
   if (verify_app->parsed()) return dataset_verify(verify_options);
   if (merge_app->parsed()) return dataset_merge(merge_options);
+  if (toolkit_app->parsed()) return dataset_toolkit(toolkit_options);
   if (submit_app->parsed()) return dataset_submit(submit_options);
   if (report_app->parsed()) return report(report_options);
   if (dataset_app->parsed()) return dataset(dataset_options);
