@@ -78,6 +78,16 @@ struct SubmitOptions {
 };
 int dataset_submit(const SubmitOptions& options);
 
+struct AuditOptions {
+  std::string directory, sensor, models;
+  std::string bin, up;          ///< "x,y,z"; empty: not given
+  std::optional<double> floor;  ///< m
+  std::size_t most = 0;         ///< heaps; 0: all
+  std::string out;              ///< HTML file; empty: none
+  bool json = false;
+};
+int audit(const AuditOptions& options);
+
 struct ReportOptions {
   std::string directory;
   std::string out;  ///< HTML file; empty: report.html in the directory
