@@ -33,6 +33,7 @@ int inspect(const InspectOptions& options);
 struct SymmetriesOptions {
   std::string model, unit;
   std::optional<double> tolerance_mm;  ///< none: a hundredth of the part's size
+  std::string picture;                 ///< PNG file; empty: none
   bool json = false;
 };
 int symmetries(const SymmetriesOptions& options);

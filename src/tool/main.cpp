@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
   symmetries_app->add_option("--unit", symmetries_options.unit, "unit of the file: m, cm, mm or inch");
   symmetries_app->add_option("--tolerance", symmetries_options.tolerance_mm,
                              "mm that surfaces may lie apart; left out: a hundredth of the part's size");
+  symmetries_app->add_option("--picture", symmetries_options.picture, "PNG file of the part with its axes");
   symmetries_app->add_flag("--json", symmetries_options.json, "as JSON");
 
   SensorOptions sensor_options;
