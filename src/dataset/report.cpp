@@ -4,6 +4,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/data_folder.hpp"
+#include "dataset/published.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
 #include "output/png.hpp"
@@ -120,7 +121,8 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
   if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
   std::map<int, int> object_of;
-  const fs::path truth = folder.bop(facts, number) / "scene_gt.json";
+  const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;
+  const fs::path truth = folder.bop(facts, number) / ("scene_gt" + suffix + ".json");
   if (fs::is_regular_file(truth)) {
     const Json images = Json::parse(read_file(truth.string()));
     for (const Json& entry : images.value("0", Json::array())) object_of[entry.at("id")] = entry.at("obj_id");
@@ -195,6 +197,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   const std::size_t every = counts.scenes / most_rows + 1;
   std::vector<int> visible(20, 0), tilt(20, 0);
   std::size_t seen = 0, parts = 0;
+  Seen published;
   Json rows = Json::array();
   std::vector<std::size_t> scenes;
   index.each_scene([&](const SceneIndex::Row& row) {
@@ -203,6 +206,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
     std::transform(v.begin(), v.end(), visible.begin(), visible.begin(), std::plus<int>());
     std::transform(t.begin(), t.end(), tilt.begin(), tilt.begin(), std::plus<int>());
     parts += row.summary.at("parts").get<std::size_t>();
+    published.add(row.summary);
     scenes.push_back(row.scene);
     if (seen++ % every != 0) return;
     rows.push_back({row.scene, row.summary.at("parts"), rounded(mean_of(v)), rounded(row.summary.at("fill")),
@@ -244,6 +248,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
         {"stages_ms", index.stages_ms()}}},
       {"visible", visible},
       {"tilt", tilt},
+      {"published", published.rows()},
       {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},
       {"pictures", pictures},
       {"rejected", {{"total", rejected.size()}, {"rows", listed}}},
