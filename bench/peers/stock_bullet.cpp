@@ -21,6 +21,7 @@ class World {
  public:
   World(const WorldDef& def, const StockBullet& settings)
       : def_(def),
+        damping_(settings.damping),
         dispatcher_(&configuration_),
         world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
         bodies_(def.bodies.size()) {
@@ -53,6 +54,7 @@ class World {
       btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, part.inertia * mass);
       info.m_friction = def.friction;
       info.m_restitution = def.restitution;
+      info.m_linearDamping = info.m_angularDamping = damping_;
       bodies_[b] = std::make_unique<btRigidBody>(info);
     }
     bodies_[b]->setCenterOfMassTransform(pose);
@@ -127,6 +129,7 @@ class World {
   }
 
   const WorldDef def_;
+  double damping_;
   std::vector<std::unique_ptr<BulletPart>> parts_;
   std::vector<std::unique_ptr<btSphereShape>> balls_;  ///< by part; none for what is no ball
   btDefaultCollisionConfiguration configuration_;

@@ -21,6 +21,7 @@ struct StockBullet {
   int iterations = 10;         ///< sweeps of the contact solver per step
   std::vector<Pieces> pieces;  ///< by part of the world (m)
   std::vector<double> balls;   ///< by part: radius of one that is a ball, else 0; if empty, none is
+  double damping = 0.0;        ///< linear and angular, share of a velocity lost in a second
   double margin = 0.002;       ///< m around each hull: parts rest so far above the floor
   /// Told after each step: simulated time, and the least rest of all bodies (moves while one is not in yet).
   std::function<void(double simulated_s, BulletRest rest)> watch;

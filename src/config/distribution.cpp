@@ -1,6 +1,7 @@
 #include "config/distribution.hpp"
 
 #include "config/suggest.hpp"
+#include "config/views.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -206,16 +207,6 @@ std::string scaled(const YAML::Node& own, const std::function<double()>& factor)
   return number ? text_of(*number * factor()) : flow_text(own);
 }
 
-/// The optical frame at `distance` from the target, image right = bin x and image up = bin y where tilt and roll are 0.
-Pose view_of(const Vec3& target, double distance, double tilt, double turn, double roll) {
-  const auto about = [](double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis)); };
-  const Quat lean = about(turn, Vec3::UnitZ()) * about(tilt, Vec3::UnitY()) * about(-turn, Vec3::UnitZ());
-  Pose pose;
-  pose.orientation = (lean * about(M_PI, Vec3::UnitX()) * about(roll, Vec3::UnitZ())).normalized();
-  pose.position = target + lean * Vec3(0.0, 0.0, distance);
-  return pose;
-}
-
 }  // namespace
 
 std::string known_distributions() {
@@ -292,7 +283,7 @@ std::string Distribution::draw(Random& random, const YAML::Node& own) const {
     case Kind::view: {
       const double from = distance->number(random);
       const double lean = tilt ? tilt->number(random) : 0.0, around = turn ? turn->number(random) : 0.0;
-      return text_of(view_of(target, from, lean, around, roll ? roll->number(random) : 0.0));
+      return text_of(looking_at(target, from, lean, around, roll ? roll->number(random) : 0.0));
     }
   }
   return values.at(0);
@@ -315,7 +306,7 @@ std::vector<std::string> Distribution::ends(const YAML::Node& own) const {
   } else {
     for (const double from : of(*distance)) {
       for (const double lean : tilt ? of(*tilt) : std::vector<double>{0.0})
-        texts.push_back(text_of(view_of(target, from, lean, 0.0, 0.0)));
+        texts.push_back(text_of(looking_at(target, from, lean, 0.0, 0.0)));
     }
   }
   return texts;

@@ -286,6 +286,11 @@ void visit(Visitor& v, Request& request) {
   v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
   v.section({"solver", "", "solver and its settings"}, request.solver);
   v.list({"sensors", "", "range sensors; none = no images"}, request.sensors);
+  v.field({"rig", "",
+           "instead of sensors: those of a published data set, ipd, xyzibd or itoddmv (config/sensors/rigs names "
+           "sources); single values are changed by --set or a plan's draw",
+           false},
+          request.rig);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest"}, request.seconds);
   v.field({"drift_check", "",

@@ -2,8 +2,10 @@
 
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "config/bop_plan.hpp"
 #include "config/plan_state.hpp"
 #include "config/read_document.hpp"
+#include "config/rigs.hpp"
 #include "config/yaml_text.hpp"
 #include "core/read_file.hpp"
 
@@ -44,6 +46,7 @@ class PlanFile {
     state_ = state.get();
     read_keys(root);
     read_request(own_value(root, "request"));
+    read_bop();
     if (errors_.empty()) try_ends();
     if (errors_.empty()) check_outputs();
     if (!errors_.empty()) throw PlanErrors(errors_);
@@ -70,7 +73,7 @@ class PlanFile {
     read_draws(keys.node({"draw", "", ""}));
     read_amount(keys.node({"amount", "", ""}));
     read_depletion(keys.node({"depletion", "", ""}));
-    read_bop(keys.node({"bop", "", ""}));
+    remember_bop(keys.node({"bop", "", ""}));
     keys.field({"not_poured", "", ""}, plan_.most_not_poured);
     if (!(plan_.most_not_poured >= 0.0 && plan_.most_not_poured <= 1.0))
       complain("must be 0 to 1", "not_poured", "share of a heap's parts that may find no room");
@@ -182,36 +185,25 @@ class PlanFile {
     if (plan_.depletion.steps > 100'000) complain("must be at most 100000", "depletion.steps", "take more at a time");
   }
 
-  void read_bop(const YAML::Node& node) {
+  void remember_bop(const YAML::Node& node) {
     if (!node) return;
-    if (!node.IsMap()) return complain("expected a map", "bop", "bop: {visible: truth, symmetries: {...}}");
-    std::optional<double> tolerance;
-    for (const auto& item : node) {
-      const std::string name = item.first.Scalar(), key = "bop." + name;
-      source_.remember(key, item.first);
-      if (name == "visible") {
-        const std::string rule = item.second.IsScalar() ? item.second.Scalar() : "";
-        if (rule == "measured") plan_.tolerance = usual_tolerance;
-        if (rule != "measured" && rule != "truth")
-          complain("expected truth or measured", key, "truth: masks show what is truly seen, each pixel one part");
-      } else if (name == "tolerance") {
-        tolerance.emplace();
-        try {
-          config::read_value(item.second, *tolerance);
-        } catch (const config::Mismatch& mismatch) {
-          complain("expected " + mismatch.expected, key, "m; 0.001 to 0.002 suits parts of centimetres");
-        }
-        if (!(*tolerance > 0.0 && *tolerance <= 0.1)) complain("must be above 0 and at most 0.1 m", key, "m");
-      } else if (name == "symmetries") {
-        symmetries_.reset(item.second);
-      } else {
-        complain("is unknown", key, "known are visible, tolerance and symmetries");
-      }
-    }
-    if (tolerance && plan_.tolerance == 0.0)
-      complain("has a meaning only where measured depth tells what is visible", "bop.tolerance",
-               "add visible: measured, or leave it out");
-    plan_.tolerance = tolerance.value_or(plan_.tolerance);
+    bop_.emplace(node);
+    if (!node.IsMap()) return;
+    for (const auto& item : node) source_.remember("bop." + item.first.Scalar(), item.first);
+    if (const YAML::Node symmetries = node["symmetries"]) symmetries_.reset(symmetries);
+  }
+
+  /// Behind the request, whose sensors name the folders of BOP's layout.
+  void read_bop() {
+    const auto complain_of = [&](const std::string& problem, const std::string& key, const std::string& remedy) {
+      complain(problem, key.empty() ? "bop" : "bop." + key, remedy);
+    };
+    const YAML::Node none(YAML::NodeType::Undefined);
+    const std::vector<Sensor> sensors = errors_.empty() ? plan_.reference.sensors : std::vector<Sensor>();
+    const config::BopPlan bop =
+        config::read_bop_plan(bop_.value_or(none), rig_bop_.value_or(none), sensors, complain_of);
+    plan_.bop = bop.layout;
+    if (bop.measured) plan_.tolerance = bop.tolerance.value_or(usual_tolerance);
   }
 
   void read_split(const YAML::Node& node) {
@@ -229,7 +221,7 @@ class PlanFile {
         complain("share of '" + name + "': expected " + mismatch.expected, "split", example);
       }
       if (!(share >= 0.0)) complain("share of '" + name + "' is " + config::text_of(share), "split", "give 0 or more");
-      if (name.empty() || name == "models" ||
+      if (name.empty() || name == "models" || name == "models_eval" ||
           name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
         complain("'" + name + "' is no name of a folder of BOP", "split", "use small letters, digits and _");
       sum += share;
@@ -261,6 +253,8 @@ class PlanFile {
         state_->request.reset(config::load_yaml(read_file(state_->file, config::longest_text), state_->file));
         ignore_plan_keys();
       }
+      if (state_->request.IsMap())
+        rig_bop_.emplace(config::put_rig(state_->request, [&](const std::string&) { return state_->file; }));
       state_->base = base.string();
       plan_.reference = config::read_document(state_->request, state_->file, state_->base, {}, {}, &found);
       for (const char* key : {"seed", "scenes", "first"})
@@ -382,6 +376,7 @@ class PlanFile {
   config::Source source_;
   std::vector<Error> errors_;
   YAML::Node symmetries_;
+  std::optional<YAML::Node> bop_, rig_bop_;  ///< key `bop`, and what the request's rig says of it
   Plan plan_;
   Plan::State* state_ = nullptr;
 };

@@ -6,6 +6,8 @@
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
 #include "config/read_document.hpp"
+#include "config/rigs.hpp"
+#include "config/views.hpp"
 #include "config/yaml_text.hpp"
 #include "core/read_file.hpp"
 
@@ -182,10 +184,12 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
 Request read_document(YAML::Node root, const std::string& file, const std::string& base,
                       const std::vector<Override>& overrides, const PathRules& rules, std::vector<Error>* all) {
   std::map<std::string, std::string> origins;
+  if (root.IsMap()) put_rig(root, [&](const std::string&) { return file; });  // overrides may change its sensors
   for (const Override& item : overrides) {
     if (!root.IsMap()) continue;
     const auto [path, origin] = apply_override(root, item);
     origins[path] = origin;
+    if (path == "rig") put_rig(root, [&, origin = origin](const std::string&) { return origin; });
   }
   Source source(file, std::move(origins));
   if (!root.IsMap()) throw input_error("the request is no map of keys", file, "write `key: value` lines");
@@ -205,9 +209,10 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
     apply(SolverSettings::Preset::quick, quick);
     request = read_over(quick);
   }
-  complete(
-      request, base, rules, [&](const std::string& path) { return source.where(path); },
-      [&](const std::string& path) { return source.knows(path); });
+  const auto where = [&](const std::string& path) { return source.where(path); };
+  const auto given = [&](const std::string& path) { return source.knows(path); };
+  spell_out_views(request, where, given);
+  complete(request, base, rules, where, given);
   return request;
 }
 

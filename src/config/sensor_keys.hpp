@@ -56,6 +56,16 @@ void visit(Visitor& v, Scan& scan) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, Views& views) {
+  v.field({"poses", "", "optical frames in the bin frame, one a view: [x, y, z, qx, qy, qz, qw]"}, views.poses);
+  v.field({"count", "", "instead of poses: so many, spread evenly over a dome; view 0 is the most upright"},
+          views.count);
+  v.field({"distance", "m", "of the dome, from target"}, views.distance);
+  v.field({"tilt", "rad", "largest angle between a view of the dome and the vertical; below pi/2"}, views.tilt);
+  v.field({"target", "m", "what the views of the dome look at; [0, 0, 0] is the middle of the floor"}, views.target);
+}
+
+template <class Visitor>
 void visit(Visitor& v, Sensor& sensor) {
   v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
   v.field({"model", "", "what a sensor makes of what it sees; ideal is exact depth at pixel centres"}, sensor.model);
@@ -72,6 +82,11 @@ void visit(Visitor& v, Sensor& sensor) {
            "optical frame (x right, y down, z forward) in the bin frame; left out: above the bin, looking down, the "
            "whole rim in view"},
           sensor.pose);
+  v.section({"views", "", "instead of pose: places from which it sees one heap, as sensors NAME_0, NAME_1, ...", false},
+            sensor.views);
+  v.field({"view_of", "", "name of the sensor of which this is a further view; written where views are spelled out",
+           !sensor.view_of.empty()},
+          sensor.view_of);
   v.field({"near", "m", "nothing nearer is seen"}, sensor.near);
   v.field({"far", "m", "nothing farther is seen"}, sensor.far);
   v.field({"fidelity", "",

@@ -22,10 +22,32 @@ namespace {
 
 constexpr const char* format_name = "bin_scenes/dataset/1";
 
-std::string six_digits(const char* before, std::size_t number) {
+std::string numbered(const char* before, std::size_t number) {
   char text[64];
   std::snprintf(text, sizeof text, "%s%06zu", before, number);
   return text;
+}
+
+nlohmann::ordered_json json_of(const BopLayout& layout) {
+  if (layout.kind == BopLayout::Kind::classic) return {{"layout", "classic"}};
+  nlohmann::ordered_json json = {{"layout", "industrial"},
+                                 {"format", layout.tif ? "tif" : "png"},
+                                 {"modalities", nlohmann::ordered_json::object()},
+                                 {"evaluate", {{"sensor", layout.sensor}, {"modality", layout.modality}}}};
+  for (const auto& [sensor, modalities] : layout.modalities) json["modalities"][sensor] = modalities;
+  return json;
+}
+
+BopLayout layout_in(const nlohmann::ordered_json& json) {
+  BopLayout layout;
+  if (json.at("layout") == "classic") return layout;
+  layout.kind = BopLayout::Kind::industrial;
+  layout.tif = json.at("format") == "tif";
+  for (const auto& [sensor, modalities] : json.at("modalities").items())
+    layout.modalities.emplace_back(sensor, modalities.get<std::vector<std::string>>());
+  layout.sensor = json.at("evaluate").at("sensor");
+  layout.modality = json.at("evaluate").at("modality");
+  return layout;
 }
 
 std::string facts_text(const DataSetFacts& facts) {
@@ -44,6 +66,7 @@ std::string facts_text(const DataSetFacts& facts) {
                                  {"shard_size", facts.shard_size},
                                  {"split", nlohmann::ordered_json::object()}};
   for (const auto& [name, share] : facts.split) json["split"][name] = share;
+  json["bop"] = json_of(facts.bop);
   return json.dump(1) + "\n";
 }
 
@@ -57,19 +80,19 @@ bool holds_something(const fs::path& root) {
 }  // namespace
 
 fs::path DataFolder::scene(std::size_t scene) const {
-  return root / "scenes" / six_digits("scene_", scene);
+  return root / "scenes" / numbered("scene_", scene);
 }
 fs::path DataFolder::set_apart(std::size_t scene, std::size_t attempt) const {
-  return root / "set_apart" / (six_digits("scene_", scene) + "_attempt_" + std::to_string(attempt));
+  return root / "set_apart" / (numbered("scene_", scene) + "_attempt_" + std::to_string(attempt));
 }
 fs::path DataFolder::bop(const DataSetFacts& facts, std::size_t scene) const {
-  return root / "bop" / facts.split_of(scene / (facts.steps + 1)) / six_digits("", scene);
+  return root / "bop" / facts.split_of_scene(scene) / numbered("", scene);
 }
 fs::path DataFolder::samples(std::size_t scene) const {
-  return root / "samples" / six_digits("", scene);
+  return root / "samples" / numbered("", scene);
 }
 fs::path DataFolder::shard(std::size_t shard) const {
-  return shards() / (six_digits("shard-", shard) + ".tar");
+  return shards() / (numbered("shard-", shard) + ".tar");
 }
 
 bool DataSetFacts::wants(const std::string& format) const {
@@ -103,6 +126,7 @@ DataSetFacts facts_of(const Plan& plan) {
   facts.sensors = plan.reference.sensors.size();
   facts.formats = plan.formats;
   facts.tolerance = plan.tolerance;
+  facts.bop = plan.bop;
   facts.shard_size = plan.shard_size;
   facts.split = plan.split;
   if (facts.split.empty()) facts.split = {{"train", 1.0}};
@@ -120,17 +144,10 @@ DataSetFacts read_facts(const fs::path& root) {
     throw input_error(std::string("is damaged, or not of format ") + format_name, path.string(),
                       "use the version of bin_scenes that made it");
   try {
-    DataSetFacts facts{json.at("plan_sha256"),
-                       json.at("plan_text_sha256"),
-                       json.at("version"),
-                       json.at("heaps"),
-                       json.at("depletion_steps"),
-                       json.at("attempts"),
-                       json.at("sensors"),
-                       json.at("outputs"),
-                       json.at("bop_tolerance_m"),
-                       json.at("shard_size"),
-                       {}};
+    DataSetFacts facts{json.at("plan_sha256"),    json.at("plan_text_sha256"), json.at("version"),
+                       json.at("heaps"),          json.at("depletion_steps"),  json.at("attempts"),
+                       json.at("sensors"),        json.at("outputs"),          json.at("bop_tolerance_m"),
+                       layout_in(json.at("bop")), json.at("shard_size"),       {}};
     for (const auto& [name, share] : json.at("split").items()) facts.split.emplace_back(name, share);
     if (!facts.split.empty()) return facts;
   } catch (const nlohmann::json::exception&) {

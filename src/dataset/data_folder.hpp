@@ -5,6 +5,7 @@
 ///     DIR/scenes/scene_000007/             scene.json, request.yaml, files.json, images
 ///     DIR/set_apart/scene_000007_attempt_0/  the same for what was not accepted
 ///     DIR/bop/train/000007/, bop/models/   BOP's layout by scenes; `train`, or what the plan splits into
+///     DIR/bop/*.json                       cameras, targets and description of all scenes together
 ///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
 ///     DIR/shards/shard-000000.tar, ...
 ///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not tell itself but times
@@ -31,6 +32,7 @@ struct DataSetFacts {
   std::size_t heaps = 0, steps = 0, attempts = 0, sensors = 0;
   std::vector<std::string> formats;
   double tolerance = 0.0;  ///< m, of visible pixels by measured depth; 0: they are those of the true image
+  BopLayout bop;
   std::size_t shard_size = 0;
   std::vector<std::pair<std::string, double>> split;  ///< never empty
 
@@ -39,6 +41,7 @@ struct DataSetFacts {
   /// Fixed for a heap, however many there are: a data set that grows keeps its splits, and any part of it has them in
   /// about their shares.
   std::string split_of(std::size_t heap) const;
+  std::string split_of_scene(std::size_t scene) const { return split_of(scene / (steps + 1)); }
   bool operator==(const DataSetFacts& other) const;
 };
 struct DataFolder {

@@ -188,7 +188,9 @@ void HeapMaker::write_scene(const Generator::Result& result, const Request& requ
                             std::size_t scene, WholeFolders& folders) {
   // The folder with scene.json gets its name last: where it is, everything is.
   if (plan_.wants("bop"))
-    folders.write(folder_.bop(facts_, scene), [&](const std::string& hidden) { write_bop(hidden, bop); });
+    folders.write(folder_.bop(facts_, scene), [&](const std::string& hidden) {
+      write_bop(hidden, bop, plan_.bop, facts_.split_of_scene(scene), plan_.objects.size());
+    });
   if (plan_.wants("shards"))
     folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
@@ -285,6 +287,8 @@ void write_models(const Plan& plan, const DataFolder& folder) {
   WholeFolders folders;
   folders.write(folder.root / "bop" / "models",
                 [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries); });
+  folders.write(folder.root / "bop" / "models_eval",
+                [&](const std::string& hidden) { write_bop_models(hidden, parts, symmetries, true); });
   folders.commit();
 }
 

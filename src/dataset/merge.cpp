@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "core/read_file.hpp"
+#include "dataset/bop_root.hpp"
 #include "dataset/heap_maker.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/shards.hpp"
@@ -83,7 +84,9 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   merged.scenes = counts.scenes;
   merged.rejected = counts.rejected;
   merged.missing = facts.heaps - known.size();
-  take_over(folders[0].root / "bop" / "models", to.root / "bop" / "models");
+  for (const char* models : {"models", "models_eval"})
+    take_over(folders[0].root / "bop" / models, to.root / "bop" / models);
+  if (facts.wants("bop")) write_bop_root(to, facts);
   if (merged.missing == 0 && facts.wants("shards")) ShardPacker(to, facts, {}).pack_all();
   return merged;
 }

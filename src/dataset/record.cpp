@@ -1,6 +1,7 @@
 #include "dataset/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bin_scenes {
@@ -60,6 +61,33 @@ HeapRecord record_of(const nlohmann::json& json) {
   return record;
 }
 
+namespace {
+
+/// Of each sensor's image: instances that are visible by a tenth and more, between which depths they lie (m), and how
+/// many of them have depth in less than 0.9, up to 0.99, and more of their visible pixels.
+nlohmann::json seen_by(const nlohmann::json& scene) {
+  nlohmann::json all = nlohmann::json::object();
+  for (const auto& sensor : scene.value("sensors", nlohmann::json::array())) {
+    if (!sensor.contains("truth")) continue;
+    std::size_t seen = 0;
+    double near = 0.0, far = 0.0;
+    std::array<std::size_t, 3> holes{};
+    for (const auto& part : sensor.at("truth")) {
+      if (part.at("visible_fraction").get<double>() < 0.1) continue;
+      const double depth = part.at("pose_in_camera").at("position").at(2);
+      near = seen == 0 ? depth : std::min(near, depth);
+      far = std::max(far, depth);
+      ++seen;
+      const double valid = part.at("px_count_measured").get<double>() / part.at("px_count_visib").get<double>();
+      ++holes[valid < 0.9 ? 0 : valid <= 0.99 ? 1 : 2];
+    }
+    all[sensor.at("name").get<std::string>()] = {{"seen", seen}, {"depth", {near, far}}, {"holes", holes}};
+  }
+  return all;
+}
+
+}  // namespace
+
 nlohmann::json summary_of(const nlohmann::json& scene) {
   std::vector<int> visible(bins, 0), tilt(bins, 0);
   std::vector<double> heights;
@@ -82,6 +110,7 @@ nlohmann::json summary_of(const nlohmann::json& scene) {
           {"not_poured", report.at("not_poured").size()},
           {"asked_for", asked_for},
           {"visible", visible},
+          {"seen_by", seen_by(scene)},
           {"tilt", tilt},
           {"fill", fill},
           {"penetration", report.at("penetration").at("p95_relative")},

@@ -4,6 +4,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/data_folder.hpp"
+#include "dataset/published.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
 #include "output/png.hpp"
@@ -66,11 +67,11 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
   if (json && json->is_object())
     for (const Json& sensor : json->value("sensors", Json::array()))
       candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
-  candidates.push_back(folder.bop(facts, scene) / "gray" / "000000.tiff");
+  candidates.push_back(folder.bop(facts, scene) / bop_picture(facts.bop));
   const auto path =
       std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
   if (path == candidates.end()) return "";
-  const LoadedImage image = path->extension() == ".tiff" ? load_gray_tiff(path->string()) : load_png(path->string());
+  const LoadedImage image = path->extension() != ".png" ? load_tiff(path->string()) : load_png(path->string());
   const int step = std::max(1, image.width / picture_width), width = image.width / step, height = image.height / step;
   std::vector<std::uint8_t> small;
   for (int y = 0; y < height; ++y) {
@@ -80,7 +81,8 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
         for (int dy = 0; dy < step; ++dy)
           for (int dx = 0; dx < step; ++dx)
             sum += image.samples[static_cast<std::size_t>(
-                ((y * step + dy) * image.width + x * step + dx) * image.channels + c)];
+                       ((y * step + dy) * image.width + x * step + dx) * image.channels + c)] >>
+                   (image.bits - 8);
         small.push_back(static_cast<std::uint8_t>(sum / static_cast<unsigned>(step * step)));
       }
     }
@@ -119,7 +121,8 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
   if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
   std::map<int, int> object_of;
-  const fs::path truth = folder.bop(facts, number) / "scene_gt.json";
+  const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;
+  const fs::path truth = folder.bop(facts, number) / ("scene_gt" + suffix + ".json");
   if (fs::is_regular_file(truth)) {
     const Json images = Json::parse(read_file(truth.string()));
     for (const Json& entry : images.value("0", Json::array())) object_of[entry.at("id")] = entry.at("obj_id");
@@ -194,6 +197,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
   const std::size_t every = counts.scenes / most_rows + 1;
   std::vector<int> visible(20, 0), tilt(20, 0);
   std::size_t seen = 0, parts = 0;
+  Seen published;
   Json rows = Json::array();
   std::vector<std::size_t> scenes;
   index.each_scene([&](const SceneIndex::Row& row) {
@@ -202,6 +206,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
     std::transform(v.begin(), v.end(), visible.begin(), visible.begin(), std::plus<int>());
     std::transform(t.begin(), t.end(), tilt.begin(), tilt.begin(), std::plus<int>());
     parts += row.summary.at("parts").get<std::size_t>();
+    published.add(row.summary);
     scenes.push_back(row.scene);
     if (seen++ % every != 0) return;
     rows.push_back({row.scene, row.summary.at("parts"), rounded(mean_of(v)), rounded(row.summary.at("fill")),
@@ -243,6 +248,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
         {"stages_ms", index.stages_ms()}}},
       {"visible", visible},
       {"tilt", tilt},
+      {"published", published.rows()},
       {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},
       {"pictures", pictures},
       {"rejected", {{"total", rejected.size()}, {"rows", listed}}},

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "core/in_parallel.hpp"
 #include "core/read_file.hpp"
+#include "dataset/bop_root.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
 
@@ -35,6 +36,14 @@ void verify_differences(const DataFolder& folder, Findings& findings) {
     if (!hash.is_string() || is_empty(*scene)) continue;
     const auto [known, is_new] = first.emplace(hash.get<std::string>(), path.filename().string());
     findings.expect(is_new, "scenes_differ", path.string(), "has the poses of " + known->second);
+  }
+}
+
+void verify_root(const DataFolder& folder, const DataSetFacts& facts, Findings& findings) {
+  for (const auto& [name, text] : bop_root_files(folder, facts)) {
+    const fs::path path = folder.root / "bop" / name;
+    findings.expect(fs::is_regular_file(path) && read_file(path.string()) == text, "bop_root", path.string(),
+                    "is missing, or not what the scenes tell");
   }
 }
 
@@ -92,7 +101,9 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"bop_rotation", "rotations are orthonormal and right-handed"},
       {"bop_pose", "BOP's poses are those of scene.json in the camera"},
       {"bop_object", "objects have a model"},
-      {"bop_image", "depth and grey images are there, with the size of the sensor"},
+      {"bop_image", "images of every modality are there, with the size of the sensor"},
+      {"bop_coco", "scene_gt_coco annotates every visible part, with its object and its mask"},
+      {"bop_root", "cameras, targets and description beside the scenes are those that the scenes tell"},
       {"bop_pinhole", "sensors that BOP shows have no distortion, which its files cannot tell"},
       {"bop_disjoint", "no pixel shows two parts, unless measured depth tells what is visible"},
       {"bop_labels", "visible masks are where the true labels have their part, with output png"},
@@ -104,6 +115,7 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"bop_unseen", "boxes are -1 exactly where nothing is seen"},
       {"bop_reprojection", "the model, projected with its pose, fills its box"},
       {"model_info", "models_info tells box, diameter and symmetries of the model file"},
+      {"model_eval", "models_eval holds every model, as large as it is"},
       {"shard_tar", "shards are whole tar files"},
       {"shard_keys", "each image is in one shard, that which key_to_shard tells"},
       {"shard_complete", "each image of a scene is in a shard with all its files"},
@@ -184,6 +196,7 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
   verify_differences(folder, findings);
   const std::map<int, BopModel> models =
       facts.wants("bop") || facts.wants("shards") ? verify_models(folder, findings) : std::map<int, BopModel>();
+  if (facts.wants("bop")) verify_root(folder, facts, findings);
   // Only the whole data set is packed into shards: a share has its samples instead.
   const bool is_whole = SceneIndex(folder.index(), true).shares().count({0, 1}) == 1;
   std::vector<std::size_t> there;

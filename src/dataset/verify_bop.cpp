@@ -3,13 +3,14 @@
 #include "core/read_file.hpp"
 #include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
+#include "output/bop_image.hpp"
+#include "output/evaluation_mesh.hpp"
 #include "output/png_reader.hpp"
 #include "output/tiff.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -21,12 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
-
-std::string six_digits(std::size_t number) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%06zu", number);
-  return text;
-}
 
 Mat3 matrix_of(const Json& rows) {
   Mat3 m;
@@ -69,13 +64,41 @@ struct Owners {
   }
 };
 
-void verify_masks(const fs::path& folder, const std::string& name, const Json& info, int id, int width, int height,
-                  Owners& owners, Findings& findings) {
-  const std::string where = (folder / "mask_visib" / name).string();
+/// One image of a scene: what its files say, and where they lie.
+struct ImageFiles {
+  fs::path folder;
+  BopPlace place;
+  const Json& sensor;  ///< of scene.json
+  const Json &camera, &truth, &info;
+  const Json* annotations;  ///< of scene_gt_coco.json; null: the layout has none
+
+  int width() const { return sensor.at("width"); }
+  int height() const { return sensor.at("height"); }
+  std::string name() const { return folder.string() + ", image " + std::to_string(place.image) + place.suffix; }
+};
+
+/// The annotation of a part tells what its visible mask and scene_gt tell.
+void verify_annotation(const ImageFiles& image, std::size_t entry, const LoadedImage& seen, const Json& annotation,
+                       const std::string& where, Findings& findings) {
+  MaskBox mask{0, 0, seen.width, seen.height, {}};
+  for (const std::uint16_t sample : seen.samples) mask.inside.push_back(sample != 0);
+  const bool good = annotation.at("category_id") == image.truth[entry].at("obj_id") &&
+                    annotation.at("area") == image.info[entry].at("px_count_visib") &&
+                    annotation.at("ignore") == (image.info[entry].at("visib_fract") < 0.1) &&
+                    annotation.at("segmentation").at("counts") == run_lengths(mask, seen.width, seen.height);
+  findings.expect(good, "bop_coco", where, "scene_gt_coco tells another object or mask");
+}
+
+void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annotation, Owners& owners,
+                  Findings& findings) {
+  const std::string name = six_digits(image.place.image) + "_" + six_digits(entry) + ".png";
+  const std::string where = (image.folder / ("mask_visib" + image.place.suffix) / name).string();
+  const Json& info = image.info[entry];
+  const int id = image.truth[entry].at("id"), width = image.width(), height = image.height();
   LoadedImage seen, whole;
   try {
     seen = load_png(where);
-    whole = load_png((folder / "mask" / name).string());
+    whole = load_png((image.folder / ("mask" + image.place.suffix) / name).string());
   } catch (const Error& error) {
     findings.expect(false, "bop_mask_there", error.where(), error.problem());
     return;
@@ -83,6 +106,7 @@ void verify_masks(const fs::path& folder, const std::string& name, const Json& i
   const bool sizes = seen.width == width && seen.height == height && whole.width == width && whole.height == height;
   if (!findings.expect(sizes, "bop_mask_there", where, "masks have another size than the image")) return;
   owners.add(seen, id);
+  if (annotation) verify_annotation(image, entry, seen, *annotation, where, findings);
   Extent visible, all;
   std::size_t beside = 0;
   for (int y = 0, i = 0; y < height; ++y) {
@@ -131,24 +155,47 @@ std::optional<LoadedImage> true_labels(const fs::path& scene, const Json& sensor
   }
 }
 
-void verify_image(const fs::path& folder, const std::string& key, const Json& scene, const Json& camera,
-                  const Json& truth, const Json& info, const std::map<int, BopModel>& models, Owners& owners,
-                  Findings& findings) {
-  const std::string where = folder.string() + ", image " + key;
-  const Json& sensor = scene.at("sensors").at(std::stoul(key));
-  const int width = sensor.at("width"), height = sensor.at("height");
-  const std::string file = six_digits(std::stoul(key));
-  const auto check_size = [&](const fs::path& path, const std::function<LoadedImage(const std::string&)>& load) {
+void verify_pictures(const ImageFiles& image, Findings& findings) {
+  for (const BopPlace::File& file : image.place.files) {
+    const std::string path = (image.folder / file.folder / (six_digits(image.place.image) + file.extension)).string();
     try {
-      const LoadedImage image = load(path.string());
-      findings.expect(image.width == width && image.height == height, "bop_image", path.string(),
-                      "has another size than the sensor");
+      if (file.extension == ".jpg") {
+        findings.expect(fs::is_regular_file(path), "bop_image", path, "is missing");
+        continue;
+      }
+      const LoadedImage picture = file.extension == ".png" ? load_png(path) : load_tiff(path);
+      findings.expect(picture.width == image.width() && picture.height == image.height() &&
+                          picture.channels == (file.modality == "rgb" ? 3 : 1) &&
+                          picture.bits == (file.modality == "depth" ? 16 : 8),
+                      "bop_image", path, "has another size than the sensor, or other channels than its modality");
     } catch (const Error& error) {
-      findings.expect(false, "bop_image", path.string(), error.problem());
+      findings.expect(false, "bop_image", path, error.problem());
     }
-  };
-  check_size(folder / "depth" / (file + ".png"), load_png);
-  check_size(folder / "gray" / (file + ".tiff"), load_gray_tiff);
+  }
+}
+
+/// Annotations of an image in the order of scene_gt, which skips what is not seen.
+std::vector<const Json*> annotations_of(const ImageFiles& image, Findings& findings) {
+  std::vector<const Json*> by_entry(image.info.size(), nullptr);
+  if (!image.annotations) return by_entry;
+  std::vector<const Json*> here;
+  for (const Json& annotation : image.annotations->at("annotations"))
+    if (annotation.at("image_id") == image.place.image) here.push_back(&annotation);
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < image.info.size(); ++i)
+    if (image.info[i].at("px_count_visib") > 0) seen.push_back(i);
+  if (findings.expect(here.size() == seen.size(), "bop_coco", image.name(),
+                      "scene_gt_coco has " + std::to_string(here.size()) + " annotations for " +
+                          std::to_string(seen.size()) + " visible parts"))
+    for (std::size_t i = 0; i < seen.size(); ++i) by_entry[seen[i]] = here[i];
+  return by_entry;
+}
+
+void verify_image(const ImageFiles& image, const Json& scene, const std::map<int, BopModel>& models, Owners& owners,
+                  Findings& findings) {
+  const std::string where = image.name();
+  const Json &truth = image.truth, &info = image.info;
+  verify_pictures(image, findings);
   std::map<int, const Json*> parts;
   for (const Json& part : scene.at("parts"))
     if (part.at("pose").is_object()) parts[part.at("id")] = &part;
@@ -157,7 +204,8 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
   bool all_there = truth.size() == parts.size() && info.size() == parts.size() && listed.size() == parts.size();
   for (const auto& [id, part] : parts) all_there &= listed.count(id) == 1;
   if (!findings.expect(all_there, "bop_parts", where, "does not list the parts of the scene")) return;
-  const Pose camera_in_bin = pose_of(sensor.at("pose"));
+  const std::vector<const Json*> annotations = annotations_of(image, findings);
+  const Pose camera_in_bin = pose_of(image.sensor.at("pose"));
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const int id = truth[i].at("id");
     const std::string part = where + ", part " + std::to_string(id);
@@ -176,8 +224,9 @@ void verify_image(const fs::path& folder, const std::string& key, const Json& sc
                     part, "visib_fract is not the ratio of the counts");
     const bool none = info[i].at("bbox_visib") == Json({-1, -1, -1, -1});
     findings.expect(none == (seen == 0), "bop_unseen", part, "bbox_visib and px_count_visib do not agree");
-    verify_masks(folder, file + "_" + six_digits(i) + ".png", info[i], id, width, height, owners, findings);
-    if (seen > 0 && model != models.end()) verify_projection(truth[i], info[i], camera, model->second, part, findings);
+    verify_masks(image, i, annotations[i], owners, findings);
+    if (seen > 0 && model != models.end())
+      verify_projection(truth[i], info[i], image.camera, model->second, part, findings);
   }
 }
 
@@ -200,6 +249,55 @@ std::vector<std::array<double, 3>> read_vertices(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+struct Bounds3 {
+  Vec3 lower = Vec3::Constant(1e300), upper = Vec3::Constant(-1e300);
+  explicit Bounds3(const std::vector<std::array<double, 3>>& vertices) {
+    for (const auto& v : vertices) {
+      lower = lower.cwiseMin(Vec3(v[0], v[1], v[2]));
+      upper = upper.cwiseMax(Vec3(v[0], v[1], v[2]));
+    }
+  }
+};
+
+bool info_fits(const Json& model, const std::vector<std::array<double, 3>>& vertices) {
+  const Bounds3 bounds(vertices);
+  const Vec3 size = bounds.upper - bounds.lower;
+  const double diameter = model.value("diameter", 0.0);
+  bool good = !vertices.empty() && diameter >= size.maxCoeff() * 0.999 && diameter <= size.norm() * 1.001 &&
+              std::abs(model.value("size_x", 0.0) - size.x()) < 1e-3 * diameter &&
+              std::abs(model.value("min_z", 0.0) - bounds.lower.z()) < 1e-3 * diameter;
+  for (const Json& symmetry : model.value("symmetries_discrete", Json::array())) {
+    Mat3 turn;
+    for (int i = 0; i < 9; ++i) turn(i / 3, i % 3) = symmetry.at(static_cast<std::size_t>(4 * (i / 3) + i % 3));
+    good &= (turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6;
+  }
+  return good;
+}
+
+std::string model_path(const fs::path& models, const std::string& id) {
+  return (models / ("obj_" + six_digits(std::stoul(id)) + ".ply")).string();
+}
+
+/// models_eval: the same objects, as large, with the same models_info.json.
+void verify_evaluation_models(const fs::path& folder, const Json& info, const std::map<int, BopModel>& models,
+                              Findings& findings) {
+  const auto own = json_in(folder / "models_info.json");
+  findings.expect(own == info, "model_eval", folder.string(), "models_info.json is not that of models");
+  verify_files(folder, findings);
+  for (const auto& [id, model] : models) {
+    const std::string path = model_path(folder, std::to_string(id));
+    const Bounds3 whole(model.vertices), resampled(fs::exists(path) ? read_vertices(path) : decltype(model.vertices)());
+    const double size = (whole.upper - whole.lower).norm();
+    findings.expect((whole.lower - resampled.lower).norm() < evaluation_spacing * size &&
+                        (whole.upper - resampled.upper).norm() < evaluation_spacing * size,
+                    "model_eval", path, "is missing, or has not the size of the model");
+  }
+}
+
+}  // namespace
+
 std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findings) {
   const fs::path models = folder.root / "bop" / "models";
   std::map<int, BopModel> all;
@@ -208,49 +306,86 @@ std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findin
     return all;
   verify_files(models, findings);
   for (const auto& [key, model] : info->items()) {
-    const std::string path = (models / ("obj_" + six_digits(std::stoul(key)) + ".ply")).string();
+    const std::string path = model_path(models, key);
     const auto vertices = fs::exists(path) ? read_vertices(path) : std::vector<std::array<double, 3>>();
-    Vec3 lower = Vec3::Constant(1e300), upper = -lower;
-    for (const auto& v : vertices) {
-      lower = lower.cwiseMin(Vec3(v[0], v[1], v[2]));
-      upper = upper.cwiseMax(Vec3(v[0], v[1], v[2]));
-    }
-    const Vec3 size = upper - lower;
-    const double diameter = model.value("diameter", 0.0);
-    bool good = !vertices.empty() && diameter >= size.maxCoeff() * 0.999 && diameter <= size.norm() * 1.001 &&
-                std::abs(model.value("size_x", 0.0) - size.x()) < 1e-3 * diameter &&
-                std::abs(model.value("min_z", 0.0) - lower.z()) < 1e-3 * diameter;
-    for (const Json& symmetry : model.value("symmetries_discrete", Json::array())) {
-      Mat3 turn;
-      for (int i = 0; i < 9; ++i) turn(i / 3, i % 3) = symmetry.at(static_cast<std::size_t>(4 * (i / 3) + i % 3));
-      good &= (turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6;
-    }
-    findings.expect(good, "model_info", path, "models_info does not fit the model");
+    findings.expect(info_fits(model, vertices), "model_info", path, "models_info does not fit the model");
     all[std::stoi(key)].vertices = vertices;
   }
+  verify_evaluation_models(folder.root / "bop" / "models_eval", *info, all, findings);
   return all;
 }
+
+namespace {
+
+/// The JSON files of one sensor.
+struct SensorFiles {
+  std::optional<Json> camera, truth, info, coco;
+};
+
+SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coco, std::size_t images,
+                     Findings& findings) {
+  SensorFiles files{json_in(folder / ("scene_camera" + suffix + ".json")),
+                    json_in(folder / ("scene_gt" + suffix + ".json")),
+                    json_in(folder / ("scene_gt_info" + suffix + ".json")),
+                    {}};
+  const bool good = files.camera && files.truth && files.info && files.camera->size() == images &&
+                    files.truth->size() == images && files.info->size() == images;
+  if (!findings.expect(good, "bop_json", folder.string() + suffix,
+                       "JSON files are missing, damaged or of different images"))
+    return {};
+  if (coco) {
+    files.coco = json_in(folder / ("scene_gt_coco" + suffix + ".json"));
+    findings.expect(files.coco.has_value() && files.coco->contains("annotations") &&
+                        files.coco->value("images", Json::array()).size() == images,
+                    "bop_coco", folder.string() + suffix, "scene_gt_coco is missing, damaged or of other images");
+  }
+  return files;
+}
+
+std::vector<Sensor> sensors_in(const Json& scene) {
+  std::vector<Sensor> sensors;
+  for (const Json& sensor : scene.at("sensors")) {
+    sensors.emplace_back();
+    sensors.back().name = sensor.at("name");
+    sensors.back().view_of = sensor.value("view_of", "");
+  }
+  return sensors;
+}
+
+}  // namespace
 
 void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, const Json& scene,
                 const std::map<int, BopModel>& models, Findings& findings) {
   const fs::path path = folder.bop(facts, number);
-  const auto camera = json_in(path / "scene_camera.json"), truth = json_in(path / "scene_gt.json"),
-             info = json_in(path / "scene_gt_info.json");
-  const bool good = camera && truth && info && camera->size() == truth->size() && truth->size() == info->size();
-  if (!findings.expect(good, "bop_json", path.string(), "JSON files are missing, damaged or of different images"))
-    return;
   try {
-    for (const auto& [key, entry] : camera->items()) {
+    const std::vector<BopPlace> places = bop_places(facts.bop, sensors_in(scene), facts.split_of_scene(number));
+    std::map<std::string, std::size_t> images;  // by suffix
+    for (const BopPlace& place : places) ++images[place.suffix];
+    std::map<std::string, SensorFiles> files;
+    for (const auto& [suffix, count] : images)
+      files[suffix] = files_of(path, suffix, facts.bop.kind == BopLayout::Kind::industrial, count, findings);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const BopPlace& place = places[n];
+      const SensorFiles& of_sensor = files.at(place.suffix);
+      if (!of_sensor.camera) continue;
+      const std::string key = std::to_string(place.image);
+      const ImageFiles image{path,
+                             place,
+                             scene.at("sensors").at(n),
+                             of_sensor.camera->at(key),
+                             of_sensor.truth->at(key),
+                             of_sensor.info->at(key),
+                             of_sensor.coco ? &*of_sensor.coco : nullptr};
       Owners owners;
-      verify_image(path, key, scene, entry, truth->at(key), info->at(key), models, owners, findings);
+      verify_image(image, scene, models, owners, findings);
       if (facts.tolerance > 0.0 || owners.part.empty()) continue;
-      const std::string where = path.string() + ", image " + key;
-      findings.expect(owners.twice == 0, "bop_disjoint", where,
+      findings.expect(owners.twice == 0, "bop_disjoint", image.name(),
                       std::to_string(owners.twice) + " pixels are visible of several parts");
       if (!facts.wants("png")) continue;
-      const auto labels = true_labels(folder.scene(number), scene.at("sensors").at(std::stoul(key)));
+      const auto labels = true_labels(folder.scene(number), image.sensor);
       if (labels)
-        findings.expect(owners.part == labels->samples, "bop_labels", where, "masks are not where the true labels are");
+        findings.expect(owners.part == labels->samples, "bop_labels", image.name(),
+                        "masks are not where the true labels are");
     }
   } catch (const std::exception& error) {
     findings.expect(false, "bop_json", path.string(), error.what());

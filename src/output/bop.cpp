@@ -1,42 +1,24 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "core/in_parallel.hpp"
 #include "output/bop_image.hpp"
 #include "output/bop_visibility.hpp"
 #include "output/boxes.hpp"
-#include "output/tiff.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <set>
 
 namespace bin_scenes {
-
-namespace fs = std::filesystem;
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double millimetres = 1e3;
-
-std::string six_digits(std::size_t number) {
-  char text[24];
-  std::snprintf(text, sizeof(text), "%06zu", number);
-  return text;
-}
-
 Json row_major(const Mat3& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
-}
-Json in_mm(const Vec3& v) {
-  return {millimetres * v.x(), millimetres * v.y(), millimetres * v.z()};
 }
 
 /// Parts that have a pose, each at the place of its id as far as ids go without a gap; the last ones fill the gaps.
@@ -70,13 +52,11 @@ std::vector<std::uint8_t> gray_of(const RangeImage& image) {
   return gray;
 }
 
-void make_directory(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions");
-}
-
 }  // namespace
+
+nlohmann::ordered_json in_mm(const Vec3& v) {
+  return {millimetres * v.x(), millimetres * v.y(), millimetres * v.z()};
+}
 
 const char* const bop_misfit_remedy =
     "change the request's sensors (rectified images have distortion 0), or leave such outputs out";
@@ -121,7 +101,7 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
                 {"cam_R_w2c", row_major(bin_in_camera.orientation.toRotationMatrix())},
                 {"cam_t_w2c", in_mm(bin_in_camera.position)}};
   bop.width = image.width, bop.height = image.height;
-  bop.depth = png16(image.width, image.height, counts);
+  bop.counts = counts;
   bop.gray = gray_of(image);
   bop.seen = &image;
   const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
@@ -171,87 +151,6 @@ std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModel
   std::vector<BopImage> all;
   for (const RangeImage& image : images) all.push_back(bop_image(places, parts, image, options));
   return all;
-}
-
-void write_bop(const std::string& directory, const std::vector<BopImage>& images) {
-  const fs::path root(directory);
-  for (const char* folder : {"depth", "gray", "mask_visib"}) make_directory(root / folder);
-  Json camera = Json::object(), truth = Json::object(), info = Json::object();
-  for (std::size_t n = 0; n < images.size(); ++n) {
-    const BopImage& image = images[n];
-    const std::string key = std::to_string(n), file = six_digits(n);
-    const bool whole_known = image.whole.size() == image.ids.size();
-    if (whole_known) make_directory(root / "mask");
-    camera[key] = image.camera;
-    truth[key] = image.truth;
-    info[key] = image.info;
-    write_bytes((root / "depth" / (file + ".png")).string(), image.depth);
-    write_bytes((root / "gray" / (file + ".tiff")).string(), gray_tiff(image.width, image.height, image.gray));
-    for (std::size_t i = 0; i < image.ids.size(); ++i) {
-      const Bytes seen = mask_png(image.width, image.height, image.visible[i]);
-      const Bytes whole = whole_known ? mask_png(image.width, image.height, image.whole[i]) : Bytes();
-      for (const std::size_t number : std::set<std::size_t>{i, static_cast<std::size_t>(image.ids[i])}) {
-        const std::string name = file + "_" + six_digits(number) + ".png";
-        write_bytes((root / "mask_visib" / name).string(), seen);
-        if (!whole.empty()) write_bytes((root / "mask" / name).string(), whole);
-      }
-    }
-  }
-  write_text((root / "scene_camera.json").string(), camera.dump(1) + "\n");
-  write_text((root / "scene_gt.json").string(), truth.dump(1) + "\n");
-  write_text((root / "scene_gt_info.json").string(), info.dump(1) + "\n");
-}
-
-void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
-               const std::vector<RangeImage>& images) {
-  write_bop(directory, bop_images(scene, parts, images, {}));
-}
-
-namespace {
-
-/// Entry of models_info.json, mm.
-Json model_info(const PartModel& part, const Symmetries& symmetries) {
-  const Aabb box = part.mesh().bounds();
-  const Vec3 lower = millimetres * box.lower, size = millimetres * box.size();
-  Json info = {{"diameter", millimetres * diameter(part.mesh())},
-               {"min_x", lower.x()},
-               {"min_y", lower.y()},
-               {"min_z", lower.z()},
-               {"size_x", size.x()},
-               {"size_y", size.y()},
-               {"size_z", size.z()}};
-  for (const Pose& turn : symmetries.discrete) {
-    const Mat3 r = turn.orientation.toRotationMatrix();
-    const Vec3 t = millimetres * turn.position;
-    info["symmetries_discrete"].push_back({r(0, 0), r(0, 1), r(0, 2), t.x(), r(1, 0), r(1, 1), r(1, 2), t.y(), r(2, 0),
-                                           r(2, 1), r(2, 2), t.z(), 0.0, 0.0, 0.0, 1.0});
-  }
-  for (const Symmetries::Axis& axis : symmetries.continuous)
-    info["symmetries_continuous"].push_back(
-        {{"axis", {axis.direction.x(), axis.direction.y(), axis.direction.z()}}, {"offset", in_mm(axis.point)}});
-  return info;
-}
-
-}  // namespace
-
-std::string bop_model_info(const PartModel& part, const Symmetries& symmetries) {
-  return model_info(part, symmetries).dump();
-}
-
-void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
-                      const std::vector<Symmetries>& given) {
-  const fs::path models(directory);
-  make_directory(models);
-  const std::vector<int> ids = bop_object_ids(parts);
-  Json info = Json::object();
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string id = std::to_string(ids[i]);
-    if (info.contains(id)) continue;
-    const Mesh& mesh = parts[i]->mesh();
-    write_ply((models / ("obj_" + six_digits(ids[i]) + ".ply")).string(), mesh, millimetres);
-    info[id] = model_info(*parts[i], i < given.size() ? given[i] : find_symmetries(*parts[i]));
-  }
-  write_text((models / "models_info.json").string(), info.dump(1) + "\n");
 }
 
 }  // namespace bin_scenes

@@ -2,6 +2,7 @@
 /// shards.
 #pragma once
 
+#include "bin_scenes/output/bop_layout.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "output/mask_png.hpp"
 #include "output/png.hpp"
@@ -13,12 +14,15 @@
 
 namespace bin_scenes {
 
+constexpr double millimetres = 1e3;  ///< BOP's unit, a metre
+nlohmann::ordered_json in_mm(const Vec3& v);
+
 struct BopImage {
   nlohmann::ordered_json camera;  ///< entry of scene_camera.json
   nlohmann::ordered_json truth;   ///< list of scene_gt.json, one entry a part
   nlohmann::ordered_json info;    ///< list of scene_gt_info.json
   int width = 0, height = 0;
-  Bytes depth;  ///< PNG
+  std::vector<std::uint16_t> counts;  ///< depth, in counts of depth_scale
   std::vector<std::uint8_t> gray;
   const RangeImage* seen = nullptr;  ///< for its true labels and normals; has to outlive this
   std::vector<int> ids;              ///< of the parts, by entry
@@ -29,8 +33,16 @@ struct BopImage {
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
                                  const std::vector<RangeImage>& images, const BopOptions& options);
 
-/// The scene's folder of BOP's layout by scenes.
-void write_bop(const std::string& directory, const std::vector<BopImage>& images);
+/// The scene's folder of BOP's layout by scenes. `objects`: how many models the data set has.
+void write_bop(const std::string& directory, const std::vector<BopImage>& images, const BopLayout& layout = {},
+               const std::string& split = "train", std::size_t objects = 0);
+
+/// scene_gt_coco.json, as bop_toolkit's calc_gt_coco writes it, with boxes of whole silhouettes.
+/// @param places  of the images, all of one sensor
+nlohmann::ordered_json bop_coco(const std::vector<const BopImage*>& images, const std::vector<BopPlace>& places,
+                                std::size_t objects);
+
+std::string six_digits(std::size_t number);
 
 /// Samples of BOP's layout by images, to be packed into shards: {scene:06d}_{image:06d}.{depth.png, gray.tiff,
 /// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, and beside BOP's files truth_labels.png and

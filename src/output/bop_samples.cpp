@@ -52,8 +52,8 @@ void write_bop_samples(const std::string& directory, std::size_t scene, const st
     char key[48];
     std::snprintf(key, sizeof key, "%06zu_%06zu.", scene, n);
     const std::string base = (std::filesystem::path(directory) / key).string();
-    write_bytes(base + "depth.png", image.depth);
-    write_bytes(base + "gray.tiff", gray_tiff(image.width, image.height, image.gray));
+    write_bytes(base + "depth.png", png16(image.width, image.height, image.counts));
+    write_bytes(base + "gray.tiff", tiff8(image.width, image.height, 1, image.gray));
     write_bytes(base + "truth_labels.png", png16(image.width, image.height, image.seen->seen_label()));
     write_bytes(base + "truth_normal.png",
                 png8(image.width, image.height, 3, counted_normals(image.seen->seen_normal())));

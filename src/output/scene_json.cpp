@@ -64,6 +64,7 @@ Json json_of(const Sensor& sensor) {
                {"far", sensor.far},
                {"depth_scale", sensor.depth_scale},
                {"noise", sensor.noise}};
+  if (!sensor.view_of.empty()) json["view_of"] = sensor.view_of;
   if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
     const Projector& p = sensor.projector;
     json["projector"] = {{"pose", json_of(p.pose.value_or(Pose()))},
@@ -80,6 +81,10 @@ Json json_of(const Sensor& sensor) {
 Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<PartModelPtr>& models) {
   const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
   const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  std::vector<std::size_t> measured(image.visible.size(), 0);
+  if (image.label.size() == image.seen_label().size())  // else profiles of a laser, which are no view
+    for (std::size_t i = 0; i < image.label.size(); ++i)
+      if (image.label[i] != 0 && image.label[i] == image.seen_label()[i]) ++measured.at(image.label[i] - 1u);
   Json truth = Json::array();
   for (const ScenePart& part : scene.parts) {
     if (!is_there(part.state) || !part.pose.finite()) continue;
@@ -92,6 +97,7 @@ Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<Par
                      {"bbox_visib", boxes.at(id).xywh()},
                      {"bbox_obj", whole.xywh()},
                      {"px_count_visib", image.visible.at(id)},
+                     {"px_count_measured", measured.at(id)},
                      {"px_count_all", image.total.at(id)}});
   }
   return truth;

@@ -37,9 +37,8 @@ Number number_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-}  // namespace
-
-Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples) {
+/// `samples`: little-endian, as the header says.
+Bytes encode(int width, int height, int channels, int bits, const std::vector<std::uint8_t>& samples) {
   uLongf size = compressBound(static_cast<uLong>(samples.size()));
   Bytes packed(size);
   if (compress2(packed.data(), &size, samples.data(), static_cast<uLong>(samples.size()), 1) != Z_OK)
@@ -48,33 +47,51 @@ Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples)
   if (packed.size() % 2 != 0) packed.push_back(0);  // what follows begins at an even byte
   struct Entry {
     std::uint16_t tag, type;
-    std::uint32_t value;
+    std::uint32_t count, value;
   };
   constexpr std::uint16_t shorts = 3, longs = 4;
-  const std::vector<Entry> entries = {{columns, longs, static_cast<std::uint32_t>(width)},
-                                      {rows, longs, static_cast<std::uint32_t>(height)},
-                                      {sample_bits, shorts, 8},
-                                      {packing, shorts, 8},  // deflate
-                                      {meaning, shorts, 1},  // 0 is black
-                                      {strip_begin, longs, 8},
-                                      {samples_a_pixel, shorts, 1},
-                                      {strip_rows, longs, static_cast<std::uint32_t>(height)},
-                                      {strip_bytes, longs, static_cast<std::uint32_t>(size)}};
+  const auto many = static_cast<std::uint32_t>(channels);
+  // Three numbers of bits do not fit into their entry: they lie between the image and the directory.
+  const std::uint32_t bits_at = 8 + static_cast<std::uint32_t>(packed.size());
+  const std::uint32_t directory = bits_at + (channels > 1 ? 2 * many : 0);
+  const std::vector<Entry> entries = {{columns, longs, 1, static_cast<std::uint32_t>(width)},
+                                      {rows, longs, 1, static_cast<std::uint32_t>(height)},
+                                      {sample_bits, shorts, many, channels > 1 ? bits_at : std::uint32_t(bits)},
+                                      {packing, shorts, 1, 8},                       // deflate
+                                      {meaning, shorts, 1, channels > 1 ? 2u : 1u},  // RGB, or 0 is black
+                                      {strip_begin, longs, 1, 8},
+                                      {samples_a_pixel, shorts, 1, many},
+                                      {strip_rows, longs, 1, static_cast<std::uint32_t>(height)},
+                                      {strip_bytes, longs, 1, static_cast<std::uint32_t>(size)}};
   Bytes bytes = {'I', 'I', 42, 0};
-  put(bytes, static_cast<std::uint32_t>(8 + packed.size()));
+  put(bytes, directory);
   bytes.insert(bytes.end(), packed.begin(), packed.end());
+  for (int i = 0; channels > 1 && i < channels; ++i) put(bytes, static_cast<std::uint16_t>(bits));
   put(bytes, static_cast<std::uint16_t>(entries.size()));
   for (const Entry& entry : entries) {
     put(bytes, entry.tag);
     put(bytes, entry.type);
-    put(bytes, std::uint32_t{1});
+    put(bytes, entry.count);
     put(bytes, entry.value);
   }
   put(bytes, std::uint32_t{0});
   return bytes;
 }
 
-LoadedImage load_gray_tiff(const std::string& path) {
+}  // namespace
+
+Bytes tiff8(int width, int height, int channels, const std::vector<std::uint8_t>& samples) {
+  return encode(width, height, channels, 8, samples);
+}
+
+Bytes tiff16(int width, int height, const std::vector<std::uint16_t>& samples) {
+  Bytes little_endian;
+  little_endian.reserve(2 * samples.size());
+  for (const std::uint16_t sample : samples) put(little_endian, sample);
+  return encode(width, height, 1, 16, little_endian);
+}
+
+LoadedImage load_tiff(const std::string& path) {
   const std::string bytes = read_file(path);
   std::map<std::uint16_t, std::uint32_t> tags;
   const std::size_t directory = number_at<std::uint32_t>(bytes, 4);
@@ -86,16 +103,20 @@ LoadedImage load_gray_tiff(const std::string& path) {
   LoadedImage image;
   image.width = static_cast<int>(tags[columns]);
   image.height = static_cast<int>(tags[rows]);
-  const std::size_t begin = tags[strip_begin], size = tags[strip_bytes];
-  std::string plain(std::size_t{tags[columns]} * tags[rows], '\0');
+  image.channels = static_cast<int>(tags[samples_a_pixel]);
+  image.bits = image.channels == 1 ? static_cast<int>(tags[sample_bits])
+                                   : static_cast<int>(number_at<std::uint16_t>(bytes, tags[sample_bits]));
+  const std::size_t begin = tags[strip_begin], size = tags[strip_bytes], wide = image.bits == 16 ? 2 : 1;
+  std::string plain(std::size_t{tags[columns]} * tags[rows] * tags[samples_a_pixel] * wide, '\0');
   uLongf length = plain.size();
   const bool there = bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size();
   if (!there ||
       uncompress(reinterpret_cast<Bytef*>(plain.data()), &length, reinterpret_cast<const Bytef*>(bytes.data() + begin),
                  size) != Z_OK ||
       length != plain.size())
-    throw input_error("is no whole grey TIFF", path, "make the scene anew");
-  for (const char sample : plain) image.samples.push_back(static_cast<std::uint8_t>(sample));
+    throw input_error("is no whole TIFF of this project", path, "make the scene anew");
+  for (std::size_t i = 0; i < plain.size(); i += wide)
+    image.samples.push_back(wide == 2 ? number_at<std::uint16_t>(plain, i) : static_cast<std::uint8_t>(plain[i]));
   return image;
 }
 

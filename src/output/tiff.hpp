@@ -1,4 +1,4 @@
-/// Grey images of BOP's layouts, whose readers want them as TIFF.
+/// TIFF images of BOP's layouts, whose readers want grey images, and those of one data set all images, in that format.
 #pragma once
 
 #include "output/png.hpp"
@@ -8,9 +8,11 @@
 
 namespace bin_scenes {
 
-/// 8-bit grey TIFF of one strip, deflated.
-Bytes gray_tiff(int width, int height, const std::vector<std::uint8_t>& samples);
-/// A file of gray_tiff(). Throws an input Error that names the path.
-LoadedImage load_gray_tiff(const std::string& path);
+/// One strip, deflated; 8 bits a sample, `channels` (1 = grey, 3 = RGB) a pixel.
+Bytes tiff8(int width, int height, int channels, const std::vector<std::uint8_t>& samples);
+/// The same of 16 bits, grey.
+Bytes tiff16(int width, int height, const std::vector<std::uint16_t>& samples);
+/// A file of tiff8() or tiff16(). Throws an input Error that names the path.
+LoadedImage load_tiff(const std::string& path);
 
 }  // namespace bin_scenes

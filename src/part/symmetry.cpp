@@ -17,7 +17,6 @@ constexpr std::size_t many_vertices = 10000;  ///< that leave no part of a surfa
 constexpr std::size_t most_normals = 32;      ///< of faces, the largest ones
 constexpr std::size_t most_far = 16;          ///< vertices
 constexpr int highest_order = 100;            ///< of a discrete symmetry
-constexpr int highest_near = 12;              ///< order of what is told as nearly a symmetry
 constexpr double nearly = 3.0;                ///< times the limit
 constexpr double none = std::numeric_limits<double>::infinity();
 
@@ -85,35 +84,34 @@ class Search {
     return {direction, 1, 0.0};
   }
 
-  /// The highest order that the axis nearly has; order 1: none.
+  /// The highest order that the axis nearly has, by points all over the part; order 1: none.
   SymmetryReport::Nearly examine_nearly(const Vec3& direction) const {
-    const double cap = nearly * limit_;
-    const auto worst = [&](const std::vector<double>& angles) {
-      double error = 0.0;
-      for (const double angle : angles) {
-        if (error == none) break;
-        const Quat turn(Eigen::AngleAxisd(angle, direction));
-        if (this->error(some_, turn, cap) == none) return none;
-        error = std::max(error, this->error(all_, turn, cap));
-      }
-      return error;
-    };
-    const double round = worst({1.0, 0.37, 2.3});
-    if (round < none) return {direction, 0, round};
-    for (int n = highest_near; n > 1; --n) {
-      std::vector<double> angles;
-      for (int k = 1; k <= n / 2; ++k) angles.push_back(2.0 * M_PI * k / n);
-      const double error = worst(angles);
+    for (const int n : {0, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2}) {
+      const double error = error_of(some_, direction, n);
       if (error < none) return {direction, n, error};
     }
     return {direction, 1, 0.0};
   }
+  /// Its error by every point; infinite beyond what counts as nearly.
+  double exact_error(const SymmetryReport::Nearly& axis) const { return error_of(all_, axis.direction, axis.order); }
 
   Pose about_center(const Quat& turn) const { return {center_ - turn * center_, turn}; }
   const Vec3& center() const { return center_; }
   double limit() const { return limit_; }
 
  private:
+  /// Of the turns of an order, 0: any angle; infinite beyond what counts as nearly.
+  double error_of(const std::vector<Vec3>& points, const Vec3& direction, int order) const {
+    std::vector<double> angles = {1.0, 0.37, 2.3};
+    if (order > 0) angles.clear();
+    for (int k = 1; k <= order / 2; ++k) angles.push_back(2.0 * M_PI * k / order);
+    double worst = 0.0;
+    for (const double angle : angles) {
+      worst = std::max(worst, error(points, Quat(Eigen::AngleAxisd(angle, direction)), nearly * limit_));
+      if (worst == none) break;
+    }
+    return worst;
+  }
   double error(const std::vector<Vec3>& points, const Quat& turn, double cap) const {
     double worst = 0.0;
     for (const Vec3& point : points) {
@@ -274,6 +272,30 @@ void thin_out(std::vector<SymmetryReport::Nearly>& nearly, const std::vector<Axi
   nearly = kept;
 }
 
+/// Whether an axis can tell nothing that those found do not tell. Across a round axis one direction is as good as any
+/// other, and beside it there is none. Across an axis of order n, above 4, lie axes of order 2 alone, pi / n apart: one
+/// tells where all are. (Order 4 has others across it in a cube.)
+bool is_implied(const Vec3& direction, const std::vector<Axis>& axes, const std::vector<Vec3>& examined) {
+  constexpr double across = 0.02;  // rad, nearly
+  const auto is_across = [&](const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) < across; };
+  for (const Axis& main : axes) {
+    if (main.order == 0) {
+      if (!is_across(main.direction, direction)) return true;
+      if (std::any_of(examined.begin(), examined.end(), [&](const Vec3& e) { return is_across(main.direction, e); }))
+        return true;
+    }
+    if (main.order < 5 || !is_across(main.direction, direction)) continue;
+    for (const Axis& other : axes) {
+      if (other.order != 2 || !is_across(main.direction, other.direction)) continue;
+      const double angle =
+          std::atan2(main.direction.dot(other.direction.cross(direction)), other.direction.dot(direction));
+      const double apart = M_PI / main.order;
+      if (std::abs(std::remainder(angle, apart)) < std::min(across, 0.1 * apart)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
@@ -282,10 +304,13 @@ SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
   const Search search(part, tolerance);
   report.limit = search.limit();
   std::vector<Axis> axes;
+  std::vector<Vec3> examined;
   for (const Vec3& direction : candidates(part)) {
     const auto along = [&](const auto& axis) { return std::abs(axis.direction.dot(direction)) > 0.999; };
     const auto known = std::find_if(axes.begin(), axes.end(), along);
     if (known != axes.end() && known->order == 0) continue;
+    if (known == axes.end() && is_implied(direction, axes, examined)) continue;
+    examined.push_back(direction);
     const Axis axis = search.examine(direction);
     if (known != axes.end()) {
       // Of axes within the tolerance of each other one is meant: the more exact one.
@@ -309,6 +334,9 @@ SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
     report.continuous_error.push_back(axis.error);
   }
   thin_out(report.nearly, axes, group);
+  for (SymmetryReport::Nearly& axis : report.nearly) axis.error = search.exact_error(axis);
+  const auto far = [](const SymmetryReport::Nearly& axis) { return axis.error == none; };
+  report.nearly.erase(std::remove_if(report.nearly.begin(), report.nearly.end(), far), report.nearly.end());
   std::vector<Quat> turns = group.turns();
   if (!found.continuous.empty()) {
     // Around a round axis one half turn across it says all: the others are that one, turned about the axis.

@@ -69,6 +69,17 @@ std::vector<Overlapping> overlapping_pairs(const std::vector<Placed>& placed) {
   return pairs;
 }
 
+std::vector<double> depths_in_bin(const std::vector<Placed>& placed, const Bin& bin, const MeshQuery* bin_mesh) {
+  std::vector<double> depths(placed.size(), 0.0);
+  in_parallel(placed.size(), [&](std::size_t i) {
+    const ScenePart& part = *placed[i].part;
+    if (part.state == PartState::fixed || part.state == PartState::escaped) return;
+    if (inside_walls(placed[i].box, bin)) return;
+    depths[i] = bin_penetration(*placed[i].query, part.pose, bin, bin_mesh).depth;
+  });
+  return depths;
+}
+
 /// The largest of some figures, and of what it is; the first of equal ones.
 template <class What>
 struct Worst {
@@ -127,13 +138,8 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
 
   // Overlap with the bin.
   const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
-  std::vector<double> into_bin(placed.size(), 0.0), bin_depths;
-  in_parallel(placed.size(), [&](std::size_t i) {
-    const ScenePart& part = *placed[i].part;
-    if (part.state == PartState::fixed || part.state == PartState::escaped) return;
-    if (inside_walls(placed[i].box, request.bin)) return;
-    into_bin[i] = bin_penetration(*placed[i].query, part.pose, request.bin, bin_mesh).depth;
-  });
+  const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
+  std::vector<double> bin_depths;
   Worst<int> deepest_in_bin{0.0, -1}, worst_in_bin;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     deepest_in_bin.add(into_bin[i], placed[i].part->id);
@@ -203,6 +209,26 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
                              (moving == 1 ? " part moving" : " parts moving"));
   }
   report.accepted = report.reasons.empty();
+}
+
+std::vector<PartQuality> part_quality(const Scene& scene, const Request& request,
+                                      const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model) {
+  const std::vector<Placed> placed = placed_parts(scene, parts);
+  const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
+  const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
+  const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
+  const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+  std::vector<PartQuality> all;
+  for (std::size_t i = 0; i < placed.size(); ++i) all.push_back({placed[i].part->id, 0.0, 0.0, into_bin[i], ways[i]});
+  for (const Overlapping& pair : overlaps) {
+    const double depth = pair.found.depth, unit = std::min(placed[pair.a].diagonal, placed[pair.b].diagonal);
+    if (depth <= noise * unit) continue;
+    for (PartQuality* part : {&all[pair.a], &all[pair.b]}) {
+      part->overlap = std::max(part->overlap, depth);
+      part->overlap_relative = std::max(part->overlap_relative, depth / unit);
+    }
+  }
+  return all;
 }
 
 DriftReport drift(const Scene& before, const Scene& after, const std::vector<PartModelPtr>& parts) {

@@ -33,6 +33,7 @@ int inspect(const InspectOptions& options);
 struct SymmetriesOptions {
   std::string model, unit;
   std::optional<double> tolerance_mm;  ///< none: a hundredth of the part's size
+  std::string picture;                 ///< PNG file; empty: none
   bool json = false;
 };
 int symmetries(const SymmetriesOptions& options);
@@ -64,6 +65,12 @@ struct MergeOptions {
 };
 int dataset_merge(const MergeOptions& options);
 
+struct ToolkitOptions {
+  std::string directory, name;
+};
+/// What bop_toolkit has to be told of a data set, for people to paste.
+int dataset_toolkit(const ToolkitOptions& options);
+
 struct SubmitOptions {
   std::string plan, out;
   std::size_t shares = 4, cpus = 1;
@@ -71,6 +78,16 @@ struct SubmitOptions {
   bool slurm = false;
 };
 int dataset_submit(const SubmitOptions& options);
+
+struct AuditOptions {
+  std::string directory, sensor, models;
+  std::string bin, up;          ///< "x,y,z"; empty: not given
+  std::optional<double> floor;  ///< m
+  std::size_t most = 0;         ///< heaps; 0: all
+  std::string out;              ///< HTML file; empty: none
+  bool json = false;
+};
+int audit(const AuditOptions& options);
 
 struct ReportOptions {
   std::string directory;

@@ -1,4 +1,5 @@
 #include "bin_scenes/config/plan.hpp"
+#include "dataset/bop_root.hpp"
 #include "dataset/merge.hpp"
 #include "dataset/run.hpp"
 #include "dataset/slurm.hpp"
@@ -146,6 +147,16 @@ int dataset_merge(const MergeOptions& options) {
   if (merged.missing == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu heaps are in no share; make them, and merge again\n", merged.missing);
   return exit_set_apart;
+}
+
+int dataset_toolkit(const ToolkitOptions& options) {
+  const bool good = !options.name.empty() &&
+                    options.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == std::string::npos;
+  if (!good)
+    throw input_error("'" + options.name + "' is no name that bop_toolkit reads back from a file of results", "--name",
+                      "small letters and digits");
+  std::printf("%s", toolkit_entry({options.directory}, options.name).c_str());
+  return exit_done;
 }
 
 int dataset_submit(const SubmitOptions& options) {

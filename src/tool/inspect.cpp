@@ -1,10 +1,12 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/symmetry.hpp"
 #include "tool/commands.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -104,6 +106,17 @@ Json proxies_json(const PartModel& part) {
             {"error", json_of(part.hull_error(hulls))}}}};
 }
 
+/// `bin_scenes symmetries` tells more.
+Json symmetries_json(const PartModel& part) {
+  const SymmetryReport report = examine_symmetries(part);
+  std::vector<double> errors = report.discrete_error;
+  errors.insert(errors.end(), report.continuous_error.begin(), report.continuous_error.end());
+  return {{"round_axes", report.symmetries.continuous.size()},
+          {"discrete", report.symmetries.discrete.size()},
+          {"residual", errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end())},
+          {"nearly", report.nearly.size()}};
+}
+
 Json inspection(const InspectOptions& options) {
   LoadOptions load;
   load.require_closed = false;
@@ -129,6 +142,7 @@ Json inspection(const InspectOptions& options) {
   json["open_edges"] = report.open_edges;
   if (report.closed) {  // an open surface has no volume, and nothing can be made of it
     json["mass_properties"] = mass_json(part->mass());
+    json["symmetries"] = symmetries_json(*part);
     json["proxies"] = proxies_json(*part);
     if (!options.hulls.empty()) write_hulls_obj(part->hulls(default_hulls()), options.hulls);
   } else if (!options.hulls.empty()) {
@@ -174,6 +188,10 @@ void print_text(const Json& j) {
     std::printf("centre      %.6g %.6g %.6g m\n", number(c[0]), number(c[1]), number(c[2]));
     std::printf("moments     %.4g %.4g %.4g kg m2 at 1000 kg/m3\n", 1000 * number(p[0]), 1000 * number(p[1]),
                 1000 * number(p[2]));
+    const Json& s = j["symmetries"];
+    std::printf("symmetries  %zu round axes, %zu further turns, residual %.3g mm; nearly %zu (bin_scenes symmetries)\n",
+                s["round_axes"].get<std::size_t>(), s["discrete"].get<std::size_t>(), 1000 * number(s["residual"]),
+                s["nearly"].get<std::size_t>());
     const Json& x = j["proxies"];
     std::printf("proxies     errors in %% of the diagonal (%.4g m)\n", number(j["diagonal"]));
     print_error("spheres", std::to_string(x["spheres"]["count"].get<std::size_t>()), x["spheres"]["error"]);

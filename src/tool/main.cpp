@@ -53,6 +53,21 @@ void add_dataset(CLI::App& app, DatasetOptions& o) {
   app.add_flag("--json-progress", o.json_progress, "progress as lines of JSON on standard output");
 }
 
+void add_audit(CLI::App& app, AuditOptions& options) {
+  app.add_option("DIR", options.directory, "a data set, one of its splits, or one scene")->required();
+  app.add_option(
+      "--bin", options.bin,
+      "inner size x,y,z (m) of a bin around the world's origin, floor at z = 0; or fitted: as wide as each heap");
+  app.add_option("--floor", options.floor,
+                 "height (m) of a table; left out, without --bin: fitted to the lowest parts");
+  app.add_option("--up", options.up, "x,y,z: up in the set's world, or in the camera's frame where it tells no world");
+  app.add_option("--sensor", options.sensor, "of a set with several; left out: the first one");
+  app.add_option("--models", options.models, "folder of the models; left out: models beside or above the scenes");
+  app.add_option("--most", options.most, "heaps to audit; left out: all");
+  app.add_option("--out", options.out, "HTML file with the table and a histogram of each measure");
+  app.add_flag("--json", options.json, "as JSON");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Scenes of parts lying in a bin: poured, at rest, judged on their true meshes, seen by range cameras.");
   app.set_version_flag("--version", BIN_SCENES_VERSION);
@@ -77,6 +92,7 @@ int run(int argc, char** argv) {
   symmetries_app->add_option("--unit", symmetries_options.unit, "unit of the file: m, cm, mm or inch");
   symmetries_app->add_option("--tolerance", symmetries_options.tolerance_mm,
                              "mm that surfaces may lie apart; left out: a hundredth of the part's size");
+  symmetries_app->add_option("--picture", symmetries_options.picture, "PNG file of the part with its axes");
   symmetries_app->add_flag("--json", symmetries_options.json, "as JSON");
 
   SensorOptions sensor_options;
@@ -98,6 +114,12 @@ int run(int argc, char** argv) {
   merge_app->add_option("DIR", merge_options.shares, "directories of the shares")->required();
   merge_app->add_option("--out", merge_options.out, "directory of the whole data set")->required();
 
+  ToolkitOptions toolkit_options;
+  CLI::App* toolkit_app = dataset_app->add_subcommand(
+      "toolkit", "entry of the data set for dataset_params.py of bop_toolkit; DIR/bop is its folder there");
+  toolkit_app->add_option("DIR", toolkit_options.directory, "directory of the data set")->required();
+  toolkit_app->add_option("--name", toolkit_options.name, "name that bop_toolkit shall know it by")->required();
+
   SubmitOptions submit_options;
   CLI::App* submit_app = dataset_app->add_subcommand("submit", "make a data set on a cluster: submit, watch, merge");
   submit_app->add_flag("--slurm", submit_options.slurm, "by an array job of Slurm")->required();
@@ -117,6 +139,11 @@ int run(int argc, char** argv) {
   report_app->add_option("DIR", report_options.directory, "directory of the data set")->required();
   report_app->add_option("--out", report_options.out, "HTML file; left out: DIR/report.html");
 
+  AuditOptions audit_options;
+  CLI::App* audit_app = app.add_subcommand(
+      "audit", "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions");
+  add_audit(*audit_app, audit_options);
+
   CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
   CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
 
@@ -134,8 +161,10 @@ int run(int argc, char** argv) {
   if (sensor_app->parsed()) return sensor(sensor_options);
   if (verify_app->parsed()) return dataset_verify(verify_options);
   if (merge_app->parsed()) return dataset_merge(merge_options);
+  if (toolkit_app->parsed()) return dataset_toolkit(toolkit_options);
   if (submit_app->parsed()) return dataset_submit(submit_options);
   if (report_app->parsed()) return report(report_options);
+  if (audit_app->parsed()) return audit(audit_options);
   if (dataset_app->parsed()) return dataset(dataset_options);
   if (doctor_app->parsed()) return doctor();
   if (reference_app->parsed()) std::cout << request_reference();

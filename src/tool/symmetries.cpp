@@ -2,6 +2,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "tool/commands.hpp"
+#include "tool/symmetry_picture.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,7 @@ int symmetries(const SymmetriesOptions& options) {
   const SymmetryReport report = options.tolerance_mm
                                     ? examine_symmetries(*part, *options.tolerance_mm / millimetres / part->diagonal())
                                     : examine_symmetries(*part);
+  if (!options.picture.empty()) write_symmetry_picture(options.picture, part, report.symmetries);
   if (options.json)
     std::printf("%s\n", json_of(*part, report).dump(1).c_str());
   else

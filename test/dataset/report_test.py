@@ -3,6 +3,7 @@
 
     report_test.py TOOL [--keep PNG]
 """
+import json
 import os
 import re
 import shutil
@@ -42,6 +43,31 @@ class Report(DataSetTest):
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', page), [])
         self.assertIn("not at rest", page)
         self.assertIn("parts[0].friction", page)
+
+    def test_published_figures_stand_beside_those_of_the_images(self):
+        path = self.folder / self.plan(scenes=3, outputs="json, bop")
+        path.write_text(path.read_text().replace("    - {name: camera, width: 96, height: 72}", """    - {name: camera, model: structured_light,
+       width: 96, height: 72, fov: 0.6, projector: {baseline: 0.15, fov: 0.8}}"""))
+        self.make("plan.yaml", "out")
+        self.run_tool("report", "out")
+        page = (self.folder / "out/report.html").read_text()
+        data = json.loads(re.search(r'type="application/json">(.*?)</script>', page, re.S)[1].replace("<\\/", "</"))
+        here = {row[0]: row[1] for row in data["published"]}
+        seen, depths, shares = [], [], []
+        for scene in (self.folder / "out/scenes").iterdir():
+            sensor = json.loads((scene / "scene.json").read_text())["sensors"][0]
+            of_image = [part for part in sensor["truth"] if part["visible_fraction"] >= 0.1]
+            seen.append(len(of_image))
+            depths += [1e3 * part["pose_in_camera"]["position"][2] for part in of_image]
+            shares += [part["px_count_measured"] / part["px_count_visib"] for part in of_image]
+        self.assertEqual(here["camera: instances visible by 10 % and more, an image"], "%.1f" % (sum(seen) / len(seen)))
+        self.assertEqual(here["camera: depth of these instances"], "%.0f to %.0f mm" % (min(depths), max(depths)))
+        classes = [sum(s < 0.9 for s in shares), sum(0.9 <= s <= 0.99 for s in shares), sum(s > 0.99 for s in shares)]
+        self.assertEqual(here["camera: instances with depth in less than 0.90, up to 0.99, more of their visible pixels"],
+                         ", ".join("%.1f" % (100 * c / len(shares)) for c in classes) + " %")
+        self.assertLess(min(shares), 0.9, "structured light has gaps")
+        ideal = [value for name, value in here.items() if name.startswith("side: instances with depth")]
+        self.assertEqual(ideal, ["0.0, 0.0, 100.0 %"])
 
     @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
     def test_it_opens_in_a_browser_without_a_network(self):

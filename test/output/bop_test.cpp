@@ -67,7 +67,7 @@ TEST_F(Bop, CameraInfoMasksAndCountsBelongTogether) {
   EXPECT_EQ(camera.at("cam_K").get<std::vector<double>>(), image.sensor.k);
   const Png depth = read_png(path("depth/000000.png"));
   EXPECT_NEAR(depth.at(3, 0) * camera.at("depth_scale").get<double>(), 1e3 * image.depth[3], 0.05);
-  const LoadedImage gray = load_gray_tiff(path("gray/000000.tiff"));
+  const LoadedImage gray = load_tiff(path("gray/000000.tiff"));
   EXPECT_EQ(gray.width, 8);
   EXPECT_EQ(gray.height, 6);
   EXPECT_EQ(gray.samples.at(0), 128);

@@ -18,6 +18,7 @@ DEBIAN = {
     "gtest": ["libgtest-dev"],
     "libepoxy-dev": ["libepoxy-dev", "libegl-dev"],
     "libpcl-all-dev": ["libpcl-dev"],
+    "libjpeg": ["libjpeg-dev"],
     "libopencv-dev": ["libopencv-calib3d-dev"],
     "nodelet": ["libnodelet-dev", "libnodeletlib-dev", "libnodeletlib-tools"],
     "nlohmann-json-dev": ["nlohmann-json3-dev"],

@@ -507,6 +507,10 @@ TEST_F(CommandLine, SymmetriesOfAPartAreListedAsBopHasThem) {
   EXPECT_NEAR(report.at("models_info").at("diameter").get<double>(), 40.0 * std::sqrt(3.0), 1e-3);
   EXPECT_NE(run("symmetries box.stl").out.find("24 poses look alike"), std::string::npos);
   EXPECT_EQ(run("symmetries box.stl --tolerance 0").code, 2);
+  EXPECT_EQ(run("symmetries box.stl --picture box.png").code, 0);
+  EXPECT_EQ(text("box.png").substr(1, 3), "PNG");
+  EXPECT_EQ(run("symmetries box.stl --picture nowhere/box.png").code, 3);
+  EXPECT_EQ(Json::parse(run("inspect box.stl --json").out).at("symmetries").at("discrete"), 23);
   EXPECT_EQ(run("symmetries nowhere.stl").code, 2);
 }
 

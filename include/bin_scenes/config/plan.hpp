@@ -3,6 +3,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/output/bop_layout.hpp"
 #include "bin_scenes/scene/request.hpp"
 
 #include <array>
@@ -54,6 +55,7 @@ class Plan {
   /// bop: 0: a pixel shows the part that is truly seen there; else m behind the measured surface up to which a part is
   /// visible. Keys bop.visible and bop.tolerance.
   double tolerance = 0.0;
+  BopLayout bop;                  ///< keys bop.layout, format, modalities and evaluate
   double most_not_poured = 0.05;  ///< share of a heap's parts that may find no room; key `not_poured`
   std::size_t shard_size = 1000;  ///< images in a shard
   std::vector<std::pair<std::string, double>> split;  ///< name and share of heaps; empty: all are of "train"

@@ -59,9 +59,10 @@ struct BopOptions {
   std::vector<int> object_ids;  ///< by part line; empty: bop_object_ids()
 };
 /// The folder models of a BOP data set: obj_<obj_id>.ply and models_info.json (mm) with diameter and symmetries: those
-/// given, by part line, else those found on the mesh.
+/// given, by part line, else those found on the mesh. `for_evaluation`: the folder models_eval, whose meshes have
+/// vertices evenly over their surface.
 void write_bop_models(const std::string& directory, const std::vector<PartModelPtr>& parts,
-                      const std::vector<Symmetries>& given = {});
+                      const std::vector<Symmetries>& given = {}, bool for_evaluation = false);
 /// Entry of models_info.json, JSON (mm): diameter, bounds and symmetries.
 std::string bop_model_info(const PartModel& part, const Symmetries& symmetries);
 /// BOP's obj_id of each part line: 1, 2, ... in order of first use; lines of the same model share one.

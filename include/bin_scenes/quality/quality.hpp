@@ -44,6 +44,17 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
            const PartModelPtr& bin_model = nullptr);
 
+/// The same measures, part by part, of the parts that are there, in the order of the scene.
+struct PartQuality {
+  int id = 0;
+  double overlap = 0.0;           ///< m: deepest overlap with another part
+  double overlap_relative = 0.0;  ///< the largest one / smaller diagonal
+  double into_bin = 0.0;          ///< m: overlap with the bin
+  double gap = 0.0;               ///< m: free fall; infinite where nothing lies below, and of parts not at rest
+};
+std::vector<PartQuality> part_quality(const Scene& scene, const Request& request,
+                                      const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model = nullptr);
+
 /// Drift of the poses `before` -> `after` of the same scene (centres of mass, turn): fills report.drift.
 DriftReport drift(const Scene& before, const Scene& after, const std::vector<PartModelPtr>& parts);
 

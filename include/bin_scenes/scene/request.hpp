@@ -201,16 +201,27 @@ struct Scan {
   int profiles = 1000;             ///< rows of the image
 };
 
+/// Further places from which a sensor sees the same heap. config/ makes a sensor of each, and leaves this empty.
+struct Views {
+  std::vector<Pose> poses;  ///< optical frame in the bin frame
+  std::size_t count = 0;    ///< or so many, spread evenly over a dome around `target`
+  double distance = 0.8;    ///< m from target
+  double tilt = 0.5;        ///< largest angle (rad) between view and vertical
+  Vec3 target = Vec3::Zero();
+};
+
 /// A range sensor. Frame: optical (x right, y down, z forward).
 struct Sensor {
   std::string name = "camera";
+  std::string view_of;  ///< name of the sensor of whose `views` this is one; empty: a sensor of its own
   SensorModel model = SensorModel::ideal;
   std::string preset;  ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
   double fov = 0.75;                   ///< horizontal field of view (rad); sets the intrinsics unless K is given
   std::vector<double> k;               ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
   std::array<double, 5> distortion{};  ///< plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole
-  std::optional<Pose> pose;        ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
+  std::optional<Pose> pose;  ///< optical frame in the bin frame; none: above the bin, looking down, bin in view
+  Views views;
   double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
   Projector projector;    ///< structured_light, stereo
@@ -244,6 +255,7 @@ struct Request {
   Pour pour;
   SolverSettings solver;
   std::vector<Sensor> sensors;
+  std::string rig;  ///< name of the rig that the sensors come from; read by config/, has no effect of its own
   Acceptance accept;
   std::optional<double> seconds;  ///< simulate exactly this long instead of until rest
   bool drift_check = false;       ///< continue for 0.5 s and report how far parts move

@@ -1,0 +1,28 @@
+/// A plan's key `bop`, but for its symmetries: what BOP's files hold and where.
+#pragma once
+
+#include "bin_scenes/output/bop_layout.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace bin_scenes::config {
+
+struct BopPlan {
+  BopLayout layout;
+  std::optional<double> tolerance;  ///< m, of visible: measured
+  bool measured = false;
+};
+
+/// @param own   the plan's key; may be undefined
+/// @param sensors  of the request; none: not known, names are not checked
+/// @param rig   what the request's rig says, where the plan says nothing; may be undefined
+/// @param complain  takes problem, key below "bop" and remedy
+BopPlan read_bop_plan(
+    const YAML::Node& own, const YAML::Node& rig, const std::vector<Sensor>& sensors,
+    const std::function<void(const std::string& problem, const std::string& key, const std::string& remedy)>& complain);
+
+}  // namespace bin_scenes::config

@@ -1,0 +1,15 @@
+/// Models as pose errors are computed with: vertices evenly over the surface, and no more of them than that takes.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+namespace bin_scenes {
+
+/// Largest distance from a point of the surface to a vertex of the evaluation mesh, as a share of the diagonal.
+constexpr double evaluation_spacing = 0.06;
+
+/// As bop_toolkit's remesh_models_for_eval does by MeshLab: edges are halved until they are short, then the vertices of
+/// each cell of a grid become one: a vertex of the model, if there is one, so that corners stay where they are.
+Mesh evaluation_mesh(const Mesh& mesh);
+
+}  // namespace bin_scenes

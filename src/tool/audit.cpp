@@ -1,0 +1,140 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/scene/report.hpp"
+#include "dataset/whole_folders.hpp"
+#include "tool/audit_page.hpp"
+#include "tool/audit_state.hpp"
+#include "tool/commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "x,y,z".
+Vec3 vector_of(const std::string& text, const char* option, const char* remedy) {
+  Vec3 v;
+  char behind = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x(), &v.y(), &v.z(), &behind) != 3 || !v.allFinite())
+    throw input_error("expected x,y,z, found '" + text + "'", option, remedy);
+  return v;
+}
+
+AuditBin bin_given(const AuditOptions& options) {
+  AuditBin bin;
+  bin.fitted = options.bin == "fitted";
+  if (!options.bin.empty() && !bin.fitted) {
+    bin.inner_size = vector_of(options.bin, "--bin", "inner size in m, for instance 0.4,0.3,0.2");
+    if (!(bin.inner_size->minCoeff() > 0.0 && bin.inner_size->maxCoeff() < 100.0))
+      throw input_error("must be above 0 and below 100 m", "--bin", "inner size in m, for instance 0.4,0.3,0.2");
+  }
+  if (!options.bin.empty() && options.floor)
+    throw input_error("a bin has a floor of its own", "--floor", "give --bin or --floor");
+  bin.floor = options.floor;
+  return bin;
+}
+
+/// The bin that a data set of this project tells of a scene.
+std::optional<Vec3> own_bin(const fs::path& root, const BopView& view) {
+  const auto scene = scene_in((root / "scenes" / ("scene_" + view.scene.filename().string())).string());
+  if (!scene || !scene->is_object() || !scene->contains("bin") || !scene->at("bin").contains("inner_size"))
+    return std::nullopt;
+  const auto size = scene->at("bin").at("inner_size").get<std::array<double, 3>>();
+  return Vec3(size[0], size[1], size[2]);
+}
+
+std::string bin_text(const AuditBin& bin, bool own) {
+  if (own) return "the bins that the data set tells";
+  if (bin.fitted) return "a bin fitted around the parts of each heap";
+  if (!bin.inner_size && !bin.floor) return "a table fitted to the lowest parts of each heap";
+  char text[100];
+  if (bin.floor)
+    std::snprintf(text, sizeof text, "a table at z = %g m", *bin.floor);
+  else
+    std::snprintf(text, sizeof text, "a bin of %g x %g x %g m around the origin", bin.inner_size->x(),
+                  bin.inner_size->y(), bin.inner_size->z());
+  return text;
+}
+
+Json json_of(AuditFigures& figures, const std::string& lies_in, bool world_told) {
+  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps}, {"parts", figures.parts},
+               {"escaped", figures.escaped}, {"lies_in", lies_in},     {"world_told", world_told},
+               {"measures", Json::array()}};
+  for (const AuditMeasure* measure : figures.all()) {
+    if (measure->values.empty()) continue;
+    const Quantiles q = quantiles(measure->values);
+    json["measures"].push_back({{"name", measure->name},
+                                {"unit", measure->unit},
+                                {"p50", q.median},
+                                {"p95", q.p95},
+                                {"max", q.max},
+                                {"limit", measure->limit},
+                                {"above", share_above(*measure)},
+                                {"count", measure->values.size()}});
+  }
+  return json;
+}
+
+void print(const Json& json) {
+  std::printf("%zu scenes, %zu heaps, %zu parts, %zu escaped; they lie in %s\n", json["scenes"].get<std::size_t>(),
+              json["heaps"].get<std::size_t>(), json["parts"].get<std::size_t>(), json["escaped"].get<std::size_t>(),
+              json["lies_in"].get<std::string>().c_str());
+  if (!json["world_told"])
+    std::printf("no image tells cam_R_w2c: up is against the camera's axis, or what --up says\n");
+  std::printf("%-46s %-14s %10s %10s %10s   %s\n", "measure", "unit", "p50", "p95", "max", "parts above a limit");
+  for (const Json& m : json["measures"])
+    std::printf("%-46s %-14s %10.3g %10.3g %10.3g   %.1f %% above %g\n", m["name"].get<std::string>().c_str(),
+                m["unit"].get<std::string>().c_str(), m["p50"].get<double>(), m["p95"].get<double>(),
+                m["max"].get<double>(), 100.0 * m["above"].get<double>(), m["limit"].get<double>());
+}
+
+}  // namespace
+
+double share_above(const AuditMeasure& measure) {
+  const auto above =
+      std::count_if(measure.values.begin(), measure.values.end(), [&](double value) { return value > measure.limit; });
+  return measure.values.empty() ? 0.0 : static_cast<double>(above) / static_cast<double>(measure.values.size());
+}
+
+int audit(const AuditOptions& options) {
+  AuditBin bin = bin_given(options);
+  BopReadOptions read;
+  read.sensor = options.sensor;
+  read.models = options.models;
+  if (!options.up.empty()) {
+    read.up = vector_of(options.up, "--up", "a direction, for instance 0,0,1");
+    if (!(read.up->norm() > 0.0)) throw input_error("has no length", "--up", "a direction, for instance 0,0,1");
+  }
+  const fs::path root(options.directory);
+  const bool own = fs::exists(root / "dataset.json") && options.bin.empty() && !options.floor;
+  const BopSet set = read_bop_set(own ? (root / "bop").string() : options.directory, read);
+  AuditFigures figures;
+  std::set<fs::path> scenes;
+  Auditor auditor(set);
+  for (const AuditHeap& heap : heaps_of(set, figures)) {
+    if (options.most > 0 && figures.heaps == options.most) break;
+    scenes.insert(heap.views.front()->scene);
+    AuditBin of_heap = bin;
+    if (own) of_heap.inner_size = own_bin(root, *heap.views.front());
+    auditor.audit(heap, of_heap, figures);
+  }
+  figures.scenes = scenes.size();
+  const Json json = json_of(figures, bin_text(bin, own), set.world_told);
+  if (!options.out.empty()) write_text(options.out, audit_page(options.directory, json, figures));
+  if (options.json)
+    std::printf("%s\n", json.dump(1).c_str());
+  else
+    print(json);
+  return exit_done;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,80 @@
+#include "tool/audit_page.hpp"
+
+#include "bin_scenes/scene/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr const char* head = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Audit</title><style>
+body { font: 14px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 1100px; padding: 16px; color: #1c2733; }
+table { border-collapse: collapse; } td, th { padding: 3px 14px 3px 0; text-align: left; border-bottom: 1px solid #dde3ea; }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); gap: 18px; margin-top: 18px; }
+svg text { font-size: 10px; fill: #56636f; } h2 { font-size: 14px; margin: 0 0 4px; }
+</style></head><body>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return safe;
+}
+
+std::string figure_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Shares of parts over the value, up to the 99th of a hundred; what lies beyond counts to the last bar.
+std::string histogram(const AuditMeasure& measure) {
+  constexpr std::size_t bars = 30;
+  constexpr double width = 300.0, height = 90.0;
+  std::vector<double> sorted = measure.values;
+  std::sort(sorted.begin(), sorted.end());
+  const double end = std::max(sorted[(sorted.size() - 1) * 99 / 100], 1e-9);
+  std::vector<std::size_t> counts(bars, 0);
+  for (const double value : sorted)
+    ++counts[std::min(bars - 1, static_cast<std::size_t>(value / end * static_cast<double>(bars)))];
+  const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+  std::string svg = "<svg viewBox='0 0 300 110' width='100%'>";
+  for (std::size_t i = 0; i < bars; ++i) {
+    const double tall = height * static_cast<double>(counts[i]) / most, step = width / static_cast<double>(bars);
+    svg += "<rect x='" + figure_text(step * static_cast<double>(i)) + "' y='" + figure_text(height - tall) +
+           "' width='" + figure_text(step - 1.0) + "' height='" + figure_text(tall) + "' fill='#3b6ea5'/>";
+  }
+  return svg + "<text x='0' y='104'>0</text><text x='300' y='104' text-anchor='end'>" + figure_text(end) + " " +
+         measure.unit + "</text></svg>";
+}
+
+}  // namespace
+
+std::string audit_page(const std::string& name, const nlohmann::ordered_json& json, AuditFigures& figures) {
+  std::string page = head;
+  page += "<h1>Audit of " + escaped(name) + "</h1><p>" + json.at("scenes").dump() + " scenes, " +
+          json.at("heaps").dump() + " heaps, " + json.at("parts").dump() + " parts, " + json.at("escaped").dump() +
+          " escaped; they lie in " + escaped(json.at("lies_in").get<std::string>()) +
+          ".</p><table><tr><th>measure</th><th>unit</th>";
+  for (const char* title : {"p50", "p95", "max", "limit", "parts above"})
+    page += std::string("<th class=n>") + title + "</th>";
+  page += "</tr>";
+  for (const auto& m : json.at("measures")) {
+    page += "<tr><td>" + m.at("name").get<std::string>() + "</td><td>" + m.at("unit").get<std::string>() + "</td>";
+    for (const char* key : {"p50", "p95", "max", "limit"}) page += "<td class=n>" + figure_text(m.at(key)) + "</td>";
+    page += "<td class=n>" + figure_text(100.0 * m.at("above").get<double>()) + " %</td></tr>";
+  }
+  page += "</table><div class=charts>";
+  for (const AuditMeasure* measure : figures.all()) {
+    if (measure->values.empty()) continue;
+    page += std::string("<div><h2>") + measure->name + "</h2>" + histogram(*measure) + "</div>";
+  }
+  return page + "</div></body></html>\n";
+}
+
+}  // namespace bin_scenes

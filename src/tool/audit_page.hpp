@@ -1,0 +1,17 @@
+/// The page of an audit: one file that needs no network.
+#pragma once
+
+#include "tool/audit_state.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace bin_scenes {
+
+double share_above(const AuditMeasure& measure);
+
+/// Table of `json`, and a histogram of each measure.
+std::string audit_page(const std::string& name, const nlohmann::ordered_json& json, AuditFigures& figures);
+
+}  // namespace bin_scenes

@@ -1,0 +1,227 @@
+#include "tool/audit_state.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "output/png_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double degrees_per_radian = 180.0 / M_PI, millimetres_per_metre = 1e3;
+constexpr double drift_seconds = 0.5;
+
+double turn_between(const Pose& a, const Pose& b) {
+  return degrees_per_radian * a.orientation.angularDistance(b.orientation);
+}
+
+/// Further views of a heap show the same parts, up to what calibration and annotation err.
+bool same_heap(const BopView& a, const BopView& b) {
+  constexpr double most_apart = 0.005, most_turned = 5.0;  // m, degree
+  if (a.scene != b.scene || a.parts.size() != b.parts.size() || a.parts.empty()) return false;
+  for (std::size_t i = 0; i < a.parts.size(); ++i) {
+    if (a.parts[i].object != b.parts[i].object) return false;
+    if ((a.parts[i].in_world.position - b.parts[i].in_world.position).norm() > most_apart) return false;
+    if (turn_between(a.parts[i].in_world, b.parts[i].in_world) > most_turned) return false;
+  }
+  return true;
+}
+
+/// Where parts that lie on the table end: the middle of what ends near the lowest point.
+double fitted_floor(const std::vector<double>& ends, double diagonal) {
+  const double lowest = *std::min_element(ends.begin(), ends.end());
+  std::vector<double> near;
+  for (const double end : ends)
+    if (end - lowest < 0.02 * diagonal) near.push_back(end);
+  std::sort(near.begin(), near.end());
+  return near[near.size() / 2];
+}
+
+}  // namespace
+
+std::vector<AuditMeasure*> AuditFigures::all() {
+  return {&overlap,  &overlap_mm, &into_bin, &gap,  &gap_mm,   &drift,
+          &drift_mm, &turn,       &visible,  &mask, &apart_mm, &apart_degree};
+}
+
+std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
+  std::vector<AuditHeap> heaps;
+  for (const BopView& view : set.views) {
+    if (!heaps.empty() && set.world_told && same_heap(*heaps.back().views.front(), view)) {
+      const BopView& first = *heaps.back().views.front();
+      for (std::size_t i = 0; i < view.parts.size(); ++i) {
+        const Pose &a = first.parts[i].in_world, &b = view.parts[i].in_world;
+        figures.apart_mm.values.push_back(millimetres_per_metre * (a.position - b.position).norm());
+        figures.apart_degree.values.push_back(turn_between(a, b));
+      }
+      heaps.back().views.push_back(&view);
+    } else {
+      heaps.push_back({{&view}});
+    }
+  }
+  return heaps;
+}
+
+/// A heap as a request that goes on from it.
+struct Auditor::Placed {
+  Request request;
+  Scene scene;
+  std::vector<PartModelPtr> parts;  ///< by line
+  std::vector<std::size_t> entry;   ///< of the view, by id
+  Pose shift;                       ///< from the set's world to the bin frame
+};
+
+Auditor::Auditor(const BopSet& set) : set_(set) {
+  LoadOptions options;
+  options.unit = Unit::millimetre;
+  for (const auto& [object, path] : set.models) models_[object] = PartModel::load(path, options);
+}
+
+Auditor::Placed Auditor::place(const BopView& view, const AuditBin& bin) const {
+  Placed placed;
+  std::vector<double> ends;
+  double diagonal = 0.0;
+  Aabb around;
+  for (const BopPart& part : view.parts) {
+    const PartModel& model = *models_.at(part.object);
+    double end = 1e300;
+    for (const Vec3& corner : model.corners()) {
+      around.extend(part.in_world * corner);
+      end = std::min(end, (part.in_world * corner).z());
+    }
+    ends.push_back(end);
+    diagonal = std::max(diagonal, model.diagonal());
+  }
+  Request& request = placed.request;
+  if (!bin.inner_size) placed.shift.position.z() = -bin.floor.value_or(fitted_floor(ends, diagonal));
+  if (bin.inner_size) {
+    request.bin.inner_size = *bin.inner_size;
+  } else if (bin.fitted) {
+    placed.shift.position.head<2>() = -around.center().head<2>();
+    request.bin.inner_size = around.size() + Vec3(0.0, 0.0, diagonal);
+  } else {
+    request.bin.kind = Bin::Kind::floor;
+  }
+  request.pour.pattern = Pour::Pattern::given;
+  request.seconds = drift_seconds;
+  for (const auto& [object, model] : models_) {
+    PartLine line;
+    line.model = line.path = set_.models.at(object);
+    line.unit = Unit::millimetre;
+    for (std::size_t i = 0; i < view.parts.size(); ++i) {
+      if (view.parts[i].object != object) continue;
+      ScenePart part;
+      part.id = static_cast<int>(placed.scene.parts.size());
+      part.line = request.parts.size();
+      part.model = line.model;
+      part.pose = placed.shift * view.parts[i].in_world;
+      part.state = PartState::resting;
+      line.poses.push_back(part.pose);
+      placed.scene.parts.push_back(part);
+      placed.entry.push_back(i);
+    }
+    line.count = line.poses.size();
+    if (line.count == 0) continue;
+    request.parts.push_back(line);
+    placed.parts.push_back(model);
+  }
+  return placed;
+}
+
+void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& figures) {
+  const BopView& first = *heap.views.front();
+  ++figures.heaps;
+  figures.parts += first.parts.size();
+  if (first.parts.empty()) return;
+  Placed placed = place(first, bin);
+  for (ScenePart& part : placed.scene.parts) {
+    const Vec3 center = part.pose * placed.parts[part.line]->mass().center;
+    const bool beside =
+        bin.inner_size && (center.head<2>().array().abs() > 0.5 * bin.inner_size->head<2>().array()).any();
+    if (!beside && center.z() > 0.0) continue;
+    part.state = PartState::escaped;
+    ++figures.escaped;
+  }
+  audit_quality(placed, figures);
+  audit_drift(placed, figures);
+  for (const BopView* view : heap.views) audit_image(*view, placed, figures);
+}
+
+void Auditor::audit_quality(const Placed& placed, AuditFigures& figures) const {
+  for (const PartQuality& part : part_quality(placed.scene, placed.request, placed.parts)) {
+    const double diagonal = placed.parts[placed.scene.parts[static_cast<std::size_t>(part.id)].line]->diagonal();
+    figures.overlap.values.push_back(100.0 * part.overlap_relative);
+    figures.overlap_mm.values.push_back(millimetres_per_metre * part.overlap);
+    figures.into_bin.values.push_back(millimetres_per_metre * part.into_bin);
+    if (!std::isfinite(part.gap)) continue;
+    figures.gap.values.push_back(100.0 * part.gap / diagonal);
+    figures.gap_mm.values.push_back(millimetres_per_metre * part.gap);
+  }
+}
+
+void Auditor::audit_drift(const Placed& placed, AuditFigures& figures) {
+  Heap heap = generator_.heap(placed.request);
+  heap.settle();
+  const Scene after = heap.scene();
+  for (const ScenePart& start : placed.scene.parts) {
+    if (start.state == PartState::escaped) continue;
+    const ScenePart& end = after.parts.at(static_cast<std::size_t>(start.id));
+    if (!end.pose.finite()) continue;
+    const PartModel& model = *placed.parts[start.line];
+    const double move = (end.pose * model.mass().center - start.pose * model.mass().center).norm();
+    figures.drift.values.push_back(100.0 * move / model.diagonal());
+    figures.drift_mm.values.push_back(millimetres_per_metre * move);
+    figures.turn.values.push_back(turn_between(start.pose, end.pose));
+  }
+}
+
+void Auditor::audit_image(const BopView& view, const Placed& placed, AuditFigures& figures) {
+  int width = 0, height = 0;
+  for (std::size_t i = 0; i < view.parts.size(); ++i) {
+    const fs::path visible = mask_of(view, "mask_visib", i), whole = mask_of(view, "mask", i);
+    for (const fs::path& path : {visible, whole}) {
+      if (!fs::is_regular_file(path)) continue;
+      const LoadedImage mask = load_png(path.string());
+      if (width == 0) width = mask.width, height = mask.height;
+      if (mask.width != width || mask.height != height)
+        throw input_error("is " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
+                              ", other masks are " + std::to_string(width) + " x " + std::to_string(height),
+                          path.string(), "masks have the size of their image");
+      if (path != visible || !view.parts[i].px_visible) continue;
+      const auto pixels =
+          std::count_if(mask.samples.begin(), mask.samples.end(), [](auto sample) { return sample != 0; });
+      const auto told = static_cast<double>(*view.parts[i].px_visible);
+      figures.mask.values.push_back(100.0 * std::abs(static_cast<double>(pixels) - told) /
+                                    std::max(1.0, std::max(told, static_cast<double>(pixels))));
+    }
+  }
+  const bool told = std::all_of(view.parts.begin(), view.parts.end(), [](const BopPart& part) { return part.visible; });
+  if (width == 0 || !told) return;
+  Sensor sensor;
+  sensor.width = width, sensor.height = height;
+  sensor.k.assign(view.k.begin(), view.k.end());
+  sensor.pose = placed.shift * view.camera;
+  sensor.near = 0.01, sensor.far = 100.0;
+  Scene scene = placed.scene;
+  for (ScenePart& part : scene.parts) {  // as this view has it, which may differ from the first
+    const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
+    part.pose = placed.shift * told_part.in_world;
+  }
+  Request request = placed.request;
+  request.sensors = {sensor};
+  scene.sensors = {resolved(sensor, request.bin, nullptr)};
+  rig_.look(scene, request, placed.parts);
+  for (const ScenePart& part : scene.parts) {
+    const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
+    figures.visible.values.push_back(std::abs(*told_part.visible - part.visible_fraction.at(sensor.name)));
+  }
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,14 @@
+/// A part with the axes of its symmetries, to look at.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/symmetry.hpp"
+
+#include <string>
+
+namespace bin_scenes {
+
+/// PNG: the part from an upper corner; axes of any angle red, those of an order blue. Throws an environment Error.
+void write_symmetry_picture(const std::string& path, const PartModelPtr& part, const Symmetries& symmetries);
+
+}  // namespace bin_scenes
