@@ -15,7 +15,7 @@ const char* name_of(Fidelity fidelity) {
 }
 
 Sensor fringe_sensor(double distance, Fidelity fidelity, bool noise = true) {
-  Sensor sensor = sensor_of(SensorModel::structured_light, distance);
+  Sensor sensor = sensor_of("structured_light", distance);
   sensor.fidelity = fidelity;
   sensor.noise = noise;
   return sensor;
@@ -135,7 +135,7 @@ void laws(Run& out) {
   });
   exponent(out, "steps 4 to 32", {4, 32}, -0.5, [](double value, Fidelity fidelity, double&) {
     Sensor sensor = parallel_sensor(1.0, fidelity);
-    sensor.structured_light.steps = static_cast<int>(value);
+    sensor.settings.of<StructuredLightSettings>().steps = static_cast<int>(value);
     return sensor;
   });
   exponent(out, "baseline 0.05 to 0.2 m", {0.05, 0.2}, -1.0, [](double value, Fidelity fidelity, double&) {

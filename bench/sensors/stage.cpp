@@ -1,7 +1,7 @@
 #include "sensors/stage.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"
-#include "sensor/models/from_sensor.hpp"
+#include "sensor/models/of_sensor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace bin_scenes::bench {
 
-Sensor sensor_of(SensorModel model, double distance) {
+Sensor sensor_of(const std::string& model, double distance) {
   Sensor sensor;
   sensor.model = model;
   sensor.width = 640;
@@ -53,7 +53,7 @@ Shot shoot(Targets& targets, const Sensor& sensor, std::uint64_t seed) {
   Shot shot;
   shot.view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
   const Random random(seed, 0, Stream::noise);
-  if (sensor.model == SensorModel::stereo) {
+  if (sensor.model == "stereo") {
     measure_by(Stereo(scenery, shot.view, targets.surfaces(), stereo_setup(sensor)), sensor, random, shot);
   } else {
     measure_by(StructuredLight(scenery, shot.view, targets.surfaces(), structured_light_setup(sensor)), sensor, random,

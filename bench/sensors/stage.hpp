@@ -6,12 +6,13 @@
 #include "sensor/models/measurement.hpp"
 #include "sensor/targets.hpp"
 
+#include <string>
 #include <vector>
 
 namespace bin_scenes::bench {
 
 /// With K and poses filled in; projector and laser are turned towards the point at `distance` (m) on the optical axis.
-Sensor sensor_of(SensorModel model, double distance);
+Sensor sensor_of(const std::string& model, double distance);
 
 /// A large plate through (0, 0, z), turned about the camera's x: incidence of light and of sight alike.
 Targets plate(double z, double degrees, double albedo);

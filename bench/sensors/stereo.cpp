@@ -35,10 +35,10 @@ double correlation(const std::vector<double>& errors, int width, int lag) {
 void stereo_rows(Run& out) {
   for (const Fidelity fidelity : {Fidelity::decoded, Fidelity::analytic}) {
     for (const int window : {5, 11}) {
-      Sensor sensor = sensor_of(SensorModel::stereo, 1.0);
+      Sensor sensor = sensor_of("stereo", 1.0);
       sensor.fidelity = fidelity;
-      sensor.stereo.window = window;
-      sensor.stereo.disparities = 256;
+      sensor.settings.of<StereoSettings>().window = window;
+      sensor.settings.of<StereoSettings>().disparities = 256;
       std::vector<double> errors;  // made for the first row that is wanted
       const struct {
         int lag;
@@ -52,7 +52,7 @@ void stereo_rows(Run& out) {
         if (!out.wanted(figure.key())) continue;
         if (errors.empty()) {
           Targets targets = plate(1.0, 17.0, 0.6);
-          const double scale = sensor.k[0] * sensor.stereo.baseline;
+          const double scale = sensor.k[0] * sensor.settings.of<StereoSettings>().baseline;
           errors = disparity_errors(shoot(targets, sensor, 1), scale);
         }
         out.row(row_of(figure, correlation(errors, sensor.width, lag), "", goal));

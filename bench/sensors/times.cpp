@@ -60,36 +60,36 @@ void view_times(Run& out) {
   add_balls(stage);
   add_heap(heap);
   SensorRig rig;
-  const auto whole_of = [&](test::Stage& stage, const std::string& what, double goal_s, SensorModel model,
+  const auto whole_of = [&](test::Stage& stage, const std::string& what, double goal_s, const std::string& model,
                             Fidelity fidelity) {
     Sensor sensor;
     sensor.model = model;
     sensor.fidelity = fidelity;
     sensor.width = 1280, sensor.height = 1024;
-    if (model == SensorModel::stereo) sensor.width = 848, sensor.height = 480;
+    if (model == "stereo") sensor.width = 848, sensor.height = 480;
     sensor.fov = 0.4;
     sensor.near = 0.5, sensor.far = 2.0;
     sensor.pose = Pose();
     stage.scene.sensors = {resolved(sensor, stage.request.bin)};
     time(out, what, goal_s, [&] { rig.look(stage.scene, stage.request, stage.models); });
   };
-  const auto whole = [&](const std::string& what, double goal_s, SensorModel model, Fidelity fidelity) {
+  const auto whole = [&](const std::string& what, double goal_s, const std::string& model, Fidelity fidelity) {
     whole_of(stage, what, goal_s, model, fidelity);
   };
-  whole("ideal 1280 x 1024, all truth", 0.4, SensorModel::ideal, Fidelity::analytic);
+  whole("ideal 1280 x 1024, all truth", 0.4, "ideal", Fidelity::analytic);
   {
     const Scenery scenery = stage.scenery();
     const Sensor& sensor = stage.scene.sensors[0];
     const View view = look(scenery, lens_of(sensor), Pose(), sensor.near, sensor.far);
     time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
   }
-  whole("structured light, analytic", 0.6, SensorModel::structured_light, Fidelity::analytic);
-  whole_of(heap, "structured light, analytic, 50 parts", 0.15, SensorModel::structured_light, Fidelity::analytic);
-  whole("structured light, decoded", 3.0, SensorModel::structured_light, Fidelity::decoded);
-  whole("laser line, 1000 profiles", 1.0, SensorModel::laser_line, Fidelity::analytic);
-  whole("stereo 848 x 480, 128 disparities, matched", 0.5, SensorModel::stereo, Fidelity::decoded);
-  whole("stereo 848 x 480, analytic", 0.0, SensorModel::stereo, Fidelity::analytic);
-  whole("time of flight", 0.0, SensorModel::time_of_flight, Fidelity::analytic);
+  whole("structured light, analytic", 0.6, "structured_light", Fidelity::analytic);
+  whole_of(heap, "structured light, analytic, 50 parts", 0.15, "structured_light", Fidelity::analytic);
+  whole("structured light, decoded", 3.0, "structured_light", Fidelity::decoded);
+  whole("laser line, 1000 profiles", 1.0, "laser_line", Fidelity::analytic);
+  whole("stereo 848 x 480, 128 disparities, matched", 0.5, "stereo", Fidelity::decoded);
+  whole("stereo 848 x 480, analytic", 0.0, "stereo", Fidelity::analytic);
+  whole("time of flight", 0.0, "time_of_flight", Fidelity::analytic);
 }
 
 /// A scene with a noisy sensor of which no image is asked for.
@@ -98,7 +98,7 @@ void unasked(Run& out) {
   if (!out.wanted(figure.key())) return;
   Request request = bin_of("bolt_hex", 8);
   Sensor sensor;
-  sensor.model = SensorModel::structured_light;
+  sensor.model = "structured_light";
   request.sensors = {sensor};
   Generator::Options options;
   options.render = false;

@@ -106,7 +106,7 @@ void light_codes(Run& out, Fidelity fidelity) {
   test::Stage stage;
   add_heap(stage, 1.0, out.quick() ? 6 : 20, 3);
   stage.place(stage.model(test::box_mesh({2.0, 2.0, 0.02})), test::at(0, 0, 1.15));
-  Sensor sensor = sensor_of(SensorModel::structured_light, 1.0);
+  Sensor sensor = sensor_of("structured_light", 1.0);
   sensor.width = 400, sensor.height = 320;
   sensor.k.clear();
   sensor.projector.fov = 0.35;  // covers a part of the image
@@ -138,7 +138,7 @@ void shadow_width(Run& out, double height) {
   figure.setting = "h = " + Row::text(height) + " m";
   if (!out.wanted(figure.key())) return;
   constexpr double z = 1.0, half = 0.02;
-  Sensor sensor = sensor_of(SensorModel::structured_light, z);
+  Sensor sensor = sensor_of("structured_light", z);
   sensor.noise = false;
   Targets targets = plate(z, 0.0, 0.5);
   targets.add(box_target({2 * half, 0.5, height}), {Vec3(0, 0, z - 0.5 * height), Quat::Identity()});

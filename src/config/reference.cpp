@@ -3,6 +3,7 @@
 #include "bin_scenes/config/request_reader.hpp"
 #include "config/values.hpp"
 
+#include <cmath>
 #include <type_traits>
 
 namespace bin_scenes {
@@ -11,19 +12,27 @@ namespace config {
 
 namespace {
 
+/// "number in [0, 10]"; "(" where the least itself is excluded.
+std::string kind_in(const Range& range, const std::string& kind) {
+  if (!std::isfinite(range.least)) return kind;
+  const std::string least = text_of(range.least), plain = kind.substr(0, kind.find(','));
+  if (std::isfinite(range.most))
+    return (kind.find('[') == std::string::npos ? plain : kind + ", each") + " in " + (range.above ? "(" : "[") +
+           least + ", " + text_of(range.most) + "]";
+  return plain + (range.above ? " above " + least : ", " + least + " or more");
+}
+
 class Collector {
  public:
   template <class Value>
   void field(const Key& key, Value& value) {
     std::string text = text_of(value);
     if (text == "[]" || text == "\"\"" || !key.written) text.clear();
-    std::string kind = kind_of(value);
-    if (key.least > 0) kind = "whole number, " + std::to_string(key.least) + " or more";
-    entries.push_back({prefix_ + key.name, kind, text, key.unit, key.text});
+    entries.push_back({prefix_ + key.name, kind_in(key.range, kind_of(value)), text, key.unit, key.text});
   }
   template <class Value>
   void field(const Key& key, std::optional<Value>&) {
-    entries.push_back({prefix_ + key.name, kind_of(Value{}), "", key.unit, key.text});
+    entries.push_back({prefix_ + key.name, kind_in(key.range, kind_of(Value{})), "", key.unit, key.text});
   }
   template <class Struct>
   void section(const Key& key, Struct& value) {
@@ -99,7 +108,8 @@ std::string request_reference() {
   std::string text =
       "# The request\n"
       "\n"
-      "<!-- Made by `bin_scenes reference > docs/use/request.md` from src/config/keys.hpp; a test compares. -->\n"
+      "<!-- Made by `bin_scenes reference > docs/use/request.md` from src/scene/keys.hpp and src/sensor; a test "
+      "compares. -->\n"
       "\n"
       "A request is a YAML file. `bin_scenes generate` reads it, and so does the node's parameter `request`. Units\n"
       "are SI, z points up, quaternions are x y z w. Every key but `parts` has a default. An unknown key, a key\n"

@@ -144,6 +144,7 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
   const auto judge = [&] {
     try {
       check(request);
+      check_sensors(request.sensors);
     } catch (const Error& error) {  // check() knows the key, the source its file and line
       throw input_error("'" + error.where() + "': " + error.problem(), where(error.where()), error.remedy());
     }

@@ -59,7 +59,7 @@ class KeyWriter {
 std::string write_request(const Request& request) {
   Request copy = request;  // visitors take references to non-const fields, because one of them reads
   config::KeyWriter writer;
-  config::visit(writer, copy);
+  visit(writer, copy);
   return writer.text;
 }
 

@@ -57,7 +57,7 @@ Sensor read_sensor_file(const std::string& path) {
   if (root["preset"]) throw input_error("a preset names a preset", path, "write the values themselves");
   Sensor sensor;
   config::KeyReader reader(root, "", source);
-  config::visit(reader, sensor);
+  visit(reader, sensor);
   reader.finish();
   return sensor;
 }

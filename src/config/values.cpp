@@ -98,6 +98,13 @@ void read_value(const YAML::Node& node, std::string& value) {
   value = scalar(node, kind_of(value));
 }
 
+void read_value(const YAML::Node& node, Word& value) {
+  std::string text;
+  read_value(node, text);
+  if (std::find(value.known.begin(), value.known.end(), text) == value.known.end())
+    throw Mismatch{kind_of(value), Mismatch::whole, nearest(text, value.known)};
+  value.value = text;
+}
 void read_value(const YAML::Node& node, Vec3& value) {
   const std::vector<double> v = numbers(node, 3, kind_of(value));
   value = {v[0], v[1], v[2]};

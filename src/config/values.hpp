@@ -1,8 +1,9 @@
 /// Single values of a request in YAML: reading with a clear message, writing so that reading gives the same bits.
 #pragma once
 
-#include "config/keys.hpp"
 #include "config/suggest.hpp"
+#include "scene/keys.hpp"
+#include "sensor/sensor_keys.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -86,26 +87,32 @@ inline std::string kind_of(const std::vector<Pose>&) {
 inline std::string kind_of(const std::vector<Twist>&) {
   return "list of [vx, vy, vz, wx, wy, wz]";
 }
-template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
-std::string kind_of(Enum) {
+void read_value(const YAML::Node& node, Word& value);
+inline std::string text_of(const Word& value) {
+  return value.value;
+}
+inline std::string kind_of(const Word& value) {
   std::string text;
-  for (const auto& [name, value] : names(Enum{})) text += (text.empty() ? "" : " | ") + std::string(name);
+  for (const std::string& word : value.known) text += (text.empty() ? "" : " | ") + word;
   return text;
 }
 
 template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+Word word_of(Enum) {
+  Word word;
+  for (const auto& [name, value] : names(Enum{})) word.known.emplace_back(name);
+  return word;
+}
+template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+std::string kind_of(Enum value) {
+  return kind_of(word_of(value));
+}
+template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
 void read_value(const YAML::Node& node, Enum& value) {
-  std::string text;
-  read_value(node, text);
-  for (const auto& [name, meaning] : names(Enum{})) {
-    if (text == name) {
-      value = meaning;
-      return;
-    }
-  }
-  std::vector<std::string> known;
-  for (const auto& [name, meaning] : names(Enum{})) known.push_back(name);
-  throw Mismatch{kind_of(Enum{}), Mismatch::whole, nearest(text, known)};
+  Word word = word_of(value);
+  read_value(node, word);
+  for (const auto& [name, meaning] : names(Enum{}))
+    if (word.value == name) value = meaning;
 }
 
 template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>

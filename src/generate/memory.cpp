@@ -1,5 +1,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
 #include "generate/finishing.hpp"
@@ -122,7 +123,7 @@ double image_bytes(const Request& request) {
   double bytes = 0.0;
   for (const Sensor& sensor : request.sensors) {
     bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
-    if (sensor.model != SensorModel::laser_line) continue;
+    if (sensor_model(sensor.model).image != SensorModel::Image::profiles) continue;
     bytes += per_pixel * std::max(sensor.width, sensor.height) * static_cast<double>(sensor.scan.profiles);
   }
   return bytes;

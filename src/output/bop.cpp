@@ -1,6 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 #include "core/in_parallel.hpp"
 #include "output/bop_image.hpp"
 #include "output/bop_visibility.hpp"
@@ -62,8 +63,8 @@ const char* const bop_misfit_remedy =
     "change the request's sensors (rectified images have distortion 0), or leave such outputs out";
 
 std::string bop_misfit(const Sensor& sensor) {
-  if (sensor.model == SensorModel::laser_line)
-    return "BOP holds pinhole images, and the profiles of a laser_line sensor are none";
+  if (sensor_model(sensor.model).image == SensorModel::Image::profiles)
+    return "BOP holds pinhole images, and the profiles of a " + sensor.model + " sensor are none";
   if (std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; }))
     return "BOP holds pinhole images, and the lens of sensor '" + sensor.name + "' distorts";
   return "";

@@ -1,6 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/scene/sensor_name.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 #include "output/boxes.hpp"
 
 #include <nlohmann/json.hpp>
@@ -53,7 +54,7 @@ Json json_of(const Bin& bin) {
 Json json_of(const Sensor& sensor) {
   Json json = {{"name", sensor.name},
                {"frame", graph_name(sensor.name) + "_optical_frame"},
-               {"model", name_of(sensor.model)},
+               {"model", sensor.model},
                {"preset", sensor.preset},
                {"pose", json_of(sensor.pose.value_or(Pose()))},
                {"width", sensor.width},
@@ -65,7 +66,8 @@ Json json_of(const Sensor& sensor) {
                {"depth_scale", sensor.depth_scale},
                {"noise", sensor.noise}};
   if (!sensor.view_of.empty()) json["view_of"] = sensor.view_of;
-  if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
+  const SensorModel& model = sensor_model(sensor.model);
+  if (model.projector) {
     const Projector& p = sensor.projector;
     json["projector"] = {{"pose", json_of(p.pose.value_or(Pose()))},
                          {"width", p.width},
@@ -73,7 +75,7 @@ Json json_of(const Sensor& sensor) {
                          {"fov", p.fov},
                          {"distortion", p.distortion}};
   }
-  if (sensor.model == SensorModel::laser_line) json["laser"] = {{"pose", json_of(sensor.laser.pose.value_or(Pose()))}};
+  if (model.laser) json["laser"] = {{"pose", json_of(sensor.laser.pose.value_or(Pose()))}};
   return json;
 }
 

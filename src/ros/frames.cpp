@@ -1,6 +1,7 @@
 #include "frames.hpp"
 
 #include "bin_scenes/scene/sensor_name.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
 
@@ -75,9 +76,9 @@ tf2_msgs::TFMessage static_transforms(const Scene& scene, const Frames& frames, 
       message.transforms.push_back(transform(frames.bin, frames.prefix + graph_name(sensor.name) + frame, pose, stamp));
     };
     place("_optical_frame", *sensor.pose);
-    const bool projects = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
-    if (projects && sensor.projector.pose) place("_projector_optical_frame", *sensor.projector.pose);
-    if (sensor.model == SensorModel::laser_line && sensor.laser.pose) place("_laser_frame", *sensor.laser.pose);
+    const SensorModel& model = sensor_model(sensor.model);
+    if (model.projector && sensor.projector.pose) place("_projector_optical_frame", *sensor.projector.pose);
+    if (model.laser && sensor.laser.pose) place("_laser_frame", *sensor.laser.pose);
   }
   return message;
 }

@@ -1,5 +1,7 @@
 #include "scene_message.hpp"
 
+#include "bin_scenes/sensor/sensor_model.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -107,7 +109,7 @@ bin_scenes_msgs::Bin bin_message(const Bin& bin) {
 bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
   msgs::Sensor message;
   message.name = sensor.name;
-  message.model = name_of(sensor.model);
+  message.model = sensor.model;
   message.preset = sensor.preset;
   message.D.assign(sensor.distortion.begin(), sensor.distortion.end());
   message.width = static_cast<std::uint32_t>(sensor.width);
@@ -123,7 +125,7 @@ bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor) {
 Sensor sensor_from(const bin_scenes_msgs::Sensor& message) {
   Sensor sensor;
   sensor.name = message.name;
-  sensor.model = sensor_model(message.model);
+  sensor.model = sensor_model(message.model).name;
   sensor.preset = message.preset;
   if (message.D.size() == 5) std::copy(message.D.begin(), message.D.end(), sensor.distortion.begin());
   sensor.width = static_cast<int>(message.width);

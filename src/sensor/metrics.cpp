@@ -3,7 +3,6 @@
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "sensor/fit.hpp"
-#include "sensor/models/predicted_sigma.hpp"
 #include "sensor/targets.hpp"
 
 #include <algorithm>

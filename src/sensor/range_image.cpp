@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/range_image.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 #include "core/in_parallel.hpp"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ std::vector<std::array<float, 3>> points_of(const RangeImage& image) {
 std::vector<std::array<float, 3>> normals_of(const RangeImage& image, const std::vector<std::array<float, 3>>& points) {
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   std::vector<std::array<float, 3>> normals(points.size(), no_vector);
-  const bool exact = image.sensor.model == SensorModel::ideal;
+  const bool exact = sensor_model(image.sensor.model).exact;
   in_parallel(height, [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
       if (std::isnan(points[i][2])) continue;

@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,8 @@ bool in_wall(const Bin& bin, const Vec3& position) {
 /// Whether the sheet meets the room in some profile.
 bool sheet_meets(const Aabb& room, const Sensor& sensor) {
   constexpr int rays = 32, places = 16;
-  const double half = std::tan(0.5 * sensor.laser_line.fan), way = sensor.scan.step * (sensor.scan.profiles - 1);
+  const double half = std::tan(0.5 * sensor.settings.of<LaserLineSettings>().fan),
+               way = sensor.scan.step * (sensor.scan.profiles - 1);
   for (int k = 0; k <= places; ++k) {
     const Vec3 start = sensor.laser.pose->position +
                        way * (static_cast<double>(k) / places - 0.5) * sensor.scan.direction.normalized();
@@ -185,27 +187,14 @@ void check_sensor(const Sensor& sensor, const Request& request, const Aabb* boun
   };
   check_place("camera", where, sensor.pose->position, room, request, parts);
   looks("camera", lens_of(sensor), *sensor.pose);
-  if (sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo) {
-    check_place("projector", where, sensor.projector.pose->position, room, request, parts);
-    looks("projector", lens_of(sensor.projector), *sensor.projector.pose);
-    if (sensor.model == SensorModel::structured_light &&
-        (sensor.projector.pose->position - sensor.pose->position).norm() < 1e-6) {
-      refuse("the projector stands at the camera: there is no triangle to measure with", where,
-             "move it aside, or give it a baseline");
-    }
+  const SensorModel& model = sensor_model(sensor.model);
+  for (const auto& [what, pose] : light_of(sensor)) check_place(what, where, pose.position, room, request, parts);
+  if (model.projector) looks("projector", lens_of(sensor.projector), *sensor.projector.pose);
+  if (model.laser && !room.empty() && !sheet_meets(room, sensor)) {
+    refuse("the laser looks away from the bin", where,
+           "z of its frame points forward, in the middle of the sheet; turn it, or leave its pose out");
   }
-  if (sensor.model == SensorModel::laser_line) {
-    check_place("laser", where, sensor.laser.pose->position, room, request, parts);
-    if (!room.empty() && !sheet_meets(room, sensor)) {
-      refuse("the laser looks away from the bin", where,
-             "z of its frame points forward, in the middle of the sheet; turn it, or leave its pose out");
-    }
-    const Vec3 sheet = sensor.laser.pose->orientation * Vec3::UnitX();
-    if (std::abs(sheet.dot(sensor.laser.pose->position - sensor.pose->position)) < 1e-6) {
-      refuse("the sheet of light passes the camera: there is no triangle to measure with", where,
-             "move the laser across its sheet (x of its frame), or give it a baseline");
-    }
-  }
+  if (model.check_places) model.check_places(sensor, where);
 }
 
 }  // namespace
@@ -269,6 +258,7 @@ std::vector<Sensor> resolved_sensors(const Request& request, const std::vector<P
   if (bin_model) {
     for (const Vec3& v : bin_model->mesh().vertices) bounds.extend(request.bin.pose * v);
   }
+  check_sensors(request.sensors);
   std::vector<Sensor> sensors;
   for (const Sensor& sensor : request.sensors) {
     sensors.push_back(resolved(sensor, request.bin, bin_model ? &bounds : nullptr));

@@ -1,7 +1,7 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 
-#include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <algorithm>
 #include <string>
@@ -31,15 +31,13 @@ void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>
 
 /// A heap may grow around what looks at it: such an image is empty, or of a part's inside.
 void flag_what_stands_inside(const Sensor& sensor, Scene& scene, const std::vector<PartModelPtr>& parts) {
-  std::vector<std::pair<const char*, Vec3>> places{{"camera", sensor.pose->position}};
-  const bool projects = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
-  if (projects) places.emplace_back("projector", sensor.projector.pose->position);
-  if (sensor.model == SensorModel::laser_line) places.emplace_back("laser", sensor.laser.pose->position);
-  for (const auto& [what, place] : places) {
+  std::vector<std::pair<const char*, Pose>> places = light_of(sensor);
+  places.insert(places.begin(), {"camera", *sensor.pose});
+  for (const auto& [what, pose] : places) {
     for (const ScenePart& part : scene.parts) {
       if (!is_there(part.state) || !part.pose.finite()) continue;
       const PartModel& model = *parts[part.line];
-      const Vec3 here = part.pose.inverse() * place;
+      const Vec3 here = part.pose.inverse() * pose.position;
       if ((here - model.mass().center).norm() > model.radius() || !model.query().inside(here)) continue;
       scene.report.flags.push_back({"sensor_inside_part",
                                     std::string("the ") + what + " of sensor '" + sensor.name +
@@ -79,7 +77,7 @@ void SensorRig::look(Scene& scene, const Request& request, const std::vector<Par
     RangeImage& image = images[s] = measure(scenery, std::move(view), sensor, surfaces, draw);
     count_pixels(image, scene, std::move(alone));
     scene.report.profile.count("views");
-    scene.report.profile.count("noisy_images", sensor.noise && sensor.model != SensorModel::ideal);
+    scene.report.profile.count("noisy_images", sensor.noise && !sensor_model(sensor.model).exact);
     std::size_t there = 0;
     for (std::size_t i = 0; i < scenery.part_count(); ++i) there += scenery.part(i).mesh != nullptr;
     scene.report.profile.count("silhouettes", there);

@@ -29,7 +29,7 @@ Json list(const std::array<double, 7>& values) {
 }
 
 Json json_of(const Sensor& sensor, const SensorMetrics& m) {
-  Json json = {{"model", name_of(sensor.model)}, {"preset", sensor.preset}, {"unit", "m"}};
+  Json json = {{"model", sensor.model}, {"preset", sensor.preset}, {"unit", "m"}};
   json["distances"] = m.distances;
   for (const PredictedSigma& p : m.predicted) {
     json["predicted_sigma"].push_back({{"distance", p.distance},
@@ -64,7 +64,7 @@ void print_row(const char* name, const std::array<double, 7>& values) {
 }
 
 void print_text(const Sensor& sensor, const SensorMetrics& m) {
-  std::printf("%s, %s; lengths in mm\n\n", sensor.name.c_str(), name_of(sensor.model));
+  std::printf("%s, %s; lengths in mm\n\n", sensor.name.c_str(), sensor.model.c_str());
   std::printf("predicted sigma of depth   ");
   for (const double a : {0.05, 0.2, 0.5, 0.9}) std::printf(" albedo %3.0f %%", 100.0 * a);
   std::printf("\n");

@@ -42,7 +42,7 @@ class SensorsOfARequest : public ::testing::Test {
 TEST_F(SensorsOfARequest, ImagesCostNothingUnlessTheyAreWanted) {
   Request request = boxes(3);
   request.sensors.resize(2);
-  request.sensors[0].model = SensorModel::structured_light;
+  request.sensors[0].model = "structured_light";
   request.sensors[1].name = "exact";
   for (Sensor& sensor : request.sensors) sensor.width = 64, sensor.height = 48;
   Generator::Options options;
@@ -84,17 +84,18 @@ TEST_F(SensorsOfARequest, SensorsThatCanNotMeasureAreRefusedBeforeAnythingIsPour
       {"the request needs about", [](Request& r) { r.sensors[0].width = r.sensors[0].height = 16384; }},
       {"the request needs about",
        [](Request& r) {
-         r.sensors[0].model = SensorModel::laser_line;
+         r.sensors[0].model = "laser_line";
          r.sensors[0].scan.profiles = 65536;
        }},
-      {"too few for a projector", [](Request& r) { r.sensors[0].structured_light.gray_bits = 3; }},
+      {"too few for a projector",
+       [](Request& r) { r.sensors[0].settings.of<StructuredLightSettings>().gray_bits = 3; }},
   };
   for (const auto& [words, spoil] : cases) {
     Request request = boxes(1);
     request.parts[0].poses = {Pose{in_the_box, Quat::Identity()}};
     request.parts[0].fixed = true;
     request.sensors.resize(1);
-    request.sensors[0].model = SensorModel::structured_light;
+    request.sensors[0].model = "structured_light";
     spoil(request);
     bool poured = false;
     Generator::Options options;

@@ -170,7 +170,7 @@ TEST_F(Bop, WhatIsNoPinholeImageIsRefused) {
   image.sensor.distortion[0] = 0.1;
   EXPECT_THROW(write_bop(dir.string(), small_scene(), {bolt, nut}, {image}), Error);
   image.sensor.distortion[0] = 0.0;
-  image.sensor.model = SensorModel::laser_line;
+  image.sensor.model = "laser_line";
   EXPECT_THROW(write_bop(dir.string(), small_scene(), {bolt, nut}, {image}), Error);
 }
 

@@ -15,7 +15,7 @@ const char* const pcd_names[] = {
 /// A noisy sensor's image: its normals are no longer the true ones.
 RangeImage noisy_image() {
   RangeImage image = small_image();
-  image.sensor.model = SensorModel::structured_light;
+  image.sensor.model = "structured_light";
   image.normal[7] = {0.6f, 0.0f, -0.8f};  // of what it missed
   image.normal[15] = {std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f};
   return image;

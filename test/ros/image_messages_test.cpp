@@ -60,7 +60,7 @@ std::uint32_t label_at(const sensor_msgs::PointCloud2& cloud, int column, int ro
 TEST(ImageMessages, AnImageOfProfilesHasNoCameraInfo) {
   RangeImage image = some_image();
   image.sensor.width = 8, image.sensor.height = 6;
-  image.sensor.model = SensorModel::laser_line;
+  image.sensor.model = "laser_line";
   for (std::size_t i = 0; i < image.depth.size(); ++i)
     image.points.push_back({0.01f * static_cast<float>(i % 4), 0.01f * static_cast<float>(i / 4), image.depth[i]});
   const ImageMessages messages = image_messages(image, stamp);

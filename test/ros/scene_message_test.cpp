@@ -1,5 +1,6 @@
 #include "scene_message.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include "scenes.hpp"
 
@@ -67,10 +68,10 @@ TEST(SceneMessage, PartsAndSensorsComeBackBitForBit) {
 }
 
 TEST(SceneMessage, EverySensorModelComesBackAndAnotherIsRefused) {
-  for (const SensorModel model : sensor_models) {
+  for (const SensorModel* model : sensor_models()) {
     Sensor sensor;
-    sensor.model = model;
-    EXPECT_EQ(sensor_from(sensor_message(sensor)).model, model) << name_of(model);
+    sensor.model = model->name;
+    EXPECT_EQ(sensor_from(sensor_message(sensor)).model, model->name);
   }
   bin_scenes_msgs::Sensor message = sensor_message(Sensor());
   message.model = "sonar";

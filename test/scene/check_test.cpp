@@ -1,5 +1,5 @@
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,7 @@ std::string refused(Spoil spoil) {
   spoil(request);
   try {
     check(request);
+    check_sensors(request.sensors);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_FALSE(error.remedy().empty());
@@ -110,12 +111,18 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].far = 0.01; }), "sensors[0].far");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.read_noise = -1; }), "sensors[0].imager.read_noise");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.bits = 17; }), "sensors[0].imager.bits");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].structured_light.steps = 2; }), "sensors[0].structured_light.steps");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].laser_line.speckle = na_n; }), "sensors[0].laser_line.speckle");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.baseline = 0; }), "sensors[0].stereo.baseline");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.disparities = 100; }), "sensors[0].stereo.disparities");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].stereo.window = 8; }), "sensors[0].stereo.window");
-  EXPECT_EQ(refused([](Request& r) { r.sensors[0].time_of_flight.axial = -0.1; }), "sensors[0].time_of_flight.axial");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StructuredLightSettings>().steps = 2; }),
+            "sensors[0].structured_light.steps");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<LaserLineSettings>().speckle = na_n; }),
+            "sensors[0].laser_line.speckle");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().baseline = 0; }),
+            "sensors[0].stereo.baseline");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().disparities = 100; }),
+            "sensors[0].stereo.disparities");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().window = 8; }),
+            "sensors[0].stereo.window");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<TimeOfFlightSettings>().axial = -0.1; }),
+            "sensors[0].time_of_flight.axial");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].distortion[2] = NAN; }), "sensors[0].distortion");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].projector.baseline = 0.0; }), "sensors[0].projector.baseline");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].projector.fov = -1.0; }), "sensors[0].projector.fov");
@@ -134,21 +141,21 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
 }
 
 TEST(Check, PatternsMustTellAllOfTheProjectorsColumnsApart) {
-  const auto with = [](int bits, SensorModel model) {
+  const auto with = [](int bits, const std::string& model) {
     return refused([&](Request& r) {
       r.sensors[0].model = model;
       r.sensors[0].projector.width = 1280;  // 80 fringes of 16 columns
-      r.sensors[0].structured_light.gray_bits = bits;
+      r.sensors[0].settings.of<StructuredLightSettings>().gray_bits = bits;
     });
   };
-  EXPECT_EQ(with(8, SensorModel::structured_light), "");
-  EXPECT_EQ(with(7, SensorModel::structured_light), "sensors[0].structured_light.gray_bits");
-  EXPECT_EQ(with(7, SensorModel::ideal), "");
+  EXPECT_EQ(with(8, "structured_light"), "");
+  EXPECT_EQ(with(7, "structured_light"), "sensors[0].structured_light.gray_bits");
+  EXPECT_EQ(with(7, "ideal"), "");
 }
 
 TEST(Check, AStereoCameraIsRectified) {
   EXPECT_EQ(refused([](Request& r) {
-              r.sensors[0].model = SensorModel::stereo;
+              r.sensors[0].model = "stereo";
               r.sensors[0].distortion[0] = 0.1;
             }),
             "sensors[0].distortion");

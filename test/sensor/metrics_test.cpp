@@ -7,7 +7,7 @@
 namespace bin_scenes {
 namespace {
 
-Sensor small(SensorModel model) {
+Sensor small(const std::string& model) {
   Sensor sensor;
   sensor.model = model;
   sensor.width = 200;
@@ -21,7 +21,7 @@ Sensor small(SensorModel model) {
 }
 
 TEST(SensorMetrics, OfAnIdealSensorAreThoseOfTheTargets) {
-  const SensorMetrics m = measure_sensor(small(SensorModel::ideal));
+  const SensorMetrics m = measure_sensor(small("ideal"));
   EXPECT_NEAR(m.distances[1], 1.0, 1e-3);
   for (int i = 0; i < 7; ++i) {
     EXPECT_LT(m.probing_form[i], 1e-3 * m.ball_radius) << i;  // the ball's facets
@@ -35,7 +35,7 @@ TEST(SensorMetrics, OfAnIdealSensorAreThoseOfTheTargets) {
 
 TEST(SensorMetrics, FlatnessIsThatOfThePlatesFace) {
   // A scan that passes a tilted plate's sides too. Without noise its face is flat but for the converter's steps.
-  Sensor laser = small(SensorModel::laser_line);
+  Sensor laser = small("laser_line");
   laser.noise = false;
   laser.fov = 0.825;
   laser.near = 0.35;
@@ -56,15 +56,14 @@ double predicted(const SensorMetrics& m, double albedo) {
 
 TEST(SensorMetrics, NoiseIsNearTheOnePredicted) {
   // Measured at an albedo of 0.8 over the whole image, predicted at 0.9 in its middle.
-  for (const SensorModel model :
-       {SensorModel::structured_light, SensorModel::stereo, SensorModel::time_of_flight, SensorModel::laser_line}) {
+  for (const char* model : {"structured_light", "stereo", "time_of_flight", "laser_line"}) {
     const SensorMetrics m = measure_sensor(small(model));
-    EXPECT_GT(m.valid_points, 3000u) << name_of(model);
-    EXPECT_GT(m.temporal_noise / predicted(m, 0.9), 0.6) << name_of(model);
-    EXPECT_LT(m.temporal_noise / predicted(m, 0.9), 1.7) << name_of(model);
-    EXPECT_GE(m.point_precision, m.temporal_noise) << name_of(model);
-    EXPECT_GT(predicted(m, 0.05), predicted(m, 0.9)) << name_of(model);
-    EXPECT_LT(m.dimension_trueness, 0.05) << name_of(model);
+    EXPECT_GT(m.valid_points, 3000u) << model;
+    EXPECT_GT(m.temporal_noise / predicted(m, 0.9), 0.6) << model;
+    EXPECT_LT(m.temporal_noise / predicted(m, 0.9), 1.7) << model;
+    EXPECT_GE(m.point_precision, m.temporal_noise) << model;
+    EXPECT_GT(predicted(m, 0.05), predicted(m, 0.9)) << model;
+    EXPECT_LT(m.dimension_trueness, 0.05) << model;
   }
 }
 

@@ -115,7 +115,7 @@ TEST(Resolve, RefusesAPlaceFromWhichNothingCanBeSeen) {
 
 TEST(Resolve, ProjectorIsChecked) {
   Sensor sensor;
-  sensor.model = SensorModel::structured_light;
+  sensor.model = "structured_light";
   EXPECT_EQ(refusal(sensor), "");
   sensor.projector.pose = Pose{Vec3(0.2, 0, 1.0), Quat::Identity()};
   EXPECT_NE(refusal(sensor).find("projector looks away"), std::string::npos);
@@ -127,7 +127,7 @@ TEST(Resolve, ProjectorIsChecked) {
 
 TEST(Resolve, ACameraInTheWallIsToldSo) {
   Sensor sensor;
-  sensor.model = SensorModel::structured_light;
+  sensor.model = "structured_light";
   sensor.pose = Pose{Vec3(0.2025, 0, 0.1), Quat(0, 1, 0, 0)};  // in the middle of a wall of 5 mm
   EXPECT_NE(refusal(sensor).find("camera stands inside the bin's wall"), std::string::npos);
   sensor.pose->position.z() = 0.6;
@@ -136,7 +136,7 @@ TEST(Resolve, ACameraInTheWallIsToldSo) {
 
 TEST(Resolve, LaserIsChecked) {
   Sensor sensor;
-  sensor.model = SensorModel::laser_line;
+  sensor.model = "laser_line";
   EXPECT_EQ(refusal(sensor), "");
   sensor.laser.pose = resolved(sensor, Bin()).laser.pose;
   sensor.laser.pose->orientation = Quat::Identity();  // z up
@@ -149,7 +149,7 @@ TEST(Resolve, LaserIsChecked) {
 
 TEST(Resolve, ALaserMayPassTheBinOnlyInThatPartOfTheScan) {
   Sensor sensor;
-  sensor.model = SensorModel::laser_line;
+  sensor.model = "laser_line";
   sensor.pose = Pose{Vec3(-0.25, 0, 1.0), Quat(0, 1, 0, 0)};
   sensor.laser.pose = Pose{Vec3(-0.35, 0, 1.0), Quat(0, 1, 0, 0)};  // straight down, beside the bin
   sensor.scan.step = 1e-3;

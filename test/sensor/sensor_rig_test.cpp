@@ -126,7 +126,7 @@ TEST(SensorRig, WhatStandsInAHeapIsFlagged) {
   EXPECT_EQ(stage.scene.report.flags[0].text, "the camera of sensor 'camera' stands inside part 1");
   EXPECT_FALSE(stage.scene.report.flags[0].remedy.empty());
   stage.scene.parts[1].pose = at(0.3, 0, 0);
-  stage.request.sensors[0].model = SensorModel::structured_light;
+  stage.request.sensors[0].model = "structured_light";
   stage.request.sensors[0].projector.pose = at(0.3, 0, 0);
   stage.scene.report.flags.clear();
   stage.look();

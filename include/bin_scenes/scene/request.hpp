@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/model_settings.hpp"
 #include "bin_scenes/scene/motion.hpp"
 #include "bin_scenes/scene/sensor_models.hpp"
 
@@ -156,21 +157,6 @@ struct SolverSettings {
   SphereSettings sphere;
 };
 
-/// Measuring principle of a sensor; src/sensor/models has one file each.
-enum class SensorModel {
-  ideal,             ///< exact depth at pixel centres
-  structured_light,  ///< a camera and a projector of fringes
-  laser_line,        ///< a sheet of light, moved over the bin
-  stereo,            ///< two cameras, and a projector of dots
-  time_of_flight
-};
-constexpr SensorModel sensor_models[] = {SensorModel::ideal, SensorModel::structured_light, SensorModel::laser_line,
-                                         SensorModel::stereo, SensorModel::time_of_flight};
-/// These three throw an input Error for what is no model: none is taken for another.
-const char* name_of(SensorModel model);
-SensorModel sensor_model(const std::string& name);
-[[noreturn]] void no_sensor_model(const std::string& found);
-
 /// structured_light and stereo: how deep the simulation goes.
 enum class Fidelity {
   analytic,  ///< depth with the noise and the gaps that the device's formulas predict; fast
@@ -214,8 +200,8 @@ struct Views {
 struct Sensor {
   std::string name = "camera";
   std::string view_of;  ///< name of the sensor of whose `views` this is one; empty: a sensor of its own
-  SensorModel model = SensorModel::ideal;
-  std::string preset;  ///< name of the preset the values come from; read by config/, has no effect of its own
+  std::string model = "ideal";  ///< name of a SensorModel (sensor/sensor_model.hpp)
+  std::string preset;           ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
   double fov = 0.75;                   ///< horizontal field of view (rad); sets the intrinsics unless K is given
   std::vector<double> k;               ///< 3x3 row-major intrinsics; empty: from fov, principal point in the middle
@@ -224,14 +210,11 @@ struct Sensor {
   Views views;
   double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
-  Projector projector;    ///< structured_light, stereo
-  Laser laser;            ///< laser_line
-  Scan scan;              ///< laser_line
-  ImagerSettings imager;  ///< structured_light, laser_line, stereo: the camera's chip
-  StructuredLightSettings structured_light;
-  LaserLineSettings laser_line;
-  StereoSettings stereo;
-  TimeOfFlightSettings time_of_flight;
+  Projector projector;        ///< structured_light, stereo
+  Laser laser;                ///< laser_line
+  Scan scan;                  ///< laser_line
+  ImagerSettings imager;      ///< structured_light, laser_line, stereo: the camera's chip
+  ModelSettings settings;     ///< of the models, by type: settings.of<StereoSettings>()
   bool noise = true;          ///< false: every random effect is off; geometry (shadow, field of view) stays
   double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };
@@ -269,7 +252,8 @@ struct Request {
 /// change nothing but themselves.
 void apply(SolverSettings::Preset preset, Request& request);
 
-/// Throws one input Error for the first invalid field (negative count, NaN, friction < 0, ...).
+/// Throws one input Error for the first invalid field (negative count, NaN, friction < 0, ...). Of sensors it only
+/// counts that there are some: check_sensors() in sensor/sensor_model.hpp knows their models.
 void check(const Request& request);
 
 }  // namespace bin_scenes

@@ -1,5 +1,6 @@
-/// Settings of the sensor models beside geometry (Sensor in scene/request.hpp): what light and chip do. Every effect
-/// can be switched off by the value its comment names; `noise: false` of a sensor switches off all that are random.
+/// Settings of the built-in sensor models beside geometry (Sensor in scene/request.hpp): what light and chip do. A
+/// model of your own keeps its settings in its own file (sensor/sensor_model.hpp). Every effect can be switched off by
+/// the value its comment names; `noise: false` of a sensor switches off all that are random.
 #pragma once
 
 namespace bin_scenes {

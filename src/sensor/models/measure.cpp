@@ -1,5 +1,4 @@
-#include "sensor/models/from_sensor.hpp"
-#include "sensor/models/ideal.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <utility>
 
@@ -12,33 +11,17 @@ Surfaces surfaces_of(const Request& request) {
   return surfaces;
 }
 
-namespace {
-
-RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
-                    const Draw& draw) {
-  switch (sensor.model) {
-    case SensorModel::ideal:
-      return measure_ideal(std::move(view));
-    case SensorModel::structured_light:
-      return measure_structured_light(scenery, std::move(view), sensor, surfaces, draw);
-    case SensorModel::laser_line:
-      return measure_laser_line(scenery, std::move(view), sensor, surfaces, draw);
-    case SensorModel::stereo:
-      return measure_stereo(scenery, std::move(view), sensor, surfaces, draw);
-    case SensorModel::time_of_flight:
-      return measure_time_of_flight(scenery, std::move(view), sensor, surfaces, draw);
-  }
-  no_sensor_model("number " + std::to_string(static_cast<int>(sensor.model)));
-}
-
-}  // namespace
-
 RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw) {
-  RangeImage image = measured(scenery, std::move(view), sensor, surfaces, draw);
+  RangeImage image = sensor_model(sensor.model).measure(scenery, std::move(view), sensor, surfaces, draw);
   image.sensor = sensor;
   if (image.width == 0) image.width = sensor.width, image.height = sensor.height;
   return image;
+}
+
+double predicted_sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
+  const SensorModel& model = sensor_model(sensor.model);
+  return sensor.noise ? model.predicted_sigma(sensor, distance, incidence, albedo) : 0.0;
 }
 
 }  // namespace bin_scenes

@@ -1,7 +1,7 @@
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/models.hpp"
 #include "sensor/models/line_peak.hpp"
 #include "sensor/models/noise_field.hpp"
-#include "sensor/models/predicted_sigma.hpp"
 #include "sensor/models/time_of_flight_noise.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 TEST(PredictedSigma, AnUnknownModelIsTakenForNoOther) {
   Sensor sensor;
   sensor.pose = Pose();
-  sensor.model = static_cast<SensorModel>(99);
+  sensor.model = "lidar";
   EXPECT_THROW(predicted_sigma(sensor, 1.0, 0.0, 0.5), Error);
 }
 

@@ -1,17 +1,17 @@
-/// The table of request keys: every key once, with its field, unit, meaning and the consequence of changing it.
-/// Reading, writing back, `--set`, suggestions for unknown keys and docs/use/request.md all come from visiting it; the
-/// default of a key is the value of its field in a default-constructed struct (scene/request.hpp).
+/// The table of request keys: every key once, with its field, unit, meaning, range and the consequence of changing it.
+/// Reading, writing back, `--set`, suggestions for unknown keys, check() and docs/use/request.md all come from visiting
+/// it; the default of a key is the value of its field in a default-constructed struct (scene/request.hpp). Keys of
+/// sensors are in sensor/sensor_keys.hpp.
 ///
 /// A visitor has  field(Key, value&)          one value
 ///                section(Key, struct&)       a map of further keys
 ///                list(Key, vector<struct>&)  a list of maps
 #pragma once
 
+#include "bin_scenes/scene/key.hpp"
 #include "bin_scenes/scene/request.hpp"
-#include "config/key.hpp"
-#include "config/sensor_keys.hpp"
 
-namespace bin_scenes::config {
+namespace bin_scenes {
 
 inline Names<Unit> names(Unit) {
   return {{"m", Unit::metre}, {"cm", Unit::centimetre}, {"mm", Unit::millimetre}, {"inch", Unit::inch}};
@@ -39,21 +39,36 @@ inline Names<SphereSettings::Device> names(SphereSettings::Device) {
 
 template <class Visitor>
 void visit(Visitor& v, Motion& motion) {
-  v.field(
-      {"times", "s",
-       "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu"},
-      motion.times);
+  v.field({"times", "s",
+           "when it is at each of poses, from its beginning, ascending. Motion is not for preset thesis and device gpu",
+           above(0.0, 1e5)},
+          motion.times);
   v.field(
       {"poses", "m",
        "where it is then, from where it stood, in the axes that the bin had; it goes smoothly from one to the next; a "
        "bin ends upright. Poses of parts stay those in the bin"},
       motion.poses);
-  v.field({"shake", "m", "amplitude of a sine along the axes"}, motion.shake);
-  v.field({"tilt", "rad", "amplitude of a sine of turns about the axes"}, motion.tilt);
-  v.field({"frequency", "Hz", "of shake and tilt, which swell up over their first period and fade over their last"},
+  v.field({"shake", "m", "amplitude of a sine along the axes", at_least(-100.0, 100.0)}, motion.shake);
+  v.field({"tilt", "rad", "amplitude of a sine of turns about the axes", at_least(-M_PI, M_PI)}, motion.tilt);
+  v.field({"frequency", "Hz", "of shake and tilt, which swell up over their first period and fade over their last",
+           above(0.0, 100.0)},
           motion.frequency);
-  v.field({"belt", "m/s", "velocity of the surface of a part that itself stays: a conveyor"}, motion.belt);
-  v.field({"seconds", "s", "how long shake, tilt and belt go on"}, motion.seconds);
+  v.field({"belt", "m/s", "velocity of the surface of a part that itself stays: a conveyor", at_least(-100.0, 100.0)},
+          motion.belt);
+  v.field({"seconds", "s", "how long shake, tilt and belt go on", above(0.0, 1e5)}, motion.seconds);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Surface& surface) {
+  v.field({"albedo", "", "share of the light that is sent back, 0 to 1; dark parts are noisier and drop out",
+           at_least(0.0, 1.0)},
+          surface.albedo);
+  v.field(
+      {"gloss", "", "share of that which is mirrored, 0 to 1; shiny parts saturate or drop out", at_least(0.0, 1.0)},
+      surface.gloss);
+  v.field({"roughness", "", "width of the mirrored lobe, 0 to 1; smaller = narrower and brighter highlights",
+           at_least(0.0, 1.0)},
+          surface.roughness);
 }
 
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.
@@ -67,19 +82,23 @@ void visit(Visitor& v, Bin& bin) {
   using Kind = Bin::Kind;
   const bool box = bin.kind == Kind::box, mesh = bin.kind == Kind::mesh;
   BinKeys kind(bin);
-  v.field({"inner_size", "m", "box: inner length x, width y and height z", box}, bin.inner_size);
-  v.field({"wall_thickness", "m", "box: thickness of walls and floor; seen by cameras, never by the physics", box},
+  v.field({"inner_size", "m", "box: inner length x, width y and height z", above(0.0, 1000.0), box}, bin.inner_size);
+  v.field({"wall_thickness", "m", "box: thickness of walls and floor; seen by cameras, never by the physics",
+           at_least(0.0, 10.0), box},
           bin.wall_thickness);
-  v.field({"mesh", "", "path of a mesh that is the bin, instead of a box; written like parts[].model", mesh}, bin.mesh);
-  v.field({"unit", "", "mesh: unit of the file", mesh}, bin.unit);
-  v.field({"pose", "", "mesh: frame of the file in the bin frame", mesh}, bin.pose);
-  v.field({"floor", "", "true: an endless floor at z = 0 instead of a box", kind.floor}, kind.floor);
-  v.field({"none", "", "true: no bin, free flight", kind.none}, kind.none);
-  v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)"}, bin.friction);
-  v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin"}, bin.restitution);
+  v.field({"mesh", "", "path of a mesh that is the bin, instead of a box; written like parts[].model", anything, mesh},
+          bin.mesh);
+  v.field({"unit", "", "mesh: unit of the file", anything, mesh}, bin.unit);
+  v.field({"pose", "", "mesh: frame of the file in the bin frame", anything, mesh}, bin.pose);
+  v.field({"floor", "", "true: an endless floor at z = 0 instead of a box", anything, kind.floor}, kind.floor);
+  v.field({"none", "", "true: no bin, free flight", anything, kind.none}, kind.none);
+  v.field({"friction", "", "of walls and floor; the coefficient of a contact is sqrt(part * bin)", at_least(0.0, 10.0)},
+          bin.friction);
+  v.field({"restitution", "", "of walls and floor; a contact uses the larger one of part and bin", at_least(0.0, 1.0)},
+          bin.restitution);
   v.section({"surface", "", "of walls and floor: what light does there"}, bin.surface);
   v.section({"motion", "", "path of the bin, begun when all parts are in and slow; then the heap settles again",
-             bin.motion.any()},
+             anything, bin.motion.any()},
             bin.motion);
   v.bin_kind(bin, kind);
 }
@@ -96,29 +115,34 @@ void visit(Visitor& v, PartLine& part) {
            "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
            "bin, which is an error that names the likely unit"},
           part.unit);
-  v.field({"scale", "", "multiplies the model after the unit"}, part.scale);
-  v.field({"count", "", "number of copies; cost grows with it", true, 1}, part.count);
-  v.field({"density", "kg/m3", "mass = density * volume of the mesh; 1000 if mass is not given either"}, part.density);
-  v.field({"mass", "kg", "of one part, instead of density"}, part.mass);
-  v.field({"friction", "", "the coefficient of a contact is sqrt(a * b)"}, part.friction);
+  v.field({"scale", "", "multiplies the model after the unit", above(0.0, 1e6)}, part.scale);
+  v.field({"count", "", "number of copies; cost grows with it", at_least(1.0, 1e6)}, part.count);
+  v.field(
+      {"density", "kg/m3", "mass = density * volume of the mesh; 1000 if mass is not given either", above(0.0, 1e5)},
+      part.density);
+  v.field({"mass", "kg", "of one part, instead of density", above(0.0, 1e6)}, part.mass);
+  v.field({"friction", "", "the coefficient of a contact is sqrt(a * b)", at_least(0.0, 10.0)}, part.friction);
   v.field({"restitution", "",
-           "a contact uses the larger one of the two; parts with high values take longer to come to rest"},
+           "a contact uses the larger one of the two; parts with high values take longer to come to rest",
+           at_least(0.0, 1.0)},
           part.restitution);
-  v.field({"thickness", "m", "gives an open surface walls of this thickness instead of refusing it"}, part.thickness);
+  v.field({"thickness", "m", "gives an open surface walls of this thickness instead of refusing it", above(0.0, 1.0)},
+          part.thickness);
   v.field({"poses", "m",
            "start poses of the model frame in the bin frame, one a part: [x, y, z, qx, qy, qz, qw]; needed by "
            "pour.pattern given and by fixed parts",
-           !part.poses.empty()},
+           anything, !part.poses.empty()},
           part.poses);
   v.field({"velocities", "m/s, rad/s",
            "start velocities, one a pose: [vx, vy, vz, wx, wy, wz] of the centre of mass in the bin frame; left out: "
            "at rest",
-           !part.velocities.empty()},
+           at_least(-1e4, 1e4), !part.velocities.empty()},
           part.velocities);
   v.field({"fixed", "", "true: an obstacle (a divider, a fixture) that stays at its given pose"}, part.fixed);
   v.section({"surface", "", "what light does on these parts; physics does not depend on it"}, part.surface);
-  v.section({"motion", "", "path of a fixed part that nothing stops: a pusher, a conveyor", part.motion.any()},
-            part.motion);
+  v.section(
+      {"motion", "", "path of a fixed part that nothing stops: a pusher, a conveyor", anything, part.motion.any()},
+      part.motion);
 }
 
 template <class Visitor>
@@ -135,26 +159,31 @@ void visit(Visitor& v, Pour& pour) {
        "remembered forces and with a tenth less friction, which takes up to twice the time of pressed. To bullet all "
        "three are settled"},
       pour.finish);
-  v.field({"drop_height", "m", "rain: free fall of a part above the heap; higher = harder impacts and longer scenes"},
+  v.field({"drop_height", "m", "rain: free fall of a part above the heap; higher = harder impacts and longer scenes",
+           at_least(0.0, 100.0)},
           pour.drop_height);
-  v.field({"grid_spacing", "", "grid: cell edge / bounding diameter of the largest part"}, pour.grid_spacing);
+  v.field({"grid_spacing", "", "grid: cell edge / bounding diameter of the largest part", at_least(1.0, 100.0)},
+          pour.grid_spacing);
   v.field(
       {"scene", "",
        "given: path of an earlier scene.json to continue from; its parts are matched with the part lines by position "
        "in the list; escaped parts are left out",
-       false},
+       anything, false},
       pour.scene);
-  v.field({"limit", "s", "simulated time after which a scene that still moves ends, not at rest"}, pour.limit);
-  v.field({"rest_window", "s", "simulated time over which no part may move; longer = more certain rest, longer scenes"},
+  v.field({"limit", "s", "simulated time after which a scene that still moves ends, not at rest", above(0.0, 1e5)},
+          pour.limit);
+  v.field({"rest_window", "s", "simulated time over which no part may move; longer = more certain rest, longer scenes",
+           above(0.0)},
           pour.rest_window);
-  v.field({"rest_move", "", "largest displacement over the window / part diagonal that counts as rest"},
-          pour.rest_move);
-  v.field({"rest_turn", "rad", "largest turn over the window that counts as rest"}, pour.rest_turn);
+  v.field(
+      {"rest_move", "", "largest displacement over the window / part diagonal that counts as rest", above(0.0, 1.0)},
+      pour.rest_move);
+  v.field({"rest_turn", "rad", "largest turn over the window that counts as rest", above(0.0, 3.2)}, pour.rest_turn);
 }
 
 template <class Visitor>
 void visit(Visitor& v, BulletSettings& s) {
-  v.field({"time_step", "s", "larger = faster, but thin parts interlock"}, s.time_step);
+  v.field({"time_step", "s", "larger = faster, but thin parts interlock", above(0.0, 0.1)}, s.time_step);
   v.field(
       {"cut_steps", "",
        "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
@@ -162,53 +191,74 @@ void visit(Visitor& v, BulletSettings& s) {
       s.cut_steps);
   v.field({"iterations", "",
            "sequential-impulse sweeps a step, two a sub-step, and as many relaxing sweeps; more = stiffer piles, "
-           "linear cost"},
+           "linear cost",
+           at_least(1.0, 10000.0)},
           s.iterations);
-  v.field({"margin", "", "collision margin / part diagonal, inside the hulls; smaller = slower, more exact"}, s.margin);
+  v.field({"margin", "", "collision margin / part diagonal, inside the hulls; smaller = slower, more exact",
+           above(0.0, 0.2)},
+          s.margin);
   v.field({"sleeping", "", "true: islands at rest cost nothing; false: every part is simulated to the end"},
           s.sleeping);
   v.field({"hull_error", "",
            "largest surface error of the convex decomposition / part diagonal; smaller = more hulls, cost grows with "
-           "their square"},
+           "their square",
+           above(0.0, 1.0)},
           s.hull_error);
   v.field(
       {"hull_volume_error", "",
        "largest excess volume of all hulls together / volume of the part; smaller = more hulls; the report has a flag "
-       "if max_hulls does not suffice"},
+       "if max_hulls does not suffice",
+       above(0.0, 10.0)},
       s.hull_volume_error);
-  v.field({"max_hulls", "", "largest number of hulls per part; takes precedence over both errors"}, s.max_hulls);
+  v.field(
+      {"max_hulls", "", "largest number of hulls per part; takes precedence over both errors", at_least(1.0, 4096.0)},
+      s.max_hulls);
 }
 
 template <class Visitor>
 void visit(Visitor& v, ThesisSettings& s) {
-  v.field({"time_step", "s", "larger = faster, but thin parts tunnel"}, s.time_step);
-  v.field({"sub_steps", "", "whole steps of time_step / sub_steps each; linear cost"}, s.sub_steps);
-  v.field({"iterations", "", "impulse and velocity passes a step (5 or 10 in the thesis); higher stacks need more"},
+  v.field({"time_step", "s", "larger = faster, but thin parts tunnel", above(0.0, 0.1)}, s.time_step);
+  v.field({"sub_steps", "", "whole steps of time_step / sub_steps each; linear cost", at_least(1.0, 1000.0)},
+          s.sub_steps);
+  v.field({"iterations", "", "impulse and velocity passes a step (5 or 10 in the thesis); higher stacks need more",
+           at_least(1.0, 10000.0)},
           s.iterations);
-  v.field({"bias", "", "share of the penetration turned into velocity each step; more = stiffer, with jitter"}, s.bias);
-  v.field({"slop", "", "penetration that is tolerated / sphere radius; 0 = contacts flicker"}, s.slop);
-  v.field({"rest_velocity", "m/s", "approach speed below which restitution is 0; 0 = 2 g time_step"}, s.rest_velocity);
-  v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square"}, s.voxels);
-  v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface"},
+  v.field({"bias", "", "share of the penetration turned into velocity each step; more = stiffer, with jitter",
+           at_least(0.0, 1.0)},
+          s.bias);
+  v.field({"slop", "", "penetration that is tolerated / sphere radius; 0 = contacts flicker", at_least(0.0, 1.0)},
+          s.slop);
+  v.field(
+      {"rest_velocity", "m/s", "approach speed below which restitution is 0; 0 = 2 g time_step", at_least(0.0, 100.0)},
+      s.rest_velocity);
+  v.field({"voxels", "", "voxels along the part's longest side; spheres grow with its square", at_least(1.0, 512.0)},
+          s.voxels);
+  v.field({"tightness", "", "voxel pitch / sphere diameter; below 1 = overlapping spheres, smoother surface",
+           above(0.0, 1.0)},
           s.tightness);
   v.field(
       {"radii", "",
        "radii of spheres / the part's longest side, largest first, instead of voxels: large spheres fill the inside, "
        "the smallest the surface",
-       !s.radii.empty()},
+       at_least(0.5 / 512.0, 0.5), !s.radii.empty()},
       s.radii);
   v.field({"modified_normals", "", "face spheres carry the true surface's normal: stable with fewer iterations"},
           s.modified_normals);
-  v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube"}, s.grid_size);
-  v.field({"cell_size", "", "cell edge / largest sphere diameter, at least 1; larger = more candidates per cell"},
+  v.field({"grid_size", "", "cells per axis of the collision grid; memory grows with its cube", at_least(1.0, 1024.0)},
+          s.grid_size);
+  v.field({"cell_size", "", "cell edge / largest sphere diameter, at least 1; larger = more candidates per cell",
+           at_least(1.0, 1000.0)},
           s.cell_size);
-  v.field({"contacts_per_sphere", "", "initial capacity; enlarged if necessary, with a flag in the report"},
+  v.field({"contacts_per_sphere", "", "initial capacity; enlarged if necessary, with a flag in the report",
+           at_least(1.0, 1024.0)},
           s.contacts_per_sphere);
 }
 
 template <class Visitor>
 void visit(Visitor& v, SphereSettings& s) {
-  v.field({"time_step", "s", "one collision detection each; larger = faster, but thin parts interlock"}, s.time_step);
+  v.field(
+      {"time_step", "s", "one collision detection each; larger = faster, but thin parts interlock", above(0.0, 0.1)},
+      s.time_step);
   v.field(
       {"cut_steps", "",
        "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
@@ -217,22 +267,29 @@ void visit(Visitor& v, SphereSettings& s) {
   v.field(
       {"step_fall", "",
        "with cut_steps: way that the smallest part falls from rest in one step at most / its diagonal; more = longer "
-       "steps for small parts, which sink in further"},
+       "steps for small parts, which sink in further",
+       above(0.0, 1.0)},
       s.step_fall);
-  v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost"}, s.sub_steps);
+  v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost",
+           at_least(1.0, 1000.0)},
+          s.sub_steps);
   v.field({"recycle", "",
            "contacts of a pair are reused until it moved so far / diagonal of the smallest part, three times as far "
-           "while pouring; more = faster, contacts are less exact"},
+           "while pouring; more = faster, contacts are less exact",
+           above(0.0, 0.1)},
           s.recycle);
-  v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more"}, s.coarse_samples);
+  v.field({"coarse_samples", "", "surface samples per part while pouring; thin parts get more", at_least(8.0, 1e6)},
+          s.coarse_samples);
   v.field(
       {"fine_samples", "",
        "surface samples per part while settling; thin parts get more; more = less penetration, linear cost; 0 = the "
-       "coarse ones"},
+       "coarse ones",
+       at_least(0.0, 1e6)},
       s.fine_samples);
-  v.field({"field_cell", "",
-           "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube"},
-          s.field_cell);
+  v.field(
+      {"field_cell", "", "cell of the distance field / part diagonal; smaller = more exact, memory grows with its cube",
+       above(0.0, 0.25)},
+      s.field_cell);
   v.field({"device", "",
            "cpu: plain C++; gpu: OpenGL compute passes, many scenes at once; auto: what needs less time for a standard "
            "heap, "
@@ -256,32 +313,38 @@ void visit(Visitor& v, SolverSettings& solver) {
 template <class Visitor>
 void visit(Visitor& v, Acceptance& accept) {
   v.field(
-      {"penetration", "", "largest penetration of any pair / smaller part's diagonal; deeper: the scene is set apart"},
+      {"penetration", "", "largest penetration of any pair / smaller part's diagonal; deeper: the scene is set apart",
+       at_least(0.0, 1.0)},
       accept.penetration);
   v.field({"gap", "",
            "largest distance that a part at rest could fall before it touches something / its diagonal; farther: the "
-           "scene is set apart"},
+           "scene is set apart",
+           at_least(0.0, 1.0)},
           accept.gap);
   v.field({"energy", "",
            "largest energy that a part gained from nowhere between two looks (1/60 s) / (its mass * gravity * its "
-           "diagonal); more: contacts threw it about, and the scene is set apart"},
+           "diagonal); more: contacts threw it about, and the scene is set apart",
+           at_least(0.0)},
           accept.energy);
   v.field({"speed", "",
            "largest (speed of a part - gravity * time between two looks) / fastest of the parts near it before; more: "
-           "contacts threw it out, and the scene is set apart"},
+           "contacts threw it out, and the scene is set apart",
+           at_least(1.0)},
           accept.speed);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
 }
 
 template <class Visitor>
 void visit(Visitor& v, Request& request) {
-  v.field({"seed", "", "same request, seed and device class = same scene, bit for bit; 0 is a seed like any other"},
+  v.field({"seed", "", "same request, seed and device class = same scene, bit for bit; 0 is a seed like any other",
+           at_least(0.0)},
           request.seed);
-  v.field({"scenes", "", "number of scenes", true, 1}, request.scenes);
-  v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split"},
+  v.field({"scenes", "", "number of scenes", at_least(1.0, 1e9)}, request.scenes);
+  v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split",
+           at_least(0.0, 1e9)},
           request.first);
   v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, request.bin);
-  v.field({"gravity", "m/s2", "in the bin frame"}, request.gravity);
+  v.field({"gravity", "m/s2", "in the bin frame", at_least(-1e4, 1e4)}, request.gravity);
   v.list({"parts", "", "parts to pour; several lines make a mixed bin"}, request.parts);
   v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
   v.section({"solver", "", "solver and its settings"}, request.solver);
@@ -292,15 +355,16 @@ void visit(Visitor& v, Request& request) {
            false},
           request.rig);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
-  v.field({"seconds", "s", "simulates exactly this long instead of until rest"}, request.seconds);
+  v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
   v.field({"drift_check", "",
            "true: the same solver continues from rest for 0.5 s, and the report says how far parts move; this tells "
            "nothing "
            "about other engines"},
           request.drift_check);
   v.field({"memory_budget", "byte",
-           "a request whose estimate exceeds it is refused, with the figure; distance fields share half of it"},
+           "a request whose estimate exceeds it is refused, with the figure; distance fields share half of it",
+           above(0.0, 1e15)},
           request.memory_budget);
 }
 
-}  // namespace bin_scenes::config
+}  // namespace bin_scenes

@@ -1,0 +1,44 @@
+/// One key of a request, as the tables in src/scene/keys.hpp, src/sensor/sensor_keys.hpp and the sensor models list
+/// them: what is said here is what the reader asks for, check() refuses and docs/use/request.md shows.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What a number may be; of a list or a vector each of its numbers.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool above = false;  ///< least itself is excluded
+};
+constexpr Range anything{};
+constexpr Range at_least(double least, double most = std::numeric_limits<double>::infinity()) {
+  return {least, most, false};
+}
+constexpr Range above(double least, double most = std::numeric_limits<double>::infinity()) {
+  return {least, most, true};
+}
+
+struct Key {
+  const char* name;
+  const char* unit;  ///< "" if it has none
+  const char* text;  ///< meaning; what a larger or smaller value costs
+  Range range = anything;
+  bool written = true;  ///< false: has no meaning for the other values; left out when written back, and not checked
+};
+
+/// Names of an enumeration as the request spells them.
+template <class Enum>
+using Names = std::vector<std::pair<const char*, Enum>>;
+
+/// A value that is one of the words known.
+struct Word {
+  std::string value;
+  std::vector<std::string> known;
+};
+
+}  // namespace bin_scenes

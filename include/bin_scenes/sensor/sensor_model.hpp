@@ -1,0 +1,82 @@
+/// What a sensor model is, and which there are. A model is one file that ends in its SensorModel: built-in ones are
+/// src/sensor/models/NAME_model.cpp, listed in src/sensor/CMakeLists.txt; a program may register models of its own.
+/// Request files, `--set`, suggestions, docs/use/request.md, check_sensors(), messages, scene.json, frames, outputs
+/// and `bin_scenes sensor` all ask this table.
+#pragma once
+
+#include "bin_scenes/scene/key.hpp"
+#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/sensor/models.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What is done with the keys of a model's settings: read, written, checked or listed.
+class KeyVisitor {
+ public:
+  virtual void field(const Key& key, double& value) = 0;
+  virtual void field(const Key& key, int& value) = 0;
+  virtual void field(const Key& key, bool& value) = 0;
+  virtual void field(const Key& key, Word& value) = 0;
+  template <class Enum>
+  void field(const Key& key, Enum& value, const Names<Enum>& names) {
+    Word word;
+    for (const auto& [name, meaning] : names) {
+      word.known.emplace_back(name);
+      if (meaning == value) word.value = name;
+    }
+    field(key, word);
+    for (const auto& [name, meaning] : names)
+      if (word.value == name) value = meaning;
+  }
+
+ protected:
+  ~KeyVisitor() = default;
+};
+
+struct SensorModel {
+  const char* name;  ///< of `model`, and of the section of its settings
+  const char* text;  ///< of that section
+  /// All keys of its settings, which it takes from the ModelSettings by their type. None: it has no section.
+  void (*visit)(KeyVisitor& visitor, ModelSettings& settings);
+  /// Throws an input Error at `key`.something for what ranges do not say; called for every sensor, whatever its model,
+  /// so that a mistake does not wait for a change of model.
+  void (*check)(const Sensor& sensor, const std::string& key);
+  /// The same for a sensor of this model that is resolved().
+  void (*check_places)(const Sensor& sensor, const std::string& where);
+  /// Measured and true images. @param view  of the sensor's camera; its images may be taken over
+  RangeImage (*measure)(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                        const Draw& draw);
+  /// predicted_sigma() of a sensor with noise.
+  double (*predicted_sigma)(const Sensor& sensor, double distance, double incidence, double albedo);
+
+  enum class Image {
+    pinhole,  ///< a pixel's point lies on its ray
+    profiles  ///< rows are profiles of a scan: Scan::profiles of them
+  } image = Image::pinhole;
+  // The devices beside the camera's lens whose settings and places it uses.
+  bool imager = false;
+  bool projector = false;
+  bool laser = false;     ///< and Scan
+  bool fidelity = false;  ///< it has both
+  bool exact = false;     ///< it measures the truth: without noise, with true normals
+};
+
+/// In the order of messages and reference.
+const std::vector<const SensorModel*>& sensor_models();
+/// The model of that name; throws an input Error for what is none: no model is taken for another.
+const SensorModel& sensor_model(const std::string& name);
+/// Adds a model, which must live on. Before the first request is read, and in one thread: from the initialiser of a
+/// constant, for instance. Returns true; throws an input Error for a name that is taken.
+bool register_sensor_model(const SensorModel& model);
+
+/// The light that a sensor's model uses beside the camera: "projector" and "laser" with their poses, resolved().
+std::vector<std::pair<const char*, Pose>> light_of(const Sensor& sensor);
+
+/// Throws one input Error for the first key of a sensor that makes no sense.
+void check_sensors(const std::vector<Sensor>& sensors);
+
+}  // namespace bin_scenes

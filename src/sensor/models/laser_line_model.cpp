@@ -1,0 +1,85 @@
+/// A sheet of light as a SensorModel: keys, checks, and the model made from a sensor.
+#include "bin_scenes/core/error.hpp"
+#include "sensor/models/of_sensor.hpp"
+
+namespace bin_scenes {
+
+LaserLine::Setup laser_line_setup(const Sensor& s) {
+  const Vec3 way = s.scan.step * s.scan.direction.normalized();
+  return {lens_of(s),
+          *s.pose,
+          *s.laser.pose,
+          1e-3 * s.laser.width_mm,
+          way,
+          s.scan.profiles,
+          s.settings.of<LaserLineSettings>(),
+          s.imager,
+          s.noise,
+          s.near,
+          s.far};
+}
+
+namespace {
+
+void visit_keys(KeyVisitor& v, ModelSettings& settings) {
+  LaserLineSettings& s = settings.of<LaserLineSettings>();
+  v.field({"fan", "rad", "opening of the sheet about its z axis", at_least(1e-3, 3.0)}, s.fan);
+  v.field({"power", "", "signal / full well at the line's peak on a white matte surface that faces the laser",
+           above(0.0, 1000.0)},
+          s.power);
+  v.field({"blur", "pixel", "standard deviation of the camera's blur; adds to the line's width", at_least(0.2, 100.0)},
+          s.blur);
+  v.field({"speckle", "", "contrast of speckle in one pixel, 0 to 1; moves the peak; 0 = none", at_least(0.0, 1.0)},
+          s.speckle);
+  v.field({"min_signal", "", "peak signal / full well below which a line is missing (code 4)", above(0.0, 1.0)},
+          s.min_signal);
+  v.field({"peak", "", "which of two lines in a column is reported"}, s.peak,
+          {{"strongest", LaserLineSettings::Peak::strongest}, {"nearest", LaserLineSettings::Peak::nearest}});
+}
+
+void check_places(const Sensor& sensor, const std::string& where) {
+  const Vec3 sheet = sensor.laser.pose->orientation * Vec3::UnitX();
+  if (std::abs(sheet.dot(sensor.laser.pose->position - sensor.pose->position)) < 1e-6)
+    throw input_error("the sheet of light passes the camera: there is no triangle to measure with", where,
+                      "move the laser across its sheet (x of its frame), or give it a baseline");
+}
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
+  Profiles profiles = LaserLine(scenery, surfaces, laser_line_setup(sensor)).scanned(random_of(draw));
+  RangeImage image;
+  image.width = profiles.width;
+  image.height = profiles.height;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::array<float, 3> no_normal{nan, nan, nan};
+  for (std::size_t i = 0; i < profiles.points.size(); ++i) {
+    const bool valid = profiles.validity[i] == Validity::valid;
+    image.validity.push_back(static_cast<std::uint8_t>(profiles.validity[i]));
+    image.depth.push_back(profiles.points[i][2]);
+    image.label.push_back(valid ? profiles.label[i] : std::uint16_t{0});
+    image.normal.push_back(valid ? profiles.normals[i] : no_normal);
+  }
+  image.intensity = std::move(profiles.intensity);
+  image.points = std::move(profiles.points);
+  image.truth_normal = std::move(view.normal);  // the others are of profiles, not of the camera's image
+  add_truth(image, std::move(view));
+  return image;
+}
+
+double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
+  const Plate plate(sensor, distance, incidence, albedo);
+  return LaserLine(plate.scenery, plate.surfaces, laser_line_setup(sensor)).depth_sigma();
+}
+
+constexpr SensorModel model() {
+  SensorModel m{"laser_line", "the line of light and its peak", visit_keys, nullptr, check_places, measured, sigma};
+  m.image = SensorModel::Image::profiles;
+  m.imager = m.laser = true;
+  return m;
+}
+
+}  // namespace
+
+extern const SensorModel laser_line_model = model();
+
+}  // namespace bin_scenes

@@ -1,0 +1,47 @@
+/// What the files *_model.cpp share: from a request's sensor to a model, and from what it measures to an image.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
+#include "sensor/models/laser_line.hpp"
+#include "sensor/models/stereo.hpp"
+#include "sensor/models/structured_light.hpp"
+#include "sensor/targets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace bin_scenes {
+
+extern const Names<MixedPixels> mixed_pixels;
+
+/// @param sensor  resolved()
+StructuredLight::Setup structured_light_setup(const Sensor& sensor);
+Stereo::Setup stereo_setup(const Sensor& sensor);
+LaserLine::Setup laser_line_setup(const Sensor& sensor);
+
+Random random_of(const Draw& draw);
+/// Takes over the truth of the view.
+void add_truth(RangeImage& image, View&& view);
+RangeImage image_of(View&& view, Measurement&& measured);
+
+/// A plate large enough for any view, that far along the sensor's optical axis, turned about the camera's x.
+struct Plate {
+  Plate(const Sensor& sensor, double distance, double incidence, double albedo);
+  /// As many rays as a pixel's surroundings take.
+  View seen_in_the_middle() const;
+
+  Targets targets;
+  const Scenery scenery;
+  const Surfaces surfaces;
+
+ private:
+  const Sensor& sensor_;
+};
+
+}  // namespace bin_scenes

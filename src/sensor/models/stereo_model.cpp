@@ -1,0 +1,82 @@
+/// Two cameras as a SensorModel: keys, checks, and the model made from a sensor.
+#include "bin_scenes/core/error.hpp"
+#include "sensor/models/of_sensor.hpp"
+
+namespace bin_scenes {
+
+Stereo::Setup stereo_setup(const Sensor& s) {
+  return {lens_of(s.projector), *s.projector.pose, s.settings.of<StereoSettings>(), s.imager, s.noise, s.near, s.far};
+}
+
+namespace {
+
+void visit_keys(KeyVisitor& v, ModelSettings& settings) {
+  StereoSettings& s = settings.of<StereoSettings>();
+  v.field({"baseline", "m", "to the second camera along the first one's x; longer = less noise, more occlusion",
+           at_least(1e-4, 100.0)},
+          s.baseline);
+  v.field(
+      {"disparities", "pixel",
+       "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it",
+       at_least(16.0, 4096.0)},
+      s.disparities);
+  v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges", at_least(1.0, 51.0)},
+          s.window);
+  v.field(
+      {"dots", "", "share of the projector's pixels that are dots; 0 = no pattern, passive stereo", at_least(0.0, 0.9)},
+      s.dots);
+  v.field({"uniqueness", "%", "by which the best match must beat the second; more = more holes, fewer outliers",
+           at_least(0.0, 100.0)},
+          s.uniqueness);
+  v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers", at_least(0.0, 100.0)},
+          s.max_difference);
+  v.field({"min_texture", "grey levels",
+           "of 255: standard deviation in a window, beyond noise, below which nothing is matched; 0 = noise is matched "
+           "as well",
+           at_least(0.0, 255.0)},
+          s.min_texture);
+  v.field({"speckle_size", "pixel", "smaller islands of disparity are removed; 0 = none are", at_least(0.0, 1e5)},
+          s.speckle_size);
+  v.field({"disparity_noise", "pixel", "analytic: standard deviation at full signal", at_least(0.0, 10.0)},
+          s.disparity_noise);
+  v.field({"min_signal", "", "analytic: signal / full well below which nothing is matched (code 8)", above(0.0, 1.0)},
+          s.min_signal);
+}
+
+void check(const Sensor& sensor, const std::string& key) {
+  const auto& s = sensor.settings.of<StereoSettings>();
+  if (s.disparities % 16 != 0)
+    throw input_error("is no multiple of 16", key + ".stereo.disparities", "the matcher wants one: 64, 128, 256");
+  if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "5, 7 or 9 is usual");
+  if (sensor.model == "stereo" &&
+      std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; })) {
+    throw input_error("a stereo camera delivers rectified images, which have no distortion", key + ".distortion",
+                      "leave it out");
+  }
+}
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
+  const Stereo model(scenery, view, surfaces, stereo_setup(sensor));
+  const Random random = random_of(draw);
+  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
+  return image_of(std::move(view), std::move(measured));
+}
+
+double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
+  Plate plate(sensor, distance, incidence, albedo);
+  const View view = plate.seen_in_the_middle();
+  return Stereo(plate.scenery, view, plate.surfaces, stereo_setup(sensor)).depth_sigma(view.depth.size() / 2);
+}
+
+constexpr SensorModel model() {
+  SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, nullptr, measured, sigma};
+  m.imager = m.projector = m.fidelity = true;
+  return m;
+}
+
+}  // namespace
+
+extern const SensorModel stereo_model = model();
+
+}  // namespace bin_scenes

@@ -1,0 +1,92 @@
+/// Fringe projection as a SensorModel: keys, checks, and the model made from a sensor.
+#include "bin_scenes/core/error.hpp"
+#include "sensor/models/of_sensor.hpp"
+
+namespace bin_scenes {
+
+StructuredLight::Setup structured_light_setup(const Sensor& s) {
+  return {lens_of(s.projector),
+          *s.projector.pose,
+          s.settings.of<StructuredLightSettings>(),
+          s.imager,
+          s.noise,
+          s.near,
+          s.far};
+}
+
+namespace {
+
+void visit_keys(KeyVisitor& v, ModelSettings& settings) {
+  StructuredLightSettings& s = settings.of<StructuredLightSettings>();
+  v.field({"steps", "", "images of the phase shift, at least 3; noise falls with the square root", at_least(3.0, 64.0)},
+          s.steps);
+  v.field({"period", "pixel", "projector pixels a fringe; shorter = less noise, more Gray images, sooner blurred",
+           at_least(4.0, 4096.0)},
+          s.period);
+  v.field({"gray_bits", "", "Gray-code images; 0 = as many as the projector's width needs", at_least(0.0, 14.0)},
+          s.gray_bits);
+  v.field({"contrast", "", "(white - black) / (white + black) of the projector", at_least(0.01, 1.0)}, s.contrast);
+  v.field({"defocus", "pixel", "standard deviation of the projector's blur, its pixels; 0 = sharp", at_least(0.0)},
+          s.defocus);
+  v.field(
+      {"gamma", "", "decoded: exponent of the projector that nobody calibrated away; 1 = linear", at_least(0.1, 10.0)},
+      s.gamma);
+  v.field({"min_modulation", "", "amplitude / full well below which a pixel has too little signal (code 4)",
+           above(0.0, 1.0)},
+          s.min_modulation);
+  v.field({"mixed", "", "pixels that see foreground and background: remove = invalid (code 6), keep = flying points"},
+          s.mixed, mixed_pixels);
+  v.field(
+      {"edge_step", "m", "depth step inside a pixel's footprint from which on it is a mixed pixel", above(0.0, 10.0)},
+      s.edge_step);
+}
+
+void check(const Sensor& sensor, const std::string& key) {
+  const auto& s = sensor.settings.of<StructuredLightSettings>();
+  const std::string section = key + ".structured_light";
+  if (s.defocus > 0.5 * s.period)
+    throw input_error("is more than half a period", section + ".defocus", "projector pixels; 0 = sharp");
+  if (sensor.model != "structured_light" || s.gray_bits == 0) return;
+  int needed = 1;  // the code counts half periods: models/fringes.hpp
+  while (std::ldexp(1.0, needed) < 2.0 * std::ceil(sensor.projector.width / s.period)) ++needed;
+  if (s.gray_bits < needed) {
+    throw input_error(std::to_string(s.gray_bits) + " images are too few for a projector of " +
+                          std::to_string(sensor.projector.width) + " columns",
+                      section + ".gray_bits",
+                      "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
+  }
+}
+
+void check_places(const Sensor& sensor, const std::string& where) {
+  if ((sensor.projector.pose->position - sensor.pose->position).norm() < 1e-6)
+    throw input_error("the projector stands at the camera: there is no triangle to measure with", where,
+                      "move it aside, or give it a baseline");
+}
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
+  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
+  const Random random = random_of(draw);
+  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
+  return image_of(std::move(view), std::move(measured));
+}
+
+double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
+  Plate plate(sensor, distance, incidence, albedo);
+  const View view = plate.seen_in_the_middle();
+  return StructuredLight(plate.scenery, view, plate.surfaces, structured_light_setup(sensor))
+      .depth_sigma(view.depth.size() / 2);
+}
+
+constexpr SensorModel model() {
+  SensorModel m{
+      "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
+  m.imager = m.projector = m.fidelity = true;
+  return m;
+}
+
+}  // namespace
+
+extern const SensorModel structured_light_model = model();
+
+}  // namespace bin_scenes

@@ -1,0 +1,54 @@
+/// A time-of-flight camera as a SensorModel: keys, and the model made from a sensor.
+#include "sensor/models/of_sensor.hpp"
+#include "sensor/models/time_of_flight.hpp"
+#include "sensor/models/time_of_flight_noise.hpp"
+
+namespace bin_scenes {
+
+namespace {
+
+void visit_keys(KeyVisitor& v, ModelSettings& settings) {
+  TimeOfFlightSettings& s = settings.of<TimeOfFlightSettings>();
+  v.field({"axial", "m", "standard deviation at axial_distance, facing", at_least(0.0, 10.0)}, s.axial);
+  v.field({"axial_growth", "1/m", "times (z - axial_distance) squared", at_least(0.0, 10.0)}, s.axial_growth);
+  v.field({"axial_distance", "m", "distance at which noise begins to grow", at_least(0.0, 1000.0)}, s.axial_distance);
+  v.field({"axial_angle", "m^1.5", "times t^2 / (pi/2 - t)^2 / sqrt(z), t the angle of incidence", at_least(0.0, 10.0)},
+          s.axial_angle);
+  v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane", at_least(0.0, 100.0)}, s.lateral);
+  v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)", at_least(0.0, 100.0)}, s.lateral_angle);
+  v.field(
+      {"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = the same noise for all",
+       at_least(0.0, 1.0)},
+      s.albedo);
+  v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
+           above(0.0, 1.0)},
+          s.min_signal);
+  v.field({"mixed", "", "pixels that see foreground and background: keep = flying points, remove = invalid (code 6)"},
+          s.mixed, mixed_pixels);
+  v.field(
+      {"edge_step", "m", "depth step inside a pixel's footprint from which on it is a mixed pixel", above(0.0, 10.0)},
+      s.edge_step);
+}
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
+  Measurement measured = time_of_flight(scenery, view, surfaces, sensor.settings.of<TimeOfFlightSettings>(),
+                                        sensor.noise, sensor.near, sensor.far, random_of(draw));
+  return image_of(std::move(view), std::move(measured));
+}
+
+double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
+  const auto& s = sensor.settings.of<TimeOfFlightSettings>();
+  const bool dark = albedo * std::cos(incidence) / (distance * distance) < s.min_signal;
+  return dark ? std::numeric_limits<double>::quiet_NaN() : axial_sigma(s, distance, incidence, albedo);
+}
+
+constexpr SensorModel model() {
+  return {"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
+}
+
+}  // namespace
+
+extern const SensorModel time_of_flight_model = model();
+
+}  // namespace bin_scenes

@@ -1,0 +1,67 @@
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/scene/sensor_name.hpp"
+#include "scene/range_check.hpp"
+#include "sensor/sensor_keys.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace bin_scenes {
+
+namespace {
+
+void check_name(const std::string& key, const std::string& name) {
+  bool plain = !name.empty() && name.size() <= 100;
+  for (const char c : name) plain &= std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  if (!plain) throw input_error("is '" + name + "'", key, "letters, digits, _ and -: it names frames and files");
+}
+
+void check_intrinsics(const std::string& key, const std::vector<double>& k) {
+  if (k.empty()) return;
+  bool good = k.size() == 9 && std::all_of(k.begin(), k.end(), [](double value) { return std::isfinite(value); });
+  good = good && k[0] > 0 && k[4] > 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
+  if (!good) throw input_error("is no matrix of intrinsics", key, "[fx, 0, cx, 0, fy, cy, 0, 0, 1] in pixels");
+  if (k[1] != 0) throw input_error("has a skew, which no image is made with", key, "set its second number to 0");
+}
+
+void check_baseline(const std::string& key, double baseline) {
+  if (baseline == 0.0)
+    throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
+}
+
+/// What only some models use is checked whatever the model: a mistake in it must not wait for a change of model.
+void check_sensor(const std::string& key, const Sensor& sensor) {
+  Sensor copy = sensor;  // visitors take references to fields that are not const
+  RangeCheck ranges(key + ".");
+  check_intrinsics(key + ".k", sensor.k);
+  visit(ranges, copy);
+  check_name(key + ".name", sensor.name);
+  check_baseline(key + ".projector.baseline", sensor.projector.baseline);
+  check_baseline(key + ".laser.baseline", sensor.laser.baseline);
+  const Vec3& direction = sensor.scan.direction;
+  if (!direction.allFinite() || !(direction.norm() > 0.0))
+    throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
+  for (const SensorModel* model : sensor_models())
+    if (model->check) model->check(sensor, key);
+  if (!(sensor.far >= sensor.near)) throw input_error("is nearer than near", key + ".far", "m, beyond near");
+}
+
+}  // namespace
+
+void check_sensors(const std::vector<Sensor>& sensors) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string key = "sensors[" + std::to_string(i) + "]";
+    check_sensor(key, sensors[i]);
+    if (!names.insert(graph_name(sensors[i].name)).second) {
+      throw input_error("'" + sensors[i].name + "' names an earlier sensor too", key + ".name",
+                        "name each differently; a hyphen counts as an underscore, which topics and frames have in its "
+                        "place");
+    }
+  }
+}
+
+}  // namespace bin_scenes

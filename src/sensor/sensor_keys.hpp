@@ -1,0 +1,172 @@
+/// The table of keys of sensors (see scene/keys.hpp); those of the models come from their SensorModel.
+#pragma once
+
+#include "bin_scenes/sensor/sensor_model.hpp"
+
+#include <string>
+
+namespace bin_scenes {
+
+/// A visitor of tables as a KeyVisitor.
+template <class Visitor>
+class AsKeyVisitor final : public KeyVisitor {
+ public:
+  explicit AsKeyVisitor(Visitor& visitor) : visitor_(visitor) {}
+  void field(const Key& key, double& value) override { visitor_.field(key, value); }
+  void field(const Key& key, int& value) override { visitor_.field(key, value); }
+  void field(const Key& key, bool& value) override { visitor_.field(key, value); }
+  void field(const Key& key, Word& value) override { visitor_.field(key, value); }
+
+ private:
+  Visitor& visitor_;
+};
+
+/// A section of the settings of one model.
+struct SettingsOfModel {
+  const SensorModel& model;
+  ModelSettings& settings;
+};
+
+template <class Visitor>
+void visit(Visitor& v, SettingsOfModel& section) {
+  AsKeyVisitor<Visitor> keys(v);
+  section.model.visit(keys, section.settings);
+}
+
+/// "structured_light, stereo: ", of the models that use a device.
+inline std::string users_of(bool SensorModel::*device) {
+  std::string users;
+  for (const SensorModel* model : sensor_models())
+    if (model->*device) users += (users.empty() ? "" : ", ") + std::string(model->name);
+  return users + ": ";
+}
+
+inline Names<Fidelity> names(Fidelity) {
+  return {{"analytic", Fidelity::analytic}, {"decoded", Fidelity::decoded}};
+}
+
+template <class Visitor>
+void visit(Visitor& v, Projector& projector) {
+  v.field({"pose", "", "optical frame in the bin frame; left out: from baseline"}, projector.pose);
+  v.field({"baseline", "m",
+           "along the camera's x, turned towards the middle of the bin; longer = less noise and wider shadows; pose "
+           "goes before it",
+           at_least(-100.0, 100.0)},
+          projector.baseline);
+  v.field({"width", "pixel", "image width", at_least(1.0, 16384.0)}, projector.width);
+  v.field({"height", "pixel", "image height", at_least(1.0, 16384.0)}, projector.height);
+  v.field({"fov", "rad", "horizontal field of view; outside it nothing is measured", above(0.0, 3.1)}, projector.fov);
+  v.field({"distortion", "", "of the lens, plumb_bob k1 k2 p1 p2 k3", at_least(-100.0, 100.0)}, projector.distortion);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Laser& laser) {
+  v.field(
+      {"pose", "", "frame whose y-z plane is the sheet of light, along z, in the bin frame; left out: from baseline"},
+      laser.pose);
+  v.field({"baseline", "m", "along the camera's x, turned towards the middle of the bin; pose goes before it",
+           at_least(-100.0, 100.0)},
+          laser.baseline);
+  v.field({"width_mm", "mm", "width of the line on the surface; wider = more speckle noise", above(0.0, 100.0)},
+          laser.width_mm);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Scan& scan) {
+  v.field({"direction", "", "in which the sheet moves, in the bin frame; any length"}, scan.direction);
+  v.field({"step", "m", "between two profiles", above(0.0, 10.0)}, scan.step);
+  v.field({"profiles", "", "rows of the image; cost grows with it", at_least(1.0, 65536.0)}, scan.profiles);
+}
+
+template <class Visitor>
+void visit(Visitor& v, ImagerSettings& s) {
+  v.field(
+      {"exposure", "",
+       "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise on "
+       "dark parts, and bright or shiny ones saturate",
+       above(0.0, 1000.0)},
+      s.exposure);
+  v.field(
+      {"reference_distance", "m",
+       "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "
+       "what is lit",
+       at_least(0.0, 1000.0)},
+      s.reference_distance);
+  v.field({"ambient", "", "signal / full well of a white surface without the sensor's light; adds shot noise",
+           at_least(0.0, 10.0)},
+          s.ambient);
+  v.field(
+      {"full_well", "electrons", "at saturation; shot noise of a signal s is sqrt(s / full_well)", at_least(1.0, 1e9)},
+      s.full_well);
+  v.field({"read_noise", "electrons", "standard deviation; 0 = none", at_least(0.0, 1e6)}, s.read_noise);
+  v.field({"blur", "pixel",
+           "structured_light: standard deviation of the camera's blur; depth errs where bright meets dark; 0 = sharp",
+           at_least(0.0, 3.0)},
+          s.blur);
+  v.field({"bits", "", "of the analogue-digital converter, 1 to 16; fewer = coarser steps", at_least(1.0, 16.0)},
+          s.bits);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Views& views) {
+  v.field({"poses", "", "optical frames in the bin frame, one a view: [x, y, z, qx, qy, qz, qw]"}, views.poses);
+  v.field({"count", "", "instead of poses: so many, spread evenly over a dome; view 0 is the most upright"},
+          views.count);
+  v.field({"distance", "m", "of the dome, from target"}, views.distance);
+  v.field({"tilt", "rad", "largest angle between a view of the dome and the vertical; below pi/2"}, views.tilt);
+  v.field({"target", "m", "what the views of the dome look at; [0, 0, 0] is the middle of the floor"}, views.target);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Sensor& sensor) {
+  v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
+  Word model{sensor.model, {}};
+  for (const SensorModel* known : sensor_models()) model.known.emplace_back(known->name);
+  v.field({"model", "", "what a sensor makes of what it sees; ideal is exact depth at pixel centres"}, model);
+  sensor.model = model.value;
+  v.field({"preset", "",
+           "name of a file of config/sensors whose values are the defaults here; keys given here go before them"},
+          sensor.preset);
+  v.field({"width", "pixel", "image width", at_least(1.0, 16384.0)}, sensor.width);
+  v.field({"height", "pixel", "image height", at_least(1.0, 16384.0)}, sensor.height);
+  v.field({"fov", "rad", "horizontal field of view; sets the intrinsics unless k is given", above(0.0, 3.1)},
+          sensor.fov);
+  v.field({"k", "pixel", "3x3 row-major intrinsics [fx, 0, cx, 0, fy, cy, 0, 0, 1] instead of fov", anything,
+           !sensor.k.empty()},
+          sensor.k);
+  v.field({"distortion", "", "of the lens, plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole", at_least(-100.0, 100.0)},
+          sensor.distortion);
+  v.field({"pose", "",
+           "optical frame (x right, y down, z forward) in the bin frame; left out: above the bin, looking down, the "
+           "whole rim in view"},
+          sensor.pose);
+  v.section({"views", "", "instead of pose: places from which it sees one heap, as sensors NAME_0, NAME_1, ...",
+             anything, false},
+            sensor.views);
+  v.field({"view_of", "", "name of the sensor of which this is a further view; written where views are spelled out",
+           anything, !sensor.view_of.empty()},
+          sensor.view_of);
+  v.field({"near", "m", "nothing nearer is seen", above(0.0)}, sensor.near);
+  v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
+  const std::string fidelity = users_of(&SensorModel::fidelity) +
+                               "analytic draws noise and gaps from formulas; decoded makes the images and evaluates "
+                               "them as a device does, several times slower";
+  v.field({"fidelity", "", fidelity.c_str()}, sensor.fidelity);
+  const std::string projector = users_of(&SensorModel::projector) + "source of the pattern";
+  v.section({"projector", "", projector.c_str()}, sensor.projector);
+  const std::string laser = users_of(&SensorModel::laser) + "the sheet of light";
+  v.section({"laser", "", laser.c_str()}, sensor.laser);
+  const std::string scan =
+      users_of(&SensorModel::laser) + "how camera and laser move; their poses are those at the middle of the way";
+  v.section({"scan", "", scan.c_str()}, sensor.scan);
+  const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
+  v.section({"imager", "", imager.c_str()}, sensor.imager);
+  for (const SensorModel* known : sensor_models()) {
+    if (!known->visit) continue;
+    SettingsOfModel section{*known, sensor.settings};
+    v.section({known->name, "", known->text}, section);
+  }
+  v.field({"noise", "", "false: every random effect is off; geometry (shadow, field of view) stays"}, sensor.noise);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,49 @@
+#include "bin_scenes/sensor/sensor_model.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+namespace bin_scenes {
+
+std::vector<const SensorModel*> built_in_sensor_models();  // made by CMake
+
+namespace {
+
+std::vector<const SensorModel*>& all_models() {
+  static std::vector<const SensorModel*> models = built_in_sensor_models();
+  return models;
+}
+
+}  // namespace
+
+const std::vector<const SensorModel*>& sensor_models() {
+  return all_models();
+}
+
+const SensorModel& sensor_model(const std::string& name) {
+  std::string known;
+  for (const SensorModel* model : sensor_models()) {
+    if (name == model->name) return *model;
+    known += (known.empty() ? "" : ", ") + std::string(model->name);
+  }
+  throw input_error("'" + name + "' is no sensor model", "sensors[].model", "one of " + known);
+}
+
+bool register_sensor_model(const SensorModel& model) {
+  for (const SensorModel* other : all_models()) {
+    if (std::string(model.name) == other->name)
+      throw input_error("there is a sensor model '" + std::string(model.name) + "' already", "register_sensor_model",
+                        "choose another name");
+  }
+  all_models().push_back(&model);
+  return true;
+}
+
+std::vector<std::pair<const char*, Pose>> light_of(const Sensor& sensor) {
+  const SensorModel& model = sensor_model(sensor.model);
+  std::vector<std::pair<const char*, Pose>> light;
+  if (model.projector && sensor.projector.pose) light.emplace_back("projector", *sensor.projector.pose);
+  if (model.laser && sensor.laser.pose) light.emplace_back("laser", *sensor.laser.pose);
+  return light;
+}
+
+}  // namespace bin_scenes
