@@ -8,11 +8,21 @@
 #define OUT(T) T&
 #define INOUT(T) T&
 #define INLINE inline
+#define AND &
+#define OR |
 #else
 #define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T
 #define INLINE
+// What is computed of a contact: in C++ of eight at once.
+#define Real float
+#define Real3 vec3
+#define Mask bool
+#define AND &&
+#define OR ||
+#define all_lanes(x) (x)
+float select(bool condition, float yes, float no) { return condition ? yes : no; }
 // By the transpose: back out of the frame that m carries into.
 vec3 turned_back(mat3 m, vec3 v) { return v * m; }
 // Of 0: 0.

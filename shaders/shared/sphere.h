@@ -38,7 +38,6 @@
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
-#define SPHERE_COLORS 64            // the last one is for manifolds that find no other: they are solved one by one
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
 #define SPHERE_SLEEP_BY_ISLAND 0u  // Phase::Sleep
 #define SPHERE_SLEEP_BY_PART 1u
@@ -50,7 +49,7 @@
 // SphereOrdered.flags.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
 #define SPHERE_BOUNCES 2u    // and has pressed: it bounces at the end of the step
-#define SPHERE_AIMED 4u      // strikes, and no ball is in it
+#define SPHERE_REFRESHED 4u  // strikes, and no ball is in it
 #define SPHERE_RESTITUTES 8u // a restitution above 0
 
 // A row, by vec4: lever of a, gap (m); lever of b, effective mass along the normal (kg); normal, scale of its tangent;
@@ -66,7 +65,6 @@
 #define SWEEP_FIRST_RELAX 3u
 #define SWEEP_RELAX 4u
 #define SWEEP_BOUNCE 5u
-#define SPHERE_BOUNCE_SWEEPS 12u
 
 // An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
 // lists of those near a point (EdgeGrid).
@@ -108,7 +106,7 @@ struct SphereSettingsBlock {
 struct SphereWorld {
   uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
   uvec4 pairs;    // first, capacity; planes: first, count
-  uvec4 rows;     // first, capacity; most sweeps while a blow is not shared: z: in a step with an impact, w: else
+  uvec4 rows;     // first, capacity; most sweeps while an impact is not shared: z: in a step with an impact, w: else
   vec4 gravity;   // m/s2; w: size of the smallest part
   vec4 ground;    // friction, restitution, height where walls end; w: thickness of the thinnest part
 };

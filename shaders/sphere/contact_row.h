@@ -1,6 +1,7 @@
-// One contact in the solve: a row, made once a step (prepare_row), and what sweeps do with it. The row of contact k of a
-// manifold begins at rows[at]; its parts lie `stride` behind each other (shared/sphere.h). Needs the bindings Settings,
-// Bodies, Rows, a `world`, `spring`, `restless`, struct Side, shared/rotation.h and shared/sphere/blow.h.
+// One contact in the solve: where its row lies (shared/sphere.h), and what a sweep does with it. The row of contact k of
+// a manifold begins at rows[at]; its parts lie `stride` behind each other. Twin: contact_rows.hpp. Needs the bindings
+// Settings, Bodies, Rows, sphere/solve_step.h, `unconverged`, struct Side, shared/rotation.h.
+#include "shared/sphere/patch.h"
 
 vec3 tensor_times(Side s, vec3 v) { return symmetric_times(s.tensor, s.tensor_mixed, v); }
 
@@ -24,16 +25,16 @@ Row row_at(uint at, uint stride) {
 }
 
 // What few sweeps read.
-struct Blow {
+struct Impact {
   float separation;  // when contacts were found (m)
   float approach;    // speed at which the two meet if they do in this step (m/s), negative: closing
   float lasting;     // normal impulse that the sub-step began with (N s)
   float pressed;     // 1: it has pressed in this step
 };
 
-Blow blow_at(uint at, uint stride) {
+Impact impact_at(uint at, uint stride) {
   vec4 v = rows[at + 4u * stride];
-  return Blow(v.x, v.y, v.z, v.w);
+  return Impact(v.x, v.y, v.z, v.w);
 }
 
 vec3 relative_velocity(Row row, Side a, Side b) {
@@ -49,8 +50,7 @@ void apply(Row row, vec3 impulse, inout Side a, inout Side b) {
 
 float mass_along(vec3 direction, Row row, Side a, Side b) {
   vec3 ta = cross(row.ra, direction), tb = cross(row.rb, direction);
-  float k = a.inverse_mass + b.inverse_mass + dot(ta, tensor_times(a, ta)) + dot(tb, tensor_times(b, tb));
-  return k > 0.0 ? 1.0 / k : 0.0;
+  return effective_mass(a.inverse_mass + b.inverse_mass, ta, tensor_times(a, ta), tb, tensor_times(b, tb));
 }
 
 // Masses from levers, normal and inertia; keeps what depends on where the bodies are.
@@ -63,28 +63,25 @@ void keep_levers(uint at, uint stride, Row row, Side a, Side b) {
   rows[at + 3u * stride].w = tangent_mass;
 }
 
-// Speed along the normal when the gap of a contact that closes (below 0) has closed: gravity works on what moves, and a
-// blow returns neither more nor less than what has come down.
-float speed_at_blow(Row row, Side a, Side b) {
-  float speed = dot(relative_velocity(row, a, b), row.normal);
+// Of the contact, when the step begins.
+float approach_of(Row row, Side a, Side b) {
   float falls = float(b.inverse_mass > 0.0) - float(a.inverse_mass > 0.0);
-  float square = speed * speed - 2.0 * falls * dot(row.normal, world.gravity.xyz) * max(row.gap, 0.0);
-  return speed < 0.0 ? -sqrt(max(square, 0.0)) : speed;
+  return speed_at_impact(dot(relative_velocity(row, a, b), row.normal), row.gap,
+                         falls * dot(row.normal, world.gravity.xyz));
 }
 
-// Takes from an impulse what was a blow (shared/sphere/blow.h). What bounces keeps the impulse of its blow, which the
-// bounce may have to take back, until it has bounced.
-vec3 without_blow(Row row, Blow blow, bool restitutes) {
-  if (restitutes && blow.approach <= -settings.restitution_speed) return row.impulse;
-  float speed = blow_speed(sub_step(), length(world.gravity.xyz), settings.restitution_speed);
-  float most = FORCE_GROWTH * blow.lasting + speed * row.normal_mass;
-  return row.impulse.x > most ? row.impulse * (most / row.impulse.x) : row.impulse;
+// Takes from an impulse what was an impact. What bounces keeps the impulse of its impact, which the bounce may have to
+// take back, until it has bounced.
+vec3 without_impact(Row row, Impact impact, bool restitutes) {
+  if (restitutes && impact.approach <= -settings.restitution_speed) return row.impulse;
+  float speed = impact_speed(plan.sub_step, length(world.gravity.xyz), settings.restitution_speed);
+  return lasting_share(row.impulse.x, impact.lasting, row.normal_mass, speed) * row.impulse;
 }
 
 void warm_start(uint at, uint stride, bool restitutes, inout Side a, inout Side b) {
   Row row = row_at(at, stride);
-  Blow blow = blow_at(at, stride);
-  row.impulse = without_blow(row, blow, restitutes);
+  Impact impact = impact_at(at, stride);
+  row.impulse = without_impact(row, impact, restitutes);
   rows[at + 3u * stride].xyz = row.impulse;
   rows[at + 4u * stride].z = row.impulse.x;
   apply(row, row.impulse.x * row.normal + row.impulse.y * row.tangent + row.impulse.z * cross(row.normal, row.tangent),
@@ -94,60 +91,43 @@ void warm_start(uint at, uint stride, bool restitutes, inout Side a, inout Side 
 // Takes a turn of one body against the other about an axis, by a moment of at most `most`.
 void resist(vec3 axis, float speed, float most, inout Side a, inout Side b) {
   vec3 turn_a = tensor_times(a, axis), turn_b = tensor_times(b, axis);
-  float k = dot(axis, turn_a) + dot(axis, turn_b);
-  float moment = k > 0.0 ? clamp(speed / k, -most, most) : 0.0;
+  float moment = moment_against(speed, most, axis, turn_a, turn_b);
   a.w -= moment * turn_a;
   b.w += moment * turn_b;
 }
 
-// Sequential impulse, accumulated and clamped. With `push`, overlap is pushed out softly; without, the velocity that
-// pushing left is taken back (relaxation).
-void solve_normal(uint at, uint stride, float h, bool push, inout Side a, inout Side b) {
+void solve_normal(uint at, uint stride, Give give, inout Side a, inout Side b) {
   Row row = row_at(at, stride);
-  float bias = 0.0, mass_scale = 1.0, impulse_scale = 0.0;
-  if (row.gap > 0.0) {
-    bias = row.gap / h;  // speculative: may close the distance, no more
-  } else if (push) {
-    float d = world.gravity.w;
-    impulse_scale = spring.impulse_scale;
-    mass_scale = spring.mass_scale;
-    bias = max(spring.bias_rate * min(0.0, row.gap + softness.z * d), -settings.push_speed / softness.w * d);
-  }
-  float vn = dot(relative_velocity(row, a, b), row.normal);
-  float mass = mass_scale * row.normal_mass;
-  float total = max(row.impulse.x - mass * (vn + bias) - impulse_scale * row.impulse.x, 0.0);
-  float change = total - row.impulse.x;
-  restless = restless || abs(change) > settings.settled * world.gravity.w * row.normal_mass;
+  float speed = dot(relative_velocity(row, a, b), row.normal);
+  float total = normal_impulse(row.impulse.x, speed, row.gap, row.normal_mass, give), change = total - row.impulse.x;
+  unconverged = unconverged || is_unsettled(change, row.normal_mass, settings.settled * world.gravity.w);
   apply(row, change * row.normal, a, b);
   rows[at + 3u * stride].x = total;
   if (total > 0.0) rows[at + 4u * stride].w = 1.0;
 }
 
-// Coulomb's cone: both directions at once. Half of all contacts only wait for their gap to close.
+// Half of all contacts only wait for their gap to close.
 void solve_friction(uint at, uint stride, float friction, inout Side a, inout Side b) {
   if (rows[at + 3u * stride].xyz == vec3(0.0)) return;
   Row row = row_at(at, stride);
   vec3 t2 = cross(row.normal, row.tangent), v = relative_velocity(row, a, b);
   vec2 f = row.impulse.yz - row.tangent_mass * vec2(dot(v, row.tangent), dot(v, t2));
-  float most = friction * row.impulse.x, size = length(f);
-  if (size > most) f *= most / size;
+  put_into_cone(friction * row.impulse.x, f.x, f.y);
   vec2 change = f - row.impulse.yz;
   apply(row, change.x * row.tangent + change.y * t2, a, b);
   rows[at + 3u * stride].yz = f;
 }
 
-// Whether a contact was struck fast enough to bounce: pressed, or closed by a blow that its neighbours took.
-bool struck(Row row, Blow blow) {
-  if (blow.approach > -settings.restitution_speed) return false;
-  return blow.pressed == 1.0 || row.gap < -blow.approach * sub_step();
+bool hit(Row row, Impact impact) {
+  return was_hit(impact.approach, impact.pressed == 1.0, row.gap, plan.sub_step, settings.restitution_speed);
 }
 
 void bounce(uint at, uint stride, float restitution, inout Side a, inout Side b) {
   Row row = row_at(at, stride);
-  Blow blow = blow_at(at, stride);
-  if (!struck(row, blow)) return;
-  float vn = dot(relative_velocity(row, a, b), row.normal);
-  float total = max(row.impulse.x - row.normal_mass * (vn + restitution * blow.approach), 0.0);
+  Impact impact = impact_at(at, stride);
+  if (!hit(row, impact)) return;
+  float speed = dot(relative_velocity(row, a, b), row.normal);
+  float total = bounced_impulse(row.impulse.x, speed, row.normal_mass, restitution, impact.approach);
   apply(row, (total - row.impulse.x) * row.normal, a, b);
   rows[at + 3u * stride].x = total;
 }

@@ -28,7 +28,9 @@ layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate ca
 #include "sphere/field.h"
 #include "sphere/samples.h"
 #include "sphere/placement.h"
+#include "sphere/plan.h"
 
+StepPlan plan;
 uint world_index, clusters_tested, nodes_tested;
 
 SphereSamples samples_of(uint body) {
@@ -37,11 +39,8 @@ SphereSamples samples_of(uint body) {
   return shapes[shape].coarse;
 }
 
-float sub_step() { return time_step / float(settings.sub_steps * progress[world_index].refinement); }
-float half_way() { return half_way(time_step, sub_step()); }
-
 // Of a body of this world.
-Placement placement_of(uint body) { return placement_of(body, half_way()); }
+Placement placement_of(uint body) { return placement_of(body, plan.half_way); }
 
 #include "sphere/reduce.h"
 #include "shared/sphere/rim.h"
@@ -163,7 +162,7 @@ struct Drift {
 };
 
 Drift drift_of(uint points, Placement at, uint over, Placement frame) {
-  float rest = time_step - half_way() + sub_step();  // the last sweeps look as far ahead as another one
+  float rest = time_step - plan.half_way + plan.sub_step;  // the last sweeps look as far ahead as another one
   vec3 v = vec3(0.0), w = vec3(0.0), frame_v = vec3(0.0), frame_w = vec3(0.0);
   vec3 fall = time_step * worlds[world_index].gravity.xyz;
   if (moves(points)) {
@@ -270,6 +269,7 @@ void main() {
     clusters_tested = nodes_tested = 0u;
     begin_candidates(world, pair.slot);
     time_step = progress[world_index].time_step;
+    plan = plan_of(world_index);
     float margin = settings.margin * size_of(pair) + way_of(world, pair);
     if (pair.b == SPHERE_GROUND)
       test_ground(pair, margin);

@@ -1,12 +1,9 @@
 // Where a body is half way through the step: contacts are found there, and their levers and normals are of then. Twin:
-// World::half_way(), Placement. Needs the bindings Settings, States and sphere/body.h.
+// StepPlan::half_way, Placement. Needs the bindings Settings, States and sphere/body.h.
 struct Placement {
   vec3 position;
   mat3 rotation;
 };
-
-// s from the start of a step to the mean of its sub-steps' beginnings.
-float half_way(float time_step, float sub_step) { return 0.5 * (time_step - sub_step); }
 
 Placement placement_of(uint body, float half_way) {
   SphereState s = states[body];

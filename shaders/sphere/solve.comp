@@ -24,7 +24,7 @@ shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed
 shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce, any_impact;
-shared uint unsettled[2];  // some contact is restless; take turns
+shared uint unsettled[2];  // some contact is unconverged; take turns
 
 #define velocity_of(i) velocity[i]
 #define spin_of(i) spin[i]
@@ -57,39 +57,39 @@ void begin_body(uint i) {
 }
 
 // One sweep over all manifolds, color by color.
-void sweep(uint kind, float h) {
+void sweep(uint kind) {
   for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) {
-    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c)) solve_manifold(o, kind, h);
+    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c)) solve_manifold(o, kind);
     barrier();
   }
 }
 
 uint turns = 0u;
 
-// `count` sweeps, and more of them while a blow is not shared.
-void sweep_until_shared(uint first, uint others, uint count, float h) {
+// `count` sweeps, and more of them while an impact is not shared.
+void sweep_until_shared(uint first, uint others, int count) {
   if (ordered == 0u) return;
-  bool blow = false;
-  uint most = any_impact != 0u ? world.rows.z : world.rows.w;
-  for (uint i = 0u; i < count || blow && i < most; ++i) {
+  bool impact = false;
+  int most = int(any_impact != 0u ? world.rows.z : world.rows.w);
+  for (int i = 0; i < count || impact && i < most; ++i) {
     uint turn = turns++ & 1u;
-    restless = false;
-    sweep(i == 0u ? first : others, h);
-    if (restless) unsettled[turn] = 1u;
+    unconverged = false;
+    sweep(i == 0 ? first : others);
+    if (unconverged) unsettled[turn] = 1u;
     if (gl_LocalInvocationIndex == 0u) unsettled[turn ^ 1u] = 0u;
     barrier();
-    blow = unsettled[turn] != 0u;
+    impact = unsettled[turn] != 0u;
   }
 }
 
-// Newton's restitution, some sweeps of it: a face that strikes flat shares its blow among many contacts.
+// Newton's restitution, some sweeps of it.
 void restitute() {
   if (gl_LocalInvocationIndex == 0u) any_bounce = 0u;
   barrier();
   FOR_OWN_MANIFOLDS(o) if (bounces(o)) any_bounce = 1u;
   barrier();
   if (any_bounce == 0u) return;
-  for (uint k = 0u; k < SPHERE_BOUNCE_SWEEPS; ++k) sweep(SWEEP_BOUNCE, 0.0);
+  for (uint k = 0u; k < SPHERE_BOUNCE_SWEEPS; ++k) sweep(SWEEP_BOUNCE);
 }
 
 void main() {
@@ -106,20 +106,17 @@ void main() {
   barrier();
   FOR_OWN_MANIFOLDS(o) if (prepare_manifold(o)) any_impact = 1u;
   barrier();
-  float h = sub_step();
-  uint sweeps = progress[w].effort * (progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps);
-  uint relaxing = progress[w].stiffness != SPHERE_RIGID ? sweeps : 1u;
-  for (uint k = 0u; k < sub_steps; ++k) {
-    take_sub_step_of(w, k);
-    FOR_OWN_BODIES(i) integrate_velocity(i, h);
+  for (int k = 0; k < plan.sub_steps; ++k) {
+    take_sub_step_of(w, uint(k));
+    FOR_OWN_BODIES(i) integrate_velocity(i, plan.sub_step);
     barrier();
-    sweep(SWEEP_WARM_START, h);
-    sweep_until_shared(SWEEP_FIRST_PUSH, SWEEP_PUSH, sweeps, h);
+    sweep(SWEEP_WARM_START);
+    sweep_until_shared(SWEEP_FIRST_PUSH, SWEEP_PUSH, plan.sweeps);
     FOR_OWN_MANIFOLDS(o) note_sliding(o);
     barrier();
-    FOR_OWN_BODIES(i) integrate_position(i, h);
+    FOR_OWN_BODIES(i) integrate_position(i, plan.sub_step);
     barrier();
-    sweep_until_shared(SWEEP_FIRST_RELAX, SWEEP_RELAX, relaxing, h);
+    sweep_until_shared(SWEEP_FIRST_RELAX, SWEEP_RELAX, plan.relaxing_sweeps);
   }
   restitute();
   FOR_OWN_MANIFOLDS(o) keep_forces(o);

@@ -41,19 +41,12 @@ void integrate_velocity(uint i, float h) {
   spin_of(i).xyz = gyrated(spin_of(i).xyz, states[body].orientation, shapes[bodies[body].ids.x], h);
 }
 
-// Mean speed of a sub-step / speed at its end, of a body that friction brakes all the while: 1 of what is struck, or as
-// slow as it is braked in a sub-step.
-float mean_speed(uint i) {
-  float before = moved_of(i).w, after = speed_of(i);
-  return after > 0.5 * before && after < 2.0 * before ? 0.5 * (before / after + 1.0) : 1.0;
-}
-
 // Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's way
 // too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
 void integrate_position(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;
   float slow = 4.0 * h * length(world.gravity.xyz);  // stops within a few sub-steps
-  if (turned_of(i).w == 1.0 && moved_of(i).w > slow) h *= mean_speed(i);
+  if (turned_of(i).w == 1.0 && moved_of(i).w > slow) h *= mean_share(moved_of(i).w, speed_of(i));
   moved_of(i).xyz += h * velocity_of(i).xyz;
   // Touched by nothing: exactly the parabola.
   if (spin_of(i).w == 0.0) moved_of(i).xyz -= 0.5 * h * h * world.gravity.xyz;

@@ -4,14 +4,13 @@
 // contact slips), i counted in the world. Needs the bindings Settings, Progress, Bodies, Shapes, States, Tensors,
 // Manifolds, Contacts, Order, Rows, and sphere/body.h.
 #include "shared/language.h"
-#include "shared/sphere/blow.h"
 #include "shared/sphere/row.h"
 #include "sphere/ball.h"
 #include "sphere/placement.h"
 #include "sphere/solve_step.h"
 
 // A contact of this invocation's has changed its speed by more than `settled` in the sweep.
-bool restless = false;
+bool unconverged = false;
 
 // A body as one manifold sees it.
 struct Side {
@@ -20,8 +19,8 @@ struct Side {
   vec3 tensor, tensor_mixed;
 };
 
-// Of what cannot move nothing is read. Inertia of manifolds that are aimed is of where their bodies are now.
-Side side_of(uint body, bool aimed) {
+// Of what cannot move nothing is read. Inertia of manifolds that are refreshed is of where their bodies are now.
+Side side_of(uint body, bool refreshed) {
   Side s = Side(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
   if (body == SPHERE_GROUND) return s;
   uint i = body - world.bodies.x;
@@ -29,7 +28,7 @@ Side side_of(uint body, bool aimed) {
   if (s.inverse_mass == 0.0) return s;
   s.v = velocity_of(i).xyz;
   s.w = spin_of(i).xyz;
-  if (!aimed) {
+  if (!refreshed) {
     s.tensor = tensors[body].diagonal.xyz;
     s.tensor_mixed = tensors[body].mixed.xyz;
     return s;
@@ -63,7 +62,7 @@ Place place_of(uint body) {
   p.position = states[body].position.xyz;
   p.orientation = tensors[body].orientation;
   if (velocity_of(i).w == 0.0) return p;
-  float ahead = half_way(time_step, sub_step());
+  float ahead = plan.half_way;
   p.ahead = ahead * tensors[body].velocity.xyz;
   p.ahead_turn = ahead * tensors[body].spin.xyz;
   p.moved = moved_of(i).xyz;
@@ -87,7 +86,7 @@ uint first_row(SphereOrdered m) { return world.rows.x * SPHERE_ROW_PARTS + m.row
        ++i, at += SPHERE_ROW_PARTS * m.stride, ++contact)
 
 float friction_of(SphereOrdered m) { return grip * m.friction; }
-bool aimed(SphereOrdered m) { return (m.flags & SPHERE_AIMED) != 0u; }
+bool refreshed(SphereOrdered m) { return (m.flags & SPHERE_REFRESHED) != 0u; }
 bool restitutes(SphereOrdered m) { return (m.flags & SPHERE_RESTITUTES) != 0u; }
 float restitution_of(SphereOrdered m) {
   return max(bodies[m.a].material.z, m.b == SPHERE_GROUND ? world.ground.y : bodies[m.b].material.z);
@@ -95,7 +94,7 @@ float restitution_of(SphereOrdered m) {
 
 bool of_field_of_a(SphereContact c) { return (c.feature & SPHERE_SIDE_B) != 0u; }
 
-// A row from its contact, with the force of the last step as impulse of a sub-step. Returns whether the contact is struck.
+// A row from its contact, with the force of the last step as impulse of a sub-step. Returns whether the contact is hit.
 bool prepare_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side a, Side b) {
   Row row;
   row.ra = rotate(pa.orientation, c.anchor_a);
@@ -104,11 +103,11 @@ bool prepare_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side
   row.normal = rotate(of_a ? pa.orientation : pb.orientation, c.normal.xyz);
   row.gap = dot(pb.position + row.rb - pa.position - row.ra, row.normal);
   go_half_way(of_a, pa.ahead, pa.ahead_turn, pb.ahead, pb.ahead_turn, row.ra, row.rb, row.normal);
-  float scale = tangent_scale(row.normal), approach = speed_at_blow(row, a, b);
+  float scale = tangent_scale(row.normal), approach = approach_of(row, a, b);
   row.tangent = tangent_of(row.normal, scale);
   vec3 friction = c.force.yzw;
   row.impulse =
-      kept * sub_step() * vec3(c.force.x, dot(friction, row.tangent), dot(friction, cross(row.normal, row.tangent)));
+      kept * plan.sub_step * vec3(c.force.x, dot(friction, row.tangent), dot(friction, cross(row.normal, row.tangent)));
   rows[at + 2u * stride] = vec4(row.normal, scale);
   rows[at + 3u * stride].xyz = row.impulse;
   rows[at + 4u * stride] = vec4(row.gap, approach, row.impulse.x, 0.0);
@@ -116,8 +115,8 @@ bool prepare_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side
   return approach <= -settings.restitution_speed;
 }
 
-// Levers, gaps and masses of a manifold that is struck, of where its bodies are now.
-void aim(SphereOrdered m, Side a, Side b) {
+// Levers, gaps and masses of a manifold that is hit, of where its bodies are now.
+void refresh_levers(SphereOrdered m, Side a, Side b) {
   Place pa = place_of(m.a), pb = place_of(m.b);
   vec3 x_a = pa.position + pa.moved, x_b = pb.position + pb.moved;
   vec4 q_a = normalize(quat_multiply(quat_of_turn(pa.turned), pa.orientation));
@@ -125,7 +124,7 @@ void aim(SphereOrdered m, Side a, Side b) {
   FOR_CONTACTS(at, contact, m) {
     Row row = row_at(at, m.stride);
     SphereContact c = contacts[contact];
-    aim_levers(x_a, x_a + rotate(q_a, c.anchor_a), x_b, x_b + rotate(q_b, c.anchor_b), row.normal, row.ra, row.rb,
+    levers_now(x_a, x_a + rotate(q_a, c.anchor_a), x_b, x_b + rotate(q_b, c.anchor_b), row.normal, row.ra, row.rb,
                row.gap);
     keep_levers(at, m.stride, row, a, b);
   }
@@ -140,76 +139,55 @@ bool prepare_manifold(uint o) {
   FOR_CONTACTS(at, contact, m) strikes = prepare_row(at, m.stride, contacts[contact], pa, pb, a, b) || strikes;
   bool rolls = is_ball(m.a) || is_ball(m.b);  // the point where a ball touches does not turn with it
   m.flags = restitution_of(m) > 0.0 ? SPHERE_RESTITUTES : 0u;
-  if (strikes) m.flags |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_AIMED);
+  if (strikes) m.flags |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_REFRESHED);
   set_flags(o, m.flags);
   float other = m.b == SPHERE_GROUND ? world.ground.x : bodies[m.b].material.y;
   order[world.pairs.x + o].friction = sqrt(bodies[m.a].material.y * other);
-  if (aimed(m)) aim(m, side_of(m.a, true), side_of(m.b, true));
+  if (refreshed(m)) refresh_levers(m, side_of(m.a, true), side_of(m.b, true));
   spin_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
   if (m.b != SPHERE_GROUND) spin_of(m.b - world.bodies.x).w = 1.0;
   return strikes;
 }
 
 // Gaps of contacts, bodies having moved; to first order in the turns.
-void look(SphereOrdered m, Side a, Side b) {
-  if (aimed(m)) {
-    aim(m, a, b);
+void observe_gaps(SphereOrdered m, Side a, Side b) {
+  if (refreshed(m)) {
+    refresh_levers(m, a, b);
     return;
   }
   Place pa = place_of(m.a), pb = place_of(m.b);
   FOR_ROWS(at, m) {
     Row row = row_at(at, m.stride);
     vec3 way = pb.moved + cross(pb.turned, row.rb) - pa.moved - cross(pa.turned, row.ra);
-    rows[at].w = blow_at(at, m.stride).separation + dot(way, row.normal);
+    rows[at].w = impact_at(at, m.stride).separation + dot(way, row.normal);
   }
 }
 
-// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
-// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
-// (Contensou 1963), and is tipped over its rim by its radius times the force, the moment of rolling friction; a ball
-// rolls freely. Where contacts lie farther apart, they do it themselves.
 void resist_turn(SphereOrdered m, inout Side a, inout Side b) {
-  float impulse = 0.0;
-  vec3 center = vec3(0.0), normal = vec3(0.0);
-  FOR_ROWS(at, m) {
-    float own = rows[at + 3u * m.stride].x;
-    impulse += own;
-    center += own * rows[at].xyz;
-    normal += own * rows[at + 2u * m.stride].xyz;
-  }
-  if (impulse <= 0.0) return;
-  center /= impulse;
-  normal = unit(normal);
-  vec3 turn = a.w - b.w;
-  float spin = dot(normal, turn);
-  vec3 tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
-  float spread = 0.0, spread_across = 0.0;  // squares of lengths, times impulse
-  FOR_ROWS(at, m) {
-    float own = rows[at + 3u * m.stride].x;
-    vec3 off = rows[at].xyz - center;
-    float side = dot(across, off);
-    spread += own * dot(off, off);
-    spread_across += own * side * side;
-  }
-  float radius = settings.patch_radius * world.gravity.w, widest = 4.0 * radius * radius * impulse;
-  if (spread <= widest) resist(normal, spin, 2.0 / 3.0 * radius * friction_of(m) * impulse, a, b);
-  if (spread_across <= widest && !is_ball(m.a) && !is_ball(m.b))
-    resist(tip_axis, dot(tip_axis, tipping), radius * impulse, a, b);
+  Patch area = open_patch(vec3(0.0));
+  FOR_ROWS(at, m) gather(area, rows[at + 3u * m.stride].x, rows[at].xyz, rows[at + 2u * m.stride].xyz);
+  if (area.impulse <= 0.0) return;
+  close_patch(area, a.w - b.w);
+  FOR_ROWS(at, m) spread(area, rows[at + 3u * m.stride].x, rows[at].xyz);
+  float radius = settings.patch_radius * world.gravity.w, arm = is_ball(m.a) || is_ball(m.b) ? 0.0 : radius;
+  resist(area.normal, area.spin, most_against_spin(area, radius, friction_of(m)), a, b);
+  resist(area.tip_axis, area.tipping, most_against_tipping(area, radius, arm), a, b);
 }
 
-void solve_manifold(uint o, uint kind, float h) {
+void solve_manifold(uint o, uint kind) {
   SphereOrdered m = ordered_at(o);
   if (kind == SWEEP_BOUNCE && (m.flags & SPHERE_BOUNCES) == 0u) return;
-  Side a = side_of(m.a, aimed(m)), b = side_of(m.b, aimed(m));
+  Side a = side_of(m.a, refreshed(m)), b = side_of(m.b, refreshed(m));
   if (kind == SWEEP_WARM_START) {
     FOR_ROWS(at, m) warm_start(at, m.stride, restitutes(m), a, b);
   } else if (kind == SWEEP_BOUNCE) {
     FOR_ROWS(at, m) bounce(at, m.stride, restitution_of(m), a, b);
   } else {
     if (kind == SWEEP_FIRST_PUSH) resist_turn(m, a, b);
-    if (kind == SWEEP_FIRST_RELAX) look(m, a, b);
-    bool push = kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH;
-    FOR_ROWS(at, m) solve_normal(at, m.stride, h, push, a, b);
+    if (kind == SWEEP_FIRST_RELAX) observe_gaps(m, a, b);
+    Give give = firmly_now;
+    if (kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH) give = softly_now;
+    FOR_ROWS(at, m) solve_normal(at, m.stride, give, a, b);
     float friction = friction_of(m);
     FOR_ROWS(at, m) solve_friction(at, m.stride, friction, a, b);
   }
@@ -223,24 +201,24 @@ bool bounces(uint o) {
   if (!restitutes(m) || (m.flags & SPHERE_STRIKES) == 0u) return false;
   bool any = false;
   FOR_ROWS(at, m) {
-    Blow blow = blow_at(at, m.stride);
-    any = any || blow.pressed == 1.0 && struck(row_at(at, m.stride), blow);
+    Impact impact = impact_at(at, m.stride);
+    any = any || impact.pressed == 1.0 && hit(row_at(at, m.stride), impact);
   }
   if (any) set_flags(o, m.flags | SPHERE_BOUNCES);
   return any;
 }
 
-// Impulses back into the contacts, as forces. A blow is over: it must not warm-start the next step.
+// Impulses back into the contacts, as forces. An impact is over: it must not warm-start the next step.
 void keep_forces(uint o) {
   SphereOrdered m = ordered_at(o);
   uint presses = 0u;
   FOR_CONTACTS(at, contact, m) {
     Row row = row_at(at, m.stride);
-    Blow blow = blow_at(at, m.stride);
-    if ((m.flags & SPHERE_BOUNCES) != 0u && struck(row, blow)) row.impulse = vec3(0.0);
-    vec3 impulse = without_blow(row, blow, restitutes(m));
+    Impact impact = impact_at(at, m.stride);
+    if ((m.flags & SPHERE_BOUNCES) != 0u && hit(row, impact)) row.impulse = vec3(0.0);
+    vec3 impulse = without_impact(row, impact, restitutes(m));
     vec3 friction = impulse.y * row.tangent + impulse.z * cross(row.normal, row.tangent);
-    contacts[contact].force = vec4(impulse.x, friction) / sub_step();
+    contacts[contact].force = vec4(impulse.x, friction) / plan.sub_step;
     if (impulse.x > 0.0) presses = 1u;
   }
   manifolds[world.pairs.x + m.slot].state.y = presses;
@@ -250,13 +228,12 @@ void keep_forces(uint o) {
 void note_sliding(uint o) {
   SphereOrdered m = ordered_at(o);
   float friction = friction_of(m);
-  bool slips = false;
+  bool slip = false;
   FOR_ROWS(at, m) {
     vec3 impulse = rows[at + 3u * m.stride].xyz;
-    float most = friction * impulse.x;
-    slips = slips || most > 0.0 && dot(impulse.yz, impulse.yz) > 0.999 * most * most;
+    slip = slip || slips(friction * impulse.x, impulse.y, impulse.z);
   }
-  if (!slips) return;
+  if (!slip) return;
   turned_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
   if (m.b != SPHERE_GROUND) turned_of(m.b - world.bodies.x).w = 1.0;
 }

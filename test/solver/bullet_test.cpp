@@ -24,7 +24,7 @@ const SolverCase bullet_uncut{"bullet", [] {
 const auto name = [](const auto& info) { return info.param.name; };
 
 // A ball rebounds from the floor while it parts from one above it, which it then strikes in the same step.
-TEST(BulletBlows, ThatFollowEachOtherInAStepGainNoEnergy) {
+TEST(BulletImpacts, ThatFollowEachOtherInAStepGainNoEnergy) {
   BulletSettings settings;
   settings.time_step = 0.0005;
   for (double floor_gap = 1e-4; floor_gap < 0.0035; floor_gap += 1.2e-4) {
@@ -52,7 +52,7 @@ TEST(BulletBlows, ThatFollowEachOtherInAStepGainNoEnergy) {
   }
 }
 
-// It gained 0.01 m g d, 0.026 with a quarter of the step: two walls that hold a spike like a wedge shared a blow in
+// It gained 0.01 m g d, 0.026 with a quarter of the step: two walls that hold a spike like a wedge shared an impact in
 // more sweeps than there were, what was left overlapped, and what pushed it out was not taken back.
 TEST(BulletTightFits, ASpikeThatRattlesInAHoleGainsNoEnergy) {
   for (const double share : {1.0, 0.25})

@@ -247,7 +247,7 @@ inline std::vector<double> brick_stack_drifts(const std::function<Lab()>& lab, d
 }
 
 struct Rods {
-  double first, second;  ///< speeds along the blow afterwards / speed of the first before: 0 and 1
+  double first, second;  ///< speeds along the impact afterwards / speed of the first before: 0 and 1
 };
 /// The thesis's figures 3.2 to 3.4: a rod that meets another with many contacts at once exchanges no more than one.
 inline Rods meet_along_rods(Lab lab) {

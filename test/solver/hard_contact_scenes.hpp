@@ -24,7 +24,7 @@ inline Fall long_flight(Lab lab) {
 
 /// Two bricks that tumble, of unequal mass, strike each other off centre: change of the angular momentum about the
 /// common centre of mass / sum of its parts at the start.
-inline double spin_gained_in_a_blow(Lab lab, std::uint64_t seed) {
+inline double spin_gained_in_an_impact(Lab lab, std::uint64_t seed) {
   Random random(seed, 0, Stream::probe);
   const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
   lab.def().bin.kind = Bin::Kind::none;
@@ -74,7 +74,7 @@ inline double half_life_of_a_coin(Lab lab, std::uint32_t sides) {
 }
 
 struct Rebound {
-  double speed;         ///< fastest upwards after the blow, m/s
+  double speed;         ///< fastest upwards after the impact, m/s
   double aside;         ///< farthest that a cube went sideways / edge
   double height;        ///< least distance of neighbours above each other / edge: below 1 = sunk in
   double thrown = 0.0;  ///< fastest of what lay there / speed of the impact

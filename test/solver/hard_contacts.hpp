@@ -25,19 +25,19 @@ TEST_P(HardContacts, SlidingDistanceFollowsFromGreatFriction) {
 
 // Struck at levers of half way through the step, 49 of 60 pairs change it by more than 0.2 %, one by 1.1 %. Bullet
 // changes it by up to 0.6 %.
-TEST_P(HardContacts, ABlowKeepsTheAngularMomentum) {
+TEST_P(HardContacts, AnImpactKeepsTheAngularMomentum) {
   const double most = GetParam().name == "bullet" ? 7e-3 : 3e-3;
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const double change = spin_gained_in_a_blow(lab(), seed);
+    const double change = spin_gained_in_an_impact(lab(), seed);
     EXPECT_LT(change, most) << seed;
     sum += change;
   }
   EXPECT_LT(sum / 60.0, 1.5e-3);
 }
 
-// The last one falls at 4.9 m/s. When the impulse of a blow lived on as a force, the pile threw it back at 0.54 to
-// 0.67 m/s and fell over, with any number of sub-steps; when few sweeps left a blow unshared, at 0.28.
+// The last one falls at 4.9 m/s. When the impulse of an impact lived on as a force, the pile threw it back at 0.54 to
+// 0.67 m/s and fell over, with any number of sub-steps; when few sweeps left an impact unshared, at 0.28.
 TEST_P(HardContacts, CubesThatFallOnEachOtherDoNotRebound) {
   const Rebound pile = pile_up_cubes(lab(), 5);
   EXPECT_LT(pile.speed, 0.05);

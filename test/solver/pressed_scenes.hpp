@@ -116,15 +116,15 @@ inline double given_back_by_a_chain(Lab lab, int count, double slack) {
   return most / (start - least);
 }
 
-/// Four blocks of 500 times a card's mass fall on a house of cards: fastest of all that moves / what a leaning card
-/// does that the fastest block squeezes out, as a ladder that slips.
-inline double blocks_on_cards(Lab lab) {
+/// Four blocks (`aside`: m) of 500 times a card's mass fall on a house of cards: fastest of all that moves / what a
+/// leaning card does that the fastest block squeezes out, as a ladder that slips.
+inline double blocks_on_cards(Lab lab, double aside) {
   const CardHouse house;
   house.place(lab, 0.002);
   const std::size_t cards = lab.def().bodies.size();
   const double edge = 0.05;
   for (int i = 0; i < 4; ++i)
-    lab.place(box(Vec3::Constant(edge)), Vec3(-0.06 + 0.04 * i, 0.005 * i, house.height() + 0.1 + 0.08 * i),
+    lab.place(box(Vec3::Constant(edge)), Vec3(aside - 0.06 + 0.04 * i, 0.005 * i, house.height() + 0.1 + 0.08 * i),
               Quat(Eigen::AngleAxisd(0.2 * i, Vec3::UnitY())), material(0.5));
   lab.begin(phases::pour);
   double block = 0.0, fastest = 0.0;

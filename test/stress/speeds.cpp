@@ -56,7 +56,7 @@ std::vector<Row> speeds(bool soak) {
     row.cases.push_back(at_plate(speed, 0.005, true));
     row.cases.push_back(at_plate(speed, 0.005, false));
     // Linear momentum is kept; what changes is angular momentum.
-    if (speed < 30) row.known["bullet: a cube at a plate in free flight"] = blow;
+    if (speed < 30) row.known["bullet: a cube at a plate in free flight"] = impact;
     rows.push_back(row);
   }
   for (const double rate : soak ? std::vector<double>{100, 1000} : std::vector<double>{1000}) {

@@ -52,8 +52,8 @@ using Known = std::map<std::string, std::string>;
 inline const char* const trembles = "trembles or creeps by more than rest allows";
 inline const char* const restarted =
     "stands when the run goes on; the re-run begins without the contact forces that held it";
-inline const char* const blow =
-    "a blow turns each body about a lever that is up to a step's way off the one it is struck at";
+inline const char* const impact =
+    "an impact turns each body about a lever that is up to a step's way off the one it is struck at";
 
 struct Row {
   std::string theme, name;

@@ -14,4 +14,7 @@
 #define SPHERE_EDGE 0x40000000u    // feature: edge, not node
 #define SPHERE_TURNED 0x20000000u  // feature: the normal is the sample's, and the side as if it were the field's
 #define SPHERE_PLANE 0x1000000u  // feature of a ground contact: node + plane times this; in a crease: + wall times this
+
+#define SPHERE_BOUNCE_SWEEPS 12u  // a face that lands flat shares its impact among many contacts
+#define SPHERE_COLORS 64          // the last one is for manifolds that find no other: they are solved one by one
 #endif

@@ -15,10 +15,10 @@ INLINE void go_half_way(bool of_a, IN(vec3) way_a, IN(vec3) turn_a, IN(vec3) way
   normal = unit(normal + cross(of_a ? turn_a : turn_b, normal));
 }
 
-// Levers of one common point of what is struck, of where the bodies' centres of mass x are now and the contact's points
-// with them: with those of half way through the step a blow would turn each of two bodies about a lever that is up to
-// half a step's way off, and change their common angular momentum.
-INLINE void aim_levers(IN(vec3) x_a, IN(vec3) on_a, IN(vec3) x_b, IN(vec3) on_b, IN(vec3) normal, OUT(vec3) ra,
+// Levers of one common point of what is hit, of where the bodies' centres of mass x are now and the contact's points
+// with them: with those of half way through the step an impact would turn each of two bodies about a lever that is up
+// to half a step's way off, and change their common angular momentum.
+INLINE void levers_now(IN(vec3) x_a, IN(vec3) on_a, IN(vec3) x_b, IN(vec3) on_b, IN(vec3) normal, OUT(vec3) ra,
                        OUT(vec3) rb, OUT(float) gap) {
   vec3 between = on_b - on_a, middle = on_a + 0.5f * between;
   ra = middle - x_a;

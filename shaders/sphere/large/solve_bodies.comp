@@ -40,9 +40,9 @@ void main() {
   if (stage == BODIES_BEGIN)
     begin_body(i);
   else if (stage == BODIES_VELOCITIES)
-    integrate_velocity(i, sub_step());
+    integrate_velocity(i, plan.sub_step);
   else if (stage == BODIES_POSITIONS)
-    integrate_position(i, sub_step());
+    integrate_position(i, plan.sub_step);
   else if (keep_body(i))
     atomicAdd(progress[large_world].free_steps, 1u);
 }

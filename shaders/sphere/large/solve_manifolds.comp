@@ -47,7 +47,7 @@ void sweep_rest() {
     bool alone = c == SPHERE_COLORS - 1u;
     uint stride = alone ? 1u : SPHERE_GROUP, end = start_of(c + 1u);
     if (!alone || gl_LocalInvocationIndex == 0u)
-      for (uint o = start_of(c) + gl_LocalInvocationIndex; o < end; o += stride) solve_manifold(o, stage, sub_step());
+      for (uint o = start_of(c) + gl_LocalInvocationIndex; o < end; o += stride) solve_manifold(o, stage);
     memoryBarrierBuffer();
     barrier();
   }
@@ -66,7 +66,7 @@ void main() {
   uint o = thread_index() + (sweeps ? start_of(color) : 0u);
   if (o >= (sweeps ? start_of(color + 1u) : progress[large_world].ordered)) return;
   if (sweeps)
-    solve_manifold(o, stage, sub_step());
+    solve_manifold(o, stage);
   else if (stage == MANIFOLDS_PREPARE)
     prepare_manifold(o);
   else if (stage == MANIFOLDS_NOTE)

@@ -2,8 +2,8 @@
 
 #include "bin_scenes/core/cancel.hpp"
 
-#include "blow_energy.hpp"
 #include "dynamics_world.hpp"
+#include "impact_energy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,11 @@ constexpr btScalar stiffness = 0.25, damping_ratio = 2.0;
 /// and higher; ten boxes sink by it, by a quarter of what they may drift.
 constexpr btScalar slop = 1.5e-5;
 constexpr btScalar fastest_push = 3.0;  ///< units/s
-/// A contact whose speed a sweep still changes by more (units/s) is not solved: a blow that two walls of a wedge share
-/// takes dozens of sweeps. After two it left overlap, and the speed at which this was pushed out.
+/// A contact whose speed a sweep still changes by more (units/s) is not solved: an impact that two walls of a wedge
+/// share takes dozens of sweeps. After two it left overlap, and the speed at which this was pushed out.
 constexpr btScalar settled = 0.02;
 constexpr int most_sweeps = 40;         ///< for such, instead of `sweeps`
-constexpr btScalar force_growth = 1.5;  ///< of a contact in a sub-step; with more, heaps rebound from a blow
+constexpr btScalar force_growth = 1.5;  ///< of a contact in a sub-step; with more, heaps rebound from an impact
 
 /// What a moment about `axis` turns a body by; nothing of what is fixed.
 btVector3 turned_by(const btSolverBody& body, const btVector3& axis) {
@@ -82,11 +82,11 @@ btScalar ContactSolver::solveGroupCacheFriendlyIterations(btCollisionObject**, i
   begin();
   const int steps = info.m_numIterations;
   const btScalar h = info.m_timeStep / steps;
-  const btScalar blow = 2 * info.m_restitutionVelocityThreshold / steps;  // what falls for four sub-steps
+  const btScalar impact = 2 * info.m_restitutionVelocityThreshold / steps;  // what falls for four sub-steps
   for (int s = 0; s < steps; ++s) {
     for (int b = 0; b < m_tmpSolverBodyPool.size(); ++b)
       m_tmpSolverBodyPool[b].m_deltaLinearVelocity += m_tmpSolverBodyPool[b].m_externalForceImpulse / steps;
-    forget_blows(blow);
+    forget_impacts(impact);
     warm_start();
     stop_if_cancelled();
     const auto sweep_until_shared = [&](Sweep first, Sweep others) {
@@ -99,7 +99,7 @@ btScalar ContactSolver::solveGroupCacheFriendlyIterations(btCollisionObject**, i
     sweep_until_shared(Sweep::relax, Sweep::relax);
   }
   rebound(info);
-  forget_blows(blow);
+  forget_impacts(impact);
   hand_over();
   return 0;
 }
@@ -131,11 +131,11 @@ void ContactSolver::begin() {
   blocks_.push_back(count);
 }
 
-/// A force may grow by half in a sub-step, and by what stops `speed`. Beyond, the impulse was that of a blow: it is
+/// A force may grow by half in a sub-step, and by what stops `speed`. Beyond, the impulse was that of an impact: it is
 /// over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
 /// thrown up.
-void ContactSolver::forget_blows(btScalar speed) {
-  if (speed == 0) return;  // without weight nothing tells a force from a blow
+void ContactSolver::forget_impacts(btScalar speed) {
+  if (speed == 0) return;  // without weight nothing tells a force from an impact
   for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
     btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
     const btScalar most = force_growth * contacts_[c].lasting + speed * row.m_jacDiagABInv;
@@ -316,7 +316,7 @@ void ContactSolver::rebound(const btContactSolverInfo& info) {
     carried.push_back(row.m_appliedImpulse);
     pairs.emplace_back(row.m_solverBodyIdA, row.m_solverBodyIdB);
   }
-  BlowEnergy energy(m_tmpSolverBodyPool, pairs);
+  ImpactEnergy energy(m_tmpSolverBodyPool, pairs);
   for (int s = 0; s < sweeps; ++s)
     for (const int c : bouncing) {
       btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];

@@ -73,7 +73,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   enum class Sweep { first_push, push, relax };
 
   void begin();
-  void forget_blows(btScalar speed);
+  void forget_impacts(btScalar speed);
   void warm_start();
   /// Over all contacts, or those of bodies that the last sweep left restless; whether it leaves any.
   bool sweep(btScalar h, Sweep kind, bool all);

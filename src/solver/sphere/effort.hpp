@@ -13,7 +13,7 @@ int effort_to_come(const World& world, const WorldDef& def);
 /// Of the heaviest part that moves to the lightest.
 float mass_ratio_of(const World& world);
 
-/// Sweeps that parts of unequal masses ask for, times the default: a sweep passes on as much of a blow as the light
+/// Sweeps that parts of unequal masses ask for, times the default: a sweep passes on as much of an impact as the light
 /// part that carries it can.
 int effort_of_masses(const World& world);
 

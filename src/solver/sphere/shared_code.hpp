@@ -38,7 +38,7 @@ inline vec3 turned_back(const mat3& m, const vec3& v) {
   return m.transpose() * v;
 }
 
-#include "shared/sphere/blow.h"
+#include "shared/sphere/plan.h"
 #include "shared/sphere/row.h"
 
 }  // namespace bin_scenes::sphere

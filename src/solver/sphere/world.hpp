@@ -9,6 +9,7 @@
 
 #include "bin_scenes/solver/solver.hpp"
 #include "solver/sphere/shapes/shape.hpp"
+#include "solver/sphere/shared_code.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,16 +35,16 @@ struct Settings {
   float time_step = 1.0f / 400;  ///< duration of a step, with one collision detection
   bool cut_steps = true;         ///< shorter steps for small and for fast parts
   int sub_steps = 4;             ///< sub-steps a step; stiffness of contacts grows with the square of their number
-  int sweeps = 2;          ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
-  float settled = 0.1f;    ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = a
-                           ///< blow in a wedge or a chain gives energy
-  int blow_sweeps = 12;    ///< most sweeps for that; fewer = the same
+  int sweeps = 2;        ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
+  float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = an
+                         ///< impact in a wedge or a chain gives energy
+  int sharing_sweeps = 12;  ///< most sweeps for that; fewer = the same
   int impact_sweeps = 24;  ///< most in a step with an impact, times heaviest / lightest part; with half as many a light
                            ///< part under one of a hundred times its mass leaves at 7 % of the impact's speed
   int most_impact_sweeps = 2400;  ///< whatever the masses; at 1:10,000 no number suffices
-  /// Larger worlds leave a blow to the next sub-steps: in a heap that is poured there is always one, soon shared among
-  /// many, and the sweeps would cost a tenth of its time.
-  std::size_t blow_bodies = 48;
+  /// Larger worlds leave an impact to the next sub-steps: in a heap that is poured there is always one, soon shared
+  /// among many, and the sweeps would cost a tenth of its time.
+  std::size_t impact_bodies = 48;
   int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
   int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
   int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
@@ -207,33 +208,23 @@ struct World {
     return stiffness == Stiffness::soft ? effort * softness().refinement : softness().refinement;
   }
   int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : effort; }
-  int sub_steps() const { return settings.sub_steps * refinement(); }
-  /// Sweeps of the next step before bodies move.
-  int sweeps() const { return sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps); }
-  /// Sweeps after bodies move. Rigid contacts push slowly, so that one sweep removes the remaining velocity. With none,
-  /// a gear on its teeth rolls forever.
-  /// Most of them while a blow is not shared.
+  /// Most sweeps of a sub-step while an impact is not shared; 0: it is left to the next ones.
   /// @param impact  something closes fast in this step
-  int blow_sweeps(bool impact) const {
-    if (bodies.size() > settings.blow_bodies || settings.blow_sweeps == 0) return 0;
-    if (!impact) return settings.blow_sweeps;
+  int impact_sweeps(bool impact) const {
+    if (bodies.size() > settings.impact_bodies || settings.sharing_sweeps == 0) return 0;
+    if (!impact) return settings.sharing_sweeps;
     const float wanted = mass_ratio * static_cast<float>(settings.impact_sweeps);
     return static_cast<int>(std::min(wanted, static_cast<float>(settings.most_impact_sweeps)));
   }
-  int relaxing_sweeps() const {
-    if (!settings.relaxation) return 0;
-    return stiffness == Stiffness::rigid ? 1 : sweeps();
+  /// Of the next step.
+  StepPlan plan() const {
+    StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(),
+                              sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
+                              stiffness == Stiffness::rigid, forgets, settings.probe_slip);
+    if (!settings.relaxation) plan.relaxing_sweeps = 0;
+    if (!settings.half_way_poses) plan.half_way = 0;
+    return plan;
   }
-  float sub_step() const { return settings.time_step / static_cast<float>(sub_steps()); }  ///< s
-  /// Sub-steps of the next step without friction.
-  int slip_sub_steps() const {
-    const bool slips = forgets && stiffness == Stiffness::rigid && settings.probe_slip > 0;
-    return slips ? std::max(1, static_cast<int>(settings.probe_slip / sub_step() + 0.5f)) : 0;
-  }
-  /// s from the start of a step to the mean of its sub-steps' beginnings. Contacts, lever arms and normals are
-  /// evaluated at the poses of that time, which makes the motion the symplectic Euler method over the sub-steps and
-  /// keeps energy. With those of the start, a part that rolls on an edge gains energy.
-  float half_way() const { return settings.half_way_poses ? 0.5f * (settings.time_step - sub_step()) : 0; }
   bool is_ball(const Body& b) const { return shapes[b.shape]->field.ball > 0; }
   const Samples& samples(const Body& b) const { return fine ? shapes[b.shape]->fine : shapes[b.shape]->coarse; }
 };

@@ -142,9 +142,9 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
-  const bool shares = capacity_.share_blows && r.large.bodies == 0;
-  r.blow_sweeps = shares ? static_cast<std::size_t>(world.blow_sweeps(false)) : 0;
-  r.impact_sweeps = shares ? static_cast<std::size_t>(world.blow_sweeps(true)) : 0;
+  const bool shares = capacity_.share_impacts && r.large.bodies == 0;
+  r.sharing_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(false)) : 0;
+  r.impact_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(true)) : 0;
   make_room();
   if (r.large.bodies > 0) {
     if (!large_) large_ = std::make_unique<LargePasses>(capacity_);
@@ -188,7 +188,7 @@ void Batch::upload_world(Slot slot) {
   const auto word = [](std::size_t n) { return static_cast<gpu::uint>(n); };
   host_worlds_[slot].bodies = {word(r.first_body), word(r.bodies), word(r.words), word(r.first_word)};
   host_worlds_[slot].pairs = {word(r.first_pair), word(r.capacity), word(r.first_plane), word(r.planes)};
-  host_worlds_[slot].rows = {word(r.first_row), word(r.rows), word(r.impact_sweeps), word(r.blow_sweeps)};
+  host_worlds_[slot].rows = {word(r.first_row), word(r.rows), word(r.impact_sweeps), word(r.sharing_sweeps)};
   worlds_.upload(slot, &host_worlds_[slot], 1);
 }
 

@@ -72,7 +72,7 @@ class GlSphereSolver final : public Solver {
       return shapes_.of(part, profile_);
     });
     if (device_->software())
-      r.world.settings.most_impact_sweeps = r.world.settings.blow_sweeps;  // it ends longer loops
+      r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));

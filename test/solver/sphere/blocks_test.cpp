@@ -75,7 +75,7 @@ TEST(Blocks, AStackHasTheSameBitsAloneAndAmongManyBlocks) {
   const Shape shape = box_shape(part, {0.06, 0.06, 0.02});
   const auto stack_after = [&](std::size_t others) {
     World world = world_of_boxes(shape, 4 + others);
-    world.settings.blow_sweeps = 0;  // which a large world does without
+    world.settings.sharing_sweeps = 0;  // which a large world does without
     world.planes = {{Vec3f::UnitZ(), 0, false}};
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
       const auto pile = static_cast<float>(i / 4), place = static_cast<float>(i % 4);

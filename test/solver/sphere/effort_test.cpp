@@ -19,7 +19,7 @@ TEST(Effort, AHeapOfManyLayersGetsMoreSweeps) {
     for (int i = 0; i < count; ++i)
       world.bodies[i].x = edge * Vec3f(i % a_row, i % a_layer / a_row, i / a_layer + 0.5f);
     take_phase(world, phases::press);
-    EXPECT_EQ(world.sweeps(), world.effort * world.settings.sweeps);
+    EXPECT_EQ(world.plan().sweeps, world.effort * world.settings.sweeps);
     return world.effort;
   };
   EXPECT_EQ(effort(3, 1, 1), 1);
@@ -113,8 +113,8 @@ TEST(Effort, SoftContactsOfAHighHeapSagByTheSquareOfItsEffortLess) {
     world.settings.soft.slop = 0;  // what overlaps by less is held where it is
     take_phase(world, phases::settle);
     EXPECT_EQ(world.effort, effort);
-    EXPECT_EQ(world.sub_steps(), effort * world.settings.sub_steps);
-    EXPECT_EQ(world.sweeps(), world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps);
+    EXPECT_EQ(world.plan().sub_steps, effort * world.settings.sub_steps);
+    EXPECT_EQ(world.plan().sweeps, world.cold_steps > 0 ? world.settings.cold_sweeps : world.settings.sweeps);
     for (int k = 0; k < 400; ++k) step(world);
     return (count - 0.5f) * edge - world.bodies[count - 1].x.z();
   };

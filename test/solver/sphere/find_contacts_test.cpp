@@ -114,7 +114,7 @@ TEST(NarrowPhase, ContactsAreFoundHalfWayThroughTheStep) {
   world.planes = {{Vec3f::UnitZ(), 0, false}};
   world.fine = true;
   Body& b = world.bodies[0];
-  const float turn = 0.7f, half = 0.5f * (world.settings.time_step - world.sub_step());
+  const float turn = 0.7f, half = 0.5f * (world.settings.time_step - world.plan().sub_step);
   b.q = Eigen::AngleAxisf(turn, Vec3f::UnitY());
   b.x = Vec3f(0, 0, 0.0424f);
   b.v = Vec3f(0.3f, 0, -0.1f);

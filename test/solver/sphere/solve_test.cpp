@@ -64,12 +64,12 @@ TEST(Solve, RigidContactsLetOverlapOutAndPressNothing) {
   const double share = 1.0 / (1.0 + rigid.damping_ratio / (M_PI * rigid.hertz_share));
   for (int k = 1; k <= 40; ++k) {
     step(world);
-    const double left = std::pow(1.0 - share, k * world.sub_steps());
+    const double left = std::pow(1.0 - share, k * world.plan().sub_steps);
     EXPECT_NEAR((0.03f - world.bodies[0].x.z()) / depth, left, 0.01) << k;
     float force = 0;
     for (const Contact& c : world.manifolds.at(0).contacts) force += c.normal_force;
     EXPECT_NEAR(force * world.bodies[0].inverse_mass / 9.81f, 1.0f, 2e-3f) << k;
-    const double speed = share / (1.0 - share) * left * depth / world.sub_step();
+    const double speed = share / (1.0 - share) * left * depth / world.plan().sub_step;
     EXPECT_NEAR(world.bodies[0].v.z() / speed, 0.0, 0.1) << k;
   }
 }

@@ -106,7 +106,7 @@ TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
   if (!gl::Device::shared()->software())
     GTEST_SKIP() << "two programs may round apart where a driver joins products and sums";
   Capacity whole;
-  whole.share_blows = false;
+  whole.share_impacts = false;
   Capacity spread = whole;
   spread.group_bodies = 0;
   EXPECT_EQ(fallen(2, spread), fallen(2, whole));

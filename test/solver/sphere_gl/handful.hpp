@@ -31,7 +31,7 @@ struct Handful {
     def.wall_height = 0.5;
     BodyDef body;
     body.mass = 0.1;
-    body.restitution = 0.4;  // blows read where bodies were before the step
+    body.restitution = 0.4;  // impacts read where bodies were before the step
     def.bodies.assign(static_cast<std::size_t>(5 + 3 * variant), body);
     Random random(7, static_cast<std::uint64_t>(variant), Stream::probe);
     for (std::size_t i = 0; i < def.bodies.size(); ++i) {

@@ -325,8 +325,8 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
     EXPECT_EQ(world.forgets, phase.forgets);
     EXPECT_EQ(world.effort > 1, many);
     if (full) world.fine = false;
-    if (capacity.group_bodies == 0) world.settings.blow_sweeps = 0;  // a world in many groups leaves blows
-    world.settings.most_impact_sweeps = world.settings.blow_sweeps;  // llvmpipe ends longer loops
+    if (capacity.group_bodies == 0) world.settings.sharing_sweeps = 0;  // a world in many groups leaves impacts
+    world.settings.most_impact_sweeps = world.settings.sharing_sweeps;  // llvmpipe ends longer loops
     world.bodies[20].asleep = true;
     const Batch::Slot slot = load(batch, world);
     find_all(batch, slot);
@@ -344,7 +344,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
       EXPECT_LT((mine.w - twin.w).norm(), 1e-2f) << i;
       EXPECT_LT((mine.q.conjugate() * twin.q).vec().norm(), 1e-5f) << i;
     }
-    const float h = world.settings.time_step / static_cast<float>(world.sub_steps());
+    const float h = world.settings.time_step / static_cast<float>(world.plan().sub_steps);
     for (std::size_t m = 0; m < world.manifolds.size(); ++m)
       for (std::size_t i = 0; i < world.manifolds[m].contacts.size(); ++i) {
         const float impulse = h * world.manifolds[m].contacts[i].normal_force;
@@ -357,7 +357,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
 TEST_F(SphereGl, StepsAreTheSameInOneGroupAndInMany) {
   std::vector<World> seen;
   World world = heap().world(360, 6, 0.1 * std::cbrt(9.0));
-  world.settings.blow_sweeps = 0;  // else by one group alone
+  world.settings.sharing_sweeps = 0;  // else by one group alone
   for (const Layout& layout : {one_group(), many_groups(), shared_rest()}) {
     Batch batch(layout.capacity);
     const Batch::Slot slot = load(batch, world);

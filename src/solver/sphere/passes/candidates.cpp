@@ -56,7 +56,7 @@ void candidates_of_pair(const World& world, const Manifold& m, const Placement& 
   const Carry a_to_b{b_to_a.rotation.transpose(), -(b_to_a.rotation.transpose() * b_to_a.offset)};
   const bool way_back = world.settings.way_back;
   // The last sweeps look as far ahead as another sub-step.
-  const float rest = world.settings.time_step - world.half_way() + world.sub_step();
+  const float rest = world.settings.time_step - world.plan().half_way + world.plan().sub_step;
   const Drift a_goes(rest, a, b), b_goes(rest, b, a);
   test_samples(
       {samples_a, samples_b, sa.field, sb.field, a_to_b, b_to_a, 0, a_goes.drift, a_goes.twist, margin, way_back, out},

@@ -19,7 +19,7 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// A body half way through the step (World::half_way), where its contacts are found.
+/// A body half way through the step (StepPlan::half_way), where its contacts are found.
 struct Placement {
   Vec3f x;
   Mat3f rotation;
@@ -30,8 +30,8 @@ struct Placement {
     v = body.v;
     w = body.w;
     if (body.inverse_mass > 0) v += world.settings.time_step * world.gravity;
-    x += world.half_way() * body.v;
-    rotation = integrated(body.q, body.w, world.half_way()).toRotationMatrix();
+    x += world.plan().half_way * body.v;
+    rotation = integrated(body.q, body.w, world.plan().half_way).toRotationMatrix();
   }
 };
 

@@ -19,7 +19,7 @@ void color_manifolds(World& world) {
     const bool a_moves = a.moves(), b_moves = b && b->moves();
     if (!a_moves && !b_moves) continue;
     const std::uint64_t taken = (a_moves ? used[m.a] : 0) | (b_moves ? used[m.b] : 0);
-    m.color = taken == ~std::uint64_t{0} ? 63 : __builtin_ctzll(~taken);
+    m.color = taken == ~std::uint64_t{0} ? SPHERE_COLORS - 1 : __builtin_ctzll(~taken);
     const std::uint64_t bit = std::uint64_t{1} << m.color;
     if (a_moves) used[m.a] |= bit;
     if (b_moves) used[m.b] |= bit;

@@ -6,16 +6,16 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-constexpr int shared_color = 63;  ///< its manifolds found no color of their own: one to a bundle
+constexpr int shared_color = SPHERE_COLORS - 1;  ///< its manifolds found no color of their own: one to a bundle
 
-/// What a body does from the start of a step to the middle of its sub-steps (World::half_way).
+/// What a body does from the start of a step to the middle of its sub-steps (StepPlan::half_way).
 struct Ahead {
   Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
 
-  Ahead(const World& world, const Body* body) {
+  Ahead(float half_way, const Body* body) {
     if (!body || !body->moves()) return;
-    way = world.half_way() * body->v;
-    turn = world.half_way() * body->w;
+    way = half_way * body->v;
+    turn = half_way * body->w;
   }
 };
 
@@ -36,24 +36,9 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body
   rows.t2_impulse[lane] = warm * c.friction_force.dot(c.normal.cross(t1));
 }
 
-/// Mass that an impulse along `direction` meets; 0 in empty lanes.
-Lanes effective_mass(const LaneVec& direction, Lanes inverse_masses, const LaneVec& moment_a, const LaneVec& turn_a,
-                     const LaneVec& moment_b, const LaneVec& turn_b) {
-  const Lanes k = inverse_masses + dot(moment_a, turn_a) + dot(moment_b, turn_b);
-  const LaneMask used = dot(direction, direction) > 0.5f;
-  return used & (k > 0.0f) ? 1.0f / k : all_lanes(0);
-}
-
-/// Speed along the normal when the gap of a contact has closed, of what closes at `speed` (below 0) when the step
-/// begins: gravity works on what moves, and a blow returns neither more nor less than what has come down.
-Lanes speed_at_blow(Lanes speed, Lanes gap, Lanes acceleration) {
-  const Lanes square = speed * speed - 2.0f * acceleration * max(gap, all_lanes(0));
-  return speed < 0.0f ? -sqrt(max(square, all_lanes(0))) : speed;
-}
-
 Lanes tangent_mass(const LaneVec& tangent, const ContactRows& c, const Bundle& bundle, Lanes inverse_masses) {
   const LaneVec moment_a = cross(c.ra, tangent), moment_b = cross(c.rb, tangent);
-  return effective_mass(tangent, inverse_masses, moment_a, bundle.inverse_inertia_a * moment_a, moment_b,
+  return effective_mass(inverse_masses, moment_a, bundle.inverse_inertia_a * moment_a, moment_b,
                         bundle.inverse_inertia_b * moment_b);
 }
 
@@ -63,7 +48,7 @@ void set_masses(const Bundle& bundle, Lanes inverse_masses, ContactRows& c) {
   c.moment_b = cross(c.rb, c.normal);
   c.turn_a = bundle.inverse_inertia_a * c.moment_a;
   c.turn_b = bundle.inverse_inertia_b * c.moment_b;
-  c.normal_mass = effective_mass(c.normal, inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
+  c.normal_mass = effective_mass(inverse_masses, c.moment_a, c.turn_a, c.moment_b, c.turn_b);
   // One mass for both directions: two would turn the friction of a sliding part away from its velocity.
   c.tangent_mass = min(tangent_mass(c.tangent, c, bundle, inverse_masses),
                        tangent_mass(cross(c.normal, c.tangent), c, bundle, inverse_masses));
@@ -128,6 +113,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
   const float warm = world.forgets || !world.settings.warm_start
                          ? 0.0f
                          : h;  // s for which the last forces have acted when the sweeps begin
+  const float half_way = world.plan().half_way;
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
@@ -135,11 +121,11 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.friction[lane] = world.grip * m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
-    bundle.aimed[lane] = rolls ? 0 : -1;
+    bundle.refreshed[lane] = rolls ? 0 : -1;
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
-    const Ahead ahead_a(world, &a), ahead_b(world, b);
+    const Ahead ahead_a(half_way, &a), ahead_b(half_way, b);
     for (std::uint32_t k = 0; k < m.solved; ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
   }
@@ -154,17 +140,18 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     c.gap = c.separation;
     c.lasting = c.normal_impulse;
     set_masses(bundle, inverse_masses, c);
-    c.approach = speed_at_blow(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
+    c.approach = speed_at_impact(velocities.along_normal(c), c.separation, falls * dot(c.normal, gravity));
     bundle.strikes |= c.approach <= -world.settings.restitution_speed;
   }
-  bundle.aimed &= bundle.strikes;
+  bundle.refreshed &= bundle.strikes;
 }
 
 BIN_SCENES_WIDE
-void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows) {
+void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
+                    std::vector<ContactRows>& rows) {
   const Ways ways = ways_of(bundle, motions);
   for (int lane = 0; lane < bundle.lanes; ++lane) {
-    if (!bundle.aimed[lane]) continue;
+    if (!bundle.refreshed[lane]) continue;
     const Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Place a(&world.bodies[m.a], motions[bundle.a[lane]]);
     const Place b(m.b == ground ? nullptr : &world.bodies[m.b], motions[bundle.b[lane]]);
@@ -175,7 +162,7 @@ void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
       ContactRows& row = rows[bundle.first + k];
       Vec3f ra, rb;
       float gap;
-      aim_levers(a.x, a.x + a.rotation * c.anchor_a, b.x, b.x + b.rotation * c.anchor_b, c.normal, ra, rb, gap);
+      levers_now(a.x, a.x + a.rotation * c.anchor_a, b.x, b.x + b.rotation * c.anchor_b, c.normal, ra, rb, gap);
       row.gap[lane] = gap;
       row.ra.set(lane, ra);
       row.rb.set(lane, rb);
@@ -184,7 +171,7 @@ void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
   const Velocities velocities = velocities_of(bundle, motions);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     set_masses(bundle, velocities.inverse_mass_a + velocities.inverse_mass_b, rows[i]);
-    rows[i].separation = bundle.aimed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
+    rows[i].separation = bundle.refreshed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
   }
 }
 

@@ -1,14 +1,23 @@
-/// Contacts as the solver works on them: eight at a time, one of each of eight manifolds that share no moving body.
+/// Contacts as the solver works on them (GLSL: contact_row.h): eight at a time, one of each of eight manifolds that
+/// share no moving body.
 #pragma once
 
 #include "solver/sphere/passes/blocks.hpp"
 #include "solver/sphere/passes/lanes.hpp"
+#include "solver/sphere/shared_code.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <array>
 #include <vector>
 
 namespace bin_scenes::sphere {
+
+using Real = Lanes;
+using Real3 = LaneVec;
+using Mask = LaneMask;
+
+#include "shared/sphere/contact.h"
+#include "shared/sphere/patch.h"
 
 /// How a body moves while contacts are solved (world frame): x, y, z and a fourth value.
 struct alignas(64) Motion {
@@ -26,13 +35,13 @@ struct ContactRows {
   LaneVec normal, tangent;                     ///< the second tangent is normal x tangent
   LaneVec moment_a, moment_b, turn_a, turn_b;  ///< of a unit impulse along the normal: arm x normal, and the spin given
   LaneVec ra, rb;  ///< from the centres of mass to one common point, world frame; hold for a step, or for a sub-step
-                   ///< of what is struck (m)
+                   ///< of what is hit (m)
   Lanes normal_mass{}, tangent_mass{};                 ///< effective (kg)
   Lanes normal_impulse{}, t1_impulse{}, t2_impulse{};  ///< of one sub-step (N s)
   Lanes separation{};                                  ///< when contacts were found (m)
   Lanes approach{};            ///< speed at which the two meet if they do in this step, m/s; negative = closing
   Lanes lasting{};             ///< normal impulse that the sub-step began with (N s)
-  Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation at the last look
+  Lanes max_impulse{}, gap{};  ///< largest normal impulse; separation when last observed
 };
 
 using LaneBodies = std::array<std::uint32_t, lane_count>;  ///< places in their block
@@ -45,7 +54,7 @@ struct Bundle {
   int color = 0;
   bool paired = false;        ///< solved together with the next one, which is of the same color
   LaneMask strikes{};         ///< some contact closes at Settings::restitution_speed
-  LaneMask aimed{};           ///< strikes, and no ball is in it: the point where a ball touches does not turn with it
+  LaneMask refreshed{};       ///< strikes, and no ball is in it: the point where a ball touches does not turn with it
   std::uint32_t first, last;  ///< rows; as many as the longest manifold has contacts
   Lanes friction{}, restitution{};
   Lanes tipping_arm{};                                 ///< m: moment of rolling friction / force; a ball has none
@@ -54,14 +63,11 @@ struct Bundle {
   std::uint32_t rows() const { return last - first; }
 };
 
-/// Takes from an impulse what was a blow (shared/sphere/blow.h; `speed`: blow_speed()). What bounces keeps the impulse
-/// of its blow, which the bounce may have to take back, until it has bounced.
-inline void forget_blow(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
+/// Takes from an impulse what was an impact (`speed`: impact_speed()). What bounces keeps the impulse of its impact,
+/// which the bounce may have to take back, until it has bounced.
+inline void forget_impact(ContactRows& c, const Bundle& bundle, float speed, float restitution_speed) {
   const LaneMask bounces = (bundle.restitution > 0.0f) & (c.approach <= -restitution_speed);
-  const Lanes most = FORCE_GROWTH * c.lasting + speed * c.normal_mass;
-  const LaneMask blow = (c.normal_impulse > most) & ~bounces;
-  if (!any(blow)) return;
-  const Lanes share = blow ? most / c.normal_impulse : all_lanes(1);
+  const Lanes share = select(bounces, all_lanes(1), lasting_share(c.normal_impulse, c.lasting, c.normal_mass, speed));
   for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse}) *impulse *= share;
 }
 
@@ -155,8 +161,9 @@ void make_bundles(const World& world, const Blocks& blocks, std::size_t block, s
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);
-/// Levers, gaps and inertia of manifolds that are struck, of where their bodies are now (shared/sphere/row.h).
-void aim(const World& world, const std::vector<Motion>& motions, Bundle& bundle, std::vector<ContactRows>& rows);
+/// Levers, gaps and inertia of manifolds that are hit, of where their bodies are now (shared/sphere/row.h).
+void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
+                    std::vector<ContactRows>& rows);
 /// Back into the contacts, as forces.
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world);
 

@@ -32,6 +32,9 @@ inline Lanes min(Lanes a, Lanes b) {
 inline Lanes max(Lanes a, Lanes b) {
   return a > b ? a : b;
 }
+inline Lanes select(LaneMask condition, Lanes yes, Lanes no) {
+  return condition ? yes : no;
+}
 /// Exact, as of a single float.
 inline Lanes sqrt(Lanes a) {
   Lanes root;

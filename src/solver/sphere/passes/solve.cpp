@@ -1,3 +1,6 @@
+/// The solve of a step: sub-steps of soft contacts, Gauss-Seidel over bundles of eight contacts, a block of bodies that
+/// touch each other at a time. What a contact is there stands in shaders/shared/sphere/contact.h; GLSL: solve.comp,
+/// solve_body.h, solve_manifold.h.
 #include "solver/sphere/passes/blocks.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -16,19 +19,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-/// Soft contact (Catto, "Solver2D", 2024): implicit spring over a sub-step h.
-struct Spring {
-  float bias_rate, mass_scale, impulse_scale;
-};
-
-Spring spring(const Softness& s, float h) {
-  const float omega = 2.0f * static_cast<float>(M_PI) * s.hertz_share / h;
-  const float a1 = 2.0f * s.damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1.0f / (1.0f + a2);
-  return {omega / a1, a2 * a3, a3};
-}
-
 constexpr std::size_t bundles_per_task = 8;  ///< fewer = more handing over; more = threads wait for the last one
-constexpr int bounce_sweeps = 12;            ///< a face that strikes flat shares its blow among many contacts
 
 /// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
 /// step, whose solve would take the same scratch memory.
@@ -70,13 +61,15 @@ class ContactSolver {
         block_(block),
         bodies_(blocks.bodies(block)),
         settings_(world.settings),
-        h_(world.sub_step()),
-        blow_speed_(blow_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
-        softness_(world.softness()),
-        spring_(spring(softness_, h_)),
-        shares_blows_(world.blow_sweeps(false) > 0),
+        plan_(world.plan()),
+        h_(plan_.sub_step),
+        impact_speed_(impact_speed(h_, world.gravity.norm(), settings_.restitution_speed)),
+        softly_(softly(h_, world.softness().hertz_share, world.softness().damping_ratio,
+                       world.softness().slop * world.smallest_size,
+                       settings_.push_speed / static_cast<float>(world.softness().refinement) * world.smallest_size)),
+        firmly_(firmly(h_)),
+        shares_impacts_(world.impact_sweeps(false) > 0),
         settled_(settings_.settled * world.smallest_size),
-        push_speed_(settings_.push_speed / static_cast<float>(softness_.refinement)),
         motions_(scratch.motions),
         free_(scratch.free),
         slides_(scratch.slides),
@@ -90,16 +83,17 @@ class ContactSolver {
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
-  /// Returns whether it has changed a contact's speed by more than Settings::settled: another one has to share a blow.
+  /// Returns whether it has changed a contact's speed by more than Settings::settled: another one has to share an
+  /// impact.
   bool sweep(bool push, bool first);
-  /// Most sweeps while a blow is not shared.
-  int most_sweeps() const { return world_.blow_sweeps(impact_); }
+  /// Most sweeps while an impact is not shared.
+  int most_sweeps() const { return world_.impact_sweeps(impact_); }
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
-  void note_sliding();  ///< bodies that friction brakes
-  void aim();           ///< levers of what is struck
-  void move();          ///< positions
-  void restitute();     ///< Newton's restitution
-  void finish();        ///< back into bodies and contacts
+  void note_sliding();    ///< bodies that friction brakes
+  void refresh_levers();  ///< of what is hit
+  void move();            ///< positions
+  void restitute();       ///< Newton's restitution
+  void finish();          ///< back into bodies and contacts
 
  private:
   void prepare_motions();
@@ -111,12 +105,11 @@ class ContactSolver {
   };
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
-  float mean_speed(std::size_t body) const;
-  void look(const Bundle& bundle);
-  void solve_normal(ContactRows& c, Velocities& u, bool push);
+  void observe_gaps(const Bundle& bundle);
+  void solve_normal(ContactRows& c, Velocities& u, const Give& give);
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
-  LaneMask struck(const ContactRows& c) const;
+  LaneMask hit(const ContactRows& c) const;
   LaneMask bouncing(const Bundle& bundle) const;
   void bounce(const Bundle& bundle, LaneMask lanes);
 
@@ -125,16 +118,15 @@ class ContactSolver {
   const std::size_t block_;
   const Slice bodies_;
   const Settings& settings_;
-  const float h_;
-  const float blow_speed_;  ///< m/s
-  const Softness& softness_;
-  const Spring spring_;
-  const bool shares_blows_;  ///< by further sweeps
-  const float settled_;      ///< m/s
-  LaneMask unsettled_{};     ///< by this sweep
+  const StepPlan plan_;
+  const float h_;             ///< s, of a sub-step
+  const float impact_speed_;  ///< m/s
+  const Give softly_, firmly_;
+  const bool shares_impacts_;  ///< by further sweeps
+  const float settled_;        ///< m/s
+  LaneMask unsettled_{};       ///< by this sweep
   bool friction_holds_ = true;
-  bool impact_ = false;     ///< some contact closes fast
-  const float push_speed_;  ///< d per second. What is pressed has little to let out: nothing needs to be thrown
+  bool impact_ = false;  ///< some contact closes fast
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
   std::vector<char>& slides_;
@@ -202,7 +194,7 @@ void ContactSolver::warm_start() {
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
       ContactRows& c = rows_[i];
-      forget_blow(c, bundle, blow_speed_, settings_.restitution_speed);
+      forget_impact(c, bundle, impact_speed_, settings_.restitution_speed);
       c.lasting = c.normal_impulse;
       u.push(c.normal_impulse * c.normal + c.t1_impulse * c.tangent + c.t2_impulse * cross(c.normal, c.tangent), c,
              bundle);
@@ -211,67 +203,30 @@ void ContactSolver::warm_start() {
   }
 }
 
-/// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
-/// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
-/// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
-/// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
-/// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
-/// air.
 void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const {
-  Lanes impulse{};
-  LaneVec center, normal;
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-    const ContactRows& c = rows_[i];
-    impulse += c.normal_impulse;
-    center = center + c.normal_impulse * c.ra;
-    normal = normal + c.normal_impulse * c.normal;
-  }
-  center = (impulse > 0.0f ? all_lanes(1) / impulse : all_lanes(0)) * center;
-  normal = unit(normal);
-  const LaneVec turn = u.wa - u.wb;
-  const Lanes spin = dot(normal, turn);
-  const LaneVec tipping = turn - spin * normal, tip_axis = unit(tipping), across = cross(normal, tip_axis);
-
-  Lanes spread{}, spread_across{};  // squares of lengths, times impulse
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-    const ContactRows& c = rows_[i];
-    const LaneVec off = c.ra - center;
-    const Lanes side = dot(across, off);
-    spread += c.normal_impulse * dot(off, off);
-    spread_across += c.normal_impulse * side * side;
-  }
-  const float radius = settings_.patch_radius * world_.smallest_size;
-  const Lanes widest = 4.0f * radius * radius * impulse;
+  Patch patch = open_patch(LaneVec{});
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+    gather(patch, rows_[i].normal_impulse, rows_[i].ra, rows_[i].normal);
+  close_patch(patch, u.wa - u.wb);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) spread(patch, rows_[i].normal_impulse, rows_[i].ra);
   const auto resist = [&](const LaneVec& axis, Lanes speed, Lanes most) {
     const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;
-    const Lanes k = dot(axis, turn_a) + dot(axis, turn_b);
-    const Lanes moment = min(max(k > 0.0f ? speed / k : all_lanes(0), -most), most);
+    const Lanes moment = moment_against(speed, most, axis, turn_a, turn_b);
     u.wa = u.wa - moment * turn_a;
     u.wb = u.wb + moment * turn_b;
   };
-  resist(normal, spin, spread <= widest ? 2.0f / 3.0f * radius * friction * impulse : all_lanes(0));
-  resist(tip_axis, dot(tip_axis, tipping), spread_across <= widest ? bundle.tipping_arm * impulse : all_lanes(0));
+  const Lanes radius = all_lanes(settings_.patch_radius * world_.smallest_size);
+  resist(patch.normal, patch.spin, most_against_spin(patch, radius, friction));
+  resist(patch.tip_axis, patch.tipping, most_against_tipping(patch, radius, bundle.tipping_arm));
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, bool push) {
-  const float d = world_.smallest_size;
-  const Lanes separation = c.gap;
-  const LaneMask apart = separation > 0.0f;
-  Lanes bias = apart ? separation / h_ : all_lanes(0);  // speculative: may close the distance, no more
-  Lanes mass_scale = all_lanes(1), impulse_scale = all_lanes(0);
-  if (push) {
-    const Lanes overlap = min(separation + softness_.slop * d, all_lanes(0));
-    bias = apart ? bias : max(spring_.bias_rate * overlap, all_lanes(-push_speed_ * d));
-    mass_scale = apart ? mass_scale : all_lanes(spring_.mass_scale);
-    impulse_scale = apart ? impulse_scale : all_lanes(spring_.impulse_scale);
-  }
-  const Lanes before = c.normal_impulse, speed = u.along_normal(c);
-  const Lanes change = -c.normal_mass * mass_scale * (speed + bias) - impulse_scale * before;
-  c.normal_impulse = max(before + change, all_lanes(0));
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give) {
+  const Lanes before = c.normal_impulse;
+  c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, give);
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
-  if (shares_blows_) unsettled_ |= max(more, -more) > settled_ * c.normal_mass;
+  if (shares_impacts_) unsettled_ |= is_unsettled(more, c.normal_mass, settled_);
   u.push_along_normal(more, c);
 }
 
@@ -280,28 +235,18 @@ LaneMask rubs(const ContactRows& c) {
   return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
 }
 
-/// Which contacts press and have all the friction that their force allows.
-LaneMask slip(const ContactRows& c, Lanes friction) {
-  const Lanes most = friction * c.normal_impulse;
-  return (most > 0.0f) & (c.t1_impulse * c.t1_impulse + c.t2_impulse * c.t2_impulse > 0.999f * most * most);
-}
-
-/// Coulomb's cone: both directions at once.
 void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
   const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
   Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
   Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
-  const Lanes most = friction * c.normal_impulse, size = sqrt(f1 * f1 + f2 * f2);
-  const Lanes scale = size > most ? most / size : all_lanes(1);
-  f1 *= scale;
-  f2 *= scale;
+  put_into_cone(friction * c.normal_impulse, f1, f2);
   u.push((f1 - c.t1_impulse) * c.tangent + (f2 - c.t2_impulse) * second, c, bundle);
   c.t1_impulse = f1;
   c.t2_impulse = f2;
 }
 
 /// How far apart contacts are, bodies having moved.
-void ContactSolver::look(const Bundle& bundle) {
+void ContactSolver::observe_gaps(const Bundle& bundle) {
   const Ways ways = ways_of(bundle, motions_);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + ways.along(rows_[i]);
 }
@@ -309,7 +254,7 @@ void ContactSolver::look(const Bundle& bundle) {
 /// What a sweep begins a bundle with.
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
-  if (first && (!push || !settings_.relaxation)) look(bundle);
+  if (first && (!push || !settings_.relaxation)) observe_gaps(bundle);
   if (push && first) resist_turn(bundle, swept.friction, swept.u);
   return swept;
 }
@@ -317,8 +262,9 @@ ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool 
 BIN_SCENES_WIDE
 bool ContactSolver::sweep(bool push, bool first) {
   unsettled_ = LaneMask{};
+  const Give& give = push ? softly_ : firmly_;
   const auto normal = [&](Swept& s, std::uint32_t k) {
-    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, push);
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give);
   };
   const auto friction = [&](Swept& s, std::uint32_t k) {
     if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
@@ -349,22 +295,15 @@ bool ContactSolver::sweep(bool push, bool first) {
   return any(unsettled_);
 }
 
-void ContactSolver::aim() {
+void ContactSolver::refresh_levers() {
   for (Bundle& bundle : bundles_)
-    if (any(bundle.aimed)) sphere::aim(world_, motions_, bundle, rows_);
+    if (any(bundle.refreshed)) sphere::refresh_levers(world_, motions_, bundle, rows_);
 }
 
 float ContactSolver::speed(std::size_t body) const {
   const Motion& motion = motions_[body];
   const float radius = world_.shapes[world_.bodies[bodies_[body]].shape]->radius;
   return std::sqrt(vector_of(motion.v).squaredNorm() + radius * radius * vector_of(motion.w).squaredNorm());
-}
-
-/// Mean speed of a sub-step / speed at its end, of a body that friction brakes all the while: 1 of what is struck, or
-/// as slow as it is braked in a sub-step.
-float ContactSolver::mean_speed(std::size_t body) const {
-  const float before = speeds_[body], after = speed(body);
-  return after > 0.5f * before && after < 2.0f * before ? 0.5f * (before / after + 1.0f) : 1.0f;
 }
 
 void ContactSolver::note_sliding() {
@@ -375,10 +314,11 @@ void ContactSolver::note_sliding() {
   for (const Bundle& bundle : bundles_) {
     if (std::none_of(bundle.a.begin(), bundle.a.end(), fast) && std::none_of(bundle.b.begin(), bundle.b.end(), fast))
       continue;
-    LaneMask slips{};
-    for (std::uint32_t i = bundle.first; i < bundle.last; ++i) slips |= slip(rows_[i], bundle.friction);
-    for (int lane = 0; any(slips) && lane < bundle.lanes; ++lane)
-      if (slips[lane]) slides_[bundle.a[lane]] = slides_[bundle.b[lane]] = 1;
+    LaneMask slip{};
+    for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
+      slip |= slips(bundle.friction * rows_[i].normal_impulse, rows_[i].t1_impulse, rows_[i].t2_impulse);
+    for (int lane = 0; any(slip) && lane < bundle.lanes; ++lane)
+      if (slip[lane]) slides_[bundle.a[lane]] = slides_[bundle.b[lane]] = 1;
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) slides_[i] &= speeds_[i] > slow;
 }
@@ -389,7 +329,7 @@ void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Motion& motion = motions_[i];
-    const float h = slides_[i] ? h_ * mean_speed(i) : h_;
+    const float h = slides_[i] ? h_ * mean_share(speeds_[i], speed(i)) : h_;
     motion.moved += h * motion.v;
     if (free_[i] && motion.inverse_mass() > 0) motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h * motion.w;
@@ -398,27 +338,26 @@ void ContactSolver::move() {
   }
 }
 
-/// Which contacts were struck fast enough to bounce: pressed, or closed by a blow that their neighbours took.
-LaneMask ContactSolver::struck(const ContactRows& c) const {
-  return (c.approach <= -settings_.restitution_speed) & ((c.max_impulse > 0.0f) | (c.gap < -c.approach * h_));
+LaneMask ContactSolver::hit(const ContactRows& c) const {
+  return was_hit(c.approach, c.max_impulse > 0.0f, c.gap, h_, settings_.restitution_speed);
 }
 
-/// Which manifolds of a bundle have a contact that was struck and took part of the blow.
+/// Which manifolds of a bundle have a contact that was hit and took part of the impact.
 LaneMask ContactSolver::bouncing(const Bundle& bundle) const {
   LaneMask out{};
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= struck(rows_[i]) & (rows_[i].max_impulse > 0.0f);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= hit(rows_[i]) & (rows_[i].max_impulse > 0.0f);
   return out & (bundle.restitution > 0.0f);
 }
 
-/// One sweep towards a separating speed of e times that of the approach.
 void ContactSolver::bounce(const Bundle& bundle, LaneMask lanes) {
   Velocities u = velocities_of(bundle, motions_);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     ContactRows& c = rows_[i];
-    const LaneMask bounces = lanes & struck(c);
+    const LaneMask bounces = lanes & hit(c);
     if (!any(bounces)) continue;
-    const Lanes before = c.normal_impulse, wanted = u.along_normal(c) + bundle.restitution * c.approach;
-    c.normal_impulse = bounces ? max(before - c.normal_mass * wanted, all_lanes(0)) : before;
+    const Lanes before = c.normal_impulse;
+    c.normal_impulse = select(
+        bounces, bounced_impulse(before, u.along_normal(c), c.normal_mass, bundle.restitution, c.approach), before);
     u.push_along_normal(c.normal_impulse - before, c);
   }
   store(u, bundle, motions_);
@@ -429,17 +368,17 @@ void ContactSolver::restitute() {
     const Bundle* bundle;
     LaneMask lanes;
   };
-  static thread_local std::vector<Bounce> blows;
-  blows.clear();
+  static thread_local std::vector<Bounce> hits;
+  hits.clear();
   for (const Bundle& bundle : bundles_)
     if (any(bundle.strikes))
-      if (const LaneMask lanes = bouncing(bundle); any(lanes)) blows.push_back({&bundle, lanes});
-  for (int k = 0; k < bounce_sweeps; ++k)
-    for (const Bounce& b : blows) bounce(*b.bundle, b.lanes);
-  for (const Bounce& b : blows)  // a blow is over: it must not warm-start the next step
+      if (const LaneMask lanes = bouncing(bundle); any(lanes)) hits.push_back({&bundle, lanes});
+  for (int k = 0; k < int(SPHERE_BOUNCE_SWEEPS); ++k)
+    for (const Bounce& b : hits) bounce(*b.bundle, b.lanes);
+  for (const Bounce& b : hits)  // an impact is over: it must not warm-start the next step
     for (std::uint32_t i = b.bundle->first; i < b.bundle->last; ++i) {
       ContactRows& c = rows_[i];
-      const LaneMask over = b.lanes & struck(c);
+      const LaneMask over = b.lanes & hit(c);
       for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse})
         *impulse = over ? all_lanes(0) : *impulse;
     }
@@ -448,7 +387,7 @@ void ContactSolver::restitute() {
 void ContactSolver::finish() {
   for (const Bundle& bundle : bundles_)
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-      forget_blow(rows_[i], bundle, blow_speed_, settings_.restitution_speed);
+      forget_impact(rows_[i], bundle, impact_speed_, settings_.restitution_speed);
   for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = world_.bodies[bodies_[i]];
@@ -463,19 +402,20 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   static thread_local Scratch scratch;
   ContactSolver solver(world, blocks, block, scratch);
   solver.prepare();
-  solver.aim();
-  for (int k = 0; k < world.sub_steps(); ++k) {
-    solver.hold_by_friction(k >= world.slip_sub_steps());
+  solver.refresh_levers();
+  const StepPlan plan = world.plan();
+  for (int k = 0; k < plan.sub_steps; ++k) {
+    solver.hold_by_friction(k >= plan.slip_sub_steps);
     solver.accelerate();
     stop_if_cancelled();
     solver.warm_start();
-    bool blow = false;  // is not shared yet
-    for (int i = 0; i < world.sweeps() || (blow && i < solver.most_sweeps()); ++i) blow = solver.sweep(true, i == 0);
+    bool impact = false;  // is not shared yet
+    for (int i = 0; i < plan.sweeps || (impact && i < solver.most_sweeps()); ++i) impact = solver.sweep(true, i == 0);
     solver.note_sliding();
     solver.move();
-    solver.aim();
-    for (int i = 0; i < world.relaxing_sweeps() || (blow && i < solver.most_sweeps()); ++i)
-      blow = solver.sweep(false, i == 0);
+    solver.refresh_levers();
+    for (int i = 0; i < plan.relaxing_sweeps || (impact && i < solver.most_sweeps()); ++i)
+      impact = solver.sweep(false, i == 0);
   }
   solver.restitute();
   solver.finish();

@@ -1,4 +1,4 @@
-#include "blow_energy.hpp"
+#include "impact_energy.hpp"
 
 #include "convert.hpp"
 #include "dynamics_world.hpp"
@@ -27,7 +27,7 @@ btVector3 angular_of(const btSolverBody& body) {
   return body.m_angularVelocity + body.m_deltaAngularVelocity;
 }
 
-/// Twice the energy at the start of the step, or with what the step's forces add: whichever is more, as the blow came
+/// Twice the energy at the start of the step, or with what the step's forces add: whichever is more, as the impact came
 /// between them.
 btScalar twice_before(const btSolverBody& body) {
   const btVector3 &v = body.m_linearVelocity, &w = body.m_angularVelocity, later = v + body.m_externalForceImpulse;
@@ -36,36 +36,36 @@ btScalar twice_before(const btSolverBody& body) {
 
 }  // namespace
 
-BlowEnergy::BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs)
+ImpactEnergy::ImpactEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs)
     : bodies_(bodies), places_(static_cast<std::size_t>(bodies.size()), -1) {
   for (const auto& [a, b] : pairs) {
     const int at_a = place_of(a), at_b = place_of(b);
-    if (at_a >= 0 && at_b >= 0) blown_[root(at_b)].group = root(at_a);
+    if (at_a >= 0 && at_b >= 0) hit_[root(at_b)].group = root(at_a);
   }
 }
 
-int BlowEnergy::place_of(int body) {
+int ImpactEnergy::place_of(int body) {
   int& place = places_[body];
   if (place >= 0 || !motion_of(bodies_[body])) return place;
-  place = static_cast<int>(blown_.size());
-  blown_.push_back({body, place, linear_of(bodies_[body]), angular_of(bodies_[body])});
+  place = static_cast<int>(hit_.size());
+  hit_.push_back({body, place, linear_of(bodies_[body]), angular_of(bodies_[body])});
   return place;
 }
 
-int BlowEnergy::root(int place) {
-  while (blown_[place].group != place) place = blown_[place].group;
+int ImpactEnergy::root(int place) {
+  while (hit_[place].group != place) place = hit_[place].group;
   return place;
 }
 
-void BlowEnergy::limit() {
+void ImpactEnergy::limit() {
   // Energy over the share s of the rebound: left + 2 s mixed + s^2 gained.
   struct Energy {
     btScalar before = 0, left = 0, mixed = 0, gained = 0;
     int bodies = 0;
   };
-  std::vector<Energy> groups(blown_.size());
-  for (std::size_t k = 0; k < blown_.size(); ++k) {
-    const Blown& b = blown_[k];
+  std::vector<Energy> groups(hit_.size());
+  for (std::size_t k = 0; k < hit_.size(); ++k) {
+    const Hit& b = hit_[k];
     const btSolverBody& body = bodies_[b.body];
     const btVector3 linear = linear_of(body) - b.linear, angular = angular_of(body) - b.angular;
     Energy& e = groups[root(static_cast<int>(k))];
@@ -75,8 +75,8 @@ void BlowEnergy::limit() {
     e.gained += twice_common(body, linear, angular, linear, angular);
     ++e.bodies;
   }
-  for (std::size_t k = 0; k < blown_.size(); ++k) {
-    const Blown& b = blown_[k];
+  for (std::size_t k = 0; k < hit_.size(); ++k) {
+    const Hit& b = hit_[k];
     const Energy& e = groups[root(static_cast<int>(k))];
     const btScalar added = 2 * e.mixed + e.gained;  // what pushing overlap out has added is not the rebound's
     if (e.bodies < 2 || added <= 0 || e.left + added <= e.before) continue;

@@ -12,17 +12,17 @@
 
 namespace bin_scenes::bullet {
 
-class BlowEnergy {
+class ImpactEnergy {
  public:
   /// Before the rebound: bodies of the pool that it joins, pair by pair; those that nothing moves join nothing.
-  BlowEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs);
+  ImpactEnergy(btAlignedObjectArray<btSolverBody>& bodies, const std::vector<std::pair<int, int>>& pairs);
 
   /// After it: groups of bodies that gained over the start of the step keep as much of the rebound as energy allows. A
   /// body alone rebounds as its contacts say.
   void limit();
 
  private:
-  struct Blown {
+  struct Hit {
     int body, group;            ///< in the pool; the first of its group here
     btVector3 linear, angular;  ///< before the rebound, units/s and rad/s
   };
@@ -30,8 +30,8 @@ class BlowEnergy {
   int root(int place);
 
   btAlignedObjectArray<btSolverBody>& bodies_;
-  std::vector<Blown> blown_;
-  std::vector<int> places_;  ///< of the pool's bodies in blown_; -1: not in it
+  std::vector<Hit> hit_;
+  std::vector<int> places_;  ///< of the pool's bodies in hit_; -1: not in it
 };
 
 }  // namespace bin_scenes::bullet

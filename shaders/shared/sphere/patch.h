@@ -1,0 +1,61 @@
+// Contacts that press within a small patch of each other are that patch, not points or a line, and resist turns of one
+// body against the other: an evenly pressed disk resists spin about its normal by 2/3 of its radius times friction
+// (Contensou, "Couplage entre frottement de glissement et frottement de pivotement", 1963), and is tipped over its rim
+// by its radius times the force, the moment of rolling friction. Where contacts lie farther apart, they do it
+// themselves. Once a sub-step, when the forces of all contacts have begun: before, turns are those of a body in the
+// air.
+//
+// To use: gather() of all contacts, close_patch(), spread() of all contacts, then both moments.
+struct Patch {
+  Real impulse;          // N s, of all contacts
+  Real3 center, normal;  // m from a's centre of mass
+  Real spin, tipping;    // rad/s, of a against b
+  Real3 tip_axis, across;
+  Real wide, wide_across;  // squares of lengths, times impulse
+};
+
+INLINE Patch open_patch(IN(Real3) zero) {
+  Patch area;
+  area.impulse = area.wide = area.wide_across = area.spin = area.tipping = all_lanes(0.0f);
+  area.center = area.normal = area.tip_axis = area.across = zero;
+  return area;
+}
+
+INLINE void gather(INOUT(Patch) area, Real impulse, IN(Real3) ra, IN(Real3) normal) {
+  area.impulse += impulse;
+  area.center = area.center + impulse * ra;
+  area.normal = area.normal + impulse * normal;
+}
+
+INLINE void close_patch(INOUT(Patch) area, IN(Real3) turn) {
+  area.center = select(area.impulse > 0.0f, 1.0f / area.impulse, all_lanes(0.0f)) * area.center;
+  area.normal = unit(area.normal);
+  area.spin = dot(area.normal, turn);
+  Real3 tipping = turn - area.spin * area.normal;
+  area.tip_axis = unit(tipping);
+  area.tipping = dot(area.tip_axis, tipping);
+  area.across = cross(area.normal, area.tip_axis);
+}
+
+INLINE void spread(INOUT(Patch) area, Real impulse, IN(Real3) ra) {
+  Real3 off = ra - area.center;
+  Real side = dot(area.across, off);
+  area.wide += impulse * dot(off, off);
+  area.wide_across += impulse * side * side;
+}
+
+// Largest moments (N m s). radius: m; a ball, which rolls freely, has an arm of 0.
+INLINE Real most_against_spin(IN(Patch) area, Real radius, Real friction) {
+  Real widest = 4.0f * radius * radius * area.impulse;
+  return select(area.wide <= widest, 2.0f / 3.0f * radius * friction * area.impulse, all_lanes(0.0f));
+}
+INLINE Real most_against_tipping(IN(Patch) area, Real radius, Real arm) {
+  Real widest = 4.0f * radius * radius * area.impulse;
+  return select(area.wide_across <= widest, arm * area.impulse, all_lanes(0.0f));
+}
+
+// Moment that takes a turn about an axis, turns the spin that one about it gives.
+INLINE Real moment_against(Real speed, Real most, IN(Real3) axis, IN(Real3) turn_a, IN(Real3) turn_b) {
+  Real k = dot(axis, turn_a) + dot(axis, turn_b);
+  return min(max(select(k > 0.0f, speed / k, all_lanes(0.0f)), -most), most);
+}
