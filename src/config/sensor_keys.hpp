@@ -87,6 +87,12 @@ void visit(Visitor& v, Sensor& sensor) {
   v.section({"laser_line", "", "the line of light and its peak"}, sensor.laser_line);
   v.section({"stereo", "", "the second camera, dots and matching"}, sensor.stereo);
   v.section({"time_of_flight", "", "noise along the ray and across it"}, sensor.time_of_flight);
+  v.field({"bounces", "",
+           "structured_light, stereo: how many other surfaces light may meet, 0 to 2: depth errs in corners and on "
+           "shiny parts; left out: 1 of structured_light, 0 of others"},
+          sensor.bounces);
+  v.field({"indirect_samples", "", "rays that look for such light, 4 to 4096; more = less noise in it, slower"},
+          sensor.indirect_samples);
   v.field({"noise", "", "false: every random effect is off; geometry (shadow, field of view) stays"}, sensor.noise);
 }
 

@@ -76,9 +76,20 @@ void check_structured_light(const std::string& key, const Sensor& sensor) {
   }
 }
 
+void check_bounces(const std::string& key, const Sensor& sensor) {
+  const int bounces = sensor.bounces.value_or(0);
+  check_bounds(key, {{"bounces", double(bounces), 0, 2, "0 = direct light only, 1 is usual, 2 adds little"},
+                     {"indirect_samples", double(sensor.indirect_samples), 4, 4096, "rays; 24 is usual"}});
+  const bool sees = sensor.model == SensorModel::structured_light || sensor.model == SensorModel::stereo;
+  if (bounces == 0 || sees) return;
+  throw input_error("indirect light is no part of model " + std::string(name_of(sensor.model)), key + ".bounces",
+                    "leave it out; structured_light and stereo see such light");
+}
+
 }  // namespace
 
 void check_sensor_models(const std::string& key, const Sensor& sensor) {
+  check_bounces(key, sensor);
   const ImagerSettings& i = sensor.imager;
   check_bounds(key + ".imager", {{"exposure", i.exposure, tiny, 1000.0, "above 0; 0.8 leaves white unsaturated"},
                                  {"reference_distance", i.reference_distance, 0.0, 1000.0, "m; 0 = automatic"},

@@ -221,6 +221,9 @@ struct Sensor {
   LaserLineSettings laser_line;
   StereoSettings stereo;
   TimeOfFlightSettings time_of_flight;
+  std::optional<int> bounces;  ///< structured_light, stereo: other surfaces that light may meet, 0 to 2; none: 1 of
+                               ///< structured_light, 0 of others. More = truer corners and shiny parts, slower
+  int indirect_samples = 24;  ///< rays for them at a node, one for some pixels; noise of indirect light falls with them
   bool noise = true;          ///< false: every random effect is off; geometry (shadow, field of view) stays
   double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };

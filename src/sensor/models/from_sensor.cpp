@@ -19,6 +19,15 @@ Random random_of(const Draw& draw) {
   return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
 }
 
+/// Of the samples of indirect light.
+Random rays_of(const Draw& draw) {
+  return Random(draw.seed, draw.scene, Stream::sensor).of_piece(draw.sensor);
+}
+
+IndirectField::Setup indirect_of(const Sensor& sensor, int by_default) {
+  return {sensor.bounces.value_or(by_default), sensor.indirect_samples};
+}
+
 void add_truth(RangeImage& image, View&& view) {
   image.truth_depth.resize(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
@@ -53,11 +62,19 @@ RangeImage image_of(View&& view, Measurement&& measured) {
 }  // namespace
 
 StructuredLight::Setup structured_light_setup(const Sensor& s) {
-  return {lens_of(s.projector), *s.projector.pose, s.structured_light, s.imager, s.noise, s.near, s.far};
+  return {lens_of(s.projector),
+          *s.projector.pose,
+          s.structured_light,
+          s.imager,
+          s.noise,
+          s.near,
+          s.far,
+          indirect_of(s, 1),
+          s.fidelity == Fidelity::analytic};
 }
 
 Stereo::Setup stereo_setup(const Sensor& s) {
-  return {lens_of(s.projector), *s.projector.pose, s.stereo, s.imager, s.noise, s.near, s.far};
+  return {lens_of(s.projector), *s.projector.pose, s.stereo, s.imager, s.noise, s.near, s.far, indirect_of(s, 0)};
 }
 
 LaserLine::Setup laser_line_setup(const Sensor& s) {
@@ -68,7 +85,7 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
 
 RangeImage measure_structured_light(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                                     const Draw& draw) {
-  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
+  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor), rays_of(draw));
   const Random random = random_of(draw);
   Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
   return image_of(std::move(view), std::move(measured));
@@ -76,7 +93,7 @@ RangeImage measure_structured_light(const Scenery& scenery, View&& view, const S
 
 RangeImage measure_stereo(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                           const Draw& draw) {
-  const Stereo model(scenery, view, surfaces, stereo_setup(sensor));
+  const Stereo model(scenery, view, surfaces, stereo_setup(sensor), rays_of(draw));
   const Random random = random_of(draw);
   Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
   return image_of(std::move(view), std::move(measured));
