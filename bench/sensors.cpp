@@ -22,6 +22,7 @@ namespace {
 void run(Run& out) {
   truth_rows(out);
   fringe_rows(out);
+  light_rows(out);
   stereo_rows(out);
   time_rows(out);
 }

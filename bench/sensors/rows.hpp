@@ -19,6 +19,7 @@ Row row_of(const Figure& figure, double value, const std::string& unit, const st
 
 void truth_rows(Run& out);   ///< images without a sensor's errors, shadows, visible fractions against a ray cast
 void fringe_rows(Run& out);  ///< structured light: errors, noise over its formula, both fidelities
+void light_rows(Run& out);   ///< structured light in a V-groove, by albedo, period and bounces
 void stereo_rows(Run& out);  ///< errors of the matcher resemble each other within its window
 void time_rows(Run& out);    ///< wall and CPU seconds of a view, and what is computed when nobody asks
 

@@ -18,6 +18,7 @@ Sensor sensor_of(const std::string& model, double distance) {
   sensor.near = distance / 2;  // without a bin, light is aimed at sqrt(near far)
   sensor.far = distance * 2;
   sensor.pose = Pose();
+  sensor.bounces = 0;  // the figures are of geometry and noise; light.cpp has those of indirect light
   Bin nothing;
   nothing.kind = Bin::Kind::none;
   return resolved(sensor, nothing);

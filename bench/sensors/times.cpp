@@ -61,10 +61,11 @@ void view_times(Run& out) {
   add_heap(heap);
   SensorRig rig;
   const auto whole_of = [&](test::Stage& stage, const std::string& what, double goal_s, const std::string& model,
-                            Fidelity fidelity) {
+                            Fidelity fidelity, int bounces = 0) {
     Sensor sensor;
     sensor.model = model;
     sensor.fidelity = fidelity;
+    sensor.bounces = bounces;
     sensor.width = 1280, sensor.height = 1024;
     if (model == "stereo") sensor.width = 848, sensor.height = 480;
     sensor.fov = 0.4;
@@ -85,6 +86,10 @@ void view_times(Run& out) {
   }
   whole("structured light, analytic", 0.6, "structured_light", Fidelity::analytic);
   whole_of(heap, "structured light, analytic, 50 parts", 0.15, "structured_light", Fidelity::analytic);
+  for (const int bounces : {1, 2}) {
+    whole_of(heap, "structured light, analytic, 50 parts, bounces " + std::to_string(bounces), 0.0, "structured_light",
+             Fidelity::analytic, bounces);
+  }
   whole("structured light, decoded", 3.0, "structured_light", Fidelity::decoded);
   whole("laser line, 1000 profiles", 1.0, "laser_line", Fidelity::analytic);
   whole("stereo 848 x 480, 128 disparities, matched", 0.5, "stereo", Fidelity::decoded);

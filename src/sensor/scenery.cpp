@@ -64,17 +64,18 @@ int set_lane(RTCRay8& packet, int lane, const Ray& ray) {
   return usable(ray) ? -1 : 0;
 }
 
-RTCIntersectContext context_of_neighbours() {
+RTCIntersectContext context_of(Scenery::Rays kind) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const bool scattered = kind == Scenery::Rays::scattered;
+  context.flags = scattered ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
 
 /// blocked[i] for rays that `ray_of(i)` gives.
 template <class RayOf>
-void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::size_t count) {
-  RTCIntersectContext context = context_of_neighbours();
+void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::size_t count, Scenery::Rays kind) {
+  RTCIntersectContext context = context_of(kind);
   for (std::size_t first = 0; first < count; first += lanes) {
     RTCRay8 packet;
     int valid[lanes];
@@ -249,9 +250,9 @@ Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) c
   return hit;
 }
 
-void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count) const {
+void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  RTCIntersectContext context = context_of_neighbours();
+  RTCIntersectContext context = context_of(kind);
   for (std::size_t first = 0; first < count; first += lanes) {
     RTCRayHit8 packet;
     int valid[lanes];
@@ -278,9 +279,9 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count) const {
   }
 }
 
-void Scenery::blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count) const {
+void Scenery::blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count, Rays kind) const {
   occluded(
-      state_->scene, [&](std::size_t i) { return rays[i]; }, blocked, count);
+      state_->scene, [&](std::size_t i) { return rays[i]; }, blocked, count, kind);
   for (std::size_t i = 0; state_->floor && i < count; ++i) blocked[i] |= state_->hits_floor(rays[i]);
 }
 
@@ -296,7 +297,7 @@ void Scenery::blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocke
     const Ray& ray = rays[i];
     return Ray{back * (ray.origin - body.pose.position), back * ray.direction, ray.near, ray.far};
   };
-  occluded(body.tree->embree, in_part, blocked, count);
+  occluded(body.tree->embree, in_part, blocked, count, Rays::side_by_side);
 }
 
 std::size_t Scenery::part_count() const {

@@ -33,12 +33,15 @@ void visit(Visitor& v, SettingsOfModel& section) {
   section.model.visit(keys, section.settings);
 }
 
-/// "structured_light, stereo: ", of the models that use a device.
-inline std::string users_of(bool SensorModel::*device) {
+/// "structured_light, stereo", the models that use a device.
+inline std::string names_of(bool SensorModel::*device) {
   std::string users;
   for (const SensorModel* model : sensor_models())
     if (model->*device) users += (users.empty() ? "" : ", ") + std::string(model->name);
-  return users + ": ";
+  return users;
+}
+inline std::string users_of(bool SensorModel::*device) {
+  return names_of(device) + ": ";
 }
 
 inline Names<Fidelity> names(Fidelity) {
@@ -166,6 +169,13 @@ void visit(Visitor& v, Sensor& sensor) {
     SettingsOfModel section{*known, sensor.settings};
     v.section({known->name, "", known->text}, section);
   }
+  const std::string bounces = users_of(&SensorModel::indirect) +
+                              "other surfaces that light may meet on its way; more = depth errs in corners and on "
+                              "shiny parts as real devices do, slower";
+  v.field({"bounces", "", bounces.c_str(), at_least(0.0, 2.0)}, sensor.bounces);
+  v.field(
+      {"indirect_samples", "", "rays that look for such light; more = less noise in it, slower", at_least(4.0, 4096.0)},
+      sensor.indirect_samples);
   v.field({"noise", "", "false: every random effect is off; geometry (shadow, field of view) stays"}, sensor.noise);
 }
 

@@ -67,6 +67,8 @@ sensors:
   - name: right
     view_of: left
     k: [500, 0, 320, 0, 500, 240, 0, 0, 1]
+    bounces: 0
+    indirect_samples: 48
     imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
     structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
                        mixed: keep, edge_step: 0.002}

@@ -111,6 +111,13 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].far = 0.01; }), "sensors[0].far");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.read_noise = -1; }), "sensors[0].imager.read_noise");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.bits = 17; }), "sensors[0].imager.bits");
+  EXPECT_EQ(refused([](Request& r) {
+              r.sensors[0].model = "structured_light";
+              r.sensors[0].bounces = 3;
+            }),
+            "sensors[0].bounces");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].bounces = 1; }), "sensors[0].bounces");  // ideal
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].indirect_samples = 0; }), "sensors[0].indirect_samples");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StructuredLightSettings>().steps = 2; }),
             "sensors[0].structured_light.steps");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<LaserLineSettings>().speckle = na_n; }),

@@ -199,7 +199,7 @@ struct Views {
 /// A range sensor. Frame: optical (x right, y down, z forward).
 struct Sensor {
   std::string name = "camera";
-  std::string view_of;  ///< name of the sensor of whose `views` this is one; empty: a sensor of its own
+  std::string view_of;          ///< name of the sensor of whose `views` this is one; empty: a sensor of its own
   std::string model = "ideal";  ///< name of a SensorModel (sensor/sensor_model.hpp)
   std::string preset;           ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
@@ -210,11 +210,14 @@ struct Sensor {
   Views views;
   double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
-  Projector projector;        ///< structured_light, stereo
-  Laser laser;                ///< laser_line
-  Scan scan;                  ///< laser_line
-  ImagerSettings imager;      ///< structured_light, laser_line, stereo: the camera's chip
-  ModelSettings settings;     ///< of the models, by type: settings.of<StereoSettings>()
+  Projector projector;     ///< structured_light, stereo
+  Laser laser;             ///< laser_line
+  Scan scan;               ///< laser_line
+  ImagerSettings imager;   ///< structured_light, laser_line, stereo: the camera's chip
+  ModelSettings settings;  ///< of the models, by type: settings.of<StereoSettings>()
+  int bounces = 0;         ///< structured_light, stereo: other surfaces that light may meet, 0 to 2; more = depth errs
+                           ///< in corners and on shiny parts as real devices do, slower
+  int indirect_samples = 24;  ///< rays for them at a node, one for some pixels; noise of indirect light falls with them
   bool noise = true;          ///< false: every random effect is off; geometry (shadow, field of view) stays
   double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };

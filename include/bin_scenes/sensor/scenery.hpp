@@ -51,10 +51,12 @@ class Scenery {
   ~Scenery();
   Scenery(Scenery&&) noexcept;
 
+  /// How neighbouring rays go: a hint that changes speed only.
+  enum class Rays { side_by_side, scattered };
   /// First hit of each of `count` rays.
-  void first_hits(const Ray* rays, Hit* hits, std::size_t count) const;
+  void first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind = Rays::side_by_side) const;
   /// blocked[i] = 1 if anything lies between `near` and `far` of ray i, else 0.
-  void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
+  void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count, Rays kind = Rays::side_by_side) const;
   /// The same with Scene::parts[part] as if it were alone; all 0 if that part is not there.
   void blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
 

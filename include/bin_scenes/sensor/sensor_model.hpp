@@ -62,6 +62,7 @@ struct SensorModel {
   bool projector = false;
   bool laser = false;     ///< and Scan
   bool fidelity = false;  ///< it has both
+  bool indirect = false;  ///< it sees light that met other surfaces: bounces
   bool exact = false;     ///< it measures the truth: without noise, with true normals
 };
 

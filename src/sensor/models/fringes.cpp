@@ -108,6 +108,14 @@ void Fringes::add_light(double column, double weight, float* images) const {
   for (int n = 0; n < count; ++n) images[n] += w * (a[n] + part * (b[n] - a[n]));
 }
 
+void Fringes::add_even_light(double column, double spread, double weight, float* images) const {
+  constexpr double most = 12.0;  // places: a spread of two periods is grey already
+  const int places = static_cast<int>(std::clamp(std::ceil(6.0 * spread / period_), 1.0, most));
+  for (int k = 0; k < places; ++k) {
+    add_light(column + spread * ((k + 0.5) / places - 0.5), weight / places, images);
+  }
+}
+
 Fringes::Reading Fringes::read(const float* images) const {
   double s = 0.0, c = 0.0, mean = 0.0;
   for (int n = 0; n < steps_; ++n) {

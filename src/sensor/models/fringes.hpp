@@ -17,6 +17,8 @@ class Fringes {
   int images() const { return steps_ + bits_; }
   /// Adds weight * light (0 dark, 1 the projector's white) of every image at a column, blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
+  /// The same of light that is even over `spread` columns.
+  void add_even_light(double column, double spread, double weight, float* images) const;
 
   struct Reading {
     double column;      ///< of the projector; NaN if the code makes no sense

@@ -33,8 +33,13 @@ Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
   return {start, point - start, 0.0, 1.0};
 }
 
-void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
-           const SeenPoint* points, Lit* lit, std::size_t count) {
+namespace {
+
+/// @param eye_of  by number of the point
+template <class EyeOf>
+void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& pose, const EyeOf& eye_of,
+                     const Surfaces& surfaces, const SeenPoint* points, Lit* lit, std::size_t count,
+                     Scenery::Rays kind) {
   const Mat3 turn = pose.orientation.toRotationMatrix().transpose();
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
@@ -63,15 +68,31 @@ void light(const Scenery& scenery, const Lens& projector, const Pose& pose, cons
     asked.push_back(i);
   }
   std::vector<std::uint8_t> blocked(rays.size());
-  scenery.blocked(rays.data(), blocked.data(), rays.size());
+  scenery.blocked(rays.data(), blocked.data(), rays.size(), kind);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (blocked[k]) continue;
     const SeenPoint& p = points[asked[k]];
     Lit& l = lit[asked[k]];
     l.code = Validity::valid;
     l.reflected = reflected(surfaces.of(p.line), p.normal, (pose.position - p.position) / l.distance,
-                            (eye - p.position).normalized());
+                            (eye_of(asked[k]) - p.position).normalized());
   }
+}
+
+}  // namespace
+
+void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
+           const SeenPoint* points, Lit* lit, std::size_t count) {
+  light_seen_from(
+      scenery, projector, pose, [&](std::size_t) { return eye; }, surfaces, points, lit, count,
+      Scenery::Rays::side_by_side);
+}
+
+void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces,
+           const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) {
+  light_seen_from(
+      scenery, projector, pose, [&](std::size_t i) { return eyes[i]; }, surfaces, points, lit, count,
+      Scenery::Rays::scattered);
 }
 
 double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,

@@ -37,6 +37,10 @@ struct Lit {
 void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
            const SeenPoint* points, Lit* lit, std::size_t count);
 
+/// The same for an eye of its own each.
+void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces,
+           const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count);
+
 /// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a
 /// surface shade itself.
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);

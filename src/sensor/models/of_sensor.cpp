@@ -13,6 +13,10 @@ Random random_of(const Draw& draw) {
   return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
 }
 
+Random rays_of(const Draw& draw) {
+  return Random(draw.seed, draw.scene, Stream::sensor).of_piece(draw.sensor);
+}
+
 void add_truth(RangeImage& image, View&& view) {
   image.truth_depth.resize(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);

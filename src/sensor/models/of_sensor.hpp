@@ -26,6 +26,8 @@ Stereo::Setup stereo_setup(const Sensor& sensor);
 LaserLine::Setup laser_line_setup(const Sensor& sensor);
 
 Random random_of(const Draw& draw);
+/// Of the samples of indirect light.
+Random rays_of(const Draw& draw);
 /// Takes over the truth of the view.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);

@@ -57,15 +57,47 @@ std::vector<float> dot_pattern(int width, int height, double dots, double ratio)
   return pattern;
 }
 
-Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
+Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
+               const Random& random)
     : scenery_(scenery),
       view_(view),
       surfaces_(surfaces),
       setup_(setup),
       imager_(setup.imager, setup.noise),
       second_(view.pose * Pose{Vec3(setup.settings.baseline, 0.0, 0.0), Quat::Identity()}),
-      lit_(lit(view)) {
+      lit_(lit(view)),
+      pattern_(pattern()),
+      rays_(random) {
   gain_ = gain_of(setup_.imager, lit_, view_.depth, (view_.pose.inverse() * setup_.projector_pose.position).z());
+  for (const float p : pattern_) brightness_ += (p - 1.0) / static_cast<double>(pattern_.size());
+  haze_ = haze(view, rays_.of_piece(1));
+}
+
+std::vector<float> Stereo::pattern() const {
+  if (!(setup_.settings.dots > 0.0)) return {};
+  return dot_pattern(setup_.projector.width, setup_.projector.height, setup_.settings.dots,
+                     setup_.projector.fx / view_.lens.fx);
+}
+
+/// Light by way of other surfaces: the mean of the pattern.
+std::vector<float> Stereo::haze(const View& view, const Random& random) const {
+  if (setup_.indirect.bounces == 0) return {};
+  const ProjectorLamp lamp(scenery_, setup_.projector, setup_.projector_pose, surfaces_);
+  const IndirectField field(
+      scenery_, view, surfaces_, lamp, setup_.indirect, 1, 1,
+      [](const std::vector<Path>& paths, int, float* white) {
+        for (const Path& path : paths) *white += static_cast<float>(path.weight);
+      },
+      random);
+  std::vector<float> out(view.depth.size());
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+      field.at(i, 1, &out[i]);
+      out[i] *= static_cast<float>(gain_ * brightness_);
+    }
+  });
+  return out;
 }
 
 std::vector<Lit> Stereo::lit(const View& view) const {
@@ -81,12 +113,8 @@ std::vector<Lit> Stereo::lit(const View& view) const {
 }
 
 /// Ambient light and the dots.
-std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit) const {
-  const double ratio = setup_.projector.fx / view.lens.fx;
-  const bool dots = setup_.settings.dots > 0.0;
-  const std::vector<float> pattern =
-      dots ? dot_pattern(setup_.projector.width, setup_.projector.height, setup_.settings.dots, ratio)
-           : std::vector<float>();
+std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit,
+                                   const std::vector<float>& haze) const {
   std::vector<float> out(lit.size(), 0.0f);
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
@@ -94,16 +122,19 @@ std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit
       if (lit[i].code == Validity::nothing) continue;
       double signal = setup_.imager.ambient * diffuse_share(surfaces_.of(view.line[i]));
       if (lit[i].code == Validity::valid) {
-        signal += white(lit[i]) * (dots ? sampled(pattern, setup_.projector, lit[i].column, lit[i].row) : 1.0);
+        signal +=
+            white(lit[i]) * (!pattern_.empty() ? sampled(pattern_, setup_.projector, lit[i].column, lit[i].row) : 1.0);
       }
+      if (!haze.empty()) signal += haze[i];
       out[i] = static_cast<float>(signal);
     }
   });
   return out;
 }
 
-std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>& lit, const Random& random) const {
-  std::vector<float> values = signals(view, lit);
+std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
+                                        const Random& random) const {
+  std::vector<float> values = signals(view, lit, haze);
   std::vector<std::uint8_t> bytes(values.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
@@ -118,7 +149,8 @@ std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>
 
 Stereo::Pair Stereo::images(const Random& random) const {
   const View second = look(scenery_, view_.lens, second_, setup_.near, setup_.far);
-  return {image(view_, lit_, random.of_piece(1)), image(second, lit(second), random.of_piece(2))};
+  return {image(view_, lit_, haze_, random.of_piece(1)),
+          image(second, lit(second), haze(second, rays_.of_piece(2)), random.of_piece(2))};
 }
 
 Measurement Stereo::decoded(const Random& random) const {
@@ -140,20 +172,21 @@ Measurement Stereo::decoded(const Random& random) const {
 }
 
 /// The matcher errs with the ratio of noise to texture.
-double Stereo::disparity_sigma(double signal) const {
-  return setup_.settings.disparity_noise * std::sqrt(imager_.variance(signal) / imager_.variance(1.0)) / signal;
+double Stereo::disparity_sigma(double signal, double haze) const {
+  return setup_.settings.disparity_noise * std::sqrt(imager_.variance(signal + haze) / imager_.variance(1.0)) / signal;
 }
 
 double Stereo::depth_sigma(std::size_t pixel) const {
   if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const double z = view_.depth[pixel], step = 1.0 / 16.0;
-  const double sigma = std::hypot(disparity_sigma(white(lit_[pixel])), step / std::sqrt(12.0));
+  const double sigma =
+      std::hypot(disparity_sigma(white(lit_[pixel]), haze_.empty() ? 0.0 : haze_[pixel]), step / std::sqrt(12.0));
   return sigma * z * z / of_disparity(1.0);
 }
 
 /// What can be matched without dots. Surfaces have one albedo each: it is their borders.
 std::vector<char> Stereo::surface_texture() const {
-  const std::vector<float> values = signals(view_, lit_);
+  const std::vector<float> values = signals(view_, lit_, haze_);
   std::vector<std::uint8_t> bytes(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * std::min(values[i], 1.0f)));
@@ -183,18 +216,19 @@ Measurement Stereo::analytic(const Random& random) const {
       const std::size_t i = row * width + x;
       out.validity[i] = lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
       const double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
-      out.intensity[i] = static_cast<float>(std::min(signal, 1.0));
+      const double haze = haze_.empty() ? 0.0 : haze_[i];
+      out.intensity[i] = static_cast<float>(std::min(signal + haze, 1.0));
       const double truth = of_disparity(view_.depth[i]);
       const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
       if (hidden[x] || !in_second || signal < s.min_signal || (!texture.empty() && !texture[i])) continue;
-      if (imager_.saturated(signal)) {
+      if (imager_.saturated(signal + haze)) {
         out.validity[i] = Validity::saturated;
         continue;
       }
       double disparity = truth;
       if (setup_.noise) {
         // The matcher tells sixteenths.
-        disparity = std::round(16.0 * (truth + disparity_sigma(signal) * field[i])) / 16.0;
+        disparity = std::round(16.0 * (truth + disparity_sigma(signal, haze) * field[i])) / 16.0;
       }
       const double z = of_disparity(disparity);
       if (!(z >= setup_.near && z <= setup_.far)) continue;

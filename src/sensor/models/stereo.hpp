@@ -1,11 +1,13 @@
 /// Two cameras side by side and a dot projector. `decoded` renders both images and matches them; `analytic` errs as
-/// such a matcher does: by a disparity whose noise is the same over a window; without dots it matches edges only.
+/// such a matcher does: by a disparity whose noise is the same over a window; without dots it matches edges only. Light
+/// by way of other surfaces comes from many dots: a haze over the pattern.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/view.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
+#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 
 #include <vector>
@@ -21,9 +23,12 @@ class Stereo {
     ImagerSettings imager;
     bool noise = true;
     double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+    IndirectField::Setup indirect{};
   };
+  /// @param random  of the indirect light's samples
   /// @param view  of the first camera, whose images are rectified: no distortion
-  Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup);
+  Stereo(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
+         const Random& random = Random(0, 0, Stream::sensor));
 
   Measurement analytic(const Random& random) const;
   Measurement decoded(const Random& random) const;
@@ -41,10 +46,13 @@ class Stereo {
 
  private:
   std::vector<Lit> lit(const View& view) const;
-  std::vector<float> signals(const View& view, const std::vector<Lit>& lit) const;
-  std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const Random& random) const;
+  std::vector<float> pattern() const;
+  std::vector<float> haze(const View& view, const Random& random) const;
+  std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
+  std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
+                                  const Random& random) const;
   std::vector<char> surface_texture() const;
-  double disparity_sigma(double signal) const;
+  double disparity_sigma(double signal, double haze) const;
   double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
 
   const Scenery& scenery_;
@@ -55,6 +63,10 @@ class Stereo {
   Pose second_;  ///< camera, optical frame in the bin frame
   std::vector<Lit> lit_;
   double gain_ = 0.0;
+  std::vector<float> pattern_;  ///< of dots; empty: even light
+  double brightness_ = 1.0;     ///< mean of the pattern
+  Random rays_;                 ///< of indirect light
+  std::vector<float> haze_;     ///< indirect light of the first camera's pixels (signal); empty: none
 };
 
 /// Disparities (pixel, in sixteenths) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in

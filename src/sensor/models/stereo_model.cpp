@@ -5,7 +5,14 @@
 namespace bin_scenes {
 
 Stereo::Setup stereo_setup(const Sensor& s) {
-  return {lens_of(s.projector), *s.projector.pose, s.settings.of<StereoSettings>(), s.imager, s.noise, s.near, s.far};
+  return {lens_of(s.projector),
+          *s.projector.pose,
+          s.settings.of<StereoSettings>(),
+          s.imager,
+          s.noise,
+          s.near,
+          s.far,
+          {s.bounces, s.indirect_samples}};
 }
 
 namespace {
@@ -57,7 +64,7 @@ void check(const Sensor& sensor, const std::string& key) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const Stereo model(scenery, view, surfaces, stereo_setup(sensor));
+  const Stereo model(scenery, view, surfaces, stereo_setup(sensor), rays_of(draw));
   const Random random = random_of(draw);
   Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
   return image_of(std::move(view), std::move(measured));
@@ -71,7 +78,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 
 constexpr SensorModel model() {
   SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, nullptr, measured, sigma};
-  m.imager = m.projector = m.fidelity = true;
+  m.imager = m.projector = m.fidelity = m.indirect = true;
   return m;
 }
 

@@ -11,6 +11,10 @@ namespace bin_scenes {
 
 namespace {
 
+/// Indirect over direct light from which on a Gray bit may be read wrong: half of it stands against half of the
+/// direct light less the quarter of the amplitude that a bit has to pass.
+constexpr double turns_bits = 0.7;
+
 /// Normally distributed numbers, drawn in pairs.
 class Normals {
  public:
@@ -29,7 +33,8 @@ class Normals {
 
 }  // namespace
 
-StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup)
+StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
+                                 const Random& random)
     : scenery_(scenery),
       view_(view),
       surfaces_(surfaces),
@@ -46,6 +51,26 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
   gain_ = gain();
+  if (setup.indirect.bounces == 0) return;
+  const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
+  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, int count, float* out) {
+    add_paths(paths, count, out);
+  };
+  const int all = channels + fringes_.images();
+  indirect_ = std::make_unique<const IndirectField>(scenery, view, surfaces, lamp, setup.indirect, all,
+                                                    setup.only_analytic ? channels : all, respond, random);
+}
+
+/// Fringes as a sum of phasors, Gray bits as sums of lit and dark. Each path stands for all columns of its sample.
+void StructuredLight::add_paths(const std::vector<Path>& paths, int count, float* out) const {
+  const double turn = 2.0 * M_PI / setup_.settings.period;
+  for (const Path& path : paths) {
+    const double seen = path.weight * fringes_.seen_through(path.spread, 0.0, 0.0);
+    out[white] += static_cast<float>(path.weight);
+    out[cosine] += static_cast<float>(seen * std::cos(turn * path.column));
+    out[sine] += static_cast<float>(seen * std::sin(turn * path.column));
+    if (count > channels) fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
+  }
 }
 
 void StructuredLight::light_row(std::size_t row) {
@@ -134,18 +159,37 @@ void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double colum
   if (good) out.depth[pixel.index] = z;
 }
 
+/// Adds the indirect light to a fringe and moves the column that is read.
+void StructuredLight::add_phasor(const float* indirect, double& column, Fringe& fringe) const {
+  const double turn = 2.0 * M_PI / setup_.settings.period, scale = gain_ * fringes_.amplitude();
+  const double c = fringe.amplitude * std::cos(turn * column) + scale * indirect[cosine],
+               s = fringe.amplitude * std::sin(turn * column) + scale * indirect[sine];
+  const double error = std::remainder(std::atan2(s, c) - turn * column, 2.0 * M_PI);
+  column += error / turn;
+  fringe.mean += gain_ * indirect[white] * fringes_.mean();
+  fringe.amplitude = std::hypot(c, s);
+}
+
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
   const double turn = 2.0 * M_PI / setup_.settings.period;
   in_strips([&](const Strip& strip, int first, int last) {
     for (int row = first; row < last; ++row) {
+      std::vector<float> images(static_cast<std::size_t>(fringes_.images()));
       Normals normals(random.of_piece(static_cast<std::size_t>(row)));
       for (int x = 0; x < view_.lens.width; ++x) {
         const std::size_t i = static_cast<std::size_t>(row) * view_.lens.width + static_cast<std::size_t>(x);
         const Validity code = out.validity[i] = codes_[i];
         const bool near_edge = strip.near_edge(i);
-        if (code != Validity::valid && !(code == Validity::shadow && near_edge)) continue;
+        float indirect[channels] = {};
+        const bool twice = indirect_ && indirect_->at(i, channels, indirect);
+        if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
         const Pixel p = pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row));
+        if (twice && (code != Validity::valid || indirect[white] > turns_bits * whites_[i])) {
+          Random draw = random.of_piece(view_.depth.size() + i);
+          read(strip, p, images, draw, out);
+          continue;
+        }
         double column = columns_[i];
         Fringe f{0.0, 0.0};
         bool mixed = false;
@@ -161,6 +205,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
         } else {
           f = fringe(p);
         }
+        if (twice) add_phasor(indirect, column, f);
         const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
         // The amplitude's noise matters where it may fall below the threshold.
         double amplitude = f.amplitude;

@@ -8,6 +8,10 @@
 /// Where a pixel sees one face in even light, what its centre sees tells all. Near edges of faces, of light and of
 /// albedo, the light is summed over cells of a sixteenth of a pixel, weighted by the pixel's box and the lens's blur
 /// (structured_light_strip.hpp).
+///
+/// Light by way of other surfaces adds a fringe of its own, of another phase: the sum of both is read
+/// (indirect_field.hpp). Where it is brighter than the projector's own it may turn bits of the Gray code; there both
+/// fidelities make the images.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -15,10 +19,12 @@
 #include "sensor/models/fringes.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
+#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
 #include "sensor/pixel_rays.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace bin_scenes {
@@ -32,8 +38,12 @@ class StructuredLight {
     ImagerSettings imager;
     bool noise = true;
     double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+    IndirectField::Setup indirect{};
+    bool only_analytic = false;  ///< the indirect light of images may be less fine: few pixels need them
   };
-  StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup);
+  /// @param random  of the indirect light's samples
+  StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
+                  const Random& random = Random(0, 0, Stream::sensor));
 
   Measurement analytic(const Random& random) const;
   Measurement decoded(const Random& random) const;
@@ -54,14 +64,20 @@ class StructuredLight {
   class Strip;
   struct Blend;
 
+  /// Channels of the indirect light, for a white of 1; after them, the images.
+  enum Channel { white, cosine, sine, channels };
+
   void light_row(std::size_t row);
+  void add_paths(const std::vector<Path>& paths, int count, float* channels) const;
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
   Vec2 slope(const Pixel& pixel) const;
   double ambient(std::size_t index) const;
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
+  void add_phasor(const float* indirect, double& column, Fringe& fringe) const;
   void add_face(const Pixel& pixel, float* images) const;
+  void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   template <class Work>
   void in_strips(const Work& work) const;
   void deliver(Measurement& out, const Pixel& pixel, double column) const;
@@ -82,6 +98,8 @@ class StructuredLight {
   std::vector<double> whites_;               ///< reflected / distance^2
   std::vector<double> planes_;               ///< Pixel::plane
   double gain_ = 0.0;                        ///< signal of the projector's white = gain * white
+
+  std::unique_ptr<const IndirectField> indirect_;  ///< none: no bounces
 };
 
 }  // namespace bin_scenes

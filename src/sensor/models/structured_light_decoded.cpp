@@ -25,6 +25,55 @@ void StructuredLight::add_face(const Pixel& pixel, float* images) const {
   fringes_.add_light(column + reach, share * white, images);
 }
 
+/// Makes the images of a pixel and reads them as a device does.
+void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float>& images, Random& draw,
+                           Measurement& out) const {
+  const std::size_t i = p.index;
+  const Validity code = out.validity[i] = codes_[i];
+  const bool near_edge = strip.near_edge(i);
+  thread_local std::vector<float> indirect;
+  indirect.resize(channels + images.size());
+  const bool twice = indirect_ && indirect_->at(i, static_cast<int>(indirect.size()), indirect.data());
+  if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) return;
+  std::fill(images.begin(), images.end(), 0.0f);
+  double background = ambient(i);
+  bool mixed = false;
+  if (near_edge) {
+    const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, const Strip::Values& weight) {
+      for (int k = 0; k < Strip::per_pixel; ++k) {
+        const double white = gain_ * weight[k] * cells.white[k];
+        if (white > 0.0) fringes_.add_light(cells.column[k], white, images.data());
+      }
+    });
+    if (blend.outside) out.validity[i] = Validity::outside;
+    if (blend.outside || (code == Validity::shadow && blend.white <= 0.0 && !twice)) return;
+    mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
+    background = setup_.imager.ambient * blend.diffuse;
+  } else if (code == Validity::valid) {
+    add_face(p, images.data());
+  }
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    if (twice) images[n] += static_cast<float>(gain_) * indirect[channels + n];
+    images[n] += static_cast<float>(background);
+  }
+  imager_.expose(images.data(), images.size(), draw);
+
+  const auto shifts = images.begin() + setup_.settings.steps;
+  out.intensity[i] = std::accumulate(images.begin(), shifts, 0.0f) / static_cast<float>(setup_.settings.steps);
+  const Fringes::Reading reading = fringes_.read(images.data());
+  if (mixed) {
+    out.validity[i] = Validity::mixed;
+  } else if (imager_.saturated(*std::max_element(images.begin(), shifts))) {
+    out.validity[i] = Validity::saturated;
+  } else if (reading.modulation < setup_.settings.min_modulation) {
+    out.validity[i] = code == Validity::valid ? Validity::dark : code;
+  } else if (std::isnan(reading.column)) {
+    out.validity[i] = Validity::decoding;
+  } else {
+    deliver(out, p, reading.column);
+  }
+}
+
 Measurement StructuredLight::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
@@ -32,45 +81,7 @@ Measurement StructuredLight::decoded(const Random& random) const {
     for (int row = first; row < last; ++row) {
       Random draw = random.of_piece(static_cast<std::size_t>(row));
       for (int x = 0; x < view_.lens.width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(row) * view_.lens.width + static_cast<std::size_t>(x);
-        const Validity code = out.validity[i] = codes_[i];
-        const bool near_edge = strip.near_edge(i);
-        if (code != Validity::valid && !(code == Validity::shadow && near_edge)) continue;
-        const Pixel p = pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row));
-        std::fill(images.begin(), images.end(), 0.0f);
-        double background = ambient(i);
-        bool mixed = false;
-        if (near_edge) {
-          const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, const Strip::Values& weight) {
-            for (int k = 0; k < Strip::per_pixel; ++k) {
-              const double white = gain_ * weight[k] * cells.white[k];
-              if (white > 0.0) fringes_.add_light(cells.column[k], white, images.data());
-            }
-          });
-          if (blend.outside) out.validity[i] = Validity::outside;
-          if (blend.outside || (code == Validity::shadow && blend.white <= 0.0)) continue;
-          mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
-          background = setup_.imager.ambient * blend.diffuse;
-        } else {
-          add_face(p, images.data());
-        }
-        for (float& value : images) value += static_cast<float>(background);
-        imager_.expose(images.data(), images.size(), draw);
-
-        const auto shifts = images.begin() + setup_.settings.steps;
-        out.intensity[i] = std::accumulate(images.begin(), shifts, 0.0f) / static_cast<float>(setup_.settings.steps);
-        const Fringes::Reading reading = fringes_.read(images.data());
-        if (mixed) {
-          out.validity[i] = Validity::mixed;
-        } else if (imager_.saturated(*std::max_element(images.begin(), shifts))) {
-          out.validity[i] = Validity::saturated;
-        } else if (reading.modulation < setup_.settings.min_modulation) {
-          out.validity[i] = code == Validity::shadow ? code : Validity::dark;
-        } else if (std::isnan(reading.column)) {
-          out.validity[i] = Validity::decoding;
-        } else {
-          deliver(out, p, reading.column);
-        }
+        read(strip, pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row)), images, draw, out);
       }
     }
   });

@@ -11,7 +11,9 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
           s.imager,
           s.noise,
           s.near,
-          s.far};
+          s.far,
+          {s.bounces, s.indirect_samples},
+          s.fidelity == Fidelity::analytic};
 }
 
 namespace {
@@ -65,7 +67,7 @@ void check_places(const Sensor& sensor, const std::string& where) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor));
+  const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor), rays_of(draw));
   const Random random = random_of(draw);
   Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
   return image_of(std::move(view), std::move(measured));
@@ -81,7 +83,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 constexpr SensorModel model() {
   SensorModel m{
       "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
-  m.imager = m.projector = m.fidelity = true;
+  m.imager = m.projector = m.fidelity = m.indirect = true;
   return m;
 }
 

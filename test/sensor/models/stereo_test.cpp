@@ -210,5 +210,40 @@ TEST(Stereo, SameSeedSameBits) {
   EXPECT_NE(images(3).first, images(4).first);
 }
 
+TEST(Stereo, LightOfAnotherFaceIsHazeOverTheDots) {
+  for (const bool wall : {false, true}) {
+    Targets targets;
+    add_plate(targets, 1.0);
+    if (wall) targets.add(box_target({0.02, 2.0, 0.4}), {Vec3(0.3, 0.0, 0.8), Quat::Identity()}, {0.9, 0.0, 0.4});
+    const Scenery scenery = targets.scenery();
+    Device device;
+    const View view = look(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
+    device.setup.noise = false;
+    const Stereo direct(scenery, view, targets.surfaces(), device.setup);
+    device.setup.indirect.bounces = 1;
+    const Stereo both(scenery, view, targets.surfaces(), device.setup);
+    const Random random(1, 0, Stream::noise);
+    const Stereo::Pair a = direct.images(random), b = both.images(random);
+    EXPECT_EQ(a.first == b.first, !wall);
+    EXPECT_EQ(a.second == b.second, !wall);
+    if (!wall) continue;
+    // Beside the wall and far from it on the plate: grey levels, mean.
+    const auto added = [&](int left) {
+      double sum = 0.0;
+      for (int y = 100; y < 140; ++y) {
+        for (int x = left; x < left + 12; ++x) {
+          const std::size_t i = static_cast<std::size_t>(y * device.camera.width + x);
+          sum += int(b.first[i]) - int(a.first[i]);
+        }
+      }
+      return sum / 480.0;
+    };
+    const double beside = added(250), far = added(40);
+    EXPECT_GT(beside, 2.0);
+    EXPECT_GT(beside, 2.5 * far);
+    EXPECT_GT(far, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -1,0 +1,59 @@
+/// Light that reaches a point by way of other surfaces. Patterns are linear in light: what a point gets is a set of
+/// paths, each from a place of the pattern and with a weight, and serves every pattern (Gupta et al. 2013, "A practical
+/// approach to 3D scanning in the presence of interreflections, subsurface scattering and defocus").
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "sensor/models/illumination.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// What lights the scene.
+class Lamp {
+ public:
+  virtual ~Lamp() = default;
+  /// Light of `count` points, each seen by an eye of its own.
+  virtual void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const = 0;
+  /// By how much the column grows with a point's place (1/m).
+  virtual Vec3 slope(const Vec3& point, double column) const = 0;
+};
+
+class ProjectorLamp : public Lamp {
+ public:
+  ProjectorLamp(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces);
+  void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const override;
+  Vec3 slope(const Vec3& point, double column) const override;
+
+ private:
+  const Scenery& scenery_;
+  Lens projector_;
+  Pose pose_;
+  const Surfaces& surfaces_;
+  Vec3 share_, ahead_;  ///< column = share . p / ahead . p, of a point p seen from the projector; distortion left out
+};
+
+struct Path {
+  double column, row;  ///< of the projector
+  double weight;       ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
+  double spread;       ///< columns that the sample stands for, from one side to the other
+  Vec3 slope;          ///< by which the column grows as the point moves (1/m), direction and all planes kept
+};
+
+struct Gathered {
+  std::vector<Path> paths;  ///< those that are lit
+  double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
+};
+
+/// Mean of 1 / distance (1/m) to what a point meets, alone.
+double nearness(const Scenery& scenery, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye, int samples,
+                Random key);
+
+/// @param samples  rays, as the surface takes light
+/// @param bounces  1: light that met one other surface; 2: those that met two as well
+/// @param key      of the random numbers of this point
+void gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
+            int samples, int bounces, Random key, Gathered& out);
+
+}  // namespace bin_scenes

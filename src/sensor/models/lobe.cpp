@@ -1,0 +1,72 @@
+#include "sensor/models/lobe.hpp"
+
+#include "sensor/models/illumination.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+/// Two axes beside a unit vector z, without a branch that flips them between neighbours (Duff et al. 2017, "Building an
+/// orthonormal basis, revisited").
+Mat3 frame_about(const Vec3& z) {
+  const double sign = z.z() < 0.0 ? -1.0 : 1.0, a = -1.0 / (sign + z.z()), b = z.x() * z.y() * a;
+  Mat3 frame;
+  frame.col(0) = Vec3(1.0 + sign * z.x() * z.x() * a, sign * b, -sign * z.x());
+  frame.col(1) = Vec3(b, sign + z.y() * z.y() * a, -z.y());
+  frame.col(2) = z;
+  return frame;
+}
+
+}  // namespace
+
+Lobe::Lobe(const Surface& surface, const Vec3& normal, const Vec3& to_eye)
+    : surface_(surface),
+      frame_(frame_about(normal)),
+      eye_(frame_.transpose() * to_eye),
+      alpha_(std::max(surface.roughness * surface.roughness, 1e-3)),
+      // What facets send on to each other leaves in all directions: some samples are always drawn as of a matte
+      // surface.
+      share_(0.75 * surface.gloss) {
+  eye_.z() = std::max(eye_.z(), 1e-6);
+}
+
+Vec3 Lobe::matte(double u, double v) const {
+  const double radius = std::sqrt(u), turn = 2.0 * M_PI * v;
+  return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(std::max(0.0, 1.0 - u))};
+}
+
+/// By a facet that the eye sees (Heitz 2018, "Sampling the GGX distribution of visible normals").
+Vec3 Lobe::mirrored(double u, double v) const {
+  const Vec3 stretched = Vec3(alpha_ * eye_.x(), alpha_ * eye_.y(), eye_.z()).normalized();
+  const Mat3 axes = frame_about(stretched);
+  // The disc of directions seen edge on: its two halves are the projections of the upper hemisphere.
+  const Vec3 along = stretched.z() < 0.9999 ? Vec3(Vec3::UnitZ().cross(stretched).normalized()) : Vec3(axes.col(0));
+  const Vec3 up = stretched.cross(along);
+  const double radius = std::sqrt(u), turn = 2.0 * M_PI * v, x = radius * std::cos(turn);
+  const double s = 0.5 * (1.0 + stretched.z());
+  const double y = (1.0 - s) * std::sqrt(std::max(0.0, 1.0 - x * x)) + s * radius * std::sin(turn);
+  const Vec3 seen = x * along + y * up + std::sqrt(std::max(0.0, 1.0 - x * x - y * y)) * stretched;
+  const Vec3 facet = Vec3(alpha_ * seen.x(), alpha_ * seen.y(), std::max(1e-9, seen.z())).normalized();
+  return 2.0 * eye_.dot(facet) * facet - eye_;
+}
+
+double Lobe::density(const Vec3& local) const {
+  const double matte = local.z() / M_PI;
+  if (share_ <= 0.0) return matte;
+  const double a2 = alpha_ * alpha_, half = (local + eye_).normalized().z(), bend = half * half * (a2 - 1.0) + 1.0;
+  const double facets = a2 / (M_PI * bend * bend), c = eye_.z();
+  const double seen = 2.0 * c / (c + std::sqrt(c * c * (1.0 - a2) + a2));
+  return (1.0 - share_) * matte + share_ * seen * facets / (4.0 * c);
+}
+
+Lobe::Sample Lobe::at(double u, double v) const {
+  const Vec3 local = u < share_ ? mirrored(u / share_, v) : matte((u - share_) / (1.0 - share_), v);
+  if (!(local.z() > 1e-6)) return {frame_ * local, 0.0, 1.0};
+  const double density = this->density(local);
+  return {frame_ * local, reflected(surface_, Vec3::UnitZ(), local, eye_) / (M_PI * density), density};
+}
+
+}  // namespace bin_scenes

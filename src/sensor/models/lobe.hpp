@@ -1,0 +1,33 @@
+/// Directions from which a surface takes the light that it sends to an eye, drawn as densely as it takes it.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+
+namespace bin_scenes {
+
+class Lobe {
+ public:
+  /// @param normal, to_eye  unit, on one side of the surface
+  Lobe(const Surface& surface, const Vec3& normal, const Vec3& to_eye);
+
+  struct Sample {
+    Vec3 direction;  ///< unit, away from the surface; below it where factor is 0
+    double factor;   ///< light sent to the eye / light that comes from there, for one sample of the whole hemisphere
+    double density;  ///< per solid angle (1/sr)
+  };
+  /// @param u, v  [0, 1), even in the square
+  Sample at(double u, double v) const;
+
+ private:
+  Vec3 matte(double u, double v) const;
+  Vec3 mirrored(double u, double v) const;
+  double density(const Vec3& local) const;
+
+  Surface surface_;
+  Mat3 frame_;  ///< local to world, z is the normal
+  Vec3 eye_;    ///< local
+  double alpha_;
+  double share_;  ///< of samples that are drawn from the mirrored lobe
+};
+
+}  // namespace bin_scenes
