@@ -352,7 +352,7 @@ void visit(Visitor& v, Request& request) {
   v.field({"rig", "",
            "instead of sensors: those of a published data set, ipd, xyzibd or itoddmv (config/sensors/rigs names "
            "sources); single values are changed by --set or a plan's draw",
-           false},
+           anything, false},
           request.rig);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
