@@ -70,9 +70,12 @@ inline Pressed press_between(Lab lab, const Row& row) {
   return out;
 }
 
-/// A spike slides without friction down the face of a fixed wedge, tip first, over its rim, and falls on: energy lost
-/// until then / of that at the start, seen from the rim.
-inline double slide_over_rim(Lab lab, double size) {
+struct Slid {
+  double lost;  ///< energy / of that at the start, seen from the rim
+  double spin;  ///< rad/s: the face turned what slid on its tip
+};
+/// A spike slides without friction down the face of a fixed wedge, tip first, over its rim, and falls on.
+inline Slid slide_over_rim(Lab lab, double size) {
   const double half = 0.6 * size;
   lab.def().bin.kind = Bin::Kind::none;
   const PartModelPtr wedge = PartModel::from_mesh(wedge_mesh(half, size, 2.0 * size), "wedge");
@@ -89,7 +92,7 @@ inline double slide_over_rim(Lab lab, double size) {
   lab.begin(phases::pour);
   const double before = now();
   while (lab.center(body).z() > -size && lab.time() < 1.0) lab.simulate(lab.solver().step_size());
-  return (before - now()) / before;
+  return {(before - now()) / before, lab.state(body).velocity.angular.norm()};
 }
 
 /// A chain of links that hangs from its first and was lifted along a line, `slack` of their length apart: largest gain

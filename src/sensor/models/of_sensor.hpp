@@ -31,6 +31,12 @@ Random rays_of(const Draw& draw);
 /// Takes over the truth of the view.
 void add_truth(RangeImage& image, View&& view);
 RangeImage image_of(View&& view, Measurement&& measured);
+/// Of a model that has both fidelities.
+template <class Model>
+RangeImage image_by(const Model& model, Fidelity fidelity, View&& view, const Draw& draw) {
+  const Random random = random_of(draw);
+  return image_of(std::move(view), fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random));
+}
 
 /// A plate large enough for any view, that far along the sensor's optical axis, turned about the camera's x.
 struct Plate {

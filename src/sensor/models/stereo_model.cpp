@@ -65,9 +65,7 @@ void check(const Sensor& sensor, const std::string& key) {
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
   const Stereo model(scenery, view, surfaces, stereo_setup(sensor), rays_of(draw));
-  const Random random = random_of(draw);
-  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
-  return image_of(std::move(view), std::move(measured));
+  return image_by(model, sensor.fidelity, std::move(view), draw);
 }
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {

@@ -68,9 +68,7 @@ void check_places(const Sensor& sensor, const std::string& where) {
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
   const StructuredLight model(scenery, view, surfaces, structured_light_setup(sensor), rays_of(draw));
-  const Random random = random_of(draw);
-  Measurement measured = sensor.fidelity == Fidelity::decoded ? model.decoded(random) : model.analytic(random);
-  return image_of(std::move(view), std::move(measured));
+  return image_by(model, sensor.fidelity, std::move(view), draw);
 }
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
