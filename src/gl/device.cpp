@@ -248,6 +248,10 @@ Device& Device::current() {
   return current_here ? *current_here : *shared();
 }
 
+bool Device::is_current() {
+  return eglGetCurrentContext() != EGL_NO_CONTEXT;
+}
+
 void Device::lose() {
   state_->lost = true;
 }

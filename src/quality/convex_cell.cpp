@@ -1,5 +1,7 @@
 #include "convex_cell.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -112,6 +114,7 @@ void ConvexCell::clip(const Plane& plane) {
   }
   std::swap(vertices_, c.kept);
   std::swap(loops_, c.loops);
+  BIN_SCENES_ASSERT(each_is(loops_, [&](int v) { return v >= 0 && v < static_cast<int>(vertices_.size()); }));
 }
 
 std::vector<ConvexCell::Edge> ConvexCell::edges(const std::vector<char>& wanted) const {

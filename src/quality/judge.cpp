@@ -1,5 +1,6 @@
 #include "core/in_parallel.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "gap.hpp"
 
@@ -18,6 +19,7 @@ std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModel
   std::vector<Placed> placed;
   for (const ScenePart& part : scene.parts) {
     if (!is_there(part.state) || !part.pose.finite()) continue;
+    BIN_SCENES_ASSERT(part.line < models.size() && is_unit(part.pose.orientation));
     const PartModel& model = *models[part.line];
     Placed p{&part, &model.query(), model.diagonal(), {}};
     for (const Vec3& v : model.corners()) p.box.extend(part.pose * v);
@@ -54,6 +56,7 @@ std::vector<Overlapping> near_pairs(const std::vector<Placed>& placed) {
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const Overlapping& p, const Overlapping& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  BIN_SCENES_ASSERT(each_is(pairs, [&](const Overlapping& p) { return p.a < p.b && p.b < placed.size(); }));
   return pairs;
 }
 
@@ -63,6 +66,7 @@ std::vector<Overlapping> overlapping_pairs(const std::vector<Placed>& placed) {
   in_parallel(pairs.size(), [&](std::size_t i) {
     const Placed &a = placed[pairs[i].a], &b = placed[pairs[i].b];
     pairs[i].found = penetration(*a.query, a.part->pose, *b.query, b.part->pose);
+    BIN_SCENES_ASSERT(pairs[i].found.depth >= 0.0);
   });
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Overlapping& p) { return p.found.depth <= 0.0; }),
               pairs.end());
@@ -213,6 +217,7 @@ DriftReport drift(const Scene& before, const Scene& after, const std::vector<Par
     const auto end =
         std::find_if(after.parts.begin(), after.parts.end(), [&](const ScenePart& p) { return p.id == start.id; });
     if (end == after.parts.end() || !end->pose.finite()) continue;
+    BIN_SCENES_ASSERT(start.line < parts.size());
     const Vec3& center = parts[start.line]->mass().center;
     moves.push_back((end->pose * center - start.pose * center).norm());
     turns.push_back(start.pose.orientation.angularDistance(end->pose.orientation));

@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
@@ -19,6 +20,8 @@ void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>
   image.visible.assign(ids, 0);
   image.total.assign(ids, 0);
   image.silhouettes.resize(ids);
+  BIN_SCENES_ASSERT(alone.size() == scene.parts.size());
+  BIN_SCENES_ASSERT(each_is(image.seen_label(), [&](std::uint16_t label) { return label <= ids; }));
   for (const std::uint16_t label : image.seen_label()) {
     if (label) ++image.visible[label - 1u];
   }

@@ -1,5 +1,5 @@
 /// The one exception of the library. Loading and set-up throw it; a running simulation sets flags in the report
-/// instead (scene/report.hpp); misuse of an interface asserts.
+/// instead (scene/report.hpp); misuse of an interface asserts (core/assertion.hpp).
 #pragma once
 
 #include <stdexcept>

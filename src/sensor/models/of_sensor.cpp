@@ -1,5 +1,7 @@
 #include "sensor/models/of_sensor.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "core/in_parallel.hpp"
 
 #include <algorithm>
@@ -27,6 +29,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
   image.height = view.lens.height;
   image.intensity = std::move(measured.intensity);
   const std::size_t pixels = view.depth.size();
+  BIN_SCENES_ASSERT(measured.depth.size() == pixels && measured.validity.size() == pixels);
   image.depth.resize(pixels);
   image.label.resize(pixels);
   image.normal = std::move(view.normal);
