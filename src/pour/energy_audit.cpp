@@ -61,7 +61,7 @@ DisjointSets EnergyAudit::groups(const std::vector<Reach>& reaches) const {
   return groups;
 }
 
-void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool driven) {
+void EnergyAudit::observe(double time, const std::vector<BodyState>& states, bool driven) {
   BIN_SCENES_ASSERT(time >= last_);
   const double seconds = time - last_;
   last_ = time;

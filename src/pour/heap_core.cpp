@@ -214,10 +214,10 @@ void HeapCore::update_rest() {
       audit_->leave(b);
       continue;
     }
-    rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
-               {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
+    rest_.observe(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
+                  {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
-  audit_->look(time_, states_, follows());
+  audit_->observe(time_, states_, follows());
   fresh_ = true;
 }
 
@@ -305,12 +305,12 @@ void HeapCore::cut_walls() {
   set_solver_phase();
 }
 
-void HeapCore::look() {
+void HeapCore::advance() {
   update_rest();
   insert_waiting();
   if (follows() && !end_motion()) return;
   const Stage before = settling_.stage();
-  if (!settling_.look(*this, time_) || settling_.done()) return;
+  if (!settling_.advance(*this, time_) || settling_.done()) return;
   set_solver_phase();
   poured_ = before == Stage::pour;
 }

@@ -4,8 +4,8 @@
 
 namespace bin_scenes {
 
-void RestWatch::look(std::size_t index, double time, const Vec3& center, const Quat& orientation,
-                     const Limits& limits) {
+void RestWatch::observe(std::size_t index, double time, const Vec3& center, const Quat& orientation,
+                        const Limits& limits) {
   BIN_SCENES_ASSERT(index < bodies_.size());
   Body& body = bodies_[index];
   const bool still = body.seen && (center - body.center).norm() <= limits.move &&

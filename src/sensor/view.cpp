@@ -7,7 +7,7 @@
 
 namespace bin_scenes {
 
-View look(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
   BIN_SCENES_ASSERT(lens.width > 0 && lens.height > 0 && lens.fx > 0.0 && lens.fy > 0.0);
   BIN_SCENES_ASSERT(is_rigid(pose) && near <= far);
   View view;

@@ -56,7 +56,8 @@ TEST_F(AssertionDeath, NumberThatIsNone) {
 
 TEST_F(AssertionDeath, BodyThatIsNotThere) {
   RestWatch watch(3);
-  EXPECT_DEATH(watch.look(3, 0.0, Vec3::Zero(), Quat::Identity(), {}), "index < bodies_.size\\(\\) \\(rest_watch.cpp");
+  EXPECT_DEATH(watch.observe(3, 0.0, Vec3::Zero(), Quat::Identity(), {}),
+               "index < bodies_.size\\(\\) \\(rest_watch.cpp");
 }
 
 TEST_F(AssertionDeath, ImageThatLacksARow) {

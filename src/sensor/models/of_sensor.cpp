@@ -72,7 +72,7 @@ View Plate::seen_in_the_middle() const {
   cut.width = cut.height = 9;
   cut.k[2] -= left;
   cut.k[5] -= top;
-  return look(scenery, lens_of(cut), *cut.pose, cut.near, cut.far);
+  return render(scenery, lens_of(cut), *cut.pose, cut.near, cut.far);
 }
 
 }  // namespace bin_scenes

@@ -32,7 +32,7 @@ struct Shot {
 
 Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
   const Scenery scenery = targets.scenery();
-  Shot shot{look(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
+  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
   const Stereo model(scenery, shot.view, targets.surfaces(), device.setup);
   const Random random(seed, 0, Stream::noise);
   shot.measured = decoded ? model.decoded(random) : model.analytic(random);
@@ -202,7 +202,7 @@ TEST(Stereo, SameSeedSameBits) {
   const auto images = [&](std::uint64_t seed) {
     const Scenery scenery = targets.scenery();
     const Device device;
-    const View view = look(scenery, device.camera, Pose(), 0.05, 10.0);
+    const View view = render(scenery, device.camera, Pose(), 0.05, 10.0);
     return Stereo(scenery, view, targets.surfaces(), device.setup).images(Random(seed, 0, Stream::noise));
   };
   EXPECT_EQ(images(3).first, images(3).first);
