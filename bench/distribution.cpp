@@ -48,7 +48,7 @@ std::vector<double> contacts_of(const Scene& scene, const PartModel& part) {
   return contacts;
 }
 
-Row look(const Poured& poured, const Request& request) {
+Row sample(const Poured& poured, const Request& request) {
   const PartModel& part = *poured.parts.front();
   Looks looks;
   double mean_height = 0.0;
@@ -74,7 +74,7 @@ std::vector<Looks> poured_over(const Request& first, int seeds, double limit_cpu
   warm_up(first);
   Request request = first;
   for (int k = 0; k < seeds; ++k, ++request.seed) {
-    const Isolated one = isolated([&] { return look(pour_timed(request), request); }, limit_cpu_s);
+    const Isolated one = isolated([&] { return sample(pour_timed(request), request); }, limit_cpu_s);
     if (!one.good) {
       status = one.row;
       return {};

@@ -48,7 +48,7 @@ void make(const std::string& file, const std::string& out, std::size_t scenes) {
     heap.settle();
     Scene scene = heap.scene();
     scene.sensors = resolved_sensors(request, parts, nullptr);
-    const std::vector<RangeImage> images = rig.look(scene, request, parts);
+    const std::vector<RangeImage> images = rig.render(scene, request, parts);
     char name[32];
     std::snprintf(name, sizeof name, "/train/%06zu", i);
     write_bop(out + name, scene, parts, images);

@@ -93,7 +93,7 @@ void groove_rows(Run& out, const std::string& name, const Surface& surface, doub
   Targets targets = groove(surface);
   const Scenery scenery = targets.scenery();
   const StructuredLight::Setup setup = projector_of(period, bounces);
-  const View view = look(scenery, camera(), Pose(), setup.near, setup.far);
+  const View view = render(scenery, camera(), Pose(), setup.near, setup.far);
   const StructuredLight model(scenery, view, targets.surfaces(), setup);
   const Random random(1, 0, Stream::noise);
   const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);

@@ -52,7 +52,7 @@ void measure_by(const Model& model, const Sensor& sensor, const Random& random, 
 Shot shoot(Targets& targets, const Sensor& sensor, std::uint64_t seed) {
   const Scenery scenery = targets.scenery();
   Shot shot;
-  shot.view = look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+  shot.view = render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
   const Random random(seed, 0, Stream::noise);
   if (sensor.model == "stereo") {
     measure_by(Stereo(scenery, shot.view, targets.surfaces(), stereo_setup(sensor)), sensor, random, shot);

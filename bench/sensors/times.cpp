@@ -72,7 +72,7 @@ void view_times(Run& out) {
     sensor.near = 0.5, sensor.far = 2.0;
     sensor.pose = Pose();
     stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-    time(out, what, goal_s, [&] { rig.look(stage.scene, stage.request, stage.models); });
+    time(out, what, goal_s, [&] { rig.render(stage.scene, stage.request, stage.models); });
   };
   const auto whole = [&](const std::string& what, double goal_s, const std::string& model, Fidelity fidelity) {
     whole_of(stage, what, goal_s, model, fidelity);
@@ -81,7 +81,7 @@ void view_times(Run& out) {
   {
     const Scenery scenery = stage.scenery();
     const Sensor& sensor = stage.scene.sensors[0];
-    const View view = look(scenery, lens_of(sensor), Pose(), sensor.near, sensor.far);
+    const View view = render(scenery, lens_of(sensor), Pose(), sensor.near, sensor.far);
     time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
   }
   whole("structured light, analytic", 0.6, "structured_light", Fidelity::analytic);

@@ -84,7 +84,7 @@ void ideal_depth(Run& out, double z) {
   test::Stage stage;
   add_heap(stage, z, out.quick() ? 6 : 20, static_cast<std::uint64_t>(10 * z));
   const Lens lens = Lens::from_fov(out.quick() ? 160 : 400, out.quick() ? 128 : 320, 0.4 / z);
-  const View view = look(stage.scenery(), lens, Pose(), 0.05, 10.0);
+  const View view = render(stage.scenery(), lens, Pose(), 0.05, 10.0);
   const Reference truth(lens, 0.05, 10.0, test::BruteCast(stage));
   double worst = 0.0, wrong = 0.0, compared = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -116,7 +116,7 @@ void light_codes(Run& out, Fidelity fidelity) {
   const Lens lens = lens_of(sensor);
   const Scenery scenery = stage.scenery();
   const RangeImage image =
-      measure(scenery, look(scenery, lens, Pose(), sensor.near, sensor.far), sensor, surfaces_of(stage.request), {});
+      measure(scenery, render(scenery, lens, Pose(), sensor.near, sensor.far), sensor, surfaces_of(stage.request), {});
   const test::BruteCast cast(stage);
   Reference truth(lens, sensor.near, sensor.far, cast);
   truth.light_by(sensor, lens, cast);
@@ -173,7 +173,7 @@ void visible_fraction(Run& out, bool distorted) {
   sensor.pose = Pose();
   if (distorted) sensor.distortion = {-0.25, 0.1, 0.002, -0.001, 0.0};
   stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-  SensorRig().look(stage.scene, stage.request, stage.models);
+  SensorRig().render(stage.scene, stage.request, stage.models);
   const Lens lens = lens_of(stage.scene.sensors[0]);
   const test::BruteCast cast(stage);
   const Reference all(lens, 0.05, 10.0, cast);

@@ -1,5 +1,7 @@
 #include "config/key_reader.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
 
@@ -96,6 +98,7 @@ KeyReader::KeyReader(YAML::Node map, std::string path, Source& source)
 }
 
 YAML::Node KeyReader::take(const Key& key) {
+  BIN_SCENES_ASSERT(std::find(known_.begin(), known_.end(), key.name) == known_.end());  // a key of a map is taken once
   known_.push_back(key.name);
   const YAML::Node node = static_cast<const YAML::Node&>(map_)[key.name];
   if (node) found_.insert(key.name);

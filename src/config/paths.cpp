@@ -156,7 +156,7 @@ std::string resolve_file(const std::string& written, const std::string& base, co
     throw input_error("'" + path.string() + "' is not a file", where, "name a file");
   }
   if (::access(path.c_str(), R_OK) != 0) {
-    throw input_error("'" + path.string() + "' is not readable", where, "mend its permissions");
+    throw input_error("'" + path.string() + "' is not readable", where, "correct its permissions");
   }
   return path.string();
 }

@@ -143,7 +143,7 @@ class PlanFile {
       const double value = std::stod(end);
       if (value < lower || value > upper)
         complain(end + " is not within " + config::text_of(lower) + " to " + config::text_of(upper), key,
-                 "mend the range, or give min and max");
+                 "correct the range, or give min and max");
     }
   }
 

@@ -1,6 +1,7 @@
 #include "config/reference.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/assertion.hpp"
 #include "config/values.hpp"
 
 #include <cmath>
@@ -14,6 +15,7 @@ namespace {
 
 /// "number in [0, 10]"; "(" where the least itself is excluded.
 std::string kind_in(const Range& range, const std::string& kind) {
+  BIN_SCENES_ASSERT(range.least < range.most);
   if (!std::isfinite(range.least)) return kind;
   const std::string least = text_of(range.least), plain = kind.substr(0, kind.find(','));
   if (std::isfinite(range.most))

@@ -58,7 +58,7 @@ std::pair<std::string, std::string> apply_override(YAML::Node root, const Overri
   try {
     value = load_yaml(text.substr(equals + 1), where);
   } catch (const Error& error) {
-    throw input_error("the value is " + error.problem(), where, "quote it, or mend its brackets");
+    throw input_error("the value is " + error.problem(), where, "quote it, or correct its brackets");
   }
   YAML::Node node;
   node.reset(root);  // operator= would write into the tree instead of moving along it

@@ -187,6 +187,31 @@ double mean_of(const std::vector<int>& histogram) {
   return sum > 0.0 ? weighted / sum : 0.0;
 }
 
+Json pictures_of(const Json& rows, const DataFolder& folder, const DataSetFacts& facts) {
+  Json pictures = Json::object();
+  std::size_t used = 0;
+  const std::size_t step = std::max<std::size_t>(1, rows.size() / most_pictures);
+  for (std::size_t i = 0; i < rows.size() && used < bytes_of_pictures; i += step) {
+    const std::size_t scene = rows[i][0];
+    const std::string picture = small_picture(folder, facts, scene);
+    if (picture.empty()) continue;
+    pictures[std::to_string(scene)] = picture;
+    used += picture.size();
+  }
+  return pictures;
+}
+
+Json rows_of(const std::vector<SceneIndex::Rejected>& rejected) {
+  Json listed = Json::array();
+  for (std::size_t i = 0; i < std::min(rejected.size(), most_rejected); ++i) {
+    std::string reasons;
+    for (const Json& reason : Json::parse(rejected[i].reasons))
+      reasons += (reasons.empty() ? "" : "; ") + reason.get<std::string>();
+    listed.push_back({rejected[i].heap, rejected[i].attempt, reasons, rejected[i].path});
+  }
+  return listed;
+}
+
 }  // namespace
 
 ReportResult write_report(const std::string& directory, const std::string& path) {
@@ -215,27 +240,9 @@ ReportResult write_report(const std::string& directory, const std::string& path)
 
   ReportResult result;
   result.scenes = scenes.size();
-  Json pictures = Json::object();
-  std::size_t used = 0;
-  const std::size_t step = std::max<std::size_t>(1, rows.size() / most_pictures);
-  for (std::size_t i = 0; i < rows.size() && used < bytes_of_pictures; i += step) {
-    const std::size_t scene = rows[i][0];
-    const std::string picture = small_picture(folder, facts, scene);
-    if (picture.empty()) continue;
-    pictures[std::to_string(scene)] = picture;
-    used += picture.size();
-    ++result.pictures;
-  }
-
+  const Json pictures = pictures_of(rows, folder, facts);
+  result.pictures = pictures.size();
   const std::vector<SceneIndex::Rejected> rejected = index.rejected();
-  Json listed = Json::array();
-  for (std::size_t i = 0; i < std::min(rejected.size(), most_rejected); ++i) {
-    std::string reasons;
-    for (const Json& reason : Json::parse(rejected[i].reasons))
-      reasons += (reasons.empty() ? "" : "; ") + reason.get<std::string>();
-    listed.push_back({rejected[i].heap, rejected[i].attempt, reasons, rejected[i].path});
-  }
-
   const Json data = {
       {"name", fs::weakly_canonical(directory).filename().string()},
       {"plan", read_file((folder.root / "plan.yaml").string())},
@@ -251,7 +258,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
       {"published", published.rows()},
       {"scenes", {{"columns", {"scene", "parts", "visible", "fill", "penetration", "rest"}}, {"rows", rows}}},
       {"pictures", pictures},
-      {"rejected", {{"total", rejected.size()}, {"rows", listed}}},
+      {"rejected", {{"total", rejected.size()}, {"rows", rows_of(rejected)}}},
       {"scene3d", scenes.empty() ? Json() : scene_in_3d(folder, facts, scenes[scenes.size() / 2])}};
 
   std::string page = report_page;

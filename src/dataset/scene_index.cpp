@@ -1,5 +1,6 @@
 #include "dataset/scene_index.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 
 #include <sqlite3.h>
@@ -82,6 +83,9 @@ void SceneIndex::forget(std::size_t heap) {
 }
 
 void SceneIndex::put(const HeapRecord& record) {
+  BIN_SCENES_ASSERT(std::is_sorted(record.scenes.begin(), record.scenes.end(),
+                                   [](const SceneRecord& a, const SceneRecord& b) { return a.scene < b.scene; }));
+  BIN_SCENES_ASSERT(!record.accepted || !record.scenes.empty());
   rows("begin immediate");
   try {
     forget(record.heap);

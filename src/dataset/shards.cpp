@@ -1,5 +1,6 @@
 #include "dataset/shards.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
@@ -49,6 +50,7 @@ void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t s
   }
   Temporary tar(folder.shard(shard).string());
   const auto places = write_tar(tar.path(), files);
+  BIN_SCENES_ASSERT(places.size() == files.size() && ascends(places));
   OrderedJson offsets = OrderedJson::object();
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::size_t dot = files[i].first.find('.');

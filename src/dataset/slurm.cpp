@@ -97,7 +97,8 @@ std::string submit(const SlurmJob& job, const fs::path& folder) {
   if (outcome.code == 127)
     throw environment_error("there is no sbatch", "Slurm", "submit on a machine that has Slurm (Debian: slurm-client)");
   if (outcome.code != 0)
-    throw environment_error("sbatch: " + outcome.out, "Slurm", "mend what it says; --sbatch passes options on to it");
+    throw environment_error("sbatch: " + outcome.out, "Slurm",
+                            "correct what it says; --sbatch passes options on to it");
   return outcome.out.substr(0, outcome.out.find_first_of(";\n"));
 }
 

@@ -132,7 +132,7 @@ struct Generator::State {
     scene.sensors = sensors;
     if (options.render && !sensors.empty()) {
       StageTimer timer(spent, "render");
-      result.images = rig.look(scene, request, parts, bin_model);
+      result.images = rig.render(scene, request, parts, bin_model);
     }
     scene.report.profile.merge(spent);
     if (options.prepare) options.prepare(result);

@@ -1,5 +1,6 @@
 #include "bin_scenes/gl/buffer.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
@@ -24,6 +25,7 @@ Error lost(const std::string& what) {
 
 /// Behind what passes wrote there.
 void update_barrier() {
+  BIN_SCENES_ASSERT(Device::is_current());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   ++traffic().barriers;
 }
@@ -73,7 +75,7 @@ void Storage::grow(std::size_t bytes) {
 }
 
 void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
-  assert(offset + bytes <= bytes_);
+  BIN_SCENES_ASSERT(offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
   traffic().bytes_uploaded += bytes;
@@ -81,7 +83,7 @@ void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
 }
 
 void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {
-  assert(offset + bytes <= bytes_);
+  BIN_SCENES_ASSERT(offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
   traffic().bytes_read_back += bytes;
@@ -89,7 +91,7 @@ void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {
 }
 
 void Storage::copy_from(const Storage& source, std::size_t source_offset, std::size_t offset, std::size_t bytes) {
-  assert(source_offset + bytes <= source.bytes_ && offset + bytes <= bytes_);
+  BIN_SCENES_ASSERT(source_offset + bytes <= source.bytes_ && offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
   glCopyNamedBufferSubData(source.id_, id_, static_cast<GLintptr>(source_offset), static_cast<GLintptr>(offset),
@@ -101,7 +103,7 @@ void Storage::clear() {
 }
 
 void Storage::fill(std::uint32_t word, std::size_t offset, std::size_t bytes) {
-  assert(offset % 4 == 0 && bytes % 4 == 0 && offset + bytes <= bytes_);
+  BIN_SCENES_ASSERT(offset % 4 == 0 && bytes % 4 == 0 && offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
@@ -109,10 +111,12 @@ void Storage::fill(std::uint32_t word, std::size_t offset, std::size_t bytes) {
 }
 
 void Storage::bind(unsigned binding) const {
+  BIN_SCENES_ASSERT(Device::is_current());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }
 
 void Storage::bind(unsigned binding, std::size_t offset, std::size_t bytes) const {
+  BIN_SCENES_ASSERT(id_ != 0 && offset + bytes <= bytes_ && Device::is_current());
   glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id_, static_cast<GLintptr>(offset),
                     static_cast<GLsizeiptr>(bytes));
 }
@@ -153,7 +157,7 @@ void ReadBack::request(const std::vector<Range>& ranges) {
     Range whole = ranges[i++];
     for (; i < ranges.size() && ranges[i].source == whole.source && ranges[i].offset == whole.offset + whole.bytes; ++i)
       whole.bytes += ranges[i].bytes;
-    assert(whole.offset + whole.bytes <= whole.source->bytes());
+    BIN_SCENES_ASSERT(whole.offset + whole.bytes <= whole.source->bytes());
     glCopyNamedBufferSubData(whole.source->id(), id_, static_cast<GLintptr>(whole.offset), static_cast<GLintptr>(at),
                              static_cast<GLsizeiptr>(whole.bytes));
     at += whole.bytes;

@@ -89,6 +89,24 @@ struct Context {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
+EGLContext core_context(EGLDisplay display, EGLConfig config) {
+  EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                         4,
+                         EGL_CONTEXT_MINOR_VERSION,
+                         5,
+                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                         EGL_LOSE_CONTEXT_ON_RESET,
+                         EGL_NONE};
+  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+  if (context == EGL_NO_CONTEXT) {  // a driver that does not tell of resets
+    attributes[6] = EGL_NONE;
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+  }
+  return context;
+}
+
 /// Makes a 4.5 core context without a surface and leaves it current; fills in what became of it.
 /// Displays stay initialised: another context of this process may live on the same one.
 Context open(Candidate& candidate) {
@@ -120,20 +138,7 @@ Context open(Candidate& candidate) {
       return made;
     }
   }
-  EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                         4,
-                         EGL_CONTEXT_MINOR_VERSION,
-                         5,
-                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                         EGL_LOSE_CONTEXT_ON_RESET,
-                         EGL_NONE};
-  made.context = eglCreateContext(made.display, config, EGL_NO_CONTEXT, attributes);
-  if (made.context == EGL_NO_CONTEXT) {  // a driver that does not tell of resets
-    attributes[6] = EGL_NONE;
-    made.context = eglCreateContext(made.display, config, EGL_NO_CONTEXT, attributes);
-  }
+  made.context = core_context(made.display, config);
   if (made.context == EGL_NO_CONTEXT) {
     info.detail = std::string("no OpenGL 4.5 core context: ") + egl_error();
     return made;
@@ -246,6 +251,10 @@ std::shared_ptr<Device> Device::shared() {
 
 Device& Device::current() {
   return current_here ? *current_here : *shared();
+}
+
+bool Device::is_current() {
+  return eglGetCurrentContext() != EGL_NO_CONTEXT;
 }
 
 void Device::lose() {

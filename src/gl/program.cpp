@@ -1,5 +1,6 @@
 #include "bin_scenes/gl/program.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
@@ -112,6 +113,7 @@ Program& Program::operator=(Program&& other) noexcept {
 }
 
 void Program::use() const {
+  BIN_SCENES_ASSERT(id_ != 0 && Device::is_current());
   glUseProgram(id_);
 }
 
@@ -170,6 +172,7 @@ void dispatch(const Program& program, std::size_t items, Barrier after) {
 
 void dispatch_indirect(const Program& program, const Storage& arguments, std::size_t offset, Barrier after) {
   program.use();
+  BIN_SCENES_ASSERT(offset % 4 == 0 && offset + 12 <= arguments.bytes());
   arguments.bind_indirect();
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));
   ++traffic().dispatches;

@@ -1,11 +1,14 @@
 #include "edge_uses.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 
 namespace bin_scenes::repair {
 
 std::vector<EdgeUse> edge_uses(const Mesh& mesh) {
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   std::vector<EdgeUse> uses;
   uses.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

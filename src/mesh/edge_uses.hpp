@@ -1,6 +1,7 @@
 /// Edges of a mesh with the triangles that pass along them.
 #pragma once
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/mesh/mesh.hpp"
 
 #include <cstdint>
@@ -26,6 +27,7 @@ std::vector<EdgeUse> edge_uses(const Mesh& mesh);
 /// Calls visit(first, last) for the passages of each edge.
 template <class Visit>
 void for_each_edge(const std::vector<EdgeUse>& uses, Visit&& visit) {
+  BIN_SCENES_ASSERT(std::is_sorted(uses.begin(), uses.end()));
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t j = i + 1;
     while (j < uses.size() && uses[j].same_edge(uses[i])) ++j;

@@ -106,71 +106,79 @@ std::optional<std::string> utf8_from_utf16(const std::string& bytes) {
   return text;
 }
 
-/// Refuses a header that promises more than the file can hold: assimp would believe it and ask for the memory.
-void check_promised_counts(const std::string& bytes, const std::string& format, const std::string& path) {
+void check_counts_of_off(const std::string& bytes, const std::string& path) {
   std::uint64_t promised = 0;
   std::istringstream text(bytes.substr(0, 65536));
-  if (format == "OFF") {
-    std::string word;
-    std::vector<std::string> words;
-    while (words.size() < 3 && text >> word) {
-      if (word[0] == '#') {
-        std::getline(text, word);
-      } else if (std::isdigit(static_cast<unsigned char>(word[0])) || word[0] == '-') {
-        words.push_back(word);
-      }
+  std::string word;
+  std::vector<std::string> words;
+  while (words.size() < 3 && text >> word) {
+    if (word[0] == '#') {
+      std::getline(text, word);
+    } else if (std::isdigit(static_cast<unsigned char>(word[0])) || word[0] == '-') {
+      words.push_back(word);
     }
-    for (std::size_t i = 0; i < std::min<std::size_t>(2, words.size()); ++i) {
-      if (words[i][0] == '-') throw input_error("negative count in the header: " + words[i], path, "export it again");
-      promised += std::min(std::strtoull(words[i].c_str(), nullptr, 10), 1ull << 60);
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, words.size()); ++i) {
+    if (words[i][0] == '-') throw input_error("negative count in the header: " + words[i], path, "export it again");
+    promised += std::min(std::strtoull(words[i].c_str(), nullptr, 10), 1ull << 60);
+  }
+  // assimp takes each from a line of its own, and aborts where there is none.
+  const auto ends = [&](char end) { return std::count(bytes.begin(), bytes.end(), end); };
+  const auto lines = static_cast<std::uint64_t>(1 + std::max(ends('\n'), ends('\r')));
+  if (promised > lines) {
+    throw input_error("the header promises " + words[0] + " vertices and " + (words.size() > 1 ? words[1] : "0") +
+                          " faces, but the file has only " + std::to_string(lines) + " lines",
+                      path, "the file is damaged or cut off: copy or export it again");
+  }
+}
+
+void check_counts_of_ply(const std::string& bytes, const std::string& path) {
+  std::uint64_t promised = 0;
+  std::istringstream text(bytes.substr(0, 65536));
+  std::string line;
+  const std::string header = bytes.substr(0, 65536);
+  if (header.find("\nend_header") == std::string::npos && header.find("\rend_header") == std::string::npos) {
+    throw input_error("the file is cut off or damaged: its header has no end in its first 64 KiB", path,
+                      "copy or export it again");  // assimp searches it for minutes
+  }
+  while (std::getline(text, line) && !starts_with(line, "end_header")) {
+    std::istringstream words(line);
+    std::string keyword, name;
+    std::int64_t count = 0;
+    if (!(words >> keyword >> name) || keyword != "element") continue;
+    if (!(words >> count) || count < 0) {
+      throw input_error("bad element count in the header: \"" + line + "\"", path, "export it again");
     }
-    // assimp takes each from a line of its own, and aborts where there is none.
-    const auto ends = [&](char end) { return std::count(bytes.begin(), bytes.end(), end); };
-    const auto lines = static_cast<std::uint64_t>(1 + std::max(ends('\n'), ends('\r')));
-    if (promised > lines) {
-      throw input_error("the header promises " + words[0] + " vertices and " + (words.size() > 1 ? words[1] : "0") +
-                            " faces, but the file has only " + std::to_string(lines) + " lines",
-                        path, "the file is damaged or cut off: copy or export it again");
-    }
-    return;
-  } else if (format == "PLY") {
-    std::string line;
-    const std::string header = bytes.substr(0, 65536);
-    if (header.find("\nend_header") == std::string::npos && header.find("\rend_header") == std::string::npos) {
-      throw input_error("the file is cut off or damaged: its header has no end in its first 64 KiB", path,
-                        "copy or export it again");  // assimp searches it for minutes
-    }
-    while (std::getline(text, line) && !starts_with(line, "end_header")) {
-      std::istringstream words(line);
-      std::string keyword, name;
-      std::int64_t count = 0;
-      if (!(words >> keyword >> name) || keyword != "element") continue;
-      if (!(words >> count) || count < 0) {
-        throw input_error("bad element count in the header: \"" + line + "\"", path, "export it again");
-      }
-      promised = std::max<std::uint64_t>(promised, static_cast<std::uint64_t>(count));
-    }
-  } else if (format == "STL") {
-    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-    if (first != std::string::npos && bytes.compare(first, 5, "solid") == 0) return;
-    const auto count = binary_stl_count(bytes);
-    if (!count) {
-      throw input_error("neither an ASCII STL (it does not begin with \"solid\") nor long enough for a binary one",
-                        path, "export it again");
-    }
-    const std::size_t needed = 84 + 50 * static_cast<std::size_t>(*count);
-    if (bytes.size() < needed) {
-      throw input_error("the file is cut off: its header promises " + std::to_string(*count) + " triangles, " +
-                            std::to_string(needed) + " bytes, but it has " + std::to_string(bytes.size()) + " bytes",
-                        path, "copy or export it again");
-    }
-    return;
+    promised = std::max<std::uint64_t>(promised, static_cast<std::uint64_t>(count));
   }
   if (promised > bytes.size()) {
     throw input_error("the header promises " + std::to_string(promised) + " elements, but the file has only " +
                           std::to_string(bytes.size()) + " bytes",
                       path, "the file is damaged or cut off: copy or export it again");
   }
+}
+
+void check_counts_of_stl(const std::string& bytes, const std::string& path) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && bytes.compare(first, 5, "solid") == 0) return;
+  const auto count = binary_stl_count(bytes);
+  if (!count) {
+    throw input_error("neither an ASCII STL (it does not begin with \"solid\") nor long enough for a binary one", path,
+                      "export it again");
+  }
+  const std::size_t needed = 84 + 50 * static_cast<std::size_t>(*count);
+  if (bytes.size() < needed) {
+    throw input_error("the file is cut off: its header promises " + std::to_string(*count) + " triangles, " +
+                          std::to_string(needed) + " bytes, but it has " + std::to_string(bytes.size()) + " bytes",
+                      path, "copy or export it again");
+  }
+}
+
+/// Refuses a header that promises more than the file can hold: assimp would believe it and ask for the memory.
+void check_promised_counts(const std::string& bytes, const std::string& format, const std::string& path) {
+  if (format == "OFF") check_counts_of_off(bytes, path);
+  if (format == "PLY") check_counts_of_ply(bytes, path);
+  if (format == "STL") check_counts_of_stl(bytes, path);
 }
 
 Eigen::Affine3d affine(const aiMatrix4x4& m) {
@@ -322,6 +330,35 @@ ModelFile read_model_file(const std::string& path) {
   return file;
 }
 
+namespace {
+
+/// Unit and axes that a Collada file states.
+void read_asset(const std::string& bytes, const std::string& path, MeshFile& file) {
+  collada::Asset asset;
+  try {
+    asset = collada::read_asset(bytes);
+  } catch (const std::runtime_error& error) {
+    throw input_error(error.what(), path, "export it again");
+  }
+  file.metres_per_unit = asset.metres_per_unit.value_or(1.0);
+  if (asset.up_axis != "Z_UP") {
+    // As RViz and Gazebo do, so that a marker of the file and the pose of the part agree.
+    file.flags.push_back({"up_axis", "the file says " + asset.up_axis + "; its coordinates are kept as they are",
+                          "poses refer to the file's own axes: nothing to do unless a given pose assumes z up"});
+  }
+}
+
+[[noreturn]] void refuse_without_faces(const Import& import, const std::string& path) {
+  const std::string what = import.points + import.lines > 0
+                               ? "holds " + std::to_string(import.points) + " points and " +
+                                     std::to_string(import.lines) + " lines, but no faces"
+                           : import.meshes > 0 ? "holds no faces"
+                                               : "holds no mesh";
+  throw input_error(what, path, "a part needs a closed surface of triangles: export it as a mesh");
+}
+
+}  // namespace
+
 MeshFile parse_mesh_file(const ModelFile& model) {
   const std::string& path = model.path;
   MeshFile file;
@@ -340,21 +377,7 @@ MeshFile parse_mesh_file(const ModelFile& model) {
   }
   check_promised_counts(bytes, file.format, path);
 
-  collada::Asset asset;
-  if (file.format == "DAE") {
-    try {
-      asset = collada::read_asset(bytes);
-    } catch (const std::runtime_error& error) {
-      throw input_error(error.what(), path, "export it again");
-    }
-    file.metres_per_unit = asset.metres_per_unit.value_or(1.0);
-    if (asset.up_axis != "Z_UP") {
-      // As RViz and Gazebo do, so that a marker of the file and the pose of the part agree.
-      file.flags.push_back({"up_axis", "the file says " + asset.up_axis + "; its coordinates are kept as they are",
-                            "poses refer to the file's own axes: nothing to do unless a given pose assumes z up"});
-    }
-  }
-
+  if (file.format == "DAE") read_asset(bytes, path, file);
   Import import = import_contained(bytes, file.format);
   if (!import.complaint.empty() && file.format == "DAE") {
     const std::string complaint = import.complaint;
@@ -370,16 +393,9 @@ MeshFile parse_mesh_file(const ModelFile& model) {
   }
   if (!import.complaint.empty()) {
     throw input_error("cannot be read as " + file.format + ": " + import.complaint, path,
-                      "mend what is named or export it again");
+                      "correct what is named or export it again");
   }
-  if (import.mesh.triangles.empty()) {
-    const std::string what = import.points + import.lines > 0
-                                 ? "holds " + std::to_string(import.points) + " points and " +
-                                       std::to_string(import.lines) + " lines, but no faces"
-                             : import.meshes > 0 ? "holds no faces"
-                                                 : "holds no mesh";
-    throw input_error(what, path, "a part needs a closed surface of triangles: export it as a mesh");
-  }
+  if (import.mesh.triangles.empty()) refuse_without_faces(import, path);
   if (import.points + import.lines > 0) {
     file.flags.push_back({"not_faces",
                           std::to_string(import.points) + " points and " + std::to_string(import.lines) +

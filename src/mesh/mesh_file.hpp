@@ -16,7 +16,7 @@ struct MeshFile {
   std::string format;  ///< "STL", "OBJ", "PLY", "DAE", "OFF"
   std::size_t meshes = 0;
   std::optional<double> metres_per_unit;  ///< where the file states it
-  std::vector<Flag> flags;                ///< what had to be mended in memory, what was left out
+  std::vector<Flag> flags;                ///< what had to be repaired in memory, what was left out
 };
 
 /// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where

@@ -172,7 +172,7 @@ class Repair {
     if (agreement.conflicts > 0) {
       throw input_error("the surface has only one side (like a Moebius strip): " + count(agreement.conflicts, "edge") +
                             " cannot be given an outside",
-                        where_, "a part must be a solid: mend it in the modeller");
+                        where_, "a part must be a solid: repair it in the modeller");
     }
     if (agreement.turned > 0) {
       flag("winding_unified", count(agreement.turned, "triangle") + " turned to face the same way as their neighbours",

@@ -1,5 +1,6 @@
 #include "unite.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 #include "shells.hpp"
@@ -262,6 +263,7 @@ bool unite(Mesh& mesh, double tolerance) {
     Mesh united = Union(mesh, share * tolerance).boundary();
     if (united.empty()) return false;
     if (!close(united, share * tolerance)) continue;
+    BIN_SCENES_ASSERT(indices_in_range(united) && open_edges(united) == 0);
     mesh = std::move(united);
     return true;
   }

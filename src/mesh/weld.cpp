@@ -1,5 +1,7 @@
 #include "weld.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -108,6 +110,7 @@ Welded weld(Mesh& mesh, double tolerance) {
   result.triangles =
       remove_triangles(mesh, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   drop_unused_vertices(mesh);
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   return result;
 }
 
@@ -131,6 +134,8 @@ Duplicates remove_duplicates(Mesh& mesh, bool keep_one_side) {
   }
   std::sort(keys.begin(), keys.end(),
             [](const Key& a, const Key& b) { return std::tie(a.sorted, a.triangle) < std::tie(b.sorted, b.triangle); });
+  BIN_SCENES_ASSERT(
+      std::is_sorted(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.sorted < b.sorted; }));
   Duplicates result;
   std::vector<char> keep(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < keys.size();) {

@@ -164,16 +164,20 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
   return left;
 }
 
-}  // namespace
-
-ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
-  const Mesh& mesh = query.mesh();
-  if (mesh.empty()) throw input_error("a mesh without triangles has no hull", "convex_hulls", "give a closed mesh");
+void check_options(const HullOptions& options) {
   if (options.max_hulls < 1 || options.max_vertices < 4 || !(options.max_error > 0) ||
       !(options.max_volume_error > 0)) {
     throw input_error("hull options out of range", "HullOptions",
                       "use max_hulls >= 1, max_vertices >= 4 and errors > 0");
   }
+}
+
+}  // namespace
+
+ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
+  const Mesh& mesh = query.mesh();
+  if (mesh.empty()) throw input_error("a mesh without triangles has no hull", "convex_hulls", "give a closed mesh");
+  check_options(options);
   const double volume = mass_properties(mesh).volume;
   ConvexHulls best;
   double excess = std::numeric_limits<double>::infinity();  // its larger error / what is allowed

@@ -4,6 +4,7 @@
 #include "field_sign.hpp"
 #include "triangle.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 
@@ -57,6 +58,7 @@ struct EdgeBox {
 class FieldBuilder {
  public:
   FieldBuilder(const MeshQuery& query, DistanceField& field) : query_(query), field_(field) {
+    BIN_SCENES_ASSERT(field.cell > 0.0 && each_is(field.nodes, [](int count) { return count >= 2; }));
     stride_ = {1, field.nodes[0], static_cast<std::ptrdiff_t>(field.nodes[0]) * field.nodes[1]};
     nodes_.resize(static_cast<std::size_t>(stride_[2]) * field.nodes[2]);
     exact_.resize(nodes_.size());
@@ -74,6 +76,7 @@ class FieldBuilder {
     in_slabs([&](int first, int end) { refine(first, end); });
     sign_field(field_, query_);
     for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
+    BIN_SCENES_ASSERT(each_is(field_.values, [](float value) { return std::isfinite(value); }));
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "bin_scenes/part/mass_properties.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace bin_scenes {
@@ -36,6 +38,8 @@ MassProperties mass_properties(const Mesh& mesh) {
   if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
   result.principal = solver.eigenvalues();
   result.principal_axes = Quat(axes).normalized();
+  BIN_SCENES_ASSERT(result.center.allFinite() && is_unit(result.principal_axes));
+  BIN_SCENES_ASSERT(result.volume < 0.0 || result.principal[0] <= result.principal[2]);
   return result;
 }
 

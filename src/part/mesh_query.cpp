@@ -1,5 +1,7 @@
 #include "bin_scenes/part/mesh_query.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "ray_parity.hpp"
 
 #include <algorithm>
@@ -284,7 +286,11 @@ struct MeshQuery::Tree {
   }
 };
 
-MeshQuery::MeshQuery(Mesh mesh) : tree_(std::make_unique<Tree>(std::move(mesh))) {}
+MeshQuery::MeshQuery(Mesh mesh) {
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
+  BIN_SCENES_ASSERT(each_is(mesh.vertices, [](const Vec3& v) { return v.allFinite(); }));
+  tree_ = std::make_unique<Tree>(std::move(mesh));
+}
 MeshQuery::~MeshQuery() = default;
 MeshQuery::MeshQuery(MeshQuery&&) noexcept = default;
 MeshQuery& MeshQuery::operator=(MeshQuery&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include "shells.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/features.hpp"
@@ -252,6 +253,7 @@ std::vector<SurfaceSample> clustered(const std::vector<SurfaceSample>& samples, 
   std::vector<std::uint32_t> order(samples.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   cluster_order(samples, order, 0, order.size(), cluster);
+  BIN_SCENES_ASSERT(order.size() == samples.size());
   std::vector<SurfaceSample> sorted;
   sorted.reserve(samples.size());
   for (const std::uint32_t i : order) sorted.push_back(samples[i]);
@@ -290,6 +292,8 @@ SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options) 
     add_farthest(set.samples, face_candidates(mesh, touchable, area, count), wanted, spacing, box);
   }
   set.samples = clustered(set.samples, static_cast<std::size_t>(set.cluster));
+  BIN_SCENES_ASSERT(
+      each_is(set.samples, [](const SurfaceSample& s) { return s.point.allFinite() && is_unit(s.normal); }));
   return set;
 }
 

@@ -1,5 +1,7 @@
 #include "pour/energy_audit.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,6 +40,7 @@ EnergyAudit::Body EnergyAudit::body_at(std::size_t body, const BodyState& state)
 }
 
 void EnergyAudit::enter(std::size_t body, const BodyState& state) {
+  BIN_SCENES_ASSERT(body < bodies_.size() && is_rigid(state.pose));
   bodies_[body] = body_at(body, state);
 }
 
@@ -58,7 +61,8 @@ DisjointSets EnergyAudit::groups(const std::vector<Reach>& reaches) const {
   return groups;
 }
 
-void EnergyAudit::look(double time, const std::vector<BodyState>& states, bool driven) {
+void EnergyAudit::observe(double time, const std::vector<BodyState>& states, bool driven) {
+  BIN_SCENES_ASSERT(time >= last_);
   const double seconds = time - last_;
   last_ = time;
   if (driven) {

@@ -1,8 +1,8 @@
 /// Energy audit: detects mechanical energy that contacts created, the sign of an explosion.
 ///
 /// Contacts and friction can only remove mechanical energy, so a group of parts that may have touched cannot gain any
-/// between two looks; a part gains only what its neighbours lose. Parts within reach of each other form a group, and
-/// the gain of a part is limited to the gain of its group:
+/// between two observations; a part gains only what its neighbours lose. Parts within reach of each other form a group,
+/// and the gain of a part is limited to the gain of its group:
 ///
 ///     gain of part i = min(E_i now - E_i before, sum of the same over its group) / (m_i g d_i)
 ///
@@ -37,8 +37,8 @@ class EnergyAudit {
   void enter(std::size_t body, const BodyState& state);
   void leave(std::size_t body) { bodies_[body].in = false; }
   /// Bodies that never came in are left out, whatever their states. `driven`: something that follows a path may have
-  /// worked on them since the last look, and all begin anew.
-  void look(double time, const std::vector<BodyState>& states, bool driven = false);
+  /// worked on them since the last observation, and all begin anew.
+  void observe(double time, const std::vector<BodyState>& states, bool driven = false);
 
   const EnergyReport& worst() const { return worst_; }
   std::vector<Flag> flags() const;
@@ -46,12 +46,12 @@ class EnergyAudit {
  private:
   struct Body {
     bool in = false, fixed = false;
-    double kinetic = 0.0, potential = 0.0;  ///< J, at the last look
-    Vec3 center = Vec3::Zero();             ///< of mass, at the last look
+    double kinetic = 0.0, potential = 0.0;  ///< J, at the last observation
+    Vec3 center = Vec3::Zero();             ///< of mass, at the last observation
     double speed = 0.0;                     ///< m/s
     double swift = 0.0;                     ///< m/s, of its fastest point
   };
-  /// Ball in which a body was since the last look.
+  /// Ball in which a body was since the last observation.
   struct Reach {
     std::size_t body;
     Vec3 center;
@@ -62,7 +62,7 @@ class EnergyAudit {
   DisjointSets groups(const std::vector<Reach>& reaches) const;
   void compare_gains(DisjointSets& group, const std::vector<Reach>& reaches, double time);
   void compare_speeds(DisjointSets& group, const std::vector<Reach>& reaches, double seconds, double time);
-  /// What a part must be as fast as to be looked at: its energy is then that of a flagged gain (m/s).
+  /// What a part must be as fast as to be examined: its energy is then that of a flagged gain (m/s).
   double least_speed(std::size_t body) const;
 
   const WorldDef& world_;

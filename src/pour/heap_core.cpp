@@ -2,6 +2,7 @@
 
 #include "solver/step_limit.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include <algorithm>
@@ -106,6 +107,8 @@ void HeapCore::recover() {
 }
 
 void HeapCore::insert(std::size_t body, const BodyState& state) {
+  BIN_SCENES_ASSERT(body < states_.size() && is_rigid(state.pose));
+  BIN_SCENES_ASSERT(place_[body] != Place::in);
   solver_.insert(id_, body, state);
   if (audit_) audit_->enter(body, state);
   states_[body] = state;
@@ -164,6 +167,7 @@ void HeapCore::start_rain() {
 const std::vector<BodyState>& HeapCore::states() {
   if (fresh_) return states_;
   const std::vector<BodyState> now = solver_.states(id_);
+  BIN_SCENES_ASSERT(now.size() >= states_.size());
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in && now[b].pose.finite()) states_[b] = now[b];
   fresh_ = true;
@@ -202,6 +206,7 @@ void HeapCore::update_rest() {
     if (!moves(b)) continue;
     const PartModel& part = this->part(b);
     const bool finite = now[b].pose.finite();
+    BIN_SCENES_ASSERT(!finite || is_unit(now[b].pose.orientation));
     if (finite) states_[b] = now[b];
     if (!finite || outside(states_[b].pose * part.mass().center)) {
       solver_.remove(id_, b);
@@ -209,10 +214,10 @@ void HeapCore::update_rest() {
       audit_->leave(b);
       continue;
     }
-    rest_.look(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
-               {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
+    rest_.observe(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
+                  {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
-  audit_->look(time_, states_, follows());
+  audit_->observe(time_, states_, follows());
   fresh_ = true;
 }
 
@@ -300,12 +305,12 @@ void HeapCore::cut_walls() {
   set_solver_phase();
 }
 
-void HeapCore::look() {
+void HeapCore::advance() {
   update_rest();
   insert_waiting();
   if (follows() && !end_motion()) return;
   const Stage before = settling_.stage();
-  if (!settling_.look(*this, time_) || settling_.done()) return;
+  if (!settling_.advance(*this, time_) || settling_.done()) return;
   set_solver_phase();
   poured_ = before == Stage::pour;
 }
@@ -392,6 +397,7 @@ Scene HeapCore::scene() {
                             std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +
                                 " parts found no room below the rim or no time to enter",
                             "ask for fewer parts, a larger bin, or more simulated time"});
+  BIN_SCENES_ASSERT(std::is_sorted(report.escaped.begin(), report.escaped.end()));
   report.state_hash = state_hash(scene.parts);
   return scene;
 }

@@ -45,7 +45,7 @@ class HeapCore final : private HeapView {
   void advanced(double seconds) { time_ += seconds, fresh_ = false; }
   /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice, then
   /// change_world(). Different heaps of a solver may be looked at by different threads at once.
-  void look();
+  void advance();
   /// Once all parts are in: the world without raised walls, which may be a new one. By the solver's thread.
   void change_world();
   void update_rest();  ///< rest and escape alone, at the end of a set time

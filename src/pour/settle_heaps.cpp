@@ -109,7 +109,7 @@ class Run {
       return true;
     });
     if (group.left == 0) {
-      look(group);
+      advance(group);
       tell(group);
       leave_if(group, [](HeapCore& heap) { return heap.over(); });
     }
@@ -117,10 +117,10 @@ class Run {
   }
 
   /// On all cores: on a fast device, one thread could not look at all worlds in the time that it takes for a slice.
-  static void look(Group& group) {
+  static void advance(Group& group) {
     const auto look_at = [&, flag = cancel_flag()](std::size_t i) {
       const CancelScope scope(flag);
-      group.running[i].heap->look();
+      group.running[i].heap->advance();
     };
     if (group.running.size() == 1)
       look_at(0);

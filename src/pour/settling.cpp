@@ -81,7 +81,7 @@ void Settling::start(Stage stage) {
   if (stage != Stage::mend) friction_ = 1.0;
   proofs_ = 0;
   enter(stage, 0.0);
-  looked_ = 0.0;
+  advanced_ = 0.0;
 }
 
 void Settling::enter(Stage stage, double time) {
@@ -93,10 +93,10 @@ void Settling::enter(Stage stage, double time) {
   proofs_ += stage == Stage::probe || stage == Stage::prove;
 }
 
-bool Settling::look(const HeapView& heap, double time) {
+bool Settling::advance(const HeapView& heap, double time) {
   if (done()) return false;
-  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, looked_ - begun_, proofs_};
-  looked_ = time;
+  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, proofs_};
+  advanced_ = time;
   for (const Transition& t : transitions) {
     if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
     enter(t.to, time);

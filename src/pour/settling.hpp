@@ -79,9 +79,9 @@ class Settling {
   /// For a solver that has no stages: it is done when it has settled.
   void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
   /// The current stage goes on, and its clock starts again at 0.
-  void start_clock() { begun_ = looked_ = 0.0; }
+  void start_clock() { begun_ = advanced_ = 0.0; }
   /// Applies the transitions at `time` (s since the start). Returns whether a stage began, the same one or another.
-  bool look(const HeapView& heap, double time);
+  bool advance(const HeapView& heap, double time);
 
   Stage stage() const { return stage_; }
   /// The solver's phase in this stage. Friction that was reduced once stays reduced to the end.
@@ -100,7 +100,7 @@ class Settling {
   bool ignored_ = false;                            ///< the solver has no stages
   Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
   double begun_ = 0.0;                              ///< s: start of the stage
-  double looked_ = 0.0;                             ///< s: the last look
+  double advanced_ = 0.0;                           ///< s: the last advance()
   int proofs_ = 0;                                  ///< times that probe or prove began
   double friction_ = 1.0;                           ///< share of friction that holds; never rises again
 };

@@ -1,15 +1,15 @@
 #include "convex_cell.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
 
 namespace bin_scenes {
 
-namespace {
-
 /// What one cut needs on the way.
-struct Clipping {
+struct ConvexCell::Clipping {
   struct Cut {
     int first, second, vertex;
   };
@@ -19,8 +19,6 @@ struct Clipping {
   std::vector<Cut> cuts;
   std::vector<std::pair<double, int>> order;
 };
-
-}  // namespace
 
 ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
   for (int i = 0; i < 8; ++i) {
@@ -33,9 +31,8 @@ ConvexCell::ConvexCell(const Aabb& box) : tolerance_(1e-10 * box.diagonal()) {
   loops_ = {0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
 }
 
-void ConvexCell::clip(const Plane& plane) {
-  if (empty()) return;
-  static thread_local Clipping c;  // kept for its memory: cells are cut by hundreds of planes
+/// Of the vertices above the plane; whether some lie below it, and some above.
+std::pair<bool, bool> ConvexCell::measure_heights(const Plane& plane, Clipping& c) const {
   c.height.resize(vertices_.size());
   bool any_in = false, any_out = false;
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
@@ -44,6 +41,29 @@ void ConvexCell::clip(const Plane& plane) {
     any_in |= c.height[v] < 0.0;
     any_out |= c.height[v] > 0.0;
   }
+  return {any_in, any_out};
+}
+
+/// The cap is convex: its corners in order of angle about their middle.
+void ConvexCell::add_cap(const Plane& plane, Clipping& c) {
+  if (c.cap.size() < 3) return;
+  Vec3 middle = Vec3::Zero();
+  for (const int v : c.cap) middle += c.kept[v] / static_cast<double>(c.cap.size());
+  const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
+  c.order.clear();
+  for (const int v : c.cap) {
+    const Vec3 arm = c.kept[v] - middle;
+    c.order.emplace_back(std::atan2(y.dot(arm), x.dot(arm)), v);
+  }
+  std::sort(c.order.begin(), c.order.end());
+  faces_.push_back({plane, static_cast<int>(c.loops.size()), static_cast<int>(c.order.size())});
+  for (const auto& [angle, v] : c.order) c.loops.push_back(v);
+}
+
+void ConvexCell::clip(const Plane& plane) {
+  if (empty()) return;
+  static thread_local Clipping c;  // kept for its memory: cells are cut by hundreds of planes
+  const auto [any_in, any_out] = measure_heights(plane, c);
   if (!any_out) return;
   if (!any_in) {
     faces_.clear();
@@ -96,22 +116,10 @@ void ConvexCell::clip(const Plane& plane) {
   }
   faces_.resize(stay);
 
-  // The cap is convex: its corners in order of angle about their middle.
-  if (c.cap.size() >= 3) {
-    Vec3 middle = Vec3::Zero();
-    for (const int v : c.cap) middle += c.kept[v] / static_cast<double>(c.cap.size());
-    const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
-    c.order.clear();
-    for (const int v : c.cap) {
-      const Vec3 arm = c.kept[v] - middle;
-      c.order.emplace_back(std::atan2(y.dot(arm), x.dot(arm)), v);
-    }
-    std::sort(c.order.begin(), c.order.end());
-    faces_.push_back({plane, static_cast<int>(c.loops.size()), static_cast<int>(c.order.size())});
-    for (const auto& [angle, v] : c.order) c.loops.push_back(v);
-  }
+  add_cap(plane, c);
   std::swap(vertices_, c.kept);
   std::swap(loops_, c.loops);
+  BIN_SCENES_ASSERT(each_is(loops_, [&](int v) { return v >= 0 && v < static_cast<int>(vertices_.size()); }));
 }
 
 std::vector<ConvexCell::Edge> ConvexCell::edges(const std::vector<char>& wanted) const {

@@ -3,6 +3,7 @@
 
 #include "bin_scenes/part/hull_geometry.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace bin_scenes {
@@ -32,6 +33,10 @@ class ConvexCell {
   const Vec3& lowest(const Vec3& direction) const;
 
  private:
+  struct Clipping;
+  std::pair<bool, bool> measure_heights(const Plane& plane, Clipping& c) const;
+  void add_cap(const Plane& plane, Clipping& c);
+
   double tolerance_;
   std::vector<Vec3> vertices_;
   std::vector<Face> faces_;

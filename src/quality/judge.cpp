@@ -1,5 +1,6 @@
 #include "core/in_parallel.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "gap.hpp"
 
@@ -18,6 +19,7 @@ std::vector<Placed> placed_parts(const Scene& scene, const std::vector<PartModel
   std::vector<Placed> placed;
   for (const ScenePart& part : scene.parts) {
     if (!is_there(part.state) || !part.pose.finite()) continue;
+    BIN_SCENES_ASSERT(part.line < models.size() && is_unit(part.pose.orientation));
     const PartModel& model = *models[part.line];
     Placed p{&part, &model.query(), model.diagonal(), {}};
     for (const Vec3& v : model.corners()) p.box.extend(part.pose * v);
@@ -54,6 +56,7 @@ std::vector<Overlapping> near_pairs(const std::vector<Placed>& placed) {
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const Overlapping& p, const Overlapping& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  BIN_SCENES_ASSERT(each_is(pairs, [&](const Overlapping& p) { return p.a < p.b && p.b < placed.size(); }));
   return pairs;
 }
 
@@ -63,6 +66,7 @@ std::vector<Overlapping> overlapping_pairs(const std::vector<Placed>& placed) {
   in_parallel(pairs.size(), [&](std::size_t i) {
     const Placed &a = placed[pairs[i].a], &b = placed[pairs[i].b];
     pairs[i].found = penetration(*a.query, a.part->pose, *b.query, b.part->pose);
+    BIN_SCENES_ASSERT(pairs[i].found.depth >= 0.0);
   });
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const Overlapping& p) { return p.found.depth <= 0.0; }),
               pairs.end());
@@ -106,6 +110,101 @@ std::string listed(const std::vector<int>& ids) {
   return text;
 }
 
+using WorstPair = Worst<std::array<int, 2>>;
+
+/// Fills in the overlap of pairs. Returns the worst pair by its share of the smaller diagonal.
+WorstPair measure_pairs(PenetrationReport& report, const std::vector<Placed>& placed,
+                        const std::vector<Overlapping>& overlaps) {
+  std::vector<double> depths, relative;
+  WorstPair deepest{0.0, {-1, -1}}, worst;
+  for (const Overlapping& pair : overlaps) {
+    const Placed &a = placed[pair.a], &b = placed[pair.b];
+    const double depth = pair.found.depth, unit = std::min(a.diagonal, b.diagonal);
+    if (depth <= noise * unit) continue;
+    deepest.add(depth, {a.part->id, b.part->id});
+    worst.add(depth / unit, {a.part->id, b.part->id});
+    depths.push_back(depth);
+    relative.push_back(depth / unit);
+  }
+  static_cast<Quantiles&>(report) = quantiles(depths);
+  const Quantiles shares = quantiles(relative);
+  report.pair = deepest.what;
+  report.p95_relative = shares.p95;
+  report.max_relative = shares.max;
+  report.pairs = depths.size();
+  return worst;
+}
+
+/// Fills in the overlap with the bin. Returns the worst part by its share of the diagonal.
+Worst<int> measure_bin(PenetrationReport& report, const std::vector<Placed>& placed, const Bin& bin,
+                       const MeshQuery* bin_mesh) {
+  const std::vector<double> into_bin = depths_in_bin(placed, bin, bin_mesh);
+  std::vector<double> depths;
+  Worst<int> deepest{0.0, -1}, worst;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    deepest.add(into_bin[i], placed[i].part->id);
+    worst.add(into_bin[i] / placed[i].diagonal, placed[i].part->id);
+    if (into_bin[i] > noise * placed[i].diagonal) depths.push_back(into_bin[i]);
+  }
+  const Quantiles in_bin = quantiles(depths);
+  report.bin_median = in_bin.median;
+  report.bin_p95 = in_bin.p95;
+  report.bin_max = deepest.value;
+  report.bin_part = deepest.what;
+  return worst;
+}
+
+/// Fills in how far every resting part could fall. Returns the worst part by its share of the diagonal.
+Worst<int> measure_gaps(Report& report, const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
+                        const Request& request, const MeshQuery* bin_mesh) {
+  Worst<int> worst;
+  if (!(request.gravity.norm() > 0.0)) return worst;
+  const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+  std::vector<double> finite;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!std::isfinite(ways[i])) continue;
+    finite.push_back(ways[i]);
+    worst.add(ways[i] / placed[i].diagonal, placed[i].part->id);
+  }
+  report.gap = quantiles(finite);
+  return worst;
+}
+
+/// Why contacts are not to be trusted: energy from nowhere, parts thrown out.
+void add_energy_reasons(Report& report, const Acceptance& accept) {
+  char text[160];
+  if (report.energy.gain > accept.energy) {
+    std::snprintf(text, sizeof text,
+                  "part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
+                  report.energy.part, report.energy.gain, report.energy.time, accept.energy);
+    report.reasons.push_back(text);
+  }
+  if (const auto& thrown = report.energy.thrown; thrown.ratio > accept.speed) {
+    std::snprintf(
+        text, sizeof text,
+        "part %d was thrown at %.3g times the speed of what was near it by %.3f s, which is above accept.speed %.3g",
+        thrown.part, thrown.ratio, thrown.time, accept.speed);
+    report.reasons.push_back(text);
+  }
+}
+
+/// Why the scene is not what was asked for: parts that are missing or still move.
+void add_state_reasons(Scene& scene, const Request& request) {
+  Report& report = scene.report;
+  const auto is_in = [](const ScenePart& p) { return is_there(p.state) && p.state != PartState::fixed; };
+  if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
+    report.reasons.push_back("nothing was poured: no part found room below the rim");
+  }
+  if (!report.escaped.empty() && !request.accept.escaped) report.reasons.push_back(listed(report.escaped) + " escaped");
+  if (report.at_rest || request.seconds) return;
+  const auto moving = std::count_if(scene.parts.begin(), scene.parts.end(),
+                                    [](const ScenePart& p) { return p.state == PartState::moving; });
+  char time[32];
+  std::snprintf(time, sizeof time, "%.3g", report.simulated_s);
+  report.reasons.push_back("not at rest after " + std::string(time) + " s: " + std::to_string(moving) +
+                           (moving == 1 ? " part moving" : " parts moving"));
+}
+
 }  // namespace
 
 void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
@@ -115,99 +214,26 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
   report.gap = {};
   report.reasons.clear();
   const std::vector<Placed> placed = placed_parts(scene, parts);
-
-  // Overlap of pairs.
   const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
-  std::vector<double> depths, relative;
-  Worst<std::array<int, 2>> deepest{0.0, {-1, -1}}, worst_pair;
-  for (const Overlapping& pair : overlaps) {
-    const Placed &a = placed[pair.a], &b = placed[pair.b];
-    const double depth = pair.found.depth, unit = std::min(a.diagonal, b.diagonal);
-    if (depth <= noise * unit) continue;
-    deepest.add(depth, {a.part->id, b.part->id});
-    worst_pair.add(depth / unit, {a.part->id, b.part->id});
-    depths.push_back(depth);
-    relative.push_back(depth / unit);
-  }
-  static_cast<Quantiles&>(report.penetration) = quantiles(depths);
-  const Quantiles shares = quantiles(relative);
-  report.penetration.pair = deepest.what;
-  report.penetration.p95_relative = shares.p95;
-  report.penetration.max_relative = shares.max;
-  report.penetration.pairs = depths.size();
-
-  // Overlap with the bin.
   const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
-  const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
-  std::vector<double> bin_depths;
-  Worst<int> deepest_in_bin{0.0, -1}, worst_in_bin;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    deepest_in_bin.add(into_bin[i], placed[i].part->id);
-    worst_in_bin.add(into_bin[i] / placed[i].diagonal, placed[i].part->id);
-    if (into_bin[i] > noise * placed[i].diagonal) bin_depths.push_back(into_bin[i]);
-  }
-  const Quantiles in_bin = quantiles(bin_depths);
-  report.penetration.bin_median = in_bin.median;
-  report.penetration.bin_p95 = in_bin.p95;
-  report.penetration.bin_max = deepest_in_bin.value;
-  report.penetration.bin_part = deepest_in_bin.what;
+  const WorstPair pair = measure_pairs(report.penetration, placed, overlaps);
+  const Worst<int> in_bin = measure_bin(report.penetration, placed, request.bin, bin_mesh);
+  const Worst<int> gap = measure_gaps(report, placed, overlaps, request, bin_mesh);
 
-  // Free way down of every resting part.
-  Worst<int> worst_gap;
-  if (request.gravity.norm() > 0.0) {
-    const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
-    std::vector<double> finite;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      if (!std::isfinite(ways[i])) continue;
-      finite.push_back(ways[i]);
-      worst_gap.add(ways[i] / placed[i].diagonal, placed[i].part->id);
-    }
-    report.gap = quantiles(finite);
+  const Acceptance& accept = request.accept;
+  const auto too_deep = [&](double share, const std::string& of) {
+    if (share <= accept.penetration) return;
+    report.reasons.push_back("penetration " + percent(share) + " of part " + of + " is above accept.penetration " +
+                             percent(accept.penetration));
+  };
+  too_deep(pair.value, std::to_string(pair.what[0]) + " and " + std::to_string(pair.what[1]));
+  too_deep(in_bin.value, std::to_string(in_bin.what) + " and the bin");
+  if (gap.value > accept.gap) {
+    report.reasons.push_back("part " + std::to_string(gap.what) + " could fall by " + percent(gap.value) +
+                             " of its size, which is above accept.gap " + percent(accept.gap));
   }
-
-  // Verdict.
-  if (worst_pair.value > request.accept.penetration) {
-    report.reasons.push_back("penetration " + percent(worst_pair.value) + " of part " +
-                             std::to_string(worst_pair.what[0]) + " and " + std::to_string(worst_pair.what[1]) +
-                             " is above accept.penetration " + percent(request.accept.penetration));
-  }
-  if (worst_in_bin.value > request.accept.penetration) {
-    report.reasons.push_back("penetration " + percent(worst_in_bin.value) + " of part " +
-                             std::to_string(worst_in_bin.what) + " and the bin is above accept.penetration " +
-                             percent(request.accept.penetration));
-  }
-  if (worst_gap.value > request.accept.gap) {
-    report.reasons.push_back("part " + std::to_string(worst_gap.what) + " could fall by " + percent(worst_gap.value) +
-                             " of its size, which is above accept.gap " + percent(request.accept.gap));
-  }
-  if (report.energy.gain > request.accept.energy) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "part %d gained %.3g m g d of energy from nowhere by %.3f s, which is above accept.energy %.3g",
-                  report.energy.part, report.energy.gain, report.energy.time, request.accept.energy);
-    report.reasons.push_back(text);
-  }
-  if (const auto& thrown = report.energy.thrown; thrown.ratio > request.accept.speed) {
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "part %d was thrown at %.3g times the speed of what was near it by %.3f s, which is above accept.speed %.3g",
-        thrown.part, thrown.ratio, thrown.time, request.accept.speed);
-    report.reasons.push_back(text);
-  }
-  const auto is_in = [](const ScenePart& p) { return is_there(p.state) && p.state != PartState::fixed; };
-  if (!report.not_poured.empty() && std::none_of(scene.parts.begin(), scene.parts.end(), is_in)) {
-    report.reasons.push_back("nothing was poured: no part found room below the rim");
-  }
-  if (!report.escaped.empty() && !request.accept.escaped) report.reasons.push_back(listed(report.escaped) + " escaped");
-  if (!report.at_rest && !request.seconds) {
-    const auto moving = std::count_if(scene.parts.begin(), scene.parts.end(),
-                                      [](const ScenePart& p) { return p.state == PartState::moving; });
-    char time[32];
-    std::snprintf(time, sizeof time, "%.3g", report.simulated_s);
-    report.reasons.push_back("not at rest after " + std::string(time) + " s: " + std::to_string(moving) +
-                             (moving == 1 ? " part moving" : " parts moving"));
-  }
+  add_energy_reasons(report, accept);
+  add_state_reasons(scene, request);
   report.accepted = report.reasons.empty();
 }
 
@@ -239,6 +265,7 @@ DriftReport drift(const Scene& before, const Scene& after, const std::vector<Par
     const auto end =
         std::find_if(after.parts.begin(), after.parts.end(), [&](const ScenePart& p) { return p.id == start.id; });
     if (end == after.parts.end() || !end->pose.finite()) continue;
+    BIN_SCENES_ASSERT(start.line < parts.size());
     const Vec3& center = parts[start.line]->mass().center;
     moves.push_back((end->pose * center - start.pose * center).norm());
     turns.push_back(start.pose.orientation.angularDistance(end->pose.orientation));

@@ -1,6 +1,7 @@
 /// Walks over the triangle trees of two placed meshes at once. All results are in the frame of the first mesh.
 #pragma once
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -92,6 +93,7 @@ class BoxMotion {
 template <class Bound, class Limit, class Leaf>
 void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, Bound&& bound, Limit&& limit,
           Leaf&& leaf) {
+  BIN_SCENES_ASSERT(is_rigid(pose_a) && is_rigid(pose_b));
   const std::vector<MeshQuery::Node>&na = a.nodes(), &nb = b.nodes();
   if (na.empty() || nb.empty()) return;
   PlacedLeaf leaf_a(a, pose_a), leaf_b(b, pose_b);

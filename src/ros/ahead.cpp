@@ -70,7 +70,7 @@ void Ahead::run() {
       hooks.cancel = &unwanted_;
       const CancelScope scope(&unwanted_);
       made = maker.pour(request, hooks);
-      publication_.look(made, false, hooks);
+      publication_.render(made, false, hooks);
     } catch (...) {
       failed = std::current_exception();
     }

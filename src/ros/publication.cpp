@@ -123,7 +123,7 @@ std::vector<bool> Publication::wanted(const std::vector<Sensor>& sensors) const 
   return wanted;
 }
 
-void Publication::look(MadeScene& made, bool all, const RunHooks& hooks) {
+void Publication::render(MadeScene& made, bool all, const RunHooks& hooks) {
   const std::vector<Sensor>& sensors = made.scene.sensors;
   const std::vector<bool> these =
       all ? std::vector<bool>(sensors.size(), true) : thread_.call([&] { return wanted(sensors); });
@@ -135,7 +135,7 @@ void Publication::look(MadeScene& made, bool all, const RunHooks& hooks) {
     hooks.progress(progress);
   }
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.look(made.scene, made.request, made.parts, made.bin_model, these, made.images);
+  rig_.render(made.scene, made.request, made.parts, made.bin_model, these, made.images);
 }
 
 Publication::Counts Publication::counts() const {
@@ -146,7 +146,7 @@ bin_scenes_msgs::Scene Publication::show(MadeScene made) {
   return thread_.call([&] {
     // What may fail comes first: the scene before is there until this one is whole.
     Shown next{std::move(made), {}, {}};
-    make_images(next);  // for those who came since look()
+    make_images(next);  // for those who came since render()
     next.messages =
         scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
     shown_ = std::move(next);
@@ -197,7 +197,7 @@ bool Publication::make_images(Shown& shown) {
   const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
   if (count == 0) return false;
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.look(made.scene, made.request, made.parts, made.bin_model, missing, made.images);
+  rig_.render(made.scene, made.request, made.parts, made.bin_model, missing, made.images);
   renderings_ += count;
   return true;
 }

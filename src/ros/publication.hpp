@@ -28,7 +28,7 @@ class Publication {
   ~Publication();
 
   /// Makes the images of a scene to come that somebody listens to, or all of them; in the calling thread.
-  void look(MadeScene& made, bool all, const RunHooks& hooks);
+  void render(MadeScene& made, bool all, const RunHooks& hooks);
   /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays.
   bin_scenes_msgs::Scene show(MadeScene made);
   void set_tf(double rate, double span) { frames_.set(rate, span); }

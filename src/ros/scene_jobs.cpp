@@ -134,7 +134,7 @@ std::shared_ptr<Job> SceneJobs::submit(const std::string& name, Make make, Answe
 Outcome SceneJobs::run(Job& job, const Make& make, bool render) {
   try {
     MadeScene made = make(job.hooks());
-    publication_.look(made, render, job.hooks());
+    publication_.render(made, render, job.hooks());
     job.commit();
     return show(std::move(made));
   } catch (...) {

@@ -155,7 +155,7 @@ void visit(Visitor& v, Pour& pour) {
   v.field(
       {"finish", "",
        "how much is done before a scene counts as finished, each step on top of the one before: settled: parts "
-       "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: proved to stand without "
+       "rest on soft contacts; pressed: stiff contacts take their overlap out; probed: verified to stand without "
        "remembered forces and with a tenth less friction, which takes up to twice the time of pressed. To bullet all "
        "three are settled"},
       pour.finish);
@@ -321,13 +321,15 @@ void visit(Visitor& v, Acceptance& accept) {
            "scene is set apart",
            at_least(0.0, 1.0)},
           accept.gap);
-  v.field({"energy", "",
-           "largest energy that a part gained from nowhere between two looks (1/60 s) / (its mass * gravity * its "
-           "diagonal); more: contacts threw it about, and the scene is set apart",
-           at_least(0.0)},
-          accept.energy);
+  v.field(
+      {"energy", "",
+       "largest energy that a part gained from nowhere between two observations (1/60 s) / (its mass * gravity * its "
+       "diagonal); more: contacts threw it about, and the scene is set apart",
+       at_least(0.0)},
+      accept.energy);
   v.field({"speed", "",
-           "largest (speed of a part - gravity * time between two looks) / fastest of the parts near it before; more: "
+           "largest (speed of a part - gravity * time between two observations) / fastest of the parts near it before; "
+           "more: "
            "contacts threw it out, and the scene is set apart",
            at_least(1.0)},
           accept.speed);

@@ -1,5 +1,7 @@
 #include "bin_scenes/scene/motion.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,6 +43,7 @@ Pose on_path(const Motion& motion, double t) {
   Pose pose;
   pose.position = at.head<3>();
   pose.orientation.coeffs() = at.tail<4>().normalized();
+  BIN_SCENES_ASSERT(is_rigid(pose));
   return pose;
 }
 
@@ -52,6 +55,7 @@ double Motion::duration() const {
 }
 
 Pose Motion::at(double t) const {
+  BIN_SCENES_ASSERT(times.size() == poses.size() && ascends(times));
   Pose pose = times.empty() ? Pose() : on_path(*this, t);
   if ((shake.isZero() && tilt.isZero()) || t <= 0.0 || t >= seconds) return pose;
   const double sine = smooth(t * frequency) * smooth((seconds - t) * frequency) * std::sin(2.0 * M_PI * frequency * t);

@@ -43,7 +43,7 @@ Sensor at_origin(const Sensor& sensor) {
 
 RangeImage shot(const Sensor& sensor, Targets& targets, std::size_t index) {
   const Scenery scenery = targets.scenery();
-  return measure(scenery, look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor,
+  return measure(scenery, render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor,
                  targets.surfaces(), {0, index, 0});
 }
 

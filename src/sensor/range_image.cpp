@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/range_image.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "core/in_parallel.hpp"
@@ -67,6 +68,7 @@ std::array<float, 3> point_at(const RangeImage& image, int column, int row) {
 std::vector<std::array<float, 3>> points_of(const RangeImage& image) {
   if (!image.points.empty()) return image.points;
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+  BIN_SCENES_ASSERT(image.depth.size() == width * height);
   std::vector<std::array<float, 3>> points(width * height);
   const Lens lens = lens_of(image.sensor);
   in_parallel(height, [&](std::size_t row) {
@@ -79,6 +81,7 @@ std::vector<std::array<float, 3>> points_of(const RangeImage& image) {
 
 std::vector<std::array<float, 3>> normals_of(const RangeImage& image, const std::vector<std::array<float, 3>>& points) {
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+  BIN_SCENES_ASSERT(points.size() == width * height);
   std::vector<std::array<float, 3>> normals(points.size(), no_vector);
   const bool exact = sensor_model(image.sensor.model).exact;
   in_parallel(height, [&](std::size_t row) {

@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/scenery.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "sensor/bin_mesh.hpp"
 
@@ -110,6 +111,7 @@ struct MeshTree {
     embree = rtcNewScene(device());
     rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
     const Mesh& m = mesh();
+    BIN_SCENES_ASSERT(indices_in_range(m));
     const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                 3 * sizeof(float), m.vertices.size()));
@@ -187,6 +189,7 @@ struct Scenery::State {
   }
 
   void add(MeshTreePtr tree, PartModelPtr model, const Pose& pose, std::uint16_t label, std::int32_t line, int id) {
+    BIN_SCENES_ASSERT(is_rigid(pose));
     const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, tree->embree);
     set_transform(instance, pose);
@@ -222,6 +225,7 @@ Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<P
                         "show at most 65,535 parts in one scene");
     }
     s.of_part.back() = static_cast<std::int64_t>(s.bodies.size());
+    BIN_SCENES_ASSERT(part.line < parts.size());
     const PartModelPtr& model = parts[part.line];
     s.add(cache.state().tree_of(model), model, part.pose, static_cast<std::uint16_t>(part.id + 1),
           static_cast<std::int32_t>(part.line), part.id);

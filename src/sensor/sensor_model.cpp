@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/sensor_model.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 
 namespace bin_scenes {
@@ -29,6 +30,7 @@ const SensorModel& sensor_model(const std::string& name) {
 }
 
 bool register_sensor_model(const SensorModel& model) {
+  BIN_SCENES_ASSERT(model.name && *model.name && model.measure && model.predicted_sigma);
   for (const SensorModel* other : all_models()) {
     if (std::string(model.name) == other->name)
       throw input_error("there is a sensor model '" + std::string(model.name) + "' already", "register_sensor_model",

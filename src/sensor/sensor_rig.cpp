@@ -1,5 +1,6 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
@@ -19,6 +20,8 @@ void count_pixels(RangeImage& image, const Scene& scene, std::vector<Silhouette>
   image.visible.assign(ids, 0);
   image.total.assign(ids, 0);
   image.silhouettes.resize(ids);
+  BIN_SCENES_ASSERT(alone.size() == scene.parts.size());
+  BIN_SCENES_ASSERT(each_is(image.seen_label(), [&](std::uint16_t label) { return label <= ids; }));
   for (const std::uint16_t label : image.seen_label()) {
     if (label) ++image.visible[label - 1u];
   }
@@ -52,15 +55,16 @@ void flag_what_stands_inside(const Sensor& sensor, Scene& scene, const std::vect
 SensorRig::SensorRig() : cache_(std::make_unique<SceneryCache>()) {}
 SensorRig::~SensorRig() = default;
 
-std::vector<RangeImage> SensorRig::look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                                        const PartModelPtr& bin_model) {
+std::vector<RangeImage> SensorRig::render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                                          const PartModelPtr& bin_model) {
   std::vector<RangeImage> images(scene.sensors.size());
-  look(scene, request, parts, bin_model, std::vector<bool>(images.size(), true), images);
+  render(scene, request, parts, bin_model, std::vector<bool>(images.size(), true), images);
   return images;
 }
 
-void SensorRig::look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                     const PartModelPtr& bin_model, const std::vector<bool>& wanted, std::vector<RangeImage>& images) {
+void SensorRig::render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                       const PartModelPtr& bin_model, const std::vector<bool>& wanted,
+                       std::vector<RangeImage>& images) {
   std::vector<std::size_t> to_make;
   for (std::size_t s = 0; s < scene.sensors.size(); ++s)
     if (wanted.at(s) && images.at(s).depth.empty()) to_make.push_back(s);
@@ -71,7 +75,7 @@ void SensorRig::look(Scene& scene, const Request& request, const std::vector<Par
   for (const std::size_t s : to_make) {
     const Sensor& sensor = scene.sensors[s];
     flag_what_stands_inside(sensor, scene, parts);
-    View view = bin_scenes::look(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+    View view = bin_scenes::render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
     std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};
     RangeImage& image = images[s] = measure(scenery, std::move(view), sensor, surfaces, draw);

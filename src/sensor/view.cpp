@@ -1,11 +1,15 @@
 #include "bin_scenes/sensor/view.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "core/in_parallel.hpp"
 #include "sensor/pixel_rays.hpp"
 
 namespace bin_scenes {
 
-View look(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+  BIN_SCENES_ASSERT(lens.width > 0 && lens.height > 0 && lens.fx > 0.0 && lens.fy > 0.0);
+  BIN_SCENES_ASSERT(is_rigid(pose) && near <= far);
   View view;
   view.lens = lens;
   view.pose = pose;

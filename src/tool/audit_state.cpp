@@ -217,7 +217,7 @@ void Auditor::audit_image(const BopView& view, const Placed& placed, AuditFigure
   Request request = placed.request;
   request.sensors = {sensor};
   scene.sensors = {resolved(sensor, request.bin, nullptr)};
-  rig_.look(scene, request, placed.parts);
+  rig_.render(scene, request, placed.parts);
   for (const ScenePart& part : scene.parts) {
     const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
     figures.visible.values.push_back(std::abs(*told_part.visible - part.visible_fraction.at(sensor.name)));

@@ -76,15 +76,25 @@ std::string joined(const std::vector<std::string>& reasons) {
   return text.empty() ? "no reason given" : text;
 }
 
-}  // namespace
+void print_set_apart(const std::vector<std::pair<std::size_t, std::string>>& apart, std::size_t scenes,
+                     const std::string& out) {
+  std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), scenes, out.c_str());
+  for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
+}
 
-int generate(const GenerateOptions& options) {
-  // Nothing is half-written, since files appear whole, and the next run removes what is left under hidden names.
-  const std::atomic<bool>& interrupted = stop_on_signals(500'000, "bin_scenes: cancelled; finished scenes are kept\n");
-  const CancelScope scope(&interrupted);
-  Request request = read_request(options.request, overrides_of(options));
-  SceneStore store(options.out, options.formats, options.verify);
-  if (store.needs_sensors() && request.sensors.empty()) {
+std::vector<ScenePart> traced(const std::vector<BodyState>& states) {
+  std::vector<ScenePart> parts(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    parts[i].id = static_cast<int>(i);
+    parts[i].pose = states[i].pose;
+    parts[i].velocity = states[i].velocity;
+  }
+  return parts;
+}
+
+/// Refuses options that the request cannot serve.
+void check_options(const GenerateOptions& options, const Request& request, bool needs_sensors) {
+  if (needs_sensors && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
                       "add `sensors: [{name: camera}]`, or ask for --formats json,bag alone");
   }
@@ -101,6 +111,17 @@ int generate(const GenerateOptions& options) {
   if (!(options.trace_rate >= 1e-3 && options.trace_rate <= 1e6)) {  // not a number fails too
     throw input_error("must be at least 0.001 and at most 1000000 rows a second", "--trace-rate", "100 is the default");
   }
+}
+
+}  // namespace
+
+int generate(const GenerateOptions& options) {
+  // Nothing is half-written, since files appear whole, and the next run removes what is left under hidden names.
+  const std::atomic<bool>& interrupted = stop_on_signals(500'000, "bin_scenes: cancelled; finished scenes are kept\n");
+  const CancelScope scope(&interrupted);
+  Request request = read_request(options.request, overrides_of(options));
+  SceneStore store(options.out, options.formats, options.verify);
+  check_options(options, request, store.needs_sensors());
 
   std::set<std::size_t> there;
   std::vector<std::pair<std::size_t, std::string>> apart;
@@ -128,13 +149,7 @@ int generate(const GenerateOptions& options) {
     trace = open_trace(options.trace, request);
     run.hooks.trace_rate = options.trace_rate;
     run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-      std::vector<ScenePart> parts(states.size());
-      for (std::size_t i = 0; i < states.size(); ++i) {
-        parts[i].id = static_cast<int>(i);
-        parts[i].pose = states[i].pose;
-        parts[i].velocity = states[i].velocity;
-      }
-      trace->add(time, parts);
+      trace->add(time, traced(states));
     };
   }
   for (const auto& [first, count] : missing_runs(request, there)) {
@@ -153,9 +168,7 @@ int generate(const GenerateOptions& options) {
   bar.clear();
 
   if (apart.empty()) return exit_done;
-  std::fprintf(stderr, "bin_scenes: %zu of %zu scenes set apart in %s/set_apart\n", apart.size(), scenes,
-               options.out.c_str());
-  for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
+  print_set_apart(apart, scenes, options.out);
   return exit_set_apart;
 }
 

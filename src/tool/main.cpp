@@ -53,19 +53,49 @@ void add_dataset(CLI::App& app, DatasetOptions& o) {
   app.add_flag("--json-progress", o.json_progress, "progress as lines of JSON on standard output");
 }
 
-void add_audit(CLI::App& app, AuditOptions& options) {
-  app.add_option("DIR", options.directory, "a data set, one of its splits, or one scene")->required();
+void add_audit(CLI::App& app, AuditOptions& o) {
+  app.add_option("DIR", o.directory, "a data set, one of its splits, or one scene")->required();
   app.add_option(
-      "--bin", options.bin,
+      "--bin", o.bin,
       "inner size x,y,z (m) of a bin around the world's origin, floor at z = 0; or fitted: as wide as each heap");
-  app.add_option("--floor", options.floor,
-                 "height (m) of a table; left out, without --bin: fitted to the lowest parts");
-  app.add_option("--up", options.up, "x,y,z: up in the set's world, or in the camera's frame where it tells no world");
-  app.add_option("--sensor", options.sensor, "of a set with several; left out: the first one");
-  app.add_option("--models", options.models, "folder of the models; left out: models beside or above the scenes");
-  app.add_option("--most", options.most, "heaps to audit; left out: all");
-  app.add_option("--out", options.out, "HTML file with the table and a histogram of each measure");
-  app.add_flag("--json", options.json, "as JSON");
+  app.add_option("--floor", o.floor, "height (m) of a table; left out, without --bin: fitted to the lowest parts");
+  app.add_option("--up", o.up, "x,y,z: up in the set's world, or in the camera's frame where it tells no world");
+  app.add_option("--sensor", o.sensor, "of a set with several; left out: the first one");
+  app.add_option("--models", o.models, "folder of the models; left out: models beside or above the scenes");
+  app.add_option("--most", o.most, "heaps to audit; left out: all");
+  app.add_option("--out", o.out, "HTML file with the table and a histogram of each measure");
+  app.add_flag("--json", o.json, "as JSON");
+}
+
+void add_inspect(CLI::App& app, InspectOptions& o) {
+  app.add_option("MODEL", o.model, "mesh file")->required();
+  app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
+  app.add_option("--hulls", o.hulls, "OBJ file to write the convex hulls to, an object each (m)");
+  app.add_flag("--json", o.json, "as JSON");
+}
+
+void add_symmetries(CLI::App& app, SymmetriesOptions& o) {
+  app.add_option("PART", o.model, "mesh file")->required();
+  app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
+  app.add_option("--tolerance", o.tolerance_mm,
+                 "mm that surfaces may lie apart; left out: a hundredth of the part's size");
+  app.add_option("--picture", o.picture, "PNG file of the part with its axes");
+  app.add_flag("--json", o.json, "as JSON");
+}
+
+void add_sensor(CLI::App& app, SensorOptions& o) {
+  app.add_option("SENSOR", o.sensor, "name of a preset, or a file of sensor keys")->required();
+  app.add_option("--plot", o.plot, "SVG file: predicted noise over distance, incidence and albedo");
+  app.add_flag("--json", o.json, "as JSON");
+}
+
+void add_submit(CLI::App& app, SubmitOptions& o) {
+  app.add_flag("--slurm", o.slurm, "by an array job of Slurm")->required();
+  app.add_option("PLAN", o.plan, "plan of the data set")->required();
+  app.add_option("--out", o.out, "directory of the data set, seen by all nodes")->required();
+  app.add_option("--shares", o.shares, "tasks of the array job")->check(CLI::Range(1, 100000))->capture_default_str();
+  app.add_option("--cpus", o.cpus, "cores, and workers, a task")->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("--sbatch", o.sbatch, "further option of sbatch, such as --sbatch=--partition=long");
 }
 
 int run(int argc, char** argv) {
@@ -79,28 +109,16 @@ int run(int argc, char** argv) {
 
   InspectOptions inspect_options;
   CLI::App* inspect_app = app.add_subcommand("inspect", "what a model is, and how well its proxies fit it");
-  inspect_app->add_option("MODEL", inspect_options.model, "mesh file")->required();
-  inspect_app->add_option("--unit", inspect_options.unit, "unit of the file: m, cm, mm or inch");
-  inspect_app->add_option("--hulls", inspect_options.hulls,
-                          "OBJ file to write the convex hulls to, an object each (m)");
-  inspect_app->add_flag("--json", inspect_options.json, "as JSON");
+  add_inspect(*inspect_app, inspect_options);
 
   SymmetriesOptions symmetries_options;
   CLI::App* symmetries_app =
       app.add_subcommand("symmetries", "turns after which a part looks the same, as BOP lists them");
-  symmetries_app->add_option("PART", symmetries_options.model, "mesh file")->required();
-  symmetries_app->add_option("--unit", symmetries_options.unit, "unit of the file: m, cm, mm or inch");
-  symmetries_app->add_option("--tolerance", symmetries_options.tolerance_mm,
-                             "mm that surfaces may lie apart; left out: a hundredth of the part's size");
-  symmetries_app->add_option("--picture", symmetries_options.picture, "PNG file of the part with its axes");
-  symmetries_app->add_flag("--json", symmetries_options.json, "as JSON");
+  add_symmetries(*symmetries_app, symmetries_options);
 
   SensorOptions sensor_options;
   CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
-  sensor_app->add_option("SENSOR", sensor_options.sensor, "name of a preset, or a file of sensor keys")->required();
-  sensor_app->add_option("--plot", sensor_options.plot,
-                         "SVG file: predicted noise over distance, incidence and albedo");
-  sensor_app->add_flag("--json", sensor_options.json, "as JSON");
+  add_sensor(*sensor_app, sensor_options);
 
   DatasetOptions dataset_options;
   CLI::App* dataset_app = app.add_subcommand("dataset", "make a data set from a plan; it goes on where it was stopped");
@@ -122,17 +140,7 @@ int run(int argc, char** argv) {
 
   SubmitOptions submit_options;
   CLI::App* submit_app = dataset_app->add_subcommand("submit", "make a data set on a cluster: submit, watch, merge");
-  submit_app->add_flag("--slurm", submit_options.slurm, "by an array job of Slurm")->required();
-  submit_app->add_option("PLAN", submit_options.plan, "plan of the data set")->required();
-  submit_app->add_option("--out", submit_options.out, "directory of the data set, seen by all nodes")->required();
-  submit_app->add_option("--shares", submit_options.shares, "tasks of the array job")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  submit_app->add_option("--cpus", submit_options.cpus, "cores, and workers, a task")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  submit_app->add_option("--sbatch", submit_options.sbatch,
-                         "further option of sbatch, such as --sbatch=--partition=long");
+  add_submit(*submit_app, submit_options);
 
   ReportOptions report_options;
   CLI::App* report_app = app.add_subcommand("report", "a data set as one HTML page");

@@ -121,7 +121,7 @@ std::vector<std::string> SceneStore::reasons(std::size_t index) const {
   return read_scene_json((fs::path(folder(index, false)) / "scene.json").string()).report.reasons;
 }
 
-void SceneStore::prepare(Generator::Result& result, const Request& request, const Generator& generator) const {
+void SceneStore::prepare(Generator::Result& result, const Request& request, const Generator& generator) {
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
   const auto folders = std::make_shared<WholeFolders>();
@@ -133,7 +133,8 @@ void SceneStore::prepare(Generator::Result& result, const Request& request, cons
                    [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
   }
   result.images.clear();  // they are in files now, and a scene may wait long for its turn
-  result.prepared = folders;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  prepared_[scene.index] = folders;
 }
 
 void SceneStore::commit(const Generator::Result& result, const Request& request, const Generator& generator) {
@@ -151,7 +152,13 @@ void SceneStore::commit(const Generator::Result& result, const Request& request,
   std::error_code ignored;
   const std::optional<nlohmann::json> earlier = scene_in(folder(scene.index, accepted));
   const bool same = earlier && is_of(request, *earlier);
-  static_cast<WholeFolders*>(result.prepared.get())->commit();
+  std::shared_ptr<WholeFolders> folders;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    folders = prepared_.at(scene.index);
+    prepared_.erase(scene.index);
+  }
+  folders->commit();
   if (!wants("bop") && !same) fs::remove_all(bop_folder(scene.index, accepted), ignored);
   fs::remove_all(folder(scene.index, !accepted), ignored);
   fs::remove_all(bop_folder(scene.index, !accepted), ignored);

@@ -12,11 +12,16 @@
 #include "bin_scenes/generate/generator.hpp"
 
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace bin_scenes {
+
+class WholeFolders;
 
 class SceneStore {
  public:
@@ -39,7 +44,7 @@ class SceneStore {
 
   /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its
   /// images go.
-  void prepare(Generator::Result& result, const Request& request, const Generator& generator) const;
+  void prepare(Generator::Result& result, const Request& request, const Generator& generator);
   /// Gives the folders their names: all of them or none. What an earlier scene of this index left on the other side
   /// goes.
   void commit(const Generator::Result& result, const Request& request, const Generator& generator);
@@ -54,7 +59,9 @@ class SceneStore {
   std::string directory_;
   std::set<std::string> formats_;
   bool verify_;
-  std::set<bool> models_written_;  ///< BOP models of accepted and set-apart scenes
+  std::mutex mutex_;
+  std::map<std::size_t, std::shared_ptr<WholeFolders>> prepared_;  ///< by index of the scene; under mutex_
+  std::set<bool> models_written_;                                  ///< BOP models of accepted and set-apart scenes
 };
 
 }  // namespace bin_scenes

@@ -9,7 +9,9 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 namespace bin_scenes {
@@ -297,21 +299,23 @@ TEST_F(GeneratorTest, RendersOnlyWhenSomebodyLooks) {
 TEST_F(GeneratorTest, ScenesArePreparedBesideThePourAndHandedOverInOrder) {
   Request request = boxes(2);
   request.scenes = 6;
-  std::atomic<int> prepared{0};
+  std::mutex mutex;
+  std::map<std::size_t, std::size_t> prepared;  // parts by index of the scene
   Generator::Options options;
   options.prepare = [&](Generator::Result& result) {
-    ++prepared;
+    const std::lock_guard<std::mutex> lock(mutex);
+    prepared[result.scene.index] = result.scene.parts.size();
     EXPECT_TRUE(result.scene.report.at_rest) << "it has been judged";
-    result.prepared = std::make_shared<std::size_t>(result.scene.index);
   };
   const auto caller = std::this_thread::get_id();
   std::size_t next = 0;
   generator.generate(request, options, [&](Generator::Result&& result) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     EXPECT_EQ(result.scene.index, next);
-    EXPECT_EQ(*static_cast<std::size_t*>(result.prepared.get()), next++);
+    const std::lock_guard<std::mutex> lock(mutex);
+    EXPECT_EQ(prepared.count(next++), 1u) << "before it is handed over";
   });
-  EXPECT_EQ(prepared, 6);
+  EXPECT_EQ(prepared.size(), 6u);
   EXPECT_EQ(next, 6u);
 }
 

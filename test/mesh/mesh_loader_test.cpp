@@ -272,11 +272,11 @@ TEST_F(MeshLoader, SmallHolesAreClosedLargeOnesAreAnErrorOrAShell) {
     small.triangles.push_back({face[k], face[next], 8 + next});
     small.triangles.push_back({face[k], 8 + next, 8 + k});
   }
-  const LoadedMesh mended = repair_mesh(small, {}, "part");
-  EXPECT_EQ(mended.report.holes_closed, 1u);
-  ASSERT_TRUE(has_flag(mended.report, "holes_closed"));
-  EXPECT_EQ(mended.report.flags.back().text, "1 hole closed, at most 2 % of the diagonal around (0.0346 m)");
-  EXPECT_NEAR(volume(mended.mesh), 1.0, 1e-12);
+  const LoadedMesh repaired = repair_mesh(small, {}, "part");
+  EXPECT_EQ(repaired.report.holes_closed, 1u);
+  ASSERT_TRUE(has_flag(repaired.report, "holes_closed"));
+  EXPECT_EQ(repaired.report.flags.back().text, "1 hole closed, at most 2 % of the diagonal around (0.0346 m)");
+  EXPECT_NEAR(volume(repaired.mesh), 1.0, 1e-12);
 
   Mesh tray = box_mesh({1, 1, 1});
   tray.triangles.erase(tray.triangles.begin() + 2, tray.triangles.begin() + 4);

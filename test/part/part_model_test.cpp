@@ -138,7 +138,7 @@ TEST_F(PartModelTest, DamagedCacheFileIsRebuilt) {
     EXPECT_EQ(built(), so_far + 1);
   }
   EXPECT_EQ(PartModel::from_mesh(mesh, "box")->field(coarse_field()).values, values);
-  EXPECT_EQ(read(), 1u);  // mended
+  EXPECT_EQ(read(), 1u);  // repaired
 }
 
 TEST_F(PartModelTest, ThreadsShareOneBuild) {

@@ -31,7 +31,7 @@ class EnergyAuditTest : public ::testing::Test {
   EnergyReport between(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const {
     EnergyAudit audit(world);
     for (std::size_t b = 0; b < before.size(); ++b) audit.enter(b, before[b]);
-    audit.look(dt, after);
+    audit.observe(dt, after);
     return audit.worst();
   }
 
@@ -102,7 +102,7 @@ TEST_F(EnergyAuditTest, AFlagNamesWhoWasThrownAndBesideWhom) {
   EnergyAudit audit(world);
   audit.enter(0, at(0.0, 1.0, Vec3(2, 0, 0)));
   audit.enter(1, at(edge, 1.0));
-  audit.look(dt, {at(0.0, 1.0), at(edge, 1.0, Vec3(8, 0, 0)), away(2)});
+  audit.observe(dt, {at(0.0, 1.0), at(edge, 1.0, Vec3(8, 0, 0)), away(2)});
   const std::vector<Flag> flags = audit.flags();
   ASSERT_EQ(flags.size(), 2u) << "it gained energy, too";
   EXPECT_EQ(flags[1].code, "part_thrown");
@@ -113,7 +113,7 @@ TEST_F(EnergyAuditTest, FixedPartsAndThoseThatNeverCameInAreLeftOut) {
   world.bodies[0].fixed = true;
   EnergyAudit audit(world);
   audit.enter(0, at(0.0, 1.0));
-  audit.look(dt, {at(0.0, 9.0), at(0.0, 9.0), {Pose::none(), {}}});
+  audit.observe(dt, {at(0.0, 9.0), at(0.0, 9.0), {Pose::none(), {}}});
   EXPECT_EQ(audit.worst().part, -1);
   EXPECT_TRUE(audit.flags().empty());
 }
@@ -122,9 +122,9 @@ TEST_F(EnergyAuditTest, EnteringAnewIsNoGainAndAFlagNamesThePart) {
   EnergyAudit audit(world);
   audit.enter(0, at(0.0, 1.0));
   audit.enter(0, at(0.0, 3.0));
-  audit.look(dt, {at(0.0, 3.0), away(1), away(2)});
+  audit.observe(dt, {at(0.0, 3.0), away(1), away(2)});
   EXPECT_EQ(audit.worst().gain, 0.0);
-  audit.look(2 * dt, {at(0.0, 3.0 + 3.0 * d), away(1), away(2)});
+  audit.observe(2 * dt, {at(0.0, 3.0 + 3.0 * d), away(1), away(2)});
   EXPECT_NEAR(audit.worst().gain, 3.0, 1e-9);
   ASSERT_EQ(audit.flags().size(), 1u);
   EXPECT_EQ(audit.flags()[0].code, "energy_gained");

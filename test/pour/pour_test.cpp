@@ -572,9 +572,9 @@ TEST(RestWatch, CountsCreepAndSwingAsMoving) {
   RestWatch watch(3);
   for (int i = 0; i <= 60; ++i) {
     const double t = i / 60.0;
-    watch.look(0, t, Vec3(0, 0, -0.01 * t), Quat::Identity(), limits);                   // creeps down
-    watch.look(1, t, Vec3(0.002 * std::sin(40.0 * t), 0, 0), Quat::Identity(), limits);  // swings
-    watch.look(2, t, Vec3(0, 1e-4 * std::sin(40.0 * t), 0), Quat::Identity(), limits);   // still
+    watch.observe(0, t, Vec3(0, 0, -0.01 * t), Quat::Identity(), limits);                   // creeps down
+    watch.observe(1, t, Vec3(0.002 * std::sin(40.0 * t), 0, 0), Quat::Identity(), limits);  // swings
+    watch.observe(2, t, Vec3(0, 1e-4 * std::sin(40.0 * t), 0), Quat::Identity(), limits);   // still
   }
   EXPECT_FALSE(watch.resting(0));
   EXPECT_FALSE(watch.resting(1));

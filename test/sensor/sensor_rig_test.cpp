@@ -26,9 +26,9 @@ struct Stage : test::Stage {
     sensor.pose = Pose();
     request.sensors = {sensor};
   }
-  RangeImage look() {
+  RangeImage render() {
     scene.sensors = {resolved(request.sensors[0], request.bin)};
-    return SensorRig().look(scene, request, models).front();
+    return SensorRig().render(scene, request, models).front();
   }
 };
 
@@ -43,7 +43,7 @@ TEST(SensorRig, PlaneStraightAheadAndTilted) {
     Stage stage;
     const Quat turn = turned(tilt, Vec3(1, 2, 0));
     stage.place(stage.model(box_mesh({8, 8, 0.1}, {0, 0, 0.05})), at(0, 0, 1, turn));
-    const RangeImage image = stage.look();
+    const RangeImage image = stage.render();
     const Vec3 normal = turn * Vec3::UnitZ();
     for (std::size_t i = 0; i < image.depth.size(); ++i) {
       const double expected = normal.z() / normal.dot(ray(image, i));
@@ -59,7 +59,7 @@ TEST(SensorRig, PlaneStraightAheadAndTilted) {
 TEST(SensorRig, SphereWithinItsFacets) {
   Stage stage;
   stage.place(stage.model(test::sphere_mesh(0.2, 5)), at(0.05, -0.03, 1.0));
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   const Vec3 center(0.05, -0.03, 1.0);
   int seen = 0;
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
@@ -79,7 +79,7 @@ TEST(SensorRig, PixelsOfABoxAreItsProjectedArea) {
   Stage stage;
   const std::size_t box = stage.model(box_mesh({0.2, 0.1, 0.1}, {0, 0, 0.05}));
   stage.place(box, at(0, 0, 1));
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   const double f = image.sensor.k[0];
   EXPECT_NEAR(static_cast<double>(image.visible[0]), 0.2 * f * 0.1 * f, 0.3 * f + 4.0);  // half the outline
   EXPECT_EQ(image.visible[0], image.total[0]);
@@ -92,14 +92,14 @@ TEST(SensorRig, SilhouettesAreOfEachPartAlone) {
   stage.place(box, at(0.05, 0.02, 1.3));  // partly behind the first
   stage.place(box, at(0, 0, 2));
   stage.scene.parts[2].state = PartState::not_poured;
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   ASSERT_EQ(image.silhouettes.size(), 3u);
   EXPECT_EQ(image.silhouettes[2].count, 0u);
   EXPECT_EQ(stage.scene.report.profile.counters["views"], 1u);
   EXPECT_EQ(stage.scene.report.profile.counters["silhouettes"], 2u) << "none of what is not there";
   ASSERT_LT(image.visible[1], image.total[1]);
   stage.scene.parts[0].state = PartState::not_poured;  // the second alone
-  const RangeImage alone = stage.look();
+  const RangeImage alone = stage.render();
   std::size_t covered = 0;
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column) {
@@ -117,10 +117,10 @@ TEST(SensorRig, WhatStandsInAHeapIsFlagged) {
   Stage stage;
   const std::size_t box = stage.model(box_mesh({0.2, 0.2, 0.2}));
   stage.place(box, at(0, 0, 1));
-  stage.look();
+  stage.render();
   EXPECT_TRUE(stage.scene.report.flags.empty());
   stage.place(box, at(0, 0, 0.05));
-  stage.look();
+  stage.render();
   ASSERT_EQ(stage.scene.report.flags.size(), 1u);
   EXPECT_EQ(stage.scene.report.flags[0].code, "sensor_inside_part");
   EXPECT_EQ(stage.scene.report.flags[0].text, "the camera of sensor 'camera' stands inside part 1");
@@ -129,7 +129,7 @@ TEST(SensorRig, WhatStandsInAHeapIsFlagged) {
   stage.request.sensors[0].model = "structured_light";
   stage.request.sensors[0].projector.pose = at(0.3, 0, 0);
   stage.scene.report.flags.clear();
-  stage.look();
+  stage.render();
   ASSERT_EQ(stage.scene.report.flags.size(), 1u);
   EXPECT_EQ(stage.scene.report.flags[0].text, "the projector of sensor 'camera' stands inside part 1");
 }
@@ -138,7 +138,7 @@ TEST(SensorRig, ManyEqualPartsKeepTheirOwnLabels) {
   Stage stage;
   const std::size_t box = stage.model(box_mesh({0.02, 0.02, 0.02}));
   for (int i = 0; i < 300; ++i) stage.place(box, at(-0.3013 + 0.03 * (i % 20), -0.2007 + 0.03 * (i / 20), 1.0));
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   for (int i = 0; i < 300; ++i) {
     const Vec3 p = stage.scene.parts[i].pose.position;
     const int column = static_cast<int>(std::lround(image.sensor.k[0] * p.x() / 0.99 + image.sensor.k[2]));
@@ -154,7 +154,7 @@ TEST(SensorRig, HalfCoveredBox) {
   const std::size_t box = stage.model(box_mesh({0.2, 0.2, 0.1}, {0, 0, 0.05}));
   stage.place(box, at(0, 0, 1));
   stage.place(stage.model(box_mesh({0.5, 0.5, 0.01})), at(0.25, 0, 0.5));  // all of x > 0
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   EXPECT_EQ(image.total[0], 80u * 80u);
   EXPECT_EQ(image.visible[0], 40u * 80u);
   EXPECT_EQ(image.visible[1], image.total[1]);
@@ -163,7 +163,7 @@ TEST(SensorRig, HalfCoveredBox) {
 TEST(SensorRig, ConcavePartsCountEachPixelOnce) {
   Stage stage;
   stage.place(stage.model(test::torus_mesh(0.2, 0.05, 48, 24)), at(0, 0, 1, turned(1.2, Vec3(1, 0.3, 0))));
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   EXPECT_GT(image.visible[0], 500u);
   EXPECT_EQ(image.visible[0], image.total[0]);
 }
@@ -172,7 +172,7 @@ TEST(SensorRig, BinHasDepthButNoLabel) {
   Stage stage;
   stage.request.bin = Bin();
   stage.request.sensors[0].pose.reset();
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   const double eye = image.sensor.pose->position.z();
   const std::size_t middle = 120 * 320 + 160;
   EXPECT_NEAR(image.depth[middle], eye, 1e-5 * eye);
@@ -181,7 +181,7 @@ TEST(SensorRig, BinHasDepthButNoLabel) {
   for (const float z : image.depth) rim += std::abs(z - (eye - 0.2)) < 1e-5;
   EXPECT_GT(rim, 500u) << "tops of the walls";
   stage.request.bin.kind = Bin::Kind::floor;
-  const RangeImage floor = stage.look();
+  const RangeImage floor = stage.render();
   const double above = floor.sensor.pose->position.z();
   for (const float z : floor.depth) ASSERT_NEAR(z, above, 1e-5 * above);
 }
@@ -193,7 +193,7 @@ TEST(SensorRig, NothingOutsideNearAndFar) {
   const std::size_t box = stage.model(box_mesh({4, 4, 0.01}));
   stage.place(box, at(0, 0, 0.3));
   stage.place(box, at(0, 0, 2.3));
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
     ASSERT_TRUE(std::isnan(image.depth[i]));
     ASSERT_EQ(image.label[i], 0);
@@ -206,7 +206,7 @@ TEST(SensorRig, CloudLiesOnTheTrueSurface) {
   const Mesh torus = test::torus_mesh(0.2, 0.05, 48, 24);
   const Pose pose = at(0.05, 0.02, 1.0, turned(0.7, Vec3(1, 1, 0)));
   stage.place(stage.model(torus), pose);
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   const MeshQuery query(torus);
   int seen = 0;
   for (int row = 0; row < 240; ++row) {
@@ -228,7 +228,7 @@ TEST(SensorRig, TwiceIsTheSameBitForBit) {
   for (int i = 0; i < 20; ++i) {
     stage.place(torus, at(0.005 * i, -0.003 * i, 0.01 * i, turned(i, Vec3(1, i, 2))));
   }
-  const RangeImage once = stage.look(), again = stage.look();
+  const RangeImage once = stage.render(), again = stage.render();
   EXPECT_EQ(0, std::memcmp(once.depth.data(), again.depth.data(), once.depth.size() * sizeof(float)));
   EXPECT_EQ(once.label, again.label);
   EXPECT_EQ(once.total, again.total);
@@ -238,7 +238,7 @@ TEST(SensorRig, AnEmptyBinIsSeenWithoutParts) {
   Stage stage;
   stage.request.bin = Bin();
   stage.request.sensors[0].pose.reset();
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   EXPECT_TRUE(image.visible.empty());
   EXPECT_TRUE(image.silhouettes.empty());
   const double eye = image.sensor.pose->position.z();
@@ -253,7 +253,7 @@ TEST(SensorRig, SilhouettesBeyondTheImageAndAroundTheCameraAreCut) {
   stage.place(box, at(3, 0, 1));                               // outside
   stage.place(box, at(0, 0, -1));                              // behind
   stage.place(stage.model(box_mesh({4, 4, 4})), at(0, 0, 0));  // the camera stands in it
-  const RangeImage image = stage.look();
+  const RangeImage image = stage.render();
   EXPECT_GT(image.total[0], 1000u);
   EXPECT_EQ(image.total[1], 0u);
   EXPECT_EQ(image.total[2], 0u);
@@ -275,7 +275,7 @@ TEST(SensorRig, VisibleFractionIsThatOfARayCast) {
   }
   for (const bool distorted : {false, true}) {
     if (distorted) lens.distortion = sensor.distortion = {-0.25, 0.1, 0.002, -0.001, 0.0};
-    const RangeImage image = stage.look();
+    const RangeImage image = stage.render();
     const test::BruteCast brute(stage);
     for (int id = 0; id < 8; ++id) {
       double seen = 0.0, alone = 0.0;

@@ -68,7 +68,7 @@ TEST(View, IsWhatADoublePrecisionRayCastSees) {
     const Pose world{Vec3(0.3, -0.2, 0.4), turned(0.7, Vec3(1, 2, 3))};
     for (ScenePart& part : stage.scene.parts) part.pose = world * part.pose;
     const Lens lens = Lens::from_fov(200, 160, 0.4 / z);
-    const View view = look(stage.scenery(), lens, world, 0.05, 10.0);
+    const View view = render(stage.scenery(), lens, world, 0.05, 10.0);
     expect_as_brute(view, BruteCast(stage), 0.05, 10.0, 2e-6);
   }
 }
@@ -78,7 +78,7 @@ TEST(View, SeesThroughADistortedLens) {
   scatter(stage, 0.6, 5);
   Lens lens = Lens::from_fov(200, 160, 0.7);
   lens.distortion = {-0.2, 0.08, 0.003, -0.002, -0.01};
-  const View view = look(stage.scenery(), lens, Pose(), 0.05, 10.0);
+  const View view = render(stage.scenery(), lens, Pose(), 0.05, 10.0);
   expect_as_brute(view, BruteCast(stage), 0.05, 10.0, 2e-6);
 }
 
@@ -89,7 +89,7 @@ TEST(View, HasTheSameBitsOnOneThreadAndOnTwo) {
   const auto once = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     SceneryCache cache;
-    return look(Scenery(stage.scene, stage.request, stage.models, nullptr, cache), lens, Pose(), 0.05, 10.0);
+    return render(Scenery(stage.scene, stage.request, stage.models, nullptr, cache), lens, Pose(), 0.05, 10.0);
   };
   const View one = once(1), two = once(2);
   EXPECT_EQ(one.label, two.label);
@@ -102,17 +102,17 @@ TEST(View, FloorAndBoxHaveNoLabel) {
   stage.request.bin = Bin();
   const Pose above = at(0, 0, 1.0, Quat(0, 1, 0, 0));
   const Lens lens = Lens::from_fov(101, 101, 0.8);
-  const View box = look(stage.scenery(), lens, above, 0.05, 10.0);
+  const View box = render(stage.scenery(), lens, above, 0.05, 10.0);
   const std::size_t middle = 50 * 101 + 50;
   EXPECT_NEAR(box.depth[middle], 1.0, 1e-12);
   EXPECT_EQ(box.label[middle], 0);
   EXPECT_EQ(box.line[middle], -1);
   EXPECT_NEAR(box.normal[middle][2], -1.0, 1e-6);
   stage.request.bin.kind = Bin::Kind::floor;
-  const View floor = look(stage.scenery(), lens, above, 0.05, 10.0);
+  const View floor = render(stage.scenery(), lens, above, 0.05, 10.0);
   for (const double depth : floor.depth) ASSERT_NEAR(depth, 1.0, 1e-12);
   stage.request.bin.kind = Bin::Kind::none;
-  for (const double depth : look(stage.scenery(), lens, above, 0.05, 10.0).depth) ASSERT_TRUE(std::isnan(depth));
+  for (const double depth : render(stage.scenery(), lens, above, 0.05, 10.0).depth) ASSERT_TRUE(std::isnan(depth));
 }
 
 TEST(View, SeesNothingBehindNearerOrFarther) {
@@ -125,10 +125,11 @@ TEST(View, SeesNothingBehindNearerOrFarther) {
   stage.scene.parts.back().state = PartState::not_poured;
   const Lens lens = Lens::from_fov(41, 41, 0.1);
   const std::size_t middle = 20 * 41 + 20;
-  EXPECT_NEAR(look(stage.scenery(), lens, Pose(), 0.05, 10.0).depth[middle], 0.45, 1e-12);
-  EXPECT_NEAR(look(stage.scenery(), lens, Pose(), 0.5, 10.0).depth[middle], 0.55, 1e-12) << "its far side, from inside";
-  EXPECT_TRUE(std::isnan(look(stage.scenery(), lens, Pose(), 0.6, 10.0).depth[middle]));
-  EXPECT_TRUE(std::isnan(look(stage.scenery(), lens, Pose(), 0.05, 0.4).depth[middle]));
+  EXPECT_NEAR(render(stage.scenery(), lens, Pose(), 0.05, 10.0).depth[middle], 0.45, 1e-12);
+  EXPECT_NEAR(render(stage.scenery(), lens, Pose(), 0.5, 10.0).depth[middle], 0.55, 1e-12)
+      << "its far side, from inside";
+  EXPECT_TRUE(std::isnan(render(stage.scenery(), lens, Pose(), 0.6, 10.0).depth[middle]));
+  EXPECT_TRUE(std::isnan(render(stage.scenery(), lens, Pose(), 0.05, 0.4).depth[middle]));
 }
 
 TEST(Scenery, RaysAreBlockedByWhatLiesBetween) {

@@ -126,7 +126,7 @@ Outcome run_here(const std::string& yaml, const std::string& directory, const Ex
       options.hooks.trace_rate = trace_rate;
       options.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
         if (time == 0.0) watch = std::make_unique<Watch>(request, generator.parts());
-        watch->look(states);
+        watch->observe(states);
       };
     }
     std::vector<double> cpu = {cpu_seconds()}, in_use;

@@ -20,7 +20,7 @@ void Watch::begin() {
     }
 }
 
-void Watch::look(const std::vector<BodyState>& states) {
+void Watch::observe(const std::vector<BodyState>& states) {
   const bool at_start = bodies_.empty();
   if (at_start) begin();
   double energy = 0.0, put_in = 0.0, scale = 0.0;

@@ -16,7 +16,7 @@ class Watch {
   Watch(const Request& request, const std::vector<PartModelPtr>& parts) : request_(request), parts_(parts) {}
 
   /// One sample, the first at time 0. Parts that have not entered yet have no pose.
-  void look(const std::vector<BodyState>& states);
+  void observe(const std::vector<BodyState>& states);
 
   /// Largest energy above what had been put in so far / all that was put in. What a part brings in: its energy when it
   /// is first seen to move.

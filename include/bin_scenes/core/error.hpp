@@ -1,5 +1,5 @@
 /// The one exception of the library. Loading and set-up throw it; a running simulation sets flags in the report
-/// instead (scene/report.hpp); misuse of an interface asserts.
+/// instead (scene/report.hpp); misuse of an interface asserts (core/assertion.hpp).
 #pragma once
 
 #include <stdexcept>
@@ -9,12 +9,12 @@ namespace bin_scenes {
 
 /// Who has to act. The values are the exit codes of the command line (2 and 3) and map to the ROS error codes.
 enum class ErrorKind {
-  input = 2,        ///< the request or a file it names is wrong: mend the input
-  environment = 3,  ///< no GL device, disk full, directory not writable: mend the machine
+  input = 2,        ///< the request or a file it names is wrong: correct the input
+  environment = 3,  ///< no GL device, disk full, directory not writable: repair the machine
   cancelled = 4,    ///< the caller asked to stop
 };
 
-/// One clear message: what is wrong, where it is (file, key, line), and how to mend it. what() is one printable line
+/// One clear message: what is wrong, where it is (file, key, line), and how to correct it. what() is one printable line
 /// below 1 kB, whatever a file put into it; problem(), where() and remedy() are as they were given.
 class Error : public std::runtime_error {
  public:

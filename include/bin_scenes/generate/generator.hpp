@@ -21,12 +21,12 @@ class Generator {
   struct Result {
     Scene scene;
     std::vector<RangeImage> images;  ///< only if requested
-    std::shared_ptr<void> prepared;  ///< what Options::prepare leaves for the one who gets the scene
   };
   struct Options {
     bool render = true;  ///< false: no sensor image is made
     /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
-    /// poured: the place for what takes long, such as writing files. It may take the images away.
+    /// poured: the place for what takes long, such as writing files. It may take the images away. What it makes for the
+    /// one who gets the scene it keeps itself, by index.
     std::function<void(Result&)> prepare;
     /// Of the scene that result() hands over, for heaps that give several: names it, and draws its sensors' noise.
     std::optional<std::size_t> index;

@@ -2,7 +2,8 @@
 /// Contents are zero after (re)allocation. The driver's limit on the size of a block (128 MiB on llvmpipe) is checked.
 #pragma once
 
-#include <cassert>
+#include "bin_scenes/core/assertion.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -66,12 +67,12 @@ class Buffer {
     upload(0, values.data(), values.size());
   }
   void upload(std::size_t first, const T* values, std::size_t count) {
-    assert(first + count <= count_);
+    BIN_SCENES_ASSERT(first + count <= count_);
     storage_.write(first * sizeof(T), values, count * sizeof(T));
   }
   std::vector<T> download() const { return download(0, count_); }
   std::vector<T> download(std::size_t first, std::size_t count) const {
-    assert(first + count <= count_);
+    BIN_SCENES_ASSERT(first + count <= count_);
     std::vector<T> values(count);
     storage_.read(first * sizeof(T), values.data(), count * sizeof(T));
     return values;

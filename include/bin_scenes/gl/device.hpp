@@ -35,6 +35,7 @@ class Device {
   static std::shared_ptr<Device> shared();
   /// The one that is current on this thread, else shared().
   static Device& current();
+  static bool is_current();  ///< whether this thread may make GL calls
 
   std::string renderer() const;  ///< GL_RENDERER
   std::string vendor() const;

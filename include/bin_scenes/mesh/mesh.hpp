@@ -21,6 +21,9 @@ struct Mesh {
   bool empty() const { return triangles.empty(); }
 };
 
+/// Whether all corners of triangles are vertices.
+bool indices_in_range(const Mesh& mesh);
+
 /// The same mesh moved by a pose.
 Mesh transformed(const Mesh& mesh, const Pose& pose);
 

@@ -20,7 +20,7 @@ class RestWatch {
   explicit RestWatch(std::size_t bodies) : bodies_(bodies) {}
 
   /// Records the pose of a body at `time`. `center`: its centre of mass.
-  void look(std::size_t body, double time, const Vec3& center, const Quat& orientation, const Limits& limits);
+  void observe(std::size_t body, double time, const Vec3& center, const Quat& orientation, const Limits& limits);
   bool resting(std::size_t body) const { return bodies_[body].resting; }
   /// Seconds since a body last moved.
   double still(std::size_t body, double time) const { return bodies_[body].seen ? time - bodies_[body].since : 0.0; }

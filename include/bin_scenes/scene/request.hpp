@@ -78,7 +78,7 @@ struct Pour {
   enum class Finish {
     settled,  ///< on soft contacts: parts overlap by up to 0.1 % of their diagonal
     pressed,  ///< stiff contacts take the overlap out
-    probed    ///< proved on contacts without remembered forces and with less friction: nothing is about to tip or slip
+    probed  ///< verified on contacts without remembered forces and with less friction: nothing is about to tip or slip
   };
   Finish finish = Finish::probed;
   double drop_height = 0.02;  ///< m, rain: free fall of a part's lowest point onto the heap; higher = harder impacts
@@ -226,7 +226,7 @@ struct Sensor {
 struct Acceptance {
   double penetration = 0.01;  ///< largest penetration of any pair / smaller part diagonal
   double gap = 0.005;         ///< largest free fall of a part at rest / its diagonal
-  double energy = 2.0;        ///< largest gain of energy from nowhere between two looks, in m g d of the part
+  double energy = 2.0;        ///< largest gain of energy from nowhere between two observations, in m g d of the part
   double speed = 5.0;         ///< largest EnergyReport::Thrown::ratio
   bool escaped = false;       ///< true: scenes with escaped parts are accepted too
 };

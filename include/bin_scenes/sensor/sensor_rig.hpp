@@ -21,12 +21,12 @@ class SensorRig {
   /// and silhouettes in the report's profile. For several scenes at once in several threads. The same scene gives the
   /// same bits each time. Parts that were not poured or whose pose is not finite are not there. `parts[line]` are the
   /// models.
-  std::vector<RangeImage> look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                               const PartModelPtr& bin_model = nullptr);
+  std::vector<RangeImage> render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+                                 const PartModelPtr& bin_model = nullptr);
   /// The same for some sensors: makes the images of those that are wanted, unless they are there already. `wanted` and
   /// `images` have one entry a sensor; an image that has not been made is RangeImage().
-  void look(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
-            const std::vector<bool>& wanted, std::vector<RangeImage>& images);
+  void render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
+              const PartModelPtr& bin_model, const std::vector<bool>& wanted, std::vector<RangeImage>& images);
 
  private:
   std::unique_ptr<SceneryCache> cache_;

@@ -23,6 +23,6 @@ struct View {
 
 /// @param pose  optical frame in the bin frame
 /// @param near, far  depths (m) that bound what is seen
-View look(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
+View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
 
 }  // namespace bin_scenes

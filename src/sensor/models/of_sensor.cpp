@@ -1,5 +1,7 @@
 #include "sensor/models/of_sensor.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "core/in_parallel.hpp"
 
 #include <algorithm>
@@ -31,6 +33,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
   image.height = view.lens.height;
   image.intensity = std::move(measured.intensity);
   const std::size_t pixels = view.depth.size();
+  BIN_SCENES_ASSERT(measured.depth.size() == pixels && measured.validity.size() == pixels);
   image.depth.resize(pixels);
   image.label.resize(pixels);
   image.normal = std::move(view.normal);
@@ -73,7 +76,7 @@ View Plate::seen_in_the_middle() const {
   cut.width = cut.height = 9;
   cut.k[2] -= left;
   cut.k[5] -= top;
-  return look(scenery, lens_of(cut), *cut.pose, cut.near, cut.far);
+  return render(scenery, lens_of(cut), *cut.pose, cut.near, cut.far);
 }
 
 }  // namespace bin_scenes

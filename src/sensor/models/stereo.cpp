@@ -148,7 +148,7 @@ std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>
 }
 
 Stereo::Pair Stereo::images(const Random& random) const {
-  const View second = look(scenery_, view_.lens, second_, setup_.near, setup_.far);
+  const View second = render(scenery_, view_.lens, second_, setup_.near, setup_.far);
   return {image(view_, lit_, haze_, random.of_piece(1)),
           image(second, lit(second), haze(second, rays_.of_piece(2)), random.of_piece(2))};
 }

@@ -41,7 +41,7 @@ struct Shot {
 
 Shot shoot(Targets& targets, const Device& device, bool decoded) {
   const Scenery scenery = targets.scenery();
-  Shot shot{look(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0)};
+  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0)};
   const StructuredLight model(scenery, shot.view, targets.surfaces(), device.setup);
   shot.measured = decoded ? model.decoded(Random(1, 0, Stream::noise)) : model.analytic(Random(1, 0, Stream::noise));
   return shot;

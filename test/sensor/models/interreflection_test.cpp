@@ -160,7 +160,7 @@ struct Errors {
 Errors errors_in(const Groove& groove, bool decoded) {
   Targets targets = groove.targets();
   const Scenery scenery = targets.scenery();
-  const View view = look(scenery, groove.camera, Pose(), groove.setup.near, groove.setup.far);
+  const View view = render(scenery, groove.camera, Pose(), groove.setup.near, groove.setup.far);
   const StructuredLight model(scenery, view, targets.surfaces(), groove.setup);
   const Random random(1, 0, Stream::noise);
   const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
@@ -243,7 +243,7 @@ TEST(Interreflection, APlateThatNothingFacesIsUnchanged) {
   targets.add(box_target({0.5, 0.5, 0.02}), {Vec3(0, 0, 0.76), Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()))},
               {0.8, 0.4, 0.3});
   const Scenery scenery = targets.scenery();
-  const View view = look(scenery, groove.camera, Pose(), groove.setup.near, groove.setup.far);
+  const View view = render(scenery, groove.camera, Pose(), groove.setup.near, groove.setup.far);
   const Random random(1, 0, Stream::noise);
   for (const bool decoded : {false, true}) {
     std::vector<Measurement> measured;

@@ -32,7 +32,7 @@ struct Shot {
 
 Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
   const Scenery scenery = targets.scenery();
-  Shot shot{look(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
+  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
   const Stereo model(scenery, shot.view, targets.surfaces(), device.setup);
   const Random random(seed, 0, Stream::noise);
   shot.measured = decoded ? model.decoded(random) : model.analytic(random);
@@ -202,7 +202,7 @@ TEST(Stereo, SameSeedSameBits) {
   const auto images = [&](std::uint64_t seed) {
     const Scenery scenery = targets.scenery();
     const Device device;
-    const View view = look(scenery, device.camera, Pose(), 0.05, 10.0);
+    const View view = render(scenery, device.camera, Pose(), 0.05, 10.0);
     return Stereo(scenery, view, targets.surfaces(), device.setup).images(Random(seed, 0, Stream::noise));
   };
   EXPECT_EQ(images(3).first, images(3).first);
@@ -217,7 +217,7 @@ TEST(Stereo, LightOfAnotherFaceIsHazeOverTheDots) {
     if (wall) targets.add(box_target({0.02, 2.0, 0.4}), {Vec3(0.3, 0.0, 0.8), Quat::Identity()}, {0.9, 0.0, 0.4});
     const Scenery scenery = targets.scenery();
     Device device;
-    const View view = look(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
+    const View view = render(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
     device.setup.noise = false;
     const Stereo direct(scenery, view, targets.surfaces(), device.setup);
     device.setup.indirect.bounces = 1;

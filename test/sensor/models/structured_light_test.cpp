@@ -42,7 +42,7 @@ struct Shot {
 
 Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
   const Scenery scenery = targets.scenery();
-  Shot shot{look(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
+  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
   const StructuredLight model(scenery, shot.view, targets.surfaces(), device.setup);
   const Random random(seed, 0, Stream::noise);
   shot.measured = decoded ? model.decoded(random) : model.analytic(random);
@@ -141,7 +141,7 @@ TEST(StructuredLight, BlurWeakensTheFringeAsPredicted) {
   EXPECT_NEAR(over_predicted(targets, blurred, true, 100000, count), 1.0, 0.03);
   // A pixel covers 3.7 columns of a period of 16: its fringe is weaker by exp(-2 (pi 0.6 3.7 / 16)^2) = 0.69.
   const Scenery scenery = targets.scenery();
-  const View view = look(scenery, sharp.camera, Pose(), 0.05, 10.0);
+  const View view = render(scenery, sharp.camera, Pose(), 0.05, 10.0);
   const std::size_t middle = 75 * 200 + 100;
   const StructuredLight a(scenery, view, targets.surfaces(), sharp.setup),
       b(scenery, view, targets.surfaces(), blurred.setup);
