@@ -146,6 +146,7 @@ Json json_of(const Report& report) {
   json["energy"] = {{"gain", report.energy.gain}, {"time", report.energy.time}, {"part", report.energy.part}};
   json["energy"]["thrown"] = {
       {"ratio", thrown.ratio}, {"time", thrown.time}, {"part", thrown.part}, {"beside", thrown.beside}};
+  json["jam"] = {{"ratio", report.jam.ratio}, {"part", report.jam.part}};
   json["escaped"] = report.escaped;
   json["not_poured"] = report.not_poured;
   char hash[17];  // as text: many readers of JSON keep only 53 bits of a number

@@ -1,5 +1,6 @@
 #include "pour/heap_core.hpp"
 
+#include "pour/jam.hpp"
 #include "solver/step_limit.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -392,6 +393,8 @@ Scene HeapCore::scene() {
   report.flags = solver_.flags(id_);
   report.energy = audit_->worst();
   for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
+  report.jam = worst_jam(plan_->world, states_, solver_.contact_forces(id_));
+  for (Flag& flag : flags_of(report.jam)) report.flags.push_back(std::move(flag));
   if (!report.not_poured.empty())
     report.flags.push_back({"not_poured",
                             std::to_string(report.not_poured.size()) + " of " + std::to_string(states_.size()) +

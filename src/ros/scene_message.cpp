@@ -182,6 +182,8 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.energy.thrown_time = report.energy.thrown.time;
   message.energy.thrown_part = report.energy.thrown.part;
   message.energy.thrown_beside = report.energy.thrown.beside;
+  message.jam_ratio = report.jam.ratio;
+  message.jam_part = report.jam.part;
   message.escaped.assign(report.escaped.begin(), report.escaped.end());
   message.not_poured.assign(report.not_poured.begin(), report.not_poured.end());
   message.state_hash = report.state_hash;
@@ -227,6 +229,7 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.energy.part = message.energy.part;
   report.energy.thrown = {message.energy.thrown_ratio, message.energy.thrown_time, message.energy.thrown_part,
                           message.energy.thrown_beside};
+  report.jam = {message.jam_ratio, message.jam_part};
   report.escaped.assign(message.escaped.begin(), message.escaped.end());
   report.not_poured.assign(message.not_poured.begin(), message.not_poured.end());
   report.state_hash = message.state_hash;

@@ -57,6 +57,27 @@ inline double elastic_change(Lab lab) {
   return most;
 }
 
+struct Carried {
+  double force, moment;  ///< errors / weight of both, / that and the diagonal
+};
+/// A block lies on another off its middle, on a slope: what each is carried with.
+inline Carried carry(Lab lab) {
+  const Vec3 low(0.06, 0.06, 0.03), high(0.03, 0.03, 0.02);
+  lab.def().gravity = Quat(Eigen::AngleAxisd(0.3, Vec3(1, 2, 0).normalized())) * Vec3(0, 0, -g);
+  lab.def().bin.friction = 0.8;
+  const auto below = lab.place(box(low), Vec3(0, 0, 0.5 * low.z()), Quat::Identity(), material(0.8, 0.0, 2.0));
+  const auto above =
+      lab.place(box(high), Vec3(0.01, -0.01, low.z() + 0.5 * high.z()), Quat::Identity(), material(0.8, 0.0, 1.0));
+  lab.begin(phases::press);
+  lab.simulate(1.0);
+  const Vec3 weight = lab.def().gravity;  // of a kilogram
+  const Lab::Wrench up = lab.wrench(above, static_cast<int>(below)), down = lab.wrench(below, static_cast<int>(above));
+  const Lab::Wrench ground = lab.wrench(below, -1);
+  const double size = low.norm(), all = 3.0 * g;
+  return {std::max((up.force + weight).norm(), (ground.force + 3.0 * weight).norm()) / all,
+          std::max(up.moment.norm(), (ground.moment + down.moment).norm()) / (all * size)};
+}
+
 struct Slide {
   double way;    ///< error / exact way
   double aside;  ///< of the direction, rad

@@ -22,6 +22,12 @@ TEST_P(ClosedForms, BounceReachesRestitutionSquaredOfTheHeight) {
     EXPECT_NEAR(bounce(lab(), drop, 0.9), 0.81, 0.0081) << "dropped from " << drop;
 }
 
+TEST_P(ClosedForms, ContactForcesCarryWhatLiesOnThem) {
+  const Carried error = carry(lab());
+  EXPECT_LT(error.force, 1e-3);
+  EXPECT_LT(error.moment, 1e-3);
+}
+
 TEST_P(ClosedForms, SlidingDistanceFollowsFromFriction) {
   const Slide error = slide(lab());
   EXPECT_LT(error.way, 0.005);

@@ -163,7 +163,7 @@ class Lab {
   BodyState& start(std::size_t body) { return starts_[body]; }
 
   void begin(Phase phase) {
-    const std::size_t bodies = starts_.size();
+    const std::size_t bodies = placed_ = starts_.size();
     if (def_.bin.kind == Bin::Kind::floor && ground_ != Ground::floor) lay_plate();
     WorldDef turned = def_;
     turned.gravity = turn_ * def_.gravity;
@@ -200,6 +200,26 @@ class Lab {
                      {turn_ * state.velocity.linear, turn_ * state.velocity.angular}});
   }
   BodyState state(std::size_t body) const { return states()[body]; }
+  /// Force on a body from another, -1 for the bin or what was laid there in its place, and its moment about the centre
+  /// of mass of the body (N, N m).
+  struct Wrench {
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  };
+  Wrench wrench(std::size_t body, int other) const {
+    const auto bin = [&](int b) { return b < 0 || static_cast<std::size_t>(b) >= placed_; };
+    const Quat back = turn_.conjugate();
+    Wrench sum;
+    for (const ContactForce& f : solver_->contact_forces(world_)) {
+      const bool first = f.a == static_cast<int>(body);
+      if (!first && f.b != static_cast<int>(body)) continue;
+      const int from = first ? f.b : f.a;
+      if (other < 0 ? !bin(from) : from != other) continue;
+      const Vec3 force = back * (first ? Vec3(-f.force) : f.force);
+      sum.force += force;
+      sum.moment += (back * (f.point - rise_) - center(body)).cross(force);
+    }
+    return sum;
+  }
   const BodyDef& body(std::size_t body) const { return def_.bodies[body]; }
   const PartModel& part(std::size_t body) const { return *def_.parts[def_.bodies[body].part]; }
   Vec3 center(std::size_t body) const { return state(body).pose * part(body).mass().center; }
@@ -240,6 +260,7 @@ class Lab {
   Vec3 rise_ = Vec3::Zero();
   WorldDef def_;
   std::vector<BodyState> starts_;
+  std::size_t placed_ = 0;  ///< bodies of the scene: a plate comes behind them
   WorldId world_ = 0;
   bool begun_ = false;
   double time_ = 0.0;

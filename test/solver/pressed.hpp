@@ -25,6 +25,14 @@ TEST_P(Pressing, APointBetweenOthersGainsNothing) {
             }
 }
 
+// A slimmer one buckles without friction.
+TEST_P(Pressing, SidesOfAGroovePressAsItsAngleSays) {
+  for (const double slim : {0.15, 0.3, 0.6}) {
+    const double expected = std::hypot(1.0, slim) / (2.0 * slim);
+    EXPECT_NEAR(pressed_in_groove(lab(), slim) / expected, 1.0, 0.01) << slim;
+  }
+}
+
 // An edge that caught its tip took 40 %.
 TEST_P(Pressing, ASpikeSlidesOverARim) {
   for (const double size : {0.02, 0.2, 2.0}) {

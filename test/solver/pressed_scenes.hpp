@@ -70,6 +70,23 @@ inline Pressed press_between(Lab lab, const Row& row) {
   return out;
 }
 
+/// What each side of a groove presses with on a frictionless wedge of weight W in it / W: 1 / (2 sin of half its
+/// angle).
+inline double pressed_in_groove(Lab lab, double slim) {
+  const double size = 0.05;
+  lab.def().bin.kind = Bin::Kind::none;
+  const Quat turned(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
+  const PartModelPtr part = pointed(Point::wedge, size, slim);
+  BodyDef stands = material(0.0);
+  stands.fixed = true;
+  for (const double side : {-1.0, 1.0})
+    lab.place(part, Vec3(side * slim * size, 0, size) + turned * part->mass().center, turned, stands);
+  const auto between = lab.place(part, part->mass().center, Quat::Identity(), material(0.0));
+  lab.begin(phases::press);
+  lab.simulate(0.5);
+  return lab.wrench(between, 0).force.norm() / g;
+}
+
 struct Slid {
   double lost;  ///< energy / of that at the start, seen from the rim
   double spin;  ///< rad/s: the face turned what slid on its tip

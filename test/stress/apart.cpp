@@ -16,7 +16,9 @@ namespace bin_scenes::stress {
 
 namespace {
 
-// The child sends one line of figures, one of the device, and one a failure.
+// The child sends one line of figures, one of the device, one a flag and one a failure.
+
+constexpr char flag_mark = '!', failure_mark = '-';
 
 void send(int pipe, const Outcome& o) {
   std::ostringstream out;
@@ -24,10 +26,14 @@ void send(int pipe, const Outcome& o) {
   out << o.penetration << ' ' << o.drift << ' ' << o.energy << ' ' << o.simulated_s << ' ' << o.steps << ' '
       << o.growth_bytes << ' ' << o.pace << ' ' << o.parts << ' ' << o.resting << '\n'
       << o.device << '\n';
-  for (std::string failure : o.failures) {
-    std::replace(failure.begin(), failure.end(), '\n', ' ');
-    out << failure << '\n';
-  }
+  const auto list = [&](char mark, const std::vector<std::string>& lines) {
+    for (std::string line : lines) {
+      std::replace(line.begin(), line.end(), '\n', ' ');
+      out << mark << line << '\n';
+    }
+  };
+  list(flag_mark, o.flags);
+  list(failure_mark, o.failures);
   const std::string text = out.str();
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t n = write(pipe, text.data() + sent, text.size() - sent);
@@ -51,7 +57,7 @@ Outcome parse(const std::string& text) {
       o.resting;
   std::getline(in, line);
   std::getline(in, o.device);
-  while (std::getline(in, line)) o.failures.push_back(line);
+  while (std::getline(in, line)) (line[0] == flag_mark ? o.flags : o.failures).push_back(line.substr(1));
   return o;
 }
 

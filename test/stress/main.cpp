@@ -56,6 +56,8 @@ int run_row(const Row& row, const Options& options, std::vector<Tally>& tallies)
       const auto known = row.known.find(solver + ": " + c.name);
       const std::string why = known == row.known.end() ? "" : known->second;
       tally.add(c, outcome, why);
+      for (const std::string& flag : outcome.flags)
+        std::printf("  %s: %s: flagged, %s\n", solver.c_str(), c.name.c_str(), flag.c_str());
       if (outcome.survived()) {
         fs::remove(path);
         if (!why.empty())
@@ -66,9 +68,10 @@ int run_row(const Row& row, const Options& options, std::vector<Tally>& tallies)
       }
     }
     std::printf(
-        "%-12s %-34s %-10s %3zu / %-3zu overlap %6.3f %%  drift %6.3f %%  energy %+7.3f %%  %6.1f s  %4.0f MB\n",
-        tally.theme.c_str(), tally.row.c_str(), solver.c_str(), tally.survived, tally.tried, 100.0 * tally.penetration,
-        100.0 * tally.drift, 100.0 * tally.energy, tally.cpu_s, tally.peak_mb);
+        "%-12s %-34s %-10s %3zu / %-3zu flagged %-3zu overlap %6.3f %%  drift %6.3f %%  energy %+7.3f %%  %6.1f s  "
+        "%4.0f MB\n",
+        tally.theme.c_str(), tally.row.c_str(), solver.c_str(), tally.survived, tally.tried, tally.flagged,
+        100.0 * tally.penetration, 100.0 * tally.drift, 100.0 * tally.energy, tally.cpu_s, tally.peak_mb);
     std::fflush(stdout);
     tallies.push_back(std::move(tally));
   }
@@ -132,9 +135,10 @@ int run(int argc, char** argv) {
     write_csv(folder + "/stress.csv", tallies, command);
   }
 
-  std::size_t tried = 0, survived = 0;
-  for (const Tally& tally : tallies) tried += tally.tried, survived += tally.survived;
-  std::printf("survived %zu / %zu; %d failures that are not known\n", survived, tried, regressions);
+  std::size_t tried = 0, survived = 0, flagged = 0;
+  for (const Tally& t : tallies) tried += t.tried, survived += t.survived, flagged += t.flagged;
+  std::printf("survived %zu / %zu, flagged %zu; %d failures that are not known\n", survived, tried, flagged,
+              regressions);
   return regressions ? 1 : 0;
 }
 

@@ -54,6 +54,7 @@ void Tally::add(const Case& c, const Outcome& o, const std::string& why_known) {
     pace = o.pace;
   }
   survived += o.survived();
+  flagged += !o.flags.empty();
   if (!o.device.empty()) device = o.device;
   penetration = std::max(penetration, o.penetration);
   drift = std::max(drift, o.drift);

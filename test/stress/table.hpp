@@ -19,7 +19,7 @@ struct LimitRange {
 /// One row under one solver.
 struct Tally {
   std::string theme, row, solver, device;
-  std::size_t tried = 0, survived = 0;
+  std::size_t tried = 0, survived = 0, flagged = 0;  ///< cases
   double penetration = 0.0, drift = 0.0, energy = 0.0, cpu_s = 0.0, simulated_s = 0.0, peak_mb = 0.0;
   LimitRange penetration_limit, energy_limit;  ///< of Expect
   std::uint64_t steps = 0;

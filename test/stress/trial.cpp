@@ -53,6 +53,9 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
   outcome.simulated_s += report.simulated_s;
   outcome.steps += report.steps;
   outcome.device = report.device;
+  for (const Flag& flag : report.flags)
+    if (flag.code == "energy_gained" || flag.code == "part_thrown" || flag.code == "part_jammed")
+      outcome.flags.push_back(flag.text);
   double highest = -std::numeric_limits<double>::infinity();
   for (const ScenePart& part : scene.parts) {
     if (part.state == PartState::fixed) continue;

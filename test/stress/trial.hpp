@@ -11,6 +11,7 @@ namespace bin_scenes::stress {
 
 struct Outcome {
   std::vector<std::string> failures;  ///< empty = survived
+  std::vector<std::string> flags;     ///< of contacts that are not to be trusted, as the report words them
   double penetration = 0.0;           ///< largest / smaller diagonal, bin included
   double drift = 0.0;                 ///< largest / diagonal, of scenes called resting
   double energy = 0.0;                ///< largest gain

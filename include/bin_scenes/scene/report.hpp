@@ -52,6 +52,12 @@ struct EnergyReport {
   } thrown;
 };
 
+/// The part that contacts squeeze most, from opposite sides.
+struct JamReport {
+  double ratio = 0.0;  ///< force / weight of it and of what lies on it, all of which it may have to carry
+  int part = -1;       ///< id; -1 if nothing presses, or the solver does not tell
+};
+
 struct Report {
   bool at_rest = false;
   bool accepted = false;
@@ -67,6 +73,7 @@ struct Report {
   Quantiles gap;  ///< m: free fall of the parts at rest
   DriftReport drift;
   EnergyReport energy;
+  JamReport jam;
   std::vector<int> escaped;      ///< ids outside the bin, below the floor or not finite
   std::vector<int> not_poured;   ///< ids that found no room above the heap
   std::uint64_t state_hash = 0;  ///< of all final poses, bit for bit

@@ -62,6 +62,13 @@ struct Frame {
   }
 };
 
+/// With what two bodies press on each other at one point (bin frame, SI).
+struct ContactForce {
+  int a = 0, b = -1;   ///< bodies; b is -1 for the bin
+  Vec3 point, normal;  ///< from a to b
+  Vec3 force;          ///< N, on b with friction; on a acts its opposite
+};
+
 using WorldId = std::size_t;
 
 /// How contacts give way. Soft ones take the energy out of rocking and leave overlap under load; stiff ones press it
@@ -122,6 +129,9 @@ class Solver {
   virtual std::vector<BodyState> states(WorldId world) const = 0;
   /// Bodies asleep in the solver, same order. A hint for progress and counters; rest is decided elsewhere.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
+
+  /// What pressed in the last step, or when the bodies fell asleep. Empty if the solver does not tell forces.
+  virtual std::vector<ContactForce> contact_forces(WorldId /*world*/) const { return {}; }
 
   /// Number of worlds that run faster side by side than one after the other.
   virtual std::size_t worlds_at_once() const { return 1; }

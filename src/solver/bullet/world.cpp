@@ -204,6 +204,7 @@ void World::insert(std::size_t index, const BodyState& state) {
     body.rigid->setAngularVelocity(to_bt(state.velocity.angular));
   }
   if (!def.fixed) body.rigid->setUserIndex(static_cast<int>(index));
+  body.rigid->setUserIndex2(static_cast<int>(index));
   if (driven) {
     body.rigid->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     body.rigid->forceActivationState(DISABLE_DEACTIVATION);
@@ -322,6 +323,7 @@ void World::step(double seconds) {
   const int n = cuts(seconds);
   // Cutting a step does not make sub-steps any shorter than they are.
   world_.getSolverInfo().m_numIterations = std::max(1, (settings_.iterations / ContactSolver::sweeps + n - 1) / n);
+  sub_step_ = seconds / n / world_.getSolverInfo().m_numIterations;
   for (int k = 0; k < n; ++k) {
     stop_if_cancelled();
     const bool turns = frame_.turns();
@@ -372,6 +374,27 @@ std::vector<bool> World::asleep() const {
   return result;
 }
 
+std::vector<ContactForce> World::contact_forces() const {
+  std::vector<ContactForce> forces;
+  for (int m = 0; m < dispatcher_.getNumManifolds() && sub_step_ > 0.0; ++m) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+    const int a = manifold.getBody0()->getUserIndex2(), b = manifold.getBody1()->getUserIndex2();
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      if (point.m_appliedImpulse <= 0) continue;
+      const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB +
+                                point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                                point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+      // Bullet tells what acts on its first body.
+      ContactForce f{a, b, from_bt(point.getPositionWorldOnA()) / scale_, -from_bt(point.m_normalWorldOnB),
+                     -from_bt(impulse) / (scale_ * sub_step_)};
+      if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force};
+      if (f.a >= 0) forces.push_back(f);
+    }
+  }
+  return forces;
+}
+
 std::vector<Flag> World::flags() const {
   std::vector<Flag> result;
   if (shortening_ > 1)
@@ -381,10 +404,12 @@ std::vector<Flag> World::flags() const {
     const auto user = std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b->def->part == p; });
     if (user == bodies_.end() || (*user)->shape->hulls_met) continue;
     const PartShape& shape = *(*user)->shape;
-    char errors[96];
-    std::snprintf(errors, sizeof errors,
-                  " leave the mesh by %.2g %% of its diagonal, and their volume is off by %+.2g %%",
-                  100.0 * shape.hull_error, 100.0 * shape.hull_volume_error);
+    char errors[160];
+    std::snprintf(
+        errors, sizeof errors,
+        " leave the mesh by %.2g %% of its diagonal, and their volume is off by %+.2g %%; they may fill a play "
+        "of up to %.2g mm",
+        100.0 * shape.hull_error, 100.0 * shape.hull_volume_error, 2e3 * shape.hull_error * def_.parts[p]->diagonal());
     result.push_back({"hull_error", "the hulls of " + def_.parts[p]->path() + errors,
                       "raise solver.bullet.max_hulls, or hull_error and hull_volume_error beside it, or use the sphere "
                       "solver"});

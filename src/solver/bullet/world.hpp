@@ -39,6 +39,7 @@ class World {
 
   std::vector<BodyState> states() const;
   std::vector<bool> asleep() const;
+  std::vector<ContactForce> contact_forces() const;
   /// Sums over steps, for the profile.
   struct Counters {
     std::uint64_t steps = 0, free_falls = 0, asleep = 0, pairs = 0, contacts = 0;
@@ -74,9 +75,10 @@ class World {
   WorldDef def_;
   BulletSettings settings_;
   Frame frame_;
-  double scale_ = 1.0;  ///< units per metre
-  int shortening_ = 1;  ///< steps of time_step_ for one of the settings: small parts need short ones
-  double time_step_;    ///< s
+  double scale_ = 1.0;     ///< units per metre
+  int shortening_ = 1;     ///< steps of time_step_ for one of the settings: small parts need short ones
+  double time_step_;       ///< s
+  double sub_step_ = 0.0;  ///< s: of the last step
   btDefaultCollisionConfiguration configuration_;
   HullContact::Factory hull_contact_;
   btCollisionDispatcher dispatcher_;

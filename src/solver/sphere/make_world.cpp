@@ -152,4 +152,22 @@ BodyState state_of(const World& world, std::size_t body) {
   return state;
 }
 
+std::vector<ContactForce> forces_of(const World& world, std::size_t bodies) {
+  const auto named = [&](std::uint32_t body) { return body < bodies ? static_cast<int>(body) : -1; };
+  std::vector<ContactForce> forces;
+  for (const Manifold& m : world.manifolds) {
+    const Body &a = world.bodies[m.a], *b = m.b == ground ? nullptr : &world.bodies[m.b];
+    for (const Contact& c : m.contacts) {
+      if (c.normal_force <= 0) continue;
+      const bool field_of_a = c.feature >> 31;
+      const Vec3f normal = field_of_a ? Vec3f(a.q * c.local_normal) : b ? Vec3f(b->q * c.local_normal) : c.local_normal;
+      ContactForce f{named(m.a), named(m.b), Vec3f(a.x + a.q * c.anchor_a).cast<double>(), normal.cast<double>(),
+                     Vec3f(c.normal_force * normal + c.friction_force).cast<double>()};
+      if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force};
+      if (f.a >= 0) forces.push_back(f);
+    }
+  }
+  return forces;
+}
+
 }  // namespace bin_scenes::sphere

@@ -36,4 +36,7 @@ void set_phase(World& world, const Phase& phase);
 /// Pose of the model frame and velocity; NaN position for a body that was never placed.
 BodyState state_of(const World& world, std::size_t body);
 
+/// Of the last step. `bodies`: of the caller; what stands behind them is the bin.
+std::vector<ContactForce> forces_of(const World& world, std::size_t bodies);
+
 }  // namespace bin_scenes::sphere

@@ -123,6 +123,10 @@ class SphereSolver final : public Solver {
     return out;
   }
 
+  std::vector<ContactForce> contact_forces(WorldId id) const override {
+    return forces_of(slots_[id]->world, slots_[id]->bodies);
+  }
+
   std::size_t worlds_at_once() const override { return tbb::this_task_arena::max_concurrency(); }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return slots_[id]->world.counters.steps; }

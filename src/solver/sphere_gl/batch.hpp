@@ -65,10 +65,10 @@ class Batch {
   /// Room for twice the candidates per pair of bodies.
   void grow_candidates();
 
-  /// Where one world stands, after waiting for the passes so far; for tests, as the next two.
-  gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
-  /// Everything of one world; and its manifolds as they lie on the device.
+  /// Everything of one world, after waiting for the passes so far.
   void download(Slot slot, sphere::World& world) const;
+  /// For tests: where it stands, and its manifolds as they lie on the device.
+  gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
   ManifoldImage manifolds(Slot slot) const;
 
   /// Worlds that the passes work on from now on, and the share of a whole step that their steps are.

@@ -174,6 +174,14 @@ class GlSphereSolver final : public Solver {
     return out;
   }
 
+  std::vector<ContactForce> contact_forces(WorldId id) const override {
+    const Resident& r = world(id);
+    device_->make_current();
+    sphere::World now = r.world;
+    batch_.download(r.slot, now);
+    return sphere::forces_of(now, r.bodies);
+  }
+
   std::size_t worlds_at_once() const override { return at_once_; }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
