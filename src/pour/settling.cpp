@@ -11,7 +11,7 @@ using Finish = Pour::Finish;
 constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
 constexpr double jolt = 0.02;     ///< s at the start of a proof in which its forces are found and parts shift a little
 constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
-constexpr double patience = 2.0;  ///< s: time-out of a proof or mend, whose stiff contacts damp rocking poorly
+constexpr double patience = 2.0;  ///< s: time-out of stages whose stiff contacts damp rocking poorly
 constexpr int most_proofs = 12;   ///< a heap that still moves in the last one is accepted as it lies
 // Parts that may move in a proof: max(0, n / 50 - 2), 1 of 150.
 constexpr double tolerated_share = 0.02;
@@ -37,8 +37,10 @@ struct Settling::Seen {
   }
   bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && proofs < most_proofs; }
   bool stood() const { return calm() && heap.all_rest(); }
+  /// A part that tips or falls is waited for. On soft contacts the whole heap would sag again, and others fall as it is
+  /// pressed: of hundreds there is always one.
   bool rocks() const {
-    return !calm() && (fast() || (in_stage > patience && too_many(heap.still_for_less_than(calm_s))));
+    return !calm() && in_stage > patience && (fast() || too_many(heap.still_for_less_than(calm_s)));
   }
   /// True at one look, the first at which the heap can be calm: a given start was not at rest.
   bool stirs() const { return in_stage >= calm_s && last_stage < calm_s && heap.still_for_less_than(0.5 * calm_s) > 0; }
@@ -59,7 +61,7 @@ const Settling::Transition Settling::transitions[] = {
     {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return s.rest(); },         Stage::done},
     {Stage::settle, Finish::pressed, Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::press},
     {Stage::press,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::probe},
-    {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.fast(); },         Stage::settle},
+    {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.rest(); },         Stage::done},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::probe},
     {Stage::probe,  Finish::probed,  Finish::probed,

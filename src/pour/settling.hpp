@@ -1,8 +1,8 @@
 /// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
-///     pour ─► settle ─► press ─► probe ─► prove ─► done      a stage in which parts get under way again goes back to
-///                └─ settled ┘ pressed ┘     probed ┘         settle; given poses start in hold, a heap from which
-///                                                           parts were taken out starts in mend
+///     pour ─► settle ─► press ─► probe ─► prove ─► done      a stage in which parts rock on goes back to settle;
+///                └─ settled ┘ pressed ┘     probed ┘         given poses start in hold, a heap from which parts were
+///                                                           taken out starts in mend
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"

@@ -318,7 +318,7 @@ class HoveringSolver : public Solver {
     int jumps = 0;
     Stage jumps_in = Stage::probe;
     double jumps_at_s = 0.05, slides_s = 0.0, swings_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
-    bool heeds_phases = true;
+    bool heeds_phases = true, swings_fast = false;
   };
   explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
   std::vector<Stage> phases;
@@ -348,7 +348,9 @@ class HoveringSolver : public Solver {
       jumped_ = true;
       --habits_.jumps;
     }
-    if (probes() && times_probed() == 1 && probed_s < habits_.swings_s) {
+    const bool swings = probes() && times_probed() == 1 && probed_s < habits_.swings_s;
+    states_[0].velocity.linear.z() = swings && habits_.swings_fast ? -1.0 : 0.0;
+    if (swings) {
       states_[0].pose.position.x() += swung_ ? -1e-3 : 1e-3;
       swung_ = !swung_;
     }
@@ -446,6 +448,18 @@ TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
       << "one of many is waited for";
   habits.swings_s = 1.5;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove})) << "in time";
+}
+
+// A part that fell sent the heap back to soft contacts, on which it sagged as a whole; 1,000 rods never came to an end.
+TEST(Pour, WhatFallsInAProbeIsWaitedFor) {
+  HoveringSolver::Habits habits;
+  habits.swings_fast = true;
+  habits.swings_s = 0.3;
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             prove = Stage::prove;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove}));
+  habits.swings_s = 3.0;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, prove}));
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
