@@ -37,7 +37,7 @@ std::size_t moved(const Scene& before, const Scene& after) {
 Row emptied(const Request& request, std::size_t picks) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   std::string reason;
-  Heap heap(request, parts, make_solver(request, parts, reason));
+  Heap heap({request, parts}, make_solver(request, parts, reason));
   const auto settled = [&] {
     const Clock clock;
     heap.settle();
@@ -51,7 +51,7 @@ Row emptied(const Request& request, std::size_t picks) {
     heap.remove({highest(scene)});
     shares.push_back(settled() / pour_cpu);
     Scene after = heap.scene();
-    judge(after, heap.request(), heap.parts());
+    judge(after, heap.loaded());
     seconds.push_back(after.report.simulated_s);
     others.push_back(static_cast<double>(moved(scene, after)));
     depths.push_back(after.report.penetration.max_relative);

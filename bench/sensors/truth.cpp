@@ -173,7 +173,7 @@ void visible_fraction(Run& out, bool distorted) {
   sensor.pose = Pose();
   if (distorted) sensor.distortion = {-0.25, 0.1, 0.002, -0.001, 0.0};
   stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-  SensorRig().render(stage.scene, stage.request, stage.models);
+  SensorRig().render(stage.scene, {stage.request, stage.models});
   const Lens lens = lens_of(stage.scene.sensors[0]);
   const test::BruteCast cast(stage);
   const Reference all(lens, 0.05, 10.0, cast);

@@ -155,7 +155,7 @@ int generate(const GenerateOptions& options) {
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;
     request.scenes = count;
-    run.prepare = [&](Generator::Result& result) { store.prepare(result, request, generator); };
+    run.prepare = [&](Generator::Result& result) { store.prepare(result, generator); };
     generator.generate(request, run, [&](Generator::Result&& result) {
       store.commit(result, request, generator);
       const Report& report = result.scene.report;

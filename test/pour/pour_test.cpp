@@ -33,7 +33,7 @@ Request request_of(std::size_t count) {
 std::vector<Scene> poured(const Request& request, const std::vector<std::size_t>& indices, const RunHooks& hooks = {}) {
   const auto solver = make_bullet_solver(request.solver.bullet);
   const std::vector<PartModelPtr> parts(request.parts.size(), small_box());
-  return pour(request, parts, *solver, indices, hooks);
+  return pour({request, parts}, *solver, indices, hooks);
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ TEST(Pour, SetTimeIsKeptExactly) {
       request.solver.sphere.device = SphereSettings::Device::cpu;
       std::string reason;
       const auto solver = make_solver(request, {small_box()}, reason);
-      const Scene scene = pour(request, {small_box()}, *solver, {0})[0];
+      const Scene scene = pour({request, {small_box()}}, *solver, {0})[0];
       EXPECT_NEAR(scene.report.simulated_s, seconds, 1e-12) << name_of(type);
       EXPECT_NEAR(scene.parts[0].pose.position.x(), seconds, 1e-6) << "at 1 m/s";
       EXPECT_NEAR(scene.parts[0].velocity.linear.z(), -9.81 * seconds, 1e-5);
@@ -233,7 +233,7 @@ TEST(Pour, MeshBinHoldsItsPartsWhereItsPosePutsIt) {
   request.bin.mesh = "tray";
   request.bin.pose = {Vec3(0.5, -0.3, 0.1), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))};
   const auto solver = make_bullet_solver(request.solver.bullet);
-  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  const Scene scene = pour({request, {small_box()}, tray()}, *solver, {0})[0];
   EXPECT_TRUE(scene.report.at_rest);
   EXPECT_TRUE(scene.report.escaped.empty());
   EXPECT_TRUE(scene.report.not_poured.empty());
@@ -255,7 +255,7 @@ TEST(Pour, WhatLeavesAMeshBinHasEscaped) {
   request.parts[0].count = 2;
   request.parts[0].poses = {Pose{Vec3(0, 0, 0.03), Quat::Identity()}, Pose{Vec3(0.3, 0, 0.03), Quat::Identity()}};
   const auto solver = make_bullet_solver(request.solver.bullet);
-  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  const Scene scene = pour({request, {small_box()}, tray()}, *solver, {0})[0];
   EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
   EXPECT_EQ(scene.parts[0].state, PartState::resting);
 }
@@ -391,7 +391,7 @@ Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, doubl
   request.pour.finish = finish;
   request.pour.rest_window = rest_window;
   request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
-  const Report report = pour(request, {small_box()}, solver, {0})[0].report;
+  const Report report = pour({request, {small_box()}}, solver, {0})[0].report;
   EXPECT_TRUE(report.at_rest);
   EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
   return {solver.phases, solver.probed_s};
@@ -468,7 +468,7 @@ TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
     request.pour.pattern = Pour::Pattern::given;
     request.pour.finish = Pour::Finish::probed;
     for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
-    EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+    EXPECT_TRUE(pour({request, {small_box()}}, solver, {0})[0].report.at_rest);
     return solver.phases;
   };
   const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, prove = Stage::prove;

@@ -42,7 +42,7 @@ std::unique_ptr<Solver> solver_of(const Request& request) {
 using Ends = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 Ends ends_of(const Request& request, Solver& solver, const std::vector<std::size_t>& indices) {
   Ends ends;
-  for (const Scene& scene : pour(request, {angle()}, solver, indices)) {
+  for (const Scene& scene : pour({request, {angle()}}, solver, indices)) {
     EXPECT_TRUE(scene.report.at_rest);
     ends.emplace_back(scene.report.state_hash, scene.report.steps);
   }
