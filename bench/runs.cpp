@@ -1,3 +1,5 @@
+/// Builds the usual requests, pours them in processes of their own, and turns reports into rows. Rows of several seeds
+/// are joined into medians and ranges.
 #include "runs.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// Images without noise against a ray cast of the tests in double precision: depth, labels, shadows, visible fractions.
+/// Pixels at borders are left out, where the two may round to different sides.
 #include "sensors/rows.hpp"
 #include "sensors/stage.hpp"
 

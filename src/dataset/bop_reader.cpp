@@ -1,3 +1,5 @@
+/// Reads scene_gt, scene_camera and scene_gt_info of every scene below a folder. Poses are turned into a world whose z
+/// points up, told by the set or by the caller.
 #include "dataset/bop_reader.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -22,7 +24,7 @@ nlohmann::json parsed(const fs::path& path) {
   if (!fs::is_regular_file(path, ignored))
     throw input_error("is missing", path.string(), "audit needs scene_gt, scene_camera and models of a BOP data set");
   nlohmann::json json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
-  if (!json.is_object()) throw input_error("is no JSON map", path.string(), "mend the file, or leave the scene out");
+  if (!json.is_object()) throw input_error("is no JSON map", path.string(), "repair the file, or leave the scene out");
   return json;
 }
 

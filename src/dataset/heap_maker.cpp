@@ -1,3 +1,5 @@
+/// Draws a request, pours its heap, takes parts out step by step, and writes a folder a scene. An attempt that fails is
+/// set apart with its reasons and drawn anew.
 #include "dataset/heap_maker.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"

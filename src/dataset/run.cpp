@@ -1,3 +1,5 @@
+/// Finds out what is missing, has workers make it, and packs the rest. Everything that can be refused is refused before
+/// the first worker starts.
 #include "dataset/run.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

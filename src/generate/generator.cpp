@@ -1,3 +1,5 @@
+/// Loads what a request names, makes its solver, and lets heaps settle; what then follows for a scene is the same
+/// whether it was poured or picked from. Judging and rendering are done by other threads (finishing.hpp).
 #include "bin_scenes/generate/generator.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,3 +1,5 @@
+/// A heap behind its public face: changes, settling with a clock, and the scene of now. Scenes of a request are heaps
+/// that settle together and leave one by one.
 #include "bin_scenes/pour/heap.hpp"
 
 #include "pour/settle_heaps.hpp"

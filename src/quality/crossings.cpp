@@ -1,3 +1,4 @@
+/// Walks the trees of two meshes together down to pairs of triangles and finds where edges of one pierce the other.
 #include "crossings.hpp"
 
 #include "core/disjoint_sets.hpp"

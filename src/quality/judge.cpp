@@ -1,3 +1,5 @@
+/// Finds pairs whose boxes meet, measures overlap, bin and gap in parallel, and holds the worst against the request's
+/// limits. Every figure comes with the parts that it is of.
 #include "core/in_parallel.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

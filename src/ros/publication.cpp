@@ -1,3 +1,5 @@
+/// Messages of the scene that is shown, made once, and images when they are asked for. All members belong to the thread
+/// of the queue.
 #include "publication.hpp"
 
 #include <ros/console.h>

@@ -1,3 +1,5 @@
+/// Each door of the node as a job: what it makes, how it is shown, and what is answered. Parameters that may change
+/// while the node runs go through here too.
 #include "scene_jobs.hpp"
 
 #include "bin_scenes/core/error.hpp"

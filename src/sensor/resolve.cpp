@@ -1,3 +1,5 @@
+/// Places cameras by the bin's rim or mesh and turns projector or laser to its middle. Refuses what stands in a wall,
+/// below the floor or in a part, or looks away.
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include "bin_scenes/core/error.hpp"

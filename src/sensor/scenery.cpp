@@ -1,3 +1,5 @@
+/// One Embree scene of instances of the parts' trees. Embree names the triangle; distance and normal are computed in
+/// double.
 #include "bin_scenes/sensor/scenery.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

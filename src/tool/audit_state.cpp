@@ -1,3 +1,5 @@
+/// Puts the parts of a BOP scene into a request and measures overlap, gap, drift and visibility by the library's own
+/// judge, solver and rays.
 #include "tool/audit_state.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// Prints one line for each thing that the tool needs, with its remedy, and lets each solver drop a box. Exit code 3
+/// without OpenGL.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/output/scene_writer.hpp"

@@ -1,3 +1,5 @@
+/// The command `generate`: options over the request, scenes that are there already, progress, trace. Folders are
+/// written by scene_store.cpp.
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"

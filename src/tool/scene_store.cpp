@@ -1,3 +1,5 @@
+/// Decides for each scene whether its folder is whole and of the same request, and writes new ones under hidden names.
+/// BOP's models are written once.
 #include "tool/scene_store.hpp"
 
 #include "bin_scenes/core/error.hpp"

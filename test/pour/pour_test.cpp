@@ -407,14 +407,14 @@ TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
 TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove}));
+             verify = Stage::verify;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify}));
   EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
   habits.jumps_at_s = 0.015;
   habits.jumps = 1;
   EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
   habits.jumps_at_s = 0.05;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}))
       << "it comes to lie in the first, and stands the second";
   habits.jumps = 100;
   EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
@@ -425,12 +425,12 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
 TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
-  habits.jumps_in = prove;
+             verify = Stage::verify;
+  habits.jumps_in = verify;
   habits.jumps_at_s = 1e-3;
   habits.slides_s = 0.05;
   habits.jumps = 2;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove, prove, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify, verify, verify}))
       << "forces are forgotten anew each time";
   habits.heeds_phases = false;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle})) << "a solver to which all stages are the same";
@@ -439,13 +439,13 @@ TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
 TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
+             verify = Stage::verify;
   habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, prove}));
-  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
+  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, verify}))
       << "one of many is waited for";
   habits.swings_s = 1.5;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove})) << "in time";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify})) << "in time";
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
@@ -471,9 +471,9 @@ TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
     EXPECT_TRUE(pour({request, {small_box()}}, solver, {0})[0].report.at_rest);
     return solver.phases;
   };
-  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, prove = Stage::prove;
+  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, verify = Stage::verify;
   EXPECT_EQ(phases_of(0.0), (std::vector<Stage>{press}));
-  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, prove}));
+  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, verify}));
 }
 
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {

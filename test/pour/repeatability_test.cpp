@@ -108,7 +108,7 @@ TEST_P(Repeatability, ASceneGoesThroughEveryStage) {
   request.pour.finish = Pour::Finish::probed;
   Watched solver(solver_of(request));
   const Ends watched = ends_of(request, solver, {1});
-  for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::prove})
+  for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::verify})
     EXPECT_GT(solver.stages[stage], 0) << row(stage).name;
   EXPECT_EQ(watched, ends_of(request, {1})) << "looked at at once, not while the device works on another";
 }

@@ -20,7 +20,7 @@ TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr
 
 # Parameters and lines of a function; test programs list what they try, and may be longer.
 MOST_PARAMETERS, MOST_LINES = 7, 60
-# Functions above a limit that others are at work on: a name goes when it is mended.
+# Functions above a limit that others are at work on: a name goes when it is split.
 LARGE = """
 shaders/shared/sphere/edge.h descend, shaders/shared/sphere/edge.h ways_out_at_edge,
 shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
@@ -143,6 +143,12 @@ class Style(unittest.TestCase):
         self.assertGreater(count, 5000)
         self.assertEqual(large - pending, set(), "above %d parameters or %d lines" % (MOST_PARAMETERS, MOST_LINES))
         self.assertEqual(pending - large, set(), "these are small now: take them from LARGE")
+
+    def test_long_files_say_what_they_do(self):
+        for path in PATHS:
+            if path.endswith(".cpp") and path.startswith(("src/", "bench/")):
+                text = (ROOT / path).read_text()
+                self.assertTrue(text.startswith("///") or text.count("\n") <= 150, path + " begins without saying what it does")
 
     def test_slips_in_shell(self):
         files = list(scripts(".sh", b"bash"))

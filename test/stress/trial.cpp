@@ -91,7 +91,7 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
 
 std::string request_text(const Case& c, const std::string& solver) {
   Request request = c.request;
-  request.pour.finish = Pour::Finish::probed;  // the suite asks for all the proof there is
+  request.pour.finish = Pour::Finish::probed;  // the suite asks for the last finish there is
   request.solver.type = solver == "bullet" ? SolverType::bullet : SolverType::sphere;
   if (solver == "thesis") request.solver.preset = SolverSettings::Preset::thesis;
   if (solver == "sphere/gpu") request.solver.sphere.device = SphereSettings::Device::gpu;

@@ -1,3 +1,5 @@
+/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light. Noise is drawn along and
+/// across the ray.
 #include "sensor/models/time_of_flight.hpp"
 
 #include "core/in_parallel.hpp"
