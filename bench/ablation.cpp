@@ -86,7 +86,7 @@ const Mechanism mechanisms[] = {
      [](Variant& v) { v.settings.cold_steps = v.settings.pressed_cold_steps = 0; }},
     {"soft contacts", "stiff ones while parts move", [](Variant& v) { v.settings.soft = v.settings.stiff; }},
     {"stiff contacts", "soft ones while parts are pressed", [](Variant& v) { v.settings.stiff = v.settings.soft; }},
-    {"refinement", "stiff contacts with four sub-steps, not 16", [](Variant& v) { v.settings.stiff.refinement = 1; }},
+    {"refinement", "stiff contacts with two sub-steps, not eight", [](Variant& v) { v.settings.stiff.refinement = 1; }},
     {"push speed", "overlap leaves at any speed", [](Variant& v) { v.settings.push_speed = infinity; }},
     {"friction patch", "points resist no turn", [](Variant& v) { v.settings.patch_radius = 0; }},
     {"gyroscopic torque", "none", [](Variant& v) { v.settings.gyroscopic = false; }},

@@ -64,7 +64,7 @@ Row packing(const std::string& name, std::size_t count, double friction, std::ui
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-  const Scene scene = pour(request, parts, *solver, {0}).front();
+  const Scene scene = pour({request, parts}, *solver, {0}).front();
   std::vector<Vec3> centers;
   std::vector<double> heights;
   for (const ScenePart& part : scene.parts) {
@@ -127,7 +127,7 @@ Row repose(const std::string& name, std::size_t count, double friction, std::uin
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-  WorldDef def = world_of(request, parts);
+  WorldDef def = world_of({request, parts});
   std::vector<BodyState> starts(count);
   add_bed(def, width, friction, starts);
   const WorldId world = solver->add_world(def);

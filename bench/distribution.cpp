@@ -126,47 +126,50 @@ std::vector<double> distances(const std::vector<Looks>& reference, const std::ve
   return out;
 }
 
+Request request_for(const std::string& name, const std::string& part, std::size_t count, bool quick) {
+  Request request = bin_of(part, count);
+  choose_solver(request, name == "bullet" || name == "sphere/gpu" ? name : "sphere");
+  SphereSettings& s = request.solver.sphere;
+  if (name == "sphere fine" && !quick) {
+    s.time_step *= 0.5;
+    s.sub_steps *= 2;
+    s.fine_samples *= 3;
+    s.coarse_samples = s.fine_samples;
+    s.field_cell *= 0.5;
+  }
+  if (name == "sphere coarse") s.time_step *= 4.0;
+  if (name == "sphere coarser") s.time_step *= 8.0;
+  return request;
+}
+
+struct Measure {
+  const char* name;
+  Field field;
+};
+constexpr Measure measures[] = {{"height of centre / diagonal", &Looks::heights},
+                                {"|z| of the axis of largest inertia", &Looks::up},
+                                {"packing fraction", &Looks::packing},
+                                {"contacts of a part", &Looks::contacts}};
+
 void tell(Run& out, const std::string& part, int seeds) {
   const std::size_t count = out.quick() ? 8 : 32;
   const double limit_cpu_s = out.quick() ? 30.0 : 120.0;
-  const auto request_for = [&](const std::string& name) {
-    Request request = bin_of(part, count);
-    choose_solver(request, name == "bullet" || name == "sphere/gpu" ? name : "sphere");
-    SphereSettings& s = request.solver.sphere;
-    if (name == "sphere fine" && !out.quick()) {
-      s.time_step *= 0.5;
-      s.sub_steps *= 2;
-      s.fine_samples *= 3;
-      s.coarse_samples = s.fine_samples;
-      s.field_cell *= 0.5;
-    }
-    if (name == "sphere coarse") s.time_step *= 4.0;
-    if (name == "sphere coarser") s.time_step *= 8.0;
-    return request;
-  };
-  struct Measure {
-    const char* name;
-    Field field;
-  };
-  const Measure measures[] = {{"height of centre / diagonal", &Looks::heights},
-                              {"|z| of the axis of largest inertia", &Looks::up},
-                              {"packing fraction", &Looks::packing},
-                              {"contacts of a part", &Looks::contacts}};
   const std::string names[] = {"sphere fine", "sphere", "sphere/gpu", "sphere coarse", "sphere coarser", "bullet"};
   const auto key = [&](const std::string& name) { return Row().key("part", part).key("solver", name); };
   if (std::none_of(std::begin(names), std::end(names), [&](const std::string& name) { return out.wanted(key(name)); }))
     return;  // the reference takes longest
   Row failed;
-  Request reference_request = request_for("sphere fine");
+  Request reference_request = request_for("sphere fine", part, count, out.quick());
   reference_request.seed = 1001;  // other seeds than the candidates'
   const std::vector<Looks> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
   for (const std::string& name : names) {
     if (!out.wanted(key(name))) continue;
     const int poured = name == "sphere/gpu" ? std::min(seeds, gpu_seeds) : seeds;
     const bool itself = name == "sphere fine";
-    const std::vector<Looks> candidates = itself || reference.empty()
-                                              ? std::vector<Looks>{}
-                                              : poured_over(request_for(name), poured, limit_cpu_s, failed);
+    const std::vector<Looks> candidates =
+        itself || reference.empty()
+            ? std::vector<Looks>{}
+            : poured_over(request_for(name, part, count, out.quick()), poured, limit_cpu_s, failed);
     for (const Measure& measure : measures) {
       Row row;
       row.key("part", part).key("bodies", count).key("solver", name).key("measure", measure.name);

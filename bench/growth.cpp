@@ -37,7 +37,7 @@ void pour_once(Heap& heap, const std::string& path) {
     const std::vector<PartModelPtr> parts = load_parts(heap.request);
     std::string reason;
     const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
-    write_text(path, scene_json(pour(heap.request, parts, *solver, {0}).front(), heap.request));
+    write_text(path, scene_json(pour({heap.request, parts}, *solver, {0}).front(), heap.request));
   }
   for (const ScenePart& p : read_scene_json(path).parts) heap.rest.push_back({p.pose, {}});
 }
@@ -79,7 +79,7 @@ class Heaps {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
     const double side = heap.width * static_cast<double>(columns - 1);
     request.bin.inner_size.head<2>().array() += side;
-    const WorldDef def = world_of(request, parts_);
+    const WorldDef def = world_of({request, parts_});
     for (std::size_t w = 0; w < worlds; ++w) {
       const WorldId id = solver_->add_world(def);
       solver_->set_phase(id, phases::settle);

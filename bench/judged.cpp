@@ -20,8 +20,8 @@ Row referee_row(const std::string& path, const Request& request, const std::stri
   const std::vector<PartModelPtr> parts = load_parts(request);
   const Scene scene = read_scene_json(path);
   const std::vector<Pieces> exact = {read_pieces(pieces, millimetre)};
-  const Overlap overlap = referee_overlap(scene, request, parts, exact);
-  const Drift drift = referee_drift(scene, request, parts, exact);
+  const Overlap overlap = referee_overlap(scene, {request, parts}, exact);
+  const Drift drift = referee_drift(scene, {request, parts}, exact);
   const auto of = [](std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
     const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size()));

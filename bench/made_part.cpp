@@ -1,3 +1,5 @@
+/// Parts as lists of convex prisms in millimetres: drawn from a seed, or thin ones by name. Each is written as a mesh
+/// and as the list of its pieces, which the referee judges by.
 #include "made_part.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -33,7 +33,7 @@ Row prepare(const std::string& part, const std::string& solver_name) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-  solver->add_world(world_of(request, parts));
+  solver->add_world(world_of({request, parts}));
   return Row()
       .info("seconds", clock.wall_s())
       .info("cpu_s", clock.cpu_s())

@@ -1,3 +1,5 @@
+/// Overlap piece by piece by Bullet's GJK and EPA, and drift by its dynamics in small steps. Lengths are scaled so that
+/// a part's diagonal is 1, which Bullet's constants are made for.
 #include "referee.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -156,11 +158,11 @@ Pieces read_pieces(const std::string& path, double scale) {
   return pieces;
 }
 
-Overlap referee_overlap(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                        const std::vector<Pieces>& pieces) {
+Overlap referee_overlap(const Scene& scene, const LoadedRequest& loaded, const std::vector<Pieces>& pieces) {
+  const std::vector<PartModelPtr>& parts = loaded.parts;
   const double scale = 1.0 / parts.front()->diagonal();
   const std::vector<std::unique_ptr<Shape>> shapes = shapes_of(parts, pieces, scale);
-  const Vec3 half = 0.5 * scale * request.bin.inner_size;
+  const Vec3 half = 0.5 * scale * loaded.request.bin.inner_size;
   Overlap overlap;
   std::vector<Placed> placed;
   for (const ScenePart& part : scene.parts) {
@@ -192,11 +194,12 @@ Overlap referee_overlap(const Scene& scene, const Request& request, const std::v
   return overlap;
 }
 
-Drift referee_drift(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                    const std::vector<Pieces>& pieces, double seconds) {
+Drift referee_drift(const Scene& scene, const LoadedRequest& loaded, const std::vector<Pieces>& pieces,
+                    double seconds) {
+  const std::vector<PartModelPtr>& parts = loaded.parts;
   const double scale = 1.0 / parts.front()->diagonal();
   const std::vector<std::unique_ptr<Shape>> shapes = shapes_of(parts, pieces, scale);
-  World world(request, scale);
+  World world(loaded.request, scale);
 
   struct Judged {
     btRigidBody* body;
@@ -208,8 +211,8 @@ Drift referee_drift(const Scene& scene, const Request& request, const std::vecto
     if (!is_in(part)) continue;
     Shape& shape = *shapes[part.line];
     const btTransform start = to_bt(part.pose, scale) * shape.principal;
-    judged.push_back(
-        {&world.add(shape, start, request.parts[part.line].friction), start, scale * parts[part.line]->diagonal()});
+    judged.push_back({&world.add(shape, start, loaded.request.parts[part.line].friction), start,
+                      scale * parts[part.line]->diagonal()});
   }
   world.simulate(seconds);
 

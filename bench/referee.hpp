@@ -3,7 +3,7 @@
 /// resting moves.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
 #include <string>
@@ -24,8 +24,7 @@ struct Overlap {
 };
 
 /// Of the parts of a box bin as they lie. `pieces` by part line. Escaped and unpoured parts are left out.
-Overlap referee_overlap(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                        const std::vector<Pieces>& pieces);
+Overlap referee_overlap(const Scene& scene, const LoadedRequest& loaded, const std::vector<Pieces>& pieces);
 
 struct Drift {
   std::vector<double> moved;   ///< of the centres of mass / diagonal, by part
@@ -34,7 +33,7 @@ struct Drift {
 
 /// Lets the parts of a box bin go on from rest for `seconds`. `pieces` by part line. Escaped and unpoured parts are
 /// left out. Sets globals of Bullet: run it in a process of its own.
-Drift referee_drift(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                    const std::vector<Pieces>& pieces, double seconds = 0.5);
+Drift referee_drift(const Scene& scene, const LoadedRequest& loaded, const std::vector<Pieces>& pieces,
+                    double seconds = 0.5);
 
 }  // namespace bin_scenes::bench

@@ -1,3 +1,5 @@
+/// Builds the usual requests, pours them in processes of their own, and turns reports into rows. Rows of several seeds
+/// are joined into medians and ranges.
 #include "runs.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -79,7 +81,7 @@ Poured pour_timed(const Request& request) {
     out.cpu_s = clock.cpu_s();
   };
   generator.generate(request, options, [&](Generator::Result&& result) { out.scene = std::move(result.scene); });
-  out.parts = generator.parts();
+  out.parts = generator.loaded().parts;
   return out;
 }
 
@@ -102,7 +104,7 @@ void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& 
   for (const ScenePart& part : scene.parts) next.parts[0].poses.push_back(part.pose);
   std::string reason;
   const std::unique_ptr<Solver> solver = make_solver(next, parts, reason);
-  scene.report.drift = drift(scene, pour(next, parts, *solver, {scene.index}).front(), parts);
+  scene.report.drift = drift(scene, pour({next, parts}, *solver, {scene.index}).front(), parts);
 }
 
 }  // namespace
@@ -112,10 +114,10 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   const Clock clock;
   out.parts = load_parts(request);
   const std::unique_ptr<Solver> solver = make(out.parts);
-  out.scene = std::move(pour(request, out.parts, *solver, {request.first}).front());
+  out.scene = std::move(pour({request, out.parts}, *solver, {request.first}).front());
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();
-  judge(out.scene, request, out.parts);
+  judge(out.scene, {request, out.parts});
   if (request.drift_check) measure_drift(out.scene, request, out.parts);
   return out;
 }
@@ -138,7 +140,7 @@ void warm_up(const Request& request) {
   isolated([&] {
     const std::vector<PartModelPtr> parts = load_parts(request);
     std::string reason;
-    make_solver(request, parts, reason)->add_world(world_of(request, parts));
+    make_solver(request, parts, reason)->add_world(world_of({request, parts}));
     return Row();
   });
 }

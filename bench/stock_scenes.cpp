@@ -42,13 +42,14 @@ void make(const std::string& file, const std::string& out, std::size_t scenes) {
     options.unit = line.unit;
     parts.push_back(PartModel::load(line.path, options));
   }
+  const LoadedRequest loaded{request, parts};
   SensorRig rig;
   for (std::size_t i = 0; i < scenes; ++i) {
-    Heap heap(request, parts, make_stock_bullet(as_published(parts)), i);
+    Heap heap(loaded, make_stock_bullet(as_published(parts)), i);
     heap.settle();
     Scene scene = heap.scene();
-    scene.sensors = resolved_sensors(request, parts, nullptr);
-    const std::vector<RangeImage> images = rig.render(scene, request, parts);
+    scene.sensors = resolved_sensors(loaded);
+    const std::vector<RangeImage> images = rig.render(scene, loaded);
     char name[32];
     std::snprintf(name, sizeof name, "/train/%06zu", i);
     write_bop(out + name, scene, parts, images);

@@ -342,7 +342,7 @@ void teapot_table(Run& out) {
           voxels.voxels = request.solver.thesis.voxels;
           const std::size_t spheres = c.iterations ? parts[0]->spheres(voxels).spheres.size() : 0;
           const auto start = std::chrono::steady_clock::now();
-          const Scene scene = pour(request, parts, *solver, {0}).at(0);
+          const Scene scene = pour({request, parts}, *solver, {0}).at(0);
           const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
           Row row;
           if (c.iterations)

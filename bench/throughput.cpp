@@ -17,9 +17,9 @@ Row timed(Request request, std::size_t scenes) {
   double simulation_s = 0.0;
   {
     const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-    pour(request, parts, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
+    pour({request, parts}, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
     const Clock clock;
-    pour(request, parts, *solver, indices);
+    pour({request, parts}, *solver, indices);
     simulation_s = clock.wall_s();
   }
   Generator generator;

@@ -63,7 +63,7 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   RunHooks hooks;
   hooks.cancel = &known;
   try {
-    pour(request, parts, *make_stock_bullet(settings), {request.first}, hooks);
+    pour({request, parts}, *make_stock_bullet(settings), {request.first}, hooks);
   } catch (const Error& stopped) {
     if (stopped.kind() != ErrorKind::cancelled) throw;
   }

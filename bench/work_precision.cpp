@@ -18,67 +18,68 @@ struct Setting {
   MakeSolver make;                      ///< stock Bullet, or none
 };
 
-std::vector<Setting> settings_of_solvers(bool quick) {
+Setting setting_of(const std::string& solver, const std::string& varied, const std::string& value,
+                   const std::function<void(Request&)>& change) {
+  return {solver,
+          "yes",
+          varied,
+          value,
+          [=](Request& request) {
+            choose_solver(request, solver);
+            change(request);
+          },
+          {}};
+}
+Setting setting_of(const std::string& solver, const std::string& varied, double value,
+                   const std::function<void(Request&)>& change) {
+  return setting_of(solver, varied, Row::text(value), change);
+}
+
+std::vector<Setting> settings_of_sphere(bool quick) {
   std::vector<Setting> all;
-  const auto add = [&](const std::string& solver, const std::string& varied, double value,
-                       const std::function<void(SolverSettings&)>& change) {
-    all.push_back({solver,
-                   "yes",
-                   varied,
-                   Row::text(value),
-                   [=](Request& request) {
-                     choose_solver(request, solver);
-                     change(request.solver);
-                   },
-                   {}});
-  };
   const SphereSettings sphere;
-  const BulletSettings bullet;
-  add("sphere", "default", 0, [](SolverSettings&) {});
-  add("sphere/quick", "default", 0, [](SolverSettings&) {});
+  for (const char* preset : {"sphere", "sphere/quick"})
+    all.push_back(setting_of(preset, "default", 0, [](Request&) {}));
   for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed, Pour::Finish::probed}) {
     if (finish == Pour().finish) continue;  // the default
-    all.push_back({"sphere",
-                   "yes",
-                   "finish",
-                   name_of(finish),
-                   [=](Request& request) {
-                     choose_solver(request, "sphere");
-                     request.pour.finish = finish;
-                   },
-                   {}});
+    all.push_back(setting_of("sphere", "finish", name_of(finish), [=](Request& r) { r.pour.finish = finish; }));
     if (quick) break;
   }
   for (const double factor : {4.0, 2.0, 0.5}) {
     if (quick && factor != 2.0) continue;
     const double dt = factor * sphere.time_step;
-    add("sphere", "time_step", dt, [=](SolverSettings& s) { s.sphere.time_step = dt; });
+    all.push_back(setting_of("sphere", "time_step", dt, [=](Request& r) { r.solver.sphere.time_step = dt; }));
   }
-  if (!quick) {
-    for (const int steps : {1, 4 * sphere.sub_steps})
-      add("sphere", "sub_steps", steps, [=](SolverSettings& s) { s.sphere.sub_steps = steps; });
-    for (const double factor : {0.25, 3.0}) {
-      const int samples = static_cast<int>(std::lround(factor * sphere.fine_samples));
-      add("sphere", "fine_samples", samples, [=](SolverSettings& s) {
-        s.sphere.fine_samples = samples;
-        s.sphere.coarse_samples = std::min(s.sphere.coarse_samples, samples);
-      });
-    }
-    for (const double factor : {2.0, 0.5}) {
-      const double cell = factor * sphere.field_cell;
-      add("sphere", "field_cell", cell, [=](SolverSettings& s) { s.sphere.field_cell = cell; });
-    }
-    add("sphere/thesis", "default", 0, [](SolverSettings&) {});
-    all.back().sleeping = "no";
+  if (quick) return all;
+  for (const int steps : {1, 4 * sphere.sub_steps})
+    all.push_back(setting_of("sphere", "sub_steps", steps, [=](Request& r) { r.solver.sphere.sub_steps = steps; }));
+  for (const double factor : {0.25, 3.0}) {
+    const int samples = static_cast<int>(std::lround(factor * sphere.fine_samples));
+    all.push_back(setting_of("sphere", "fine_samples", samples, [=](Request& r) {
+      r.solver.sphere.fine_samples = samples;
+      r.solver.sphere.coarse_samples = std::min(r.solver.sphere.coarse_samples, samples);
+    }));
   }
+  for (const double factor : {2.0, 0.5}) {
+    const double cell = factor * sphere.field_cell;
+    all.push_back(setting_of("sphere", "field_cell", cell, [=](Request& r) { r.solver.sphere.field_cell = cell; }));
+  }
+  all.push_back(setting_of("sphere/thesis", "default", 0, [](Request&) {}));
+  all.back().sleeping = "no";
+  return all;
+}
+
+std::vector<Setting> settings_of_bullet(bool quick) {
+  std::vector<Setting> all;
+  const BulletSettings bullet;
   for (const bool sleeping : {true, false}) {
     for (const double factor : {1.0, 0.5}) {
       if (quick && (!sleeping || factor != 1.0)) continue;
       const double dt = factor * bullet.time_step;
-      add("bullet", "time_step", dt, [=](SolverSettings& s) {
-        s.bullet.time_step = dt;
-        s.bullet.sleeping = sleeping;
-      });
+      all.push_back(setting_of("bullet", "time_step", dt, [=](Request& r) {
+        r.solver.bullet.time_step = dt;
+        r.solver.bullet.sleeping = sleeping;
+      }));
       all.back().sleeping = sleeping ? "yes" : "no";
     }
   }
@@ -138,9 +139,10 @@ constexpr const char* parts[] = {"channel_u", "ring_24", "bolt_hex",   "nut_hex"
 void curves(Run& out, const std::string& part) {
   const std::size_t count = out.quick() ? 8 : 32;
   const bool exact = std::filesystem::exists(Run::pieces(part));
-  std::vector<Setting> settings = settings_of_solvers(out.quick());
+  std::vector<Setting> settings = settings_of_sphere(out.quick());
+  for (const Setting& one : settings_of_bullet(out.quick())) settings.push_back(one);
   if (exact)
-    for (const Setting& stock : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(stock);
+    for (const Setting& one : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(one);
   const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
   std::set<std::pair<std::string, double>> steps;  // a time_step that is cut to that of another setting is the same run
   for (const Setting& setting : settings) {

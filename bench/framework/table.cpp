@@ -1,3 +1,4 @@
+/// Rows, tables and their CSV files. A file begins with comments: facts of the machine, and the role of each column.
 #include "framework/table.hpp"
 
 #include "bin_scenes/core/error.hpp"

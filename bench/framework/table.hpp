@@ -1,5 +1,4 @@
-/// Results as rows of named columns, and the CSV file they are kept in. Each column says what it is good for, so that
-/// two files can be compared without knowing their benchmark.
+/// Results as rows of named columns, and the CSV file they are kept in. Each column says what it is good for.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@ enum class Role {
   exact,    ///< the same on every run of the same code on the same class of device: counts, flags, hashes
   measure,  ///< median of several samples (runs, or seeds); its spread is the column `<name>_spread`
   spread,   ///< range (largest - smallest) of the samples of the measure before it; empty if there was one sample
-  info      ///< for readers only, never compared
+  info      ///< for readers only
 };
 const char* name_of(Role role);
 

@@ -1,3 +1,5 @@
+/// A world of Bullet for each world of this project, with Bullet's own solver, sleeping and margins. Nothing is scaled
+/// or tuned.
 #include "peers/stock_bullet.hpp"
 
 #include "peers/bullet_part.hpp"

@@ -72,7 +72,7 @@ void view_times(Run& out) {
     sensor.near = 0.5, sensor.far = 2.0;
     sensor.pose = Pose();
     stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-    time(out, what, goal_s, [&] { rig.render(stage.scene, stage.request, stage.models); });
+    time(out, what, goal_s, [&] { rig.render(stage.scene, {stage.request, stage.models}); });
   };
   const auto whole = [&](const std::string& what, double goal_s, const std::string& model, Fidelity fidelity) {
     whole_of(stage, what, goal_s, model, fidelity);

@@ -1,4 +1,4 @@
-// Proves that structs declared once lie alike in C++ and std430: shaders/test/layout_probe.comp moves each field.
+// Shows that structs declared once lie alike in C++ and std430: shaders/test/layout_probe.comp moves each field.
 #ifndef LAYOUT_PROBE_H
 #define LAYOUT_PROBE_H
 #include "shared/types.h"

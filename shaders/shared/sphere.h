@@ -66,11 +66,11 @@
 #define SWEEP_RELAX 4u
 #define SWEEP_BOUNCE 5u
 
-// An edge: nodes, normal cone, length (m, bits), negative where no two faces meet. Behind the edges of a part lie the
-// lists of those near a point (EdgeGrid).
-// Normal cone of a node or edge (z): place of its vectors behind the nodes << 3 | how many bounds they are; 0 = all
-// directions, SPHERE_AXIS = one axis.
-
+// Buffers of a part's samples, which no struct describes (read by shaders/sphere/samples.h):
+// An edge is four words: its two nodes, its normal cone, its length (m, bits of a float; negative: no two faces meet
+// there). Behind the edges of a part lie the lists of those near a point (EdgeGrid).
+// A normal cone is one word: place of its vectors behind the nodes << 3 | how many bounds they are; 0 = all directions,
+// SPHERE_AXIS = one axis.
 
 // SphereState.flags.x
 #define SPHERE_PRESENT 1u

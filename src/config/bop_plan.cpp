@@ -1,3 +1,5 @@
+/// Reads the map `bop` of a plan over the defaults of its rig, and checks that sensors, modalities and splits fit
+/// together.
 #include "config/bop_plan.hpp"
 
 #include "config/suggest.hpp"

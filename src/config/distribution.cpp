@@ -1,3 +1,5 @@
+/// One table names the distributions, their arguments and how a value is drawn. Reading, errors and suggestions follow
+/// from it.
 #include "config/distribution.hpp"
 
 #include "config/suggest.hpp"

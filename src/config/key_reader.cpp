@@ -1,3 +1,5 @@
+/// Takes the keys of a YAML map one after the other and remembers where each stood. What nobody took is an error that
+/// suggests the nearest known key.
 #include "config/key_reader.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,3 +1,5 @@
+/// Finds the file that a request names: beside the request, absolute, or in a ROS package. Links are resolved before
+/// the roots are compared, and a missing file is answered with similar names.
 #include "config/paths.hpp"
 
 #include "bin_scenes/core/error.hpp"

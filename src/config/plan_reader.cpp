@@ -1,3 +1,5 @@
+/// Reads a plan's own keys, then the rest as a request with draws in place of values. The ends of each draw are put
+/// into a request and checked, so that a bad one is found before hours of work.
 #include "bin_scenes/config/plan.hpp"
 
 #include "bin_scenes/core/sha256.hpp"

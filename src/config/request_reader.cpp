@@ -1,3 +1,5 @@
+/// Parses YAML, applies overrides by path, and fills the request through the visitor of its keys. A scene to go on from
+/// replaces start poses.
 #include "bin_scenes/config/request_reader.hpp"
 
 #include "bin_scenes/core/error.hpp"

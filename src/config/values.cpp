@@ -1,3 +1,4 @@
+/// Readers and writers of single values: numbers, vectors, poses, units, lists. Each pair gives back the same bits.
 #include "config/values.hpp"
 
 #include <algorithm>

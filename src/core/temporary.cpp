@@ -1,3 +1,5 @@
+/// Files and folders are written under a hidden name that tells host and process, synced, and renamed. Names of
+/// processes that no longer run are removed by later ones.
 #include "bin_scenes/core/temporary.hpp"
 
 #include "bin_scenes/core/error.hpp"

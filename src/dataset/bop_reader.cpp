@@ -1,3 +1,5 @@
+/// Reads scene_gt, scene_camera and scene_gt_info of every scene below a folder. Poses are turned into a world whose z
+/// points up, told by the set or by the caller.
 #include "dataset/bop_reader.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -22,7 +24,7 @@ nlohmann::json parsed(const fs::path& path) {
   if (!fs::is_regular_file(path, ignored))
     throw input_error("is missing", path.string(), "audit needs scene_gt, scene_camera and models of a BOP data set");
   nlohmann::json json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
-  if (!json.is_object()) throw input_error("is no JSON map", path.string(), "mend the file, or leave the scene out");
+  if (!json.is_object()) throw input_error("is no JSON map", path.string(), "repair the file, or leave the scene out");
   return json;
 }
 
@@ -90,8 +92,12 @@ std::string suffix_for(const fs::path& scene, const std::string& sensor) {
   throw input_error("has no sensor '" + sensor + "'", scene.string(), "there are:" + known);
 }
 
+bool tells_world(const nlohmann::json& camera) {
+  return camera.contains("cam_R_w2c") && camera.contains("cam_t_w2c");
+}
+
 BopView view_of(const fs::path& scene, const std::string& suffix, const std::string& key, const nlohmann::json& camera,
-                const nlohmann::json& truth, const nlohmann::json& info, const BopReadOptions& options, BopSet& set) {
+                const nlohmann::json& truth, const nlohmann::json& info, const BopReadOptions& options) {
   const std::string where = scene.string() + ", image " + key;
   BopView view;
   view.scene = scene;
@@ -99,13 +105,12 @@ BopView view_of(const fs::path& scene, const std::string& suffix, const std::str
   view.image = std::stoi(key);
   view.k = camera.at("cam_K").get<std::array<double, 9>>();
   Pose camera_in_world;
-  if (camera.contains("cam_R_w2c") && camera.contains("cam_t_w2c")) {
+  if (tells_world(camera)) {
     const Pose world_in_camera{millimetres_of(camera.at("cam_t_w2c")),
                                rotation(camera.at("cam_R_w2c"), where + ", cam_R_w2c")};
     camera_in_world = world_in_camera.inverse();
     if (options.up) camera_in_world = Pose{Vec3::Zero(), upright(*options.up)} * camera_in_world;
   } else {
-    set.world_told = false;
     camera_in_world.orientation = upright(options.up.value_or(-Vec3::UnitZ()));
   }
   view.camera = camera_in_world;
@@ -168,9 +173,11 @@ BopSet read_bop_set(const std::string& root, const BopReadOptions& options) {
       std::vector<std::pair<int, std::string>> images;
       for (const auto& [key, entries] : truth.items()) images.emplace_back(std::stoi(key), key);
       std::sort(images.begin(), images.end());
-      for (const auto& [number, key] : images)
+      for (const auto& [number, key] : images) {
         set.views.push_back(view_of(scene, suffix, key, cameras.at(key), truth.at(key),
-                                    info.value(key, nlohmann::json::array()), options, set));
+                                    info.value(key, nlohmann::json::array()), options));
+        set.world_told = set.world_told && tells_world(cameras.at(key));
+      }
     }
     for (const BopView& view : set.views)
       for (const BopPart& part : view.parts) set.models[part.object];

@@ -1,3 +1,5 @@
+/// Writes camera.json, targets and description from the files of the scenes themselves, so that shares that were merged
+/// give the same bytes. Also prints the lines that bop_toolkit needs to know the set.
 #include "dataset/bop_root.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// Names of all paths of a data set, and dataset.json, which claims the folder before anything else is written. A lock
+/// keeps two runs apart.
 #include "dataset/data_folder.hpp"
 
 #include "bin_scenes/core/sha256.hpp"

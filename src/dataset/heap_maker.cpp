@@ -1,3 +1,5 @@
+/// Draws a request, pours its heap, takes parts out step by step, and writes a folder a scene. An attempt that fails is
+/// set apart with its reasons and drawn anew.
 #include "dataset/heap_maker.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
@@ -163,10 +165,10 @@ void HeapMaker::make_scenes(std::size_t heap, std::size_t attempt, Attempt& out,
     before = Clock::now();
     std::vector<BopImage> bop;
     if (plan_.wants("bop") || plan_.wants("shards"))
-      bop = bop_images(scene, generator_.parts(), out.result->images, {plan_.tolerance, object_ids(pile.request())});
+      bop = bop_images(scene, pile.parts(), out.result->images, {plan_.tolerance, object_ids(pile.request())});
     record.stages_ms["masks"] += ms_since(before);
     before = Clock::now();
-    write_scene(*out.result, pile.request(), bop, out.request->first + step, folders);
+    write_scene(*out.result, pile.loaded(), bop, out.request->first + step, folders);
     record.stages_ms["write"] += ms_since(before);
     ++out.scenes;
   }
@@ -184,8 +186,8 @@ std::optional<Error> HeapMaker::crowd(const Scene& scene) const {
       "ask for fewer parts, enlarge the bin, or raise the plan's not_poured");
 }
 
-void HeapMaker::write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
-                            std::size_t scene, WholeFolders& folders) {
+void HeapMaker::write_scene(const Generator::Result& result, const LoadedRequest& loaded,
+                            const std::vector<BopImage>& bop, std::size_t scene, WholeFolders& folders) {
   // The folder with scene.json gets its name last: where it is, everything is.
   if (plan_.wants("bop"))
     folders.write(folder_.bop(facts_, scene), [&](const std::string& hidden) {
@@ -195,8 +197,8 @@ void HeapMaker::write_scene(const Generator::Result& result, const Request& requ
     folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
   folders.write(folder_.scene(scene), [&](const std::string& hidden) {
-    write_scene_files(hidden, formats, result, request, generator_.parts(), generator_.bin_model());
-    write_text((fs::path(hidden) / "request.yaml").string(), write_request(request));
+    write_scene_files(hidden, formats, result, loaded);
+    write_text((fs::path(hidden) / "request.yaml").string(), write_request(loaded.request));
   });
 }
 
@@ -204,8 +206,7 @@ void HeapMaker::set_apart(const Attempt& failed, std::size_t heap, std::size_t a
   WholeFolders folders;
   const std::set<std::string> formats = {"json", plan_.wants("png") ? "png" : "json"};
   folders.write(folder_.set_apart(heap * (plan_.depletion.steps + 1), attempt), [&](const std::string& hidden) {
-    if (failed.result)
-      write_scene_files(hidden, formats, *failed.result, *failed.request, generator_.parts(), generator_.bin_model());
+    if (failed.result) write_scene_files(hidden, formats, *failed.result, generator_.loaded());
     if (failed.request) write_text((fs::path(hidden) / "request.yaml").string(), write_request(*failed.request));
     std::string text;
     for (const std::string& reason : failed.reasons) text += reason + "\n";

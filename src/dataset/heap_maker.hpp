@@ -39,7 +39,7 @@ class HeapMaker {
   Attempt attempt(std::size_t heap, std::size_t attempt, HeapRecord& record, WholeFolders& folders);
   void make_scenes(std::size_t heap, std::size_t attempt, Attempt& out, HeapRecord& record, WholeFolders& folders);
   std::optional<Error> crowd(const Scene& scene) const;
-  void write_scene(const Generator::Result& result, const Request& request, const std::vector<BopImage>& bop,
+  void write_scene(const Generator::Result& result, const LoadedRequest& loaded, const std::vector<BopImage>& bop,
                    std::size_t scene, WholeFolders& folders);
   void set_apart(const Attempt& failed, std::size_t heap, std::size_t attempt);
   std::vector<int> object_ids(const Request& request) const;

@@ -1,3 +1,5 @@
+/// Fills the HTML template with figures of the index and with small pictures. Scenes are thinned to what fits into one
+/// page.
 #include "dataset/report.hpp"
 
 #include "bin_scenes/core/error.hpp"

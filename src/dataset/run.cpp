@@ -1,3 +1,5 @@
+/// Finds out what is missing, has workers make it, and packs the rest. Everything that can be refused is refused before
+/// the first worker starts.
 #include "dataset/run.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -78,9 +80,10 @@ double estimate_scene_bytes(const Plan& plan) {
 
 namespace {
 
+/// Those that are not `done`. `tell` is called from time to time.
 void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& options,
-                const std::set<std::size_t>& done, SceneIndex& index, RunProgress& progress,
-                const std::function<void(std::size_t heap)>& made, const std::function<void()>& tell) {
+                const std::set<std::size_t>& done, const std::function<void(const HeapRecord&)>& made,
+                const std::function<void()>& tell) {
   static const std::atomic<bool> never{false};
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::unique_ptr<HeapMaker> maker;  // of each worker, made in it
@@ -104,16 +107,21 @@ void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& op
         if (answer.contains("error"))
           throw Error(static_cast<ErrorKind>(answer["kind"].get<int>()), answer["error"], answer["where"],
                       answer["remedy"]);
-        const HeapRecord record = record_of(answer);
-        index.put(record);
-        ++progress.heaps_done;
-        progress.accepted += record.scenes.size();
-        progress.rejected += record.rejected.size();
-        progress.failed += !record.accepted;
-        made(record.heap);
-        tell();
+        made(record_of(answer));
       },
       options.stop ? *options.stop : never, tell);
+}
+
+RunProgress progress_so_far(const DataSetFacts& facts, const RunOptions& options, std::size_t done,
+                            const IndexCounts& counts) {
+  RunProgress progress;
+  progress.phase = "scenes";
+  progress.heaps = options.shard < facts.heaps ? (facts.heaps - options.shard - 1) / options.shards + 1 : 0;
+  progress.heaps_done = done;
+  progress.accepted = counts.scenes;
+  progress.rejected = counts.rejected;
+  progress.failed = counts.failed;
+  return progress;
 }
 
 }  // namespace
@@ -137,14 +145,7 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   index.add_share(options.shard, options.shards);
   const std::set<std::size_t> done = reconcile(folder, facts, index, options);
 
-  RunProgress progress;
-  progress.phase = "scenes";
-  progress.heaps = options.shard < facts.heaps ? (facts.heaps - options.shard - 1) / options.shards + 1 : 0;
-  progress.heaps_done = done.size();
-  const IndexCounts counts = index.counts();
-  progress.accepted = counts.scenes;
-  progress.rejected = counts.rejected;
-  progress.failed = counts.failed;
+  RunProgress progress = progress_so_far(facts, options, done.size(), index.counts());
   check_disk(plan, folder, progress.heaps - done.size(), options);
   const auto begin = Clock::now();
   const auto tell = [&] {
@@ -157,11 +158,17 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   tell();
   std::optional<ShardPacker> packer;
   if (plan.wants("shards") && options.shards == 1) packer.emplace(folder, facts, done);
-  const auto made = [&](std::size_t heap) {
-    if (packer) packer->add(heap);
+  const auto made = [&](const HeapRecord& record) {
+    index.put(record);
+    ++progress.heaps_done;
+    progress.accepted += record.scenes.size();
+    progress.rejected += record.rejected.size();
+    progress.failed += !record.accepted;
+    if (packer) packer->add(record.heap);
+    tell();
   };
   try {
-    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, index, progress, made, tell);
+    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, made, tell);
     stop_if_cancelled();
   } catch (...) {
     remove_leftovers(folder);  // of the workers that have just been stopped

@@ -1,3 +1,4 @@
+/// The statements of SQLite behind each question, in one place. Every heap is one transaction.
 #include "dataset/scene_index.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,3 +1,5 @@
+/// Packs samples of finished heaps into tar files in the order of scenes, while later ones are made. A shard is written
+/// once it is full; the last one is unpacked again when a set grows.
 #include "dataset/shards.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

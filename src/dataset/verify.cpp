@@ -1,3 +1,5 @@
+/// The list of invariants, and the checks of files and index. Scenes, BOP's files and shards have files of their own
+/// (verify_scene.cpp, verify_bop.cpp, verify_shards.cpp).
 #include "dataset/verify.hpp"
 
 #include "bin_scenes/core/sha256.hpp"

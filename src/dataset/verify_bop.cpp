@@ -1,3 +1,5 @@
+/// BOP's files against scene.json and against their own pictures: poses, boxes, masks, counts, models. The pixels of
+/// masks are counted anew.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
 #include "core/read_file.hpp"

@@ -1,3 +1,4 @@
+/// Reads every shard as a tar file and compares keys, offsets, sizes and masks with what the set tells of its images.
 #include "bin_scenes/core/error.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"

@@ -87,16 +87,15 @@ bool has_manifest(const std::string& folder) {
 }
 
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
-                       const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model) {
+                       const LoadedRequest& loaded) {
   const fs::path base(folder);
   for (const RangeImage& image : result.images) {
     if (formats.count("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
     if (formats.count("ply")) write_ply((base / (image.sensor.name + ".ply")).string(), image);
     if (formats.count("png")) write_pngs(folder, image);
   }
-  if (formats.count("bag"))
-    bag_writer()((base / "scene.bag").string(), result.scene, request, result.images, parts, bin_model);
-  write_text((base / "scene.json").string(), scene_json(result.scene, request, result.images, parts));
+  if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
+  write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
 }
 
 WholeFolders::~WholeFolders() {

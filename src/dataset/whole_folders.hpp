@@ -35,7 +35,7 @@ bool whole(const std::filesystem::path& folder, bool digests);
 
 /// The files of one scene in the formats json, pcd, ply, png and bag.
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
-                       const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model);
+                       const LoadedRequest& loaded);
 
 /// Folders that are written under hidden names and take their own only when all of them are whole. Without commit()
 /// nothing of them is left, nor of the directories above them that were made for them.

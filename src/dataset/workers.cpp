@@ -1,3 +1,5 @@
+/// Forks workers, hands out numbers of heaps and hears one line of JSON for each, over pipes. A worker that dies is
+/// replaced and its heap is given again.
 #include "dataset/workers.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// Loads what a request names, makes its solver, and lets heaps settle; what then follows for a scene is the same
+/// whether it was poured or picked from. Judging and rendering are done by other threads (finishing.hpp).
 #include "bin_scenes/generate/generator.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -80,26 +82,54 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
 struct Generator::State {
   ModelStore models;
   SensorRig rig;
-  std::vector<Sensor> sensors;  ///< of the request, with poses and intrinsics
-  std::size_t at_once = 1;      ///< scenes whose images fit into memory together
+
+  struct Prepared {
+    std::shared_ptr<Solver> solver;
+    std::string solver_reason;
+    Profile spent;
+  };
+  /// Models and solver of a request, which has been checked.
+  Prepared prepare(const Request& request, Reporter& reporter) {
+    Prepared prepared;
+    {
+      StageTimer timer(prepared.spent, "load");
+      load(request, reporter);
+    }
+    StageTimer timer(prepared.spent, "prepare");
+    reporter.phase("prepare", request.first, request.part_count());
+    prepared.solver = make_solver(request, models.loaded().parts, prepared.solver_reason);
+    return prepared;
+  }
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
     estimate_memory(request, {});
     models.load(request);
-    at_once = scenes_seen_at_once(request, estimate_memory(request, models.parts()));
-    sensors = resolved_sensors(request, models.parts(), models.bin());
+    estimate_memory(request, models.loaded().parts);
+    resolved_sensors(models.loaded());  // says what is wrong before hours of simulation
   }
 
-  static void measure_drift(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                            const std::shared_ptr<Solver>& solver, const PartModelPtr& bin_model,
+  /// A settled heap's scene, with what the report says of models and solver.
+  static Scene scene_of(const Heap& heap) {
+    Scene scene = heap.scene();
+    for (const PartModelPtr& part : heap.parts()) scene.model_sha256.push_back(part->load_report().content_sha256);
+    scene.report.solver_reason = heap.solver_reason();
+    for (auto part = heap.parts().begin(); part != heap.parts().end(); ++part) {  // a repair matters to each scene
+      if (std::find(heap.parts().begin(), part, *part) != part) continue;
+      for (const Flag& flag : (*part)->load_report().flags) scene.report.flags.push_back(flag);
+    }
+    return scene;
+  }
+
+  static void measure_drift(Scene& scene, const LoadedRequest& loaded, const std::shared_ptr<Solver>& solver,
                             const RunHooks& hooks) {
+    if (!loaded.request.drift_check) return;
     std::vector<std::size_t> kept;
-    const Request next = going_on(request, scene, drift_seconds, kept);
+    const Request next = going_on(loaded.request, scene, drift_seconds, kept);
     if (kept.empty()) return;
     RunHooks quiet;
     quiet.cancel = hooks.cancel;
-    Heap again(next, parts, solver, scene.index, bin_model);
+    Heap again({next, loaded.parts, loaded.bin_model}, solver, scene.index);
     again.settle(quiet);
     const Scene moved = again.scene();
     Scene before;
@@ -107,32 +137,21 @@ struct Generator::State {
       before.parts.push_back(scene.parts[i]);
       before.parts.back().id = static_cast<int>(before.parts.size()) - 1;  // as the re-run counts them
     }
-    scene.report.drift = drift(before, moved, parts);
-  }
-
-  /// What the report says of models and solver.
-  static void name_origin(Scene& scene, const std::vector<PartModelPtr>& parts, const std::string& solver_reason) {
-    for (const PartModelPtr& part : parts) scene.model_sha256.push_back(part->load_report().content_sha256);
-    scene.report.solver_reason = solver_reason;
-    for (auto part = parts.begin(); part != parts.end(); ++part) {  // a repaired mesh matters to each scene of it
-      if (std::find(parts.begin(), part, *part) != part) continue;
-      for (const Flag& flag : (*part)->load_report().flags) scene.report.flags.push_back(flag);
-    }
+    scene.report.drift = drift(before, moved, loaded.parts);
   }
 
   /// What is done for a scene once it has been poured; in any thread. `sensors`: resolved.
-  void finish(Result& result, const Request& request, const std::vector<PartModelPtr>& parts,
-              const PartModelPtr& bin_model, const std::vector<Sensor>& sensors, const Options& options) {
+  void finish(Result& result, const LoadedRequest& loaded, const std::vector<Sensor>& sensors, const Options& options) {
     Scene& scene = result.scene;
     Profile spent;
     {
       StageTimer timer(spent, "quality");
-      judge(scene, request, parts, bin_model);
+      judge(scene, loaded);
     }
     scene.sensors = sensors;
     if (options.render && !sensors.empty()) {
       StageTimer timer(spent, "render");
-      result.images = rig.render(scene, request, parts, bin_model);
+      result.images = rig.render(scene, loaded);
     }
     scene.report.profile.merge(spent);
     if (options.prepare) options.prepare(result);
@@ -142,39 +161,24 @@ struct Generator::State {
 Generator::Generator() : state_(std::make_unique<State>()) {}
 Generator::~Generator() = default;
 
-const std::vector<PartModelPtr>& Generator::parts() const {
-  return state_->models.parts();
-}
-const PartModelPtr& Generator::bin_model() const {
-  return state_->models.bin();
+const LoadedRequest& Generator::loaded() const {
+  return state_->models.loaded();
 }
 
 void Generator::generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done) {
   const CancelScope scope(options.hooks.cancel);
   check(request);
   Reporter reporter(options.hooks, request.scenes);
-  Profile loading;
-  {
-    StageTimer timer(loading, "load");
-    state_->load(request, reporter);
-  }
-  const std::vector<PartModelPtr>& parts = state_->models.parts();
-  const PartModelPtr& bin_model = state_->models.bin();
-  std::string solver_reason;
-  std::shared_ptr<Solver> solver;
-  {
-    StageTimer timer(loading, "prepare");
-    reporter.phase("prepare", request.first, request.part_count());
-    solver = make_solver(request, parts, solver_reason);
-  }
+  const State::Prepared prepared = state_->prepare(request, reporter);
+  const LoadedRequest& loaded = state_->models.loaded();
+  const std::vector<Sensor> sensors = resolved_sensors(loaded);
 
-  Finishing finishing(
-      [&](Result& result) { state_->finish(result, request, parts, bin_model, state_->sensors, options); },
-      [&](Result&& result) {
-        reporter.handed_on();
-        done(std::move(result));
-      },
-      state_->at_once);
+  Finishing finishing([&](Result& result) { state_->finish(result, loaded, sensors, options); },
+                      [&](Result&& result) {
+                        reporter.handed_on();
+                        done(std::move(result));
+                      },
+                      scenes_seen_at_once(request, estimate_memory(request, loaded.parts)));
 
   const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;
@@ -182,11 +186,12 @@ void Generator::generate(const Request& request, const Options& options, const s
     reporter.poured(progress);
     finishing.hand_on_finished();
   };
-  pour(request, parts, *solver, scenes, hooks, bin_model, [&](std::size_t place, Scene&& scene) {
-    State::name_origin(scene, parts, solver_reason);
-    if (place == 0) scene.report.profile.merge(loading);
+  settle_scenes(loaded, prepared.solver, prepared.solver_reason, scenes, hooks, [&](std::size_t place, Heap&& heap) {
+    Scene scene = State::scene_of(heap);
+    { const Heap over = std::move(heap); }  // its place on the device is free for the drift's
+    if (place == 0) scene.report.profile.merge(prepared.spent);
     reporter.phase("quality", scene.index, scene.parts.size());
-    if (request.drift_check) State::measure_drift(scene, request, parts, solver, bin_model, options.hooks);
+    State::measure_drift(scene, loaded, prepared.solver, options.hooks);
     finishing.add(place, std::move(scene));
     finishing.hand_on_finished();
   });
@@ -197,11 +202,8 @@ Heap Generator::heap(const Request& request, const RunHooks& hooks) {
   const CancelScope scope(hooks.cancel);
   check(request);
   Reporter reporter(hooks, 1);
-  state_->load(request, reporter);
-  reporter.phase("prepare", request.first, request.part_count());
-  std::string reason;
-  std::shared_ptr<Solver> solver = make_solver(request, state_->models.parts(), reason);
-  return Heap(request, state_->models.parts(), std::move(solver), request.first, state_->models.bin(), reason);
+  const State::Prepared prepared = state_->prepare(request, reporter);
+  return Heap(state_->models.loaded(), prepared.solver, request.first, prepared.solver_reason);
 }
 
 std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<PartLine>& lines,
@@ -225,23 +227,20 @@ std::vector<NewParts> Generator::new_parts(const Heap& heap, const std::vector<P
   state_->load(all, reporter);
   std::vector<NewParts> parts;
   const std::size_t before = all.parts.size() - lines.size();
-  for (std::size_t i = 0; i < lines.size(); ++i) parts.push_back({lines[i], state_->models.parts()[before + i]});
+  for (std::size_t i = 0; i < lines.size(); ++i) parts.push_back({lines[i], state_->models.loaded().parts[before + i]});
   return parts;
 }
 
 Generator::Result Generator::result(const Heap& heap, const Options& options) {
   const CancelScope scope(options.hooks.cancel);
-  const Request& request = heap.request();
+  const LoadedRequest loaded = heap.loaded();
   Reporter reporter(options.hooks, 1);
   Result result;
-  result.scene = heap.scene();
+  result.scene = State::scene_of(heap);
   result.scene.index = options.index.value_or(result.scene.index);
-  State::name_origin(result.scene, heap.parts(), heap.solver_reason());
   reporter.phase("quality", result.scene.index, result.scene.parts.size());
-  if (request.drift_check)
-    State::measure_drift(result.scene, request, heap.parts(), heap.solver(), heap.bin_model(), options.hooks);
-  state_->finish(result, request, heap.parts(), heap.bin_model(),
-                 resolved_sensors(request, heap.parts(), heap.bin_model()), options);
+  State::measure_drift(result.scene, loaded, heap.solver(), options.hooks);
+  state_->finish(result, loaded, resolved_sensors(loaded), options);
   return result;
 }
 

@@ -1,3 +1,5 @@
+/// Estimates the bytes of models, bodies, pairs and images from counts, before anything large is allocated. Where a
+/// model is not loaded yet, a usual one stands for it.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"

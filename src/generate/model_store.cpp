@@ -38,7 +38,8 @@ PartModelPtr load_checked(const std::string& path, const std::string& sha256, co
   return model;
 }
 
-void check_sizes(const Request& request, const std::vector<PartModelPtr>& parts, const PartModelPtr& bin) {
+void check_sizes(const LoadedRequest& loaded) {
+  const auto& [request, parts, bin] = loaded;
   if (bin) {
     double largest = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -81,10 +82,9 @@ void ModelStore::load(const Request& request) {
     options.thickness = line.thickness;
     parts.push_back(get(line.path, line.sha256, options));
   }
-  check_sizes(request, parts, bin);
+  check_sizes({request, parts, bin});
   keep(std::move(used));
-  parts_ = std::move(parts);
-  bin_ = std::move(bin);
+  loaded_ = {request, std::move(parts), std::move(bin)};
 }
 
 void ModelStore::keep(std::map<std::string, PartModelPtr>&& used) {

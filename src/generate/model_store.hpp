@@ -1,8 +1,7 @@
 /// Models of requests, kept in memory between them.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 
 #include <map>
 #include <string>
@@ -16,8 +15,7 @@ class ModelStore {
   /// use, the last few are kept, for requests that take turns; memory does not grow with the number of requests.
   void load(const Request& request);
 
-  const std::vector<PartModelPtr>& parts() const { return parts_; }
-  const PartModelPtr& bin() const { return bin_; }
+  const LoadedRequest& loaded() const { return loaded_; }  ///< the last one
 
  private:
   static constexpr std::size_t most_unused = 8;  ///< models
@@ -25,8 +23,7 @@ class ModelStore {
 
   std::map<std::string, PartModelPtr> models_;
   std::vector<std::string> order_;  ///< keys of models_, those used last at the end
-  std::vector<PartModelPtr> parts_;
-  PartModelPtr bin_;
+  LoadedRequest loaded_;
 };
 
 }  // namespace bin_scenes

@@ -1,3 +1,5 @@
+/// Allocation, growth and copies of storage buffers, and read-backs that do not stop the device. Sizes are checked
+/// against the driver's limit.
 #include "bin_scenes/gl/buffer.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,3 +1,5 @@
+/// Chooses an EGL device, hardware first unless software is asked for, makes its context and asks its limits. One
+/// context is shared by all users of a process, one thread at a time.
 #include "bin_scenes/gl/device.hpp"
 
 #include "bin_scenes/core/error.hpp"

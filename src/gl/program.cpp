@@ -1,3 +1,5 @@
+/// Compiles or loads compute programs and sets their uniforms. Dispatches of many groups are folded into rows that
+/// every driver takes.
 #include "bin_scenes/gl/program.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

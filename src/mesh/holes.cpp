@@ -1,3 +1,5 @@
+/// Walks the open edges into loops and closes small loops: of few vertices by the triangulation of least area, others
+/// by a fan.
 #include "holes.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

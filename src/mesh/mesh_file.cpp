@@ -1,3 +1,5 @@
+/// Checks a file before assimp sees it: format by content, counts that it promises against its size. Then joins all its
+/// meshes under the transforms of their nodes.
 #include "mesh_file.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// The order of repairs: weld, drop what is degenerate, close holes, orient, unite shells. Each step that changed
+/// something is a flag of the report.
 #include "bin_scenes/mesh/mesh_loader.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,3 +1,5 @@
+/// Cuts all triangles along the surfaces of other shells, keeps the pieces with the outside in front of them, and welds
+/// these. Gives up, and leaves the shells as they are, where gaps would be left.
 #include "unite.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

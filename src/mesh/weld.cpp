@@ -1,3 +1,5 @@
+/// Vertices within a tolerance become one, by a grid. Triangles that lose a corner by it, slivers and copies are taken
+/// out without opening gaps.
 #include "weld.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,3 +1,5 @@
+/// A scene's images as BOP has them: poses in the camera, masks, visibility, grey and depth. Nothing is written here
+/// (bop_writer.cpp).
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/sensor/resolve.hpp"

@@ -1,3 +1,4 @@
+/// Counts and boxes of each part in an image. The depth of a part alone is drawn into its box only.
 #include "output/bop_visibility.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"

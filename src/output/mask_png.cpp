@@ -1,3 +1,4 @@
+/// Writes PNG by hand: rows of runs and one Huffman table of fixed lengths, without a search for matches.
 #include "output/mask_png.hpp"
 
 #include <zlib.h>

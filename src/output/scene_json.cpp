@@ -1,3 +1,4 @@
+/// scene.json from scene, request and images, and back again.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/scene/sensor_name.hpp"

@@ -1,3 +1,5 @@
+/// Makes hulls of pieces, merges them while the error stays small, and takes the better of two decompositions
+/// (plane_cuts.hpp, hacd_partition.hpp).
 #include "bin_scenes/part/convex_hulls.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,3 +1,5 @@
+/// Signed distance at the nodes of a grid: nearest points by the tree of MeshQuery, signs by field_sign.hpp. Between
+/// nodes the field is interpolated.
 #include "bin_scenes/part/distance_field.hpp"
 
 #include "core/in_parallel.hpp"

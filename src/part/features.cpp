@@ -1,3 +1,5 @@
+/// Edges at which the surface folds outwards, joined into curves, and the corners where curves meet. Slivers borrow the
+/// normal of a neighbour.
 #include "bin_scenes/part/features.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Winding numbers along rows of a grid for closed meshes; for others one winding number a region that no surface
+/// crosses.
 #include "field_sign.hpp"
 
 #include "ray_parity.hpp"

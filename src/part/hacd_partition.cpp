@@ -1,3 +1,5 @@
+/// Cuts long edges, thins the mesh and runs HACD on each shell, in a child process where it may crash. Clusters are
+/// carried back to the triangles of the fine mesh.
 #include "hacd_partition.hpp"
 
 #include "shells.hpp"

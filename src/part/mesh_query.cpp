@@ -1,3 +1,5 @@
+/// A tree of boxes over triangles, with the moments that a winding number needs far away (fast winding numbers, Barill
+/// et al. 2018). Nearest points are exact.
 #include "bin_scenes/part/mesh_query.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

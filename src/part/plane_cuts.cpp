@@ -1,3 +1,5 @@
+/// Cuts pieces by the plane that leaves the least volume in the hulls of both sides, until errors are small or there
+/// are enough pieces. Candidates are planes at concave edges and across the axes.
 #include "plane_cuts.hpp"
 
 #include "core/in_parallel.hpp"

@@ -1,3 +1,5 @@
+/// Corners first, then points along sharp edges, then farthest points of the faces. What lies in closed cavities or
+/// inside other shells is left out.
 #include "bin_scenes/part/samples.hpp"
 
 #include "shells.hpp"

@@ -1,3 +1,5 @@
+/// Distances both ways between a shape and the mesh, at dense points, and the volume that only one of them fills. All
+/// shapes share the code; each brings its own distance.
 #include "bin_scenes/part/shape_error.hpp"
 
 #include "bin_scenes/part/hull_geometry.hpp"

@@ -1,3 +1,5 @@
+/// Voxels whose centre is inside become spheres, but for those in the interior, which touch nothing. Where the surface
+/// is flat a sphere keeps its normal.
 #include "bin_scenes/part/spheres.hpp"
 
 #include "bin_scenes/core/error.hpp"

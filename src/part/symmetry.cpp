@@ -1,3 +1,5 @@
+/// Tries axes of inertia, normals of large faces and directions of far vertices, and measures how far the turned
+/// surface lies from the surface. Turns that pass are completed to a group.
 #include "bin_scenes/part/symmetry.hpp"
 
 #include "core/in_parallel.hpp"

@@ -1,3 +1,5 @@
+/// Keeps each body's energy of the last observation and compares sums over groups that may have touched. Also finds
+/// bodies that leave far faster than any neighbour moved.
 #include "pour/energy_audit.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

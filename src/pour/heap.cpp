@@ -1,3 +1,5 @@
+/// A heap behind its public face: changes, settling with a clock, and the scene of now. Scenes of a request are heaps
+/// that settle together and leave one by one.
 #include "bin_scenes/pour/heap.hpp"
 
 #include "pour/settle_heaps.hpp"
@@ -7,6 +9,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 
 namespace bin_scenes {
 
@@ -14,38 +17,41 @@ struct Heap::State {
   std::shared_ptr<Solver> solver;
   std::string solver_reason;
   HeapCore core;
-  double wall_s = 0.0;  ///< of the last settle
-  Profile profile;      ///< likewise
+  std::chrono::steady_clock::time_point begin;  ///< of the last settle
+  double wall_s = 0.0;                          ///< likewise
+  Profile profile;                              ///< likewise
 
   State(std::shared_ptr<const PourPlan> plan, std::shared_ptr<Solver> with, std::string reason, std::size_t index)
       : solver(std::move(with)), solver_reason(std::move(reason)), core(std::move(plan), *solver, index) {}
 
   void check_ids(const std::vector<int>& ids) const;
+  void start_clock() { begin = std::chrono::steady_clock::now(); }
+  void stop_clock() { wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); }
 };
 
 namespace {
 constexpr double longest_lift = 10.0;  ///< m
 }
 
-Heap::Heap(const Request& request, const std::vector<PartModelPtr>& parts, std::shared_ptr<Solver> solver,
-           std::size_t index, PartModelPtr bin_model, std::string solver_reason)
-    : state_(std::make_unique<State>(std::make_shared<PourPlan>(request, parts, std::move(bin_model)),
-                                     std::move(solver), std::move(solver_reason), index)) {}
+Heap::Heap(const LoadedRequest& loaded, std::shared_ptr<Solver> solver, std::size_t index, std::string solver_reason)
+    : state_(std::make_unique<State>(std::make_shared<PourPlan>(loaded), std::move(solver), std::move(solver_reason),
+                                     index)) {}
+Heap::Heap(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Heap::Heap(Heap&&) noexcept = default;
 Heap& Heap::operator=(Heap&&) noexcept = default;
 Heap::~Heap() = default;
 
 std::vector<int> Heap::add(const std::vector<NewParts>& lines) {
   const PourPlan& before = state_->core.plan();
-  Request request = before.request;
-  std::vector<PartModelPtr> parts = before.world.parts;
+  LoadedRequest loaded = this->loaded();
   for (const NewParts& more : lines) {
-    request.parts.push_back(more.line);
-    parts.push_back(more.part);
+    loaded.request.parts.push_back(more.line);
+    loaded.parts.push_back(more.part);
   }
-  if (request.pour.pattern == Pour::Pattern::given) request.pour.pattern = Pour::Pattern::rain;
+  Pour::Pattern& pattern = loaded.request.pour.pattern;
+  if (pattern == Pour::Pattern::given) pattern = Pour::Pattern::rain;
   const std::size_t first = before.world.bodies.size();
-  auto plan = std::make_shared<PourPlan>(request, parts, before.world.bin_model);
+  auto plan = std::make_shared<PourPlan>(loaded);
   std::vector<int> ids;
   for (std::size_t b = first; b < plan->world.bodies.size(); ++b) ids.push_back(static_cast<int>(b));
   if (!ids.empty()) state_->core.extend(std::move(plan));
@@ -85,7 +91,7 @@ void Heap::set_gravity(const Vec3& gravity) {
 }
 
 bool Heap::settle(const RunHooks& hooks) {
-  const auto begin = std::chrono::steady_clock::now();
+  state_->start_clock();
   const Profile before = state_->solver->profile();
   HeapCore& core = state_->core;
   if (core.settled() && !request().seconds) return true;
@@ -99,7 +105,7 @@ bool Heap::settle(const RunHooks& hooks) {
     throw;
   }
   state_->profile = state_->solver->profile().since(before);
-  state_->wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  state_->stop_clock();
   return core.at_rest();
 }
 
@@ -116,8 +122,9 @@ const Request& Heap::request() const {
 const std::vector<PartModelPtr>& Heap::parts() const {
   return state_->core.plan().world.parts;
 }
-const PartModelPtr& Heap::bin_model() const {
-  return state_->core.plan().world.bin_model;
+LoadedRequest Heap::loaded() const {
+  const PourPlan& plan = state_->core.plan();
+  return {plan.request, plan.world.parts, plan.world.bin_model};
 }
 
 const std::shared_ptr<Solver>& Heap::solver() const {
@@ -125,6 +132,30 @@ const std::shared_ptr<Solver>& Heap::solver() const {
 }
 const std::string& Heap::solver_reason() const {
   return state_->solver_reason;
+}
+
+void settle_scenes(const LoadedRequest& loaded, const std::shared_ptr<Solver>& solver, const std::string& solver_reason,
+                   const SceneList& scenes, const RunHooks& hooks,
+                   const std::function<void(std::size_t, Heap&&)>& settled) {
+  const CancelScope scope(hooks.cancel);
+  const auto plan = std::make_shared<const PourPlan>(loaded);
+  const Profile before = solver->profile();
+  std::map<std::size_t, std::unique_ptr<Heap::State>> running;  // by place
+  HeapSource source;
+  source.count = scenes.count;
+  source.next = [&](std::size_t place) -> HeapCore& {
+    auto& heap = running[place] = std::make_unique<Heap::State>(plan, solver, solver_reason, scenes.index(place));
+    heap->start_clock();
+    return heap->core;
+  };
+  source.over = [&](std::size_t place) {
+    std::unique_ptr<Heap::State> heap = std::move(running.at(place));
+    running.erase(place);
+    heap->stop_clock();
+    if (scenes.count == 1) heap->profile = solver->profile().since(before);  // several share its counters
+    settled(place, Heap(std::move(heap)));
+  };
+  settle_heaps(*solver, source, hooks);
 }
 
 }  // namespace bin_scenes

@@ -1,3 +1,5 @@
+/// Holds body by body who waits, is in, rests, has escaped or is gone, and tells the solver of each change. Stages and
+/// their ends are decided in settling.cpp.
 #include "pour/heap_core.hpp"
 
 #include "pour/jam.hpp"
@@ -90,7 +92,7 @@ void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
 void HeapCore::remove(std::size_t body) {
   if (settling_.done()) {
     states();
-    begin(Stage::mend);
+    begin(Stage::repair);
   }
   if (place_[body] == Place::in) {
     solver_.remove(id_, body);

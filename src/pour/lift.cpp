@@ -16,7 +16,7 @@ constexpr double lift_speed = 0.1;  ///< m/s
 void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& direction, double distance,
                     const RunHooks& hooks) {
   states();
-  if (settling_.done()) begin(Stage::mend);
+  if (settling_.done()) begin(Stage::repair);
   start_clock();
   std::vector<Pose> poses;
   for (const std::size_t b : bodies) poses.push_back(states_[b].pose);

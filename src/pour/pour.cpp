@@ -1,18 +1,15 @@
 #include "bin_scenes/pour/pour.hpp"
 
-#include "pour/settle_heaps.hpp"
+#include "bin_scenes/pour/heap.hpp"
 
-#include "bin_scenes/core/cancel.hpp"
-
-#include <chrono>
 #include <cstring>
-#include <map>
 
 namespace bin_scenes {
 
-WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model) {
+WorldDef world_of(const LoadedRequest& loaded) {
+  const Request& request = loaded.request;
   WorldDef world;
-  world.parts = parts;
+  world.parts = loaded.parts;
   world.bin = request.bin;
   world.gravity = request.gravity;
   world.wall_height = request.bin.inner_size.z();
@@ -20,13 +17,13 @@ WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts
     LoadOptions options;
     options.unit = request.bin.unit;
     options.require_closed = false;
-    world.bin_model = bin_model ? bin_model : PartModel::load(request.bin.mesh, options);
+    world.bin_model = loaded.bin_model ? loaded.bin_model : PartModel::load(request.bin.mesh, options);
   }
   for (std::size_t l = 0; l < request.parts.size(); ++l) {
     const PartLine& line = request.parts[l];
     BodyDef body;
     body.part = l;
-    body.mass = line.mass ? *line.mass : line.density.value_or(1000.0) * parts[l]->mass().volume;
+    body.mass = line.mass ? *line.mass : line.density.value_or(1000.0) * loaded.parts[l]->mass().volume;
     body.friction = line.friction;
     body.restitution = line.restitution;
     body.fixed = line.fixed;
@@ -52,41 +49,13 @@ std::uint64_t state_hash(const std::vector<ScenePart>& parts) {
   return hash;
 }
 
-void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver, const SceneList& scenes,
-          const RunHooks& hooks, PartModelPtr bin_model, const std::function<void(std::size_t, Scene&&)>& poured) {
-  const CancelScope scope(hooks.cancel);
-  struct Running {
-    std::unique_ptr<HeapCore> heap;
-    std::chrono::steady_clock::time_point begin;
-  };
-  const auto plan = std::make_shared<const PourPlan>(request, parts, std::move(bin_model));
-  const Profile before = solver.profile();
-  std::map<std::size_t, Running> running;
-  HeapSource source;
-  source.count = scenes.count;
-  source.next = [&](std::size_t place) -> HeapCore& {
-    Running& r = running[place];
-    r.begin = std::chrono::steady_clock::now();
-    r.heap = std::make_unique<HeapCore>(plan, solver, scenes.index(place));
-    return *r.heap;
-  };
-  source.over = [&](std::size_t place) {
-    Scene scene = running[place].heap->scene();
-    scene.report.wall_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - running[place].begin).count();
-    running.erase(place);
-    if (scenes.count == 1) scene.report.profile.merge(solver.profile().since(before));  // heaps share its counters
-    poured(place, std::move(scene));
-  };
-  settle_heaps(solver, source, hooks);
-}
-
-std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-                        const std::vector<std::size_t>& indices, const RunHooks& hooks, PartModelPtr bin_model) {
+std::vector<Scene> pour(const LoadedRequest& loaded, Solver& solver, const std::vector<std::size_t>& indices,
+                        const RunHooks& hooks) {
   std::vector<Scene> scenes(indices.size());
   const SceneList list{indices.size(), [&](std::size_t place) { return indices[place]; }};
-  pour(request, parts, solver, list, hooks, std::move(bin_model),
-       [&](std::size_t place, Scene&& scene) { scenes[place] = std::move(scene); });
+  const std::shared_ptr<Solver> of_caller(std::shared_ptr<Solver>(), &solver);  // which outlives the heaps
+  settle_scenes(loaded, of_caller, "", list, hooks,
+                [&](std::size_t place, Heap&& heap) { scenes[place] = heap.scene(); });
   return scenes;
 }
 

@@ -38,16 +38,17 @@ Opening opening_of(const WorldDef& world, double part) {
 
 }  // namespace
 
-PourPlan::PourPlan(const Request& r, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model)
-    : request(r),
-      world(world_of(r, parts, std::move(bin_model))),
+PourPlan::PourPlan(const LoadedRequest& loaded)
+    : request(loaded.request),
+      world(world_of(loaded)),
       largest_part(largest_diagonal(world)),
       opening(opening_of(world, largest_part)) {
+  const Request& r = request;
   for (std::size_t l = 0; l < r.parts.size(); ++l) {
     const PartLine& line = r.parts[l];
     const std::string where = "parts[" + std::to_string(l) + "] (" + line.model + ")";
     if (line.count == 0) {  // nobody of this line is left: a scene may go on without
-      covers.push_back(cover(parts[l]->mesh()));
+      covers.push_back(cover(loaded.parts[l]->mesh()));
       continue;
     }
     if (line.poses.empty() && line.fixed)
@@ -62,7 +63,7 @@ PourPlan::PourPlan(const Request& r, const std::vector<PartModelPtr>& parts, Par
       throw input_error(
           std::to_string(line.velocities.size()) + " velocities for " + std::to_string(line.poses.size()) + " poses",
           where + ".velocities", "give one velocity per pose, or none");
-    covers.push_back(cover(parts[l]->mesh()));
+    covers.push_back(cover(loaded.parts[l]->mesh()));
     for (std::size_t copy = 0; copy < line.count; ++copy) {
       line_of.push_back(l);
       copy_of.push_back(copy);

@@ -1,8 +1,8 @@
 /// What a request asks to be poured, checked and measured once for all its scenes.
 #pragma once
 
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/pour/spawn.hpp"
-#include "bin_scenes/scene/request.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace bin_scenes {
 /// What all scenes of a request share. Bodies are numbered by part line, so that lines added at the end leave the
 /// numbers of those before as they are.
 struct PourPlan {
-  PourPlan(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model);
+  explicit PourPlan(const LoadedRequest& loaded);
 
   Request request;
   WorldDef world;                             ///< walls up to the rim

@@ -1,3 +1,5 @@
+/// Advances heaps in slices of 1/60 s and looks at them between slices. While the device works on one group of heaps,
+/// the other one is looked at.
 #include "pour/settle_heaps.hpp"
 
 #include "solver/step_limit.hpp"

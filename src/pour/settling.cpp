@@ -9,11 +9,11 @@ namespace {
 using Finish = Pour::Finish;
 
 constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
-constexpr double jolt = 0.02;     ///< s at the start of a proof in which its forces are found and parts shift a little
+constexpr double jolt = 0.02;     ///< s at the start of a check in which its forces are found and parts shift a little
 constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
 constexpr double patience = 2.0;  ///< s: time-out of stages whose stiff contacts damp rocking poorly
-constexpr int most_proofs = 12;   ///< a heap that still moves in the last one is accepted as it lies
-// Parts that may move in a proof: max(0, n / 50 - 2), 1 of 150.
+constexpr int most_checks = 12;   ///< a heap that still moves in the last one is accepted as it lies
+// Parts that may move in a check: max(0, n / 50 - 2), 1 of 150.
 constexpr double tolerated_share = 0.02;
 constexpr double tolerated_less = 2.0;
 
@@ -25,17 +25,17 @@ struct Settling::Seen {
   double calm_s;      ///< s: time after which parts that stayed are calm
   double in_stage;    ///< s
   double last_stage;  ///< s: the same at the last look
-  int proofs;
+  int checks;
 
   bool all_in() const { return heap.all_in() && heap.all_slow(); }
   bool rest() const { return heap.all_in() && heap.all_rest(); }
   bool calm() const { return heap.still_for_less_than(calm_s) == 0; }
   bool fast() const { return !heap.all_slow(); }
-  /// More moving parts than tolerated. Those that moved have not been proved where they lie now.
+  /// More moving parts than tolerated. Those that moved have not been verified where they lie now.
   bool too_many(std::size_t parts) const {
     return parts > std::max(0.0, tolerated_share * static_cast<double>(heap.count()) - tolerated_less);
   }
-  bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && proofs < most_proofs; }
+  bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && checks < most_checks; }
   bool stood() const { return calm() && heap.all_rest(); }
   /// A part that tips or falls is waited for. On soft contacts the whole heap would sag again, and others fall as it is
   /// pressed: of hundreds there is always one.
@@ -65,23 +65,23 @@ const Settling::Transition Settling::transitions[] = {
     {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.rest(); },         Stage::done},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::probe},
     {Stage::probe,  Finish::probed,  Finish::probed,
-     [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::prove},
+     [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::verify},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
-    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::prove},
-    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
-    {Stage::prove,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::verify},
+    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.fast(); },         Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.stirs(); },        Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
-    {Stage::mend,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
-    {Stage::mend,   Finish::settled, Finish::probed,
+    {Stage::repair,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::repair,   Finish::settled, Finish::probed,
      [](const Seen& s) { return s.in_stage > patience && !s.calm(); },                                Stage::settle},
     // clang-format on
 };
 
 void Settling::start(Stage stage) {
-  if (stage != Stage::mend) friction_ = 1.0;
-  proofs_ = 0;
+  if (stage != Stage::repair) friction_ = 1.0;
+  checks_ = 0;
   enter(stage, 0.0);
   advanced_ = 0.0;
 }
@@ -92,12 +92,12 @@ void Settling::enter(Stage stage, double time) {
   begun_ = time;
   if (done()) return;
   friction_ = std::min(friction_, row(stage_).phase.friction);
-  proofs_ += stage == Stage::probe || stage == Stage::prove;
+  checks_ += stage == Stage::probe || stage == Stage::verify;
 }
 
 bool Settling::advance(const HeapView& heap, double time) {
   if (done()) return false;
-  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, proofs_};
+  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_};
   advanced_ = time;
   for (const Transition& t : transitions) {
     if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
@@ -118,7 +118,7 @@ const char* Settling::finish() const {
   switch (last_) {
     case Stage::settle:
       return name_of(Finish::settled);
-    case Stage::prove:
+    case Stage::verify:
       return name_of(Finish::probed);
     default:
       return name_of(ignored_ ? Finish::settled : Finish::pressed);

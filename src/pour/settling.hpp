@@ -1,8 +1,8 @@
 /// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
-///     pour ─► settle ─► press ─► probe ─► prove ─► done      a stage in which parts rock on goes back to settle;
+///     pour ─► settle ─► press ─► probe ─► verify ─► done     a stage in which parts rock on goes back to settle;
 ///                └─ settled ┘ pressed ┘     probed ┘         given poses start in hold, a heap from which parts were
-///                                                           taken out starts in mend
+///                                                           taken out starts in repair
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-enum class Stage { pour, settle, press, probe, prove, hold, mend, done };
+enum class Stage { pour, settle, press, probe, verify, hold, repair, done };
 
 struct StageRow {
   Stage stage;
@@ -35,11 +35,11 @@ inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,  
 /// Parts sleep one by one, so that one that creeps does not keep the others awake.
 inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
 /// Pressed again without remembered forces, as when this solver continues from the poses.
-inline constexpr Phase prove{       true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
+inline constexpr Phase verify{      true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
 /// A heap given at rest continues on stiff contacts: softer or coarser ones would let it sink.
 inline constexpr Phase hold = press;
 /// Parts were removed: all others sleep, except those that touched them and those that these wake in turn.
-inline constexpr Phase mend{        true,  Stiffness::stiff, 1.0,       false,    Sleep::by_touch,  true};
+inline constexpr Phase repair{      true,  Stiffness::stiff, 1.0,       false,    Sleep::by_touch,  true};
 // clang-format on
 
 }  // namespace phases
@@ -48,9 +48,9 @@ inline constexpr std::array<StageRow, 7> stage_rows{{{Stage::pour, "pour", phase
                                                      {Stage::settle, "settle", phases::settle},
                                                      {Stage::press, "press", phases::press},
                                                      {Stage::probe, "probe", phases::probe},
-                                                     {Stage::prove, "prove", phases::prove},
+                                                     {Stage::verify, "verify", phases::verify},
                                                      {Stage::hold, "hold", phases::hold},
-                                                     {Stage::mend, "mend", phases::mend}}};
+                                                     {Stage::repair, "repair", phases::repair}}};
 
 inline constexpr const StageRow& row(Stage stage) {
   return stage_rows[static_cast<std::size_t>(stage)];
@@ -101,7 +101,7 @@ class Settling {
   Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
   double begun_ = 0.0;                              ///< s: start of the stage
   double advanced_ = 0.0;                           ///< s: the last advance()
-  int proofs_ = 0;                                  ///< times that probe or prove began
+  int checks_ = 0;                                  ///< times that probe or verify began
   double friction_ = 1.0;                           ///< share of friction that holds; never rises again
 };
 

@@ -1,3 +1,5 @@
+/// A part enters at the lowest place above what is there, found by balls that cover both, after several tries of turn
+/// and place. Or parts stand on a grid.
 #include "bin_scenes/pour/spawn.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+/// Cuts a polyhedron by planes and caps it, and finds the least translation that separates two. Pairs of edges are left
+/// out by bounds before they are tested.
 #include "convex_cell.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -1,3 +1,4 @@
+/// Walks the trees of two meshes together down to pairs of triangles and finds where edges of one pierce the other.
 #include "crossings.hpp"
 
 #include "core/disjoint_sets.hpp"
@@ -62,14 +63,20 @@ bool over(const TrianglePoints& t, const Vec3& normal, const Vec3& x, double tol
   return true;
 }
 
-/// Points where the edges of s pierce t.
-void pierce(const TrianglePoints& s, const std::array<double, 3>& height, const TrianglePoints& t, const Vec3& normal,
-            double tolerance, Vec3& sum, int& count, Aabb& box) {
+struct Pierced {
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  Aabb box;
+};
+
+/// Points where the edges of s, whose corners have these heights over t, pierce t.
+void pierce(const TrianglePoints& s, const std::array<double, 3>& height, const Facet& t, double tolerance,
+            Pierced& points) {
   const auto add = [&](const Vec3& x) {
-    if (!over(t, normal, x, tolerance)) return;
-    sum += x;
-    ++count;
-    box.extend(x);
+    if (!over(t.points, t.normal(), x, tolerance)) return;
+    points.sum += x;
+    ++points.count;
+    points.box.extend(x);
   };
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
@@ -86,13 +93,11 @@ std::optional<Crossing> crossing(const Facet& s, const Facet& t, double toleranc
   if (!heights(s.points, t.points, t.normal(), tolerance, hs)) return std::nullopt;
   if (!heights(t.points, s.points, s.normal(), tolerance, ht)) return std::nullopt;
   if (one_after_the_other(s.points, hs, t.points, ht, s.normal().cross(t.normal()), tolerance)) return std::nullopt;
-  Crossing found{Vec3::Zero(), {}, {s.triangle, t.triangle}};
-  int count = 0;
-  pierce(s.points, hs, t.points, t.normal(), tolerance, found.point, count, found.box);
-  pierce(t.points, ht, s.points, s.normal(), tolerance, found.point, count, found.box);
-  if (count == 0) return std::nullopt;
-  found.point /= count;
-  return found;
+  Pierced points;
+  pierce(s.points, hs, t, tolerance, points);
+  pierce(t.points, ht, s, tolerance, points);
+  if (points.count == 0) return std::nullopt;
+  return Crossing{points.sum / points.count, points.box, {s.triangle, t.triangle}};
 }
 
 std::vector<Crossing> crossings(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance) {

@@ -1,3 +1,5 @@
+/// Drops each resting part along gravity onto its neighbours and the bin, by free_way(). A neighbour that it overlaps
+/// counts as support by the direction of the overlap.
 #include "gap.hpp"
 
 #include "core/in_parallel.hpp"

@@ -1,3 +1,5 @@
+/// Finds pairs whose boxes meet, measures overlap, bin and gap in parallel, and holds the worst against the request's
+/// limits. Every figure comes with the parts that it is of.
 #include "core/in_parallel.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -207,15 +209,15 @@ void add_state_reasons(Scene& scene, const Request& request) {
 
 }  // namespace
 
-void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-           const PartModelPtr& bin_model) {
+void judge(Scene& scene, const LoadedRequest& loaded) {
+  const Request& request = loaded.request;
   Report& report = scene.report;
   report.penetration = {};
   report.gap = {};
   report.reasons.clear();
-  const std::vector<Placed> placed = placed_parts(scene, parts);
+  const std::vector<Placed> placed = placed_parts(scene, loaded.parts);
   const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
-  const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
+  const MeshQuery* bin_mesh = loaded.bin_model ? &loaded.bin_model->query() : nullptr;
   const WorstPair pair = measure_pairs(report.penetration, placed, overlaps);
   const Worst<int> in_bin = measure_bin(report.penetration, placed, request.bin, bin_mesh);
   const Worst<int> gap = measure_gaps(report, placed, overlaps, request, bin_mesh);
@@ -237,11 +239,11 @@ void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>
   report.accepted = report.reasons.empty();
 }
 
-std::vector<PartQuality> part_quality(const Scene& scene, const Request& request,
-                                      const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model) {
-  const std::vector<Placed> placed = placed_parts(scene, parts);
+std::vector<PartQuality> part_quality(const Scene& scene, const LoadedRequest& loaded) {
+  const Request& request = loaded.request;
+  const std::vector<Placed> placed = placed_parts(scene, loaded.parts);
   const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
-  const MeshQuery* bin_mesh = bin_model ? &bin_model->query() : nullptr;
+  const MeshQuery* bin_mesh = loaded.bin_model ? &loaded.bin_model->query() : nullptr;
   const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
   const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
   std::vector<PartQuality> all;

@@ -19,10 +19,9 @@ std::string name_space() {
 }
 
 [[maybe_unused]] const bool registered = [] {
-  register_bag_writer([](const std::string& path, const Scene& scene, const Request& request,
-                         const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
-                         const PartModelPtr& bin_model) {
-    write_bag(path, scene, request, images, parts, bin_model, bag_stamp(scene.index), {}, name_space());
+  register_bag_writer([](const std::string& path, const Scene& scene, const LoadedRequest& loaded,
+                         const std::vector<RangeImage>& images) {
+    write_bag(path, scene, loaded, images, bag_stamp(scene.index), {}, name_space());
   });
   register_bag_trace([](const std::string& path, const Request& request) -> std::unique_ptr<Trace> {
     return std::make_unique<BagTrace>(path, request);

@@ -9,11 +9,10 @@ ros::Time bag_stamp(std::size_t index) {
   return ros::Time(year_2025 + static_cast<std::uint32_t>(index), 0);
 }
 
-void write_bag(const std::string& path, const Scene& scene, const Request& request,
-               const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
-               const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames,
+void write_bag(const std::string& path, const Scene& scene, const LoadedRequest& loaded,
+               const std::vector<RangeImage>& images, const ros::Time& stamp, const Frames& frames,
                const std::string& name_space) {
-  const SceneMessages messages = scene_messages(scene, request, parts, bin_model, frames, stamp);
+  const SceneMessages messages = scene_messages(scene, loaded, frames, stamp);
   SceneBag::unharmed(path, [&] {
     SceneBag bag(path, name_space);
     const auto write = [&](const std::string& topic, const auto& message, Latch latch) {

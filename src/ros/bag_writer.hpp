@@ -16,9 +16,8 @@ ros::Time bag_stamp(std::size_t index);
 /// with the same stamp. Written to a temporary name and renamed. `images`: none, or one for each sensor of the scene.
 /// `name_space`: of the topics, as of a node; /tf and /tf_static stay where they are. Throws an environment Error if
 /// the file cannot be written.
-void write_bag(const std::string& path, const Scene& scene, const Request& request,
-               const std::vector<RangeImage>& images, const std::vector<PartModelPtr>& parts,
-               const PartModelPtr& bin_model, const ros::Time& stamp, const Frames& frames = {},
+void write_bag(const std::string& path, const Scene& scene, const LoadedRequest& loaded,
+               const std::vector<RangeImage>& images, const ros::Time& stamp, const Frames& frames = {},
                const std::string& name_space = "");
 
 }  // namespace bin_scenes

@@ -1,3 +1,4 @@
+/// One thread takes jobs in order; states change under one lock. A job's answer is given exactly once, whoever ends it.
 #include "job_queue.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

@@ -85,15 +85,14 @@ std::string resource_uri(const std::string& model, const std::string& path) {
   return uri;
 }
 
-visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request& request,
-                                              const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
-                                              const Frames& frames, const ros::Time& stamp) {
+visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
+                                              const ros::Time& stamp) {
   visualization_msgs::MarkerArray array;
   Marker clear = marker("", 0, Pose(), frames, stamp);
   clear.action = Marker::DELETEALL;
   array.markers.push_back(clear);
 
-  const Bin& bin = request.bin;
+  const Bin& bin = loaded.request.bin;
   const auto add_box = [&](const Box& box) {
     Marker m = marker("bin", static_cast<int>(array.markers.size()), {box.center, Quat::Identity()}, frames, stamp);
     m.type = Marker::CUBE;
@@ -111,9 +110,9 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
       add_box({{0, 0, -0.5e-3}, {endless_floor, endless_floor, 1e-3}});
       break;
     case Bin::Kind::mesh:
-      if (bin_model) {
+      if (loaded.bin_model) {
         Marker m = marker("bin", 0, bin.pose, frames, stamp);
-        set_mesh(m, bin.mesh, *bin_model, 1.0);
+        set_mesh(m, bin.mesh, *loaded.bin_model, 1.0);
         m.color = bin_color();
         array.markers.push_back(m);
       }
@@ -125,7 +124,7 @@ visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request&
   for (const ScenePart& part : scene.parts) {
     if (!part.pose.finite()) continue;
     Marker m = marker("parts", part.id, part.pose, frames, stamp);
-    set_mesh(m, part.model, *parts.at(part.line), request.parts.at(part.line).scale);
+    set_mesh(m, part.model, *loaded.parts.at(part.line), loaded.request.parts.at(part.line).scale);
     m.color = part_color(part.id);
     array.markers.push_back(m);
   }

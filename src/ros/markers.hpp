@@ -1,7 +1,7 @@
 /// Markers of a scene for RViz.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "frames.hpp"
 
@@ -11,10 +11,9 @@ namespace bin_scenes {
 
 /// A deletion of everything older, then the parts (namespace "parts", marker id = part id, the model file as mesh
 /// resource scaled to metres, one colour each) and the bin (namespace "bin": its walls and floor as boxes, or its
-/// mesh). `parts` are the models by part line, `bin_model` that of a bin given as a mesh.
-visualization_msgs::MarkerArray scene_markers(const Scene& scene, const Request& request,
-                                              const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model,
-                                              const Frames& frames, const ros::Time& stamp);
+/// mesh).
+visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
+                                              const ros::Time& stamp);
 
 /// Neighbouring ids get hues far apart: steps of the golden ratio round the colour circle.
 std_msgs::ColorRGBA part_color(int id);

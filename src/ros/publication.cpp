@@ -1,3 +1,5 @@
+/// Messages of the scene that is shown, made once, and images when they are asked for. All members belong to the thread
+/// of the queue.
 #include "publication.hpp"
 
 #include <ros/console.h>
@@ -135,7 +137,7 @@ void Publication::render(MadeScene& made, bool all, const RunHooks& hooks) {
     hooks.progress(progress);
   }
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.request, made.parts, made.bin_model, these, made.images);
+  rig_.render(made.scene, made.loaded, these, made.images);
 }
 
 Publication::Counts Publication::counts() const {
@@ -147,8 +149,7 @@ bin_scenes_msgs::Scene Publication::show(MadeScene made) {
     // What may fail comes first: the scene before is there until this one is whole.
     Shown next{std::move(made), {}, {}};
     make_images(next);  // for those who came since render()
-    next.messages =
-        scene_messages(next.made.scene, next.made.request, next.made.parts, next.made.bin_model, place_, {});
+    next.messages = scene_messages(next.made.scene, next.made.loaded, place_, {});
     shown_ = std::move(next);
     set_topics(shown_->made.scene.sensors);
     shown_sensors_ = shown_->made.scene.sensors.size();
@@ -179,7 +180,7 @@ void Publication::show_images() {
   if (!shown_) return;
   try {
     if (make_images(*shown_)) {  // the scene that is out does not know yet how much of each part is seen
-      shown_->messages.scene = scene_message(shown_->made.scene, shown_->made.request, place_, shown_->stamp);
+      shown_->messages.scene = scene_message(shown_->made.scene, shown_->made.loaded.request, place_, shown_->stamp);
       tell(scene_, shown_->messages.scene);
     }
     for (const auto& topics : sensors_) topics->show();
@@ -197,7 +198,7 @@ bool Publication::make_images(Shown& shown) {
   const auto count = static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
   if (count == 0) return false;
   const StageTimer timer(made.scene.report.profile, "render");
-  rig_.render(made.scene, made.request, made.parts, made.bin_model, missing, made.images);
+  rig_.render(made.scene, made.loaded, missing, made.images);
   renderings_ += count;
   return true;
 }

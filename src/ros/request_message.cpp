@@ -1,3 +1,5 @@
+/// Writes the fields of a message as overrides of keys, for the reader of requests. A field that is left at its default
+/// writes nothing.
 #include "request_message.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// Each door of the node as a job: what it makes, how it is shown, and what is answered. Parameters that may change
+/// while the node runs go through here too.
 #include "scene_jobs.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -146,9 +148,8 @@ Outcome SceneJobs::run(Job& job, const Make& make, bool render) {
 Outcome SceneJobs::show(MadeScene made) {
   MadeScene kept;  // what the maker has to know, while the topics take the rest
   kept.heap = made.heap;
-  kept.request = made.request;
+  kept.loaded = {made.loaded.request, {}, made.loaded.bin_model};
   kept.asked = made.asked;
-  kept.bin_model = made.bin_model;
   kept.scene.seed = made.scene.seed;
   kept.scene.index = made.scene.index;
   kept.scene.sensors = made.scene.sensors;

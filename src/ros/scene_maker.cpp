@@ -22,9 +22,8 @@ MadeScene SceneMaker::pour(const Request& request, const RunHooks& hooks) {
 void SceneMaker::keep(const MadeScene& made) {
   heap_ = made.heap;
   has_scene_ = true;
-  request_ = made.request;
+  loaded_ = made.loaded;
   asked_ = made.asked;
-  bin_model_ = made.bin_model;
   last_.seed = made.scene.seed;
   last_.index = made.scene.index;
   last_.sensors = made.scene.sensors;
@@ -45,7 +44,7 @@ MadeScene SceneMaker::pick(const std::vector<int>& ids, const Lift& lift, const 
 MadeScene SceneMaker::add(const std::vector<PartLine>& lines, const RunHooks& hooks) {
   if (!has_scene_) heap("add_parts");  // says what is missing
   if (!heap_) {
-    Request anew = request_;
+    Request anew = loaded_.request;
     anew.parts = lines;
     anew.pour.scene.clear();
     if (anew.pour.pattern == Pour::Pattern::given) anew.pour.pattern = Pour::Pattern::rain;
@@ -71,10 +70,8 @@ MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks&
   MadeScene made;
   made.scene = std::move(result.scene);
   made.images.resize(made.scene.sensors.size());
-  made.request = heap->request();
+  made.loaded = heap->loaded();
   made.asked = asked_;
-  made.parts = heap->parts();
-  made.bin_model = heap->bin_model();
   made.heap = heap;
   return made;
 }
@@ -83,10 +80,10 @@ MadeScene SceneMaker::emptied() const {
   MadeScene empty;
   empty.scene = last_;
   empty.scene.report.at_rest = empty.scene.report.accepted = true;
-  empty.request = request_;
+  empty.loaded = loaded_;
   empty.asked = asked_;
-  empty.request.parts.clear();
-  empty.bin_model = bin_model_;
+  empty.loaded.request.parts.clear();
+  empty.loaded.parts.clear();
   empty.images.resize(empty.scene.sensors.size());
   return empty;
 }

@@ -11,10 +11,8 @@ namespace bin_scenes {
 /// A scene, with all that is needed to show it.
 struct MadeScene {
   Scene scene;
-  Request request;
-  std::vector<PartModelPtr> parts;  ///< models, by part line
-  PartModelPtr bin_model;
-  std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody looks (Publication::look)
+  LoadedRequest loaded;            ///< with what was added, and without models of parts once it is kept
+  std::vector<RangeImage> images;  ///< one a sensor; RangeImage() until somebody subscribes (Publication)
   Request asked;                   ///< what was poured first: next_scene follows it, whatever was added since
   std::shared_ptr<Heap> heap;      ///< that it is a snapshot of; null: the bin was emptied
 };
@@ -53,10 +51,9 @@ class SceneMaker {
   Generator generator_;
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
-  Request request_;  ///< of the scene that is kept
-  Request asked_;    ///< likewise: MadeScene::asked
-  Scene last_;       ///< without parts: seed, index, sensors
-  PartModelPtr bin_model_;
+  LoadedRequest loaded_;  ///< of the scene that is kept
+  Request asked_;         ///< likewise: MadeScene::asked
+  Scene last_;            ///< without parts: seed, index, sensors
 };
 
 }  // namespace bin_scenes

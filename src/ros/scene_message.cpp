@@ -1,3 +1,5 @@
+/// Field by field, in both directions; a test fills every field. Kinds that a message writes as names are those of the
+/// request.
 #include "scene_message.hpp"
 
 #include "bin_scenes/sensor/sensor_model.hpp"

@@ -16,10 +16,10 @@ void set_stamp(SceneMessages& messages, const ros::Time& stamp) {
   for (auto& transform : messages.statics.transforms) transform.header.stamp = stamp;
 }
 
-SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                             const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp) {
-  SceneMessages messages = {scene_message(scene, request, frames, stamp),
-                            scene_markers(scene, request, parts, bin_model, frames, stamp),
+SceneMessages scene_messages(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
+                             const ros::Time& stamp) {
+  SceneMessages messages = {scene_message(scene, loaded.request, frames, stamp),
+                            scene_markers(scene, loaded, frames, stamp),
                             part_transforms(scene, frames, stamp),
                             static_transforms(scene, frames, stamp),
                             {}};

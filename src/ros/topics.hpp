@@ -36,7 +36,7 @@ struct SceneMessages {
 };
 void set_stamp(SceneMessages& messages, const ros::Time& stamp);
 
-SceneMessages scene_messages(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                             const PartModelPtr& bin_model, const Frames& frames, const ros::Time& stamp);
+SceneMessages scene_messages(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,
+                             const ros::Time& stamp);
 
 }  // namespace bin_scenes

@@ -1,3 +1,5 @@
+/// Names of enumerations, presets, and check(): what no single key can tell, such as counts together or a start without
+/// poses. Ranges of keys are checked by range_check.hpp.
 #include "bin_scenes/scene/request.hpp"
 
 #include "bin_scenes/core/error.hpp"

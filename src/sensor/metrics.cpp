@@ -1,3 +1,4 @@
+/// Shows a sensor balls and plates over its field of view, with the models that scenes use, and fits what it measured.
 #include "bin_scenes/sensor/metrics.hpp"
 
 #include "bin_scenes/sensor/models.hpp"

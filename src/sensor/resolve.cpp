@@ -1,3 +1,5 @@
+/// Places cameras by the bin's rim or mesh and turns projector or laser to its middle. Refuses what stands in a wall,
+/// below the floor or in a part, or looks away.
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -252,8 +254,9 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
   return full;
 }
 
-std::vector<Sensor> resolved_sensors(const Request& request, const std::vector<PartModelPtr>& parts,
-                                     const PartModelPtr& bin_model) {
+std::vector<Sensor> resolved_sensors(const LoadedRequest& loaded) {
+  const Request& request = loaded.request;
+  const PartModelPtr& bin_model = loaded.bin_model;
   Aabb bounds;
   if (bin_model) {
     for (const Vec3& v : bin_model->mesh().vertices) bounds.extend(request.bin.pose * v);
@@ -262,7 +265,7 @@ std::vector<Sensor> resolved_sensors(const Request& request, const std::vector<P
   std::vector<Sensor> sensors;
   for (const Sensor& sensor : request.sensors) {
     sensors.push_back(resolved(sensor, request.bin, bin_model ? &bounds : nullptr));
-    check_sensor(sensors.back(), request, bin_model ? &bounds : nullptr, parts);
+    check_sensor(sensors.back(), request, bin_model ? &bounds : nullptr, loaded.parts);
   }
   return sensors;
 }

@@ -1,3 +1,5 @@
+/// One Embree scene of instances of the parts' trees. Embree names the triangle; distance and normal are computed in
+/// double.
 #include "bin_scenes/sensor/scenery.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
@@ -205,17 +207,17 @@ struct Scenery::State {
   Hit hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const;
 };
 
-Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                 const PartModelPtr& bin_model, SceneryCache& cache)
+Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache)
     : state_(std::make_unique<State>()) {
+  const Bin& bin = loaded.request.bin;
   State& s = *state_;
   s.scene = rtcNewScene(device());
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
-  s.floor = request.bin.kind == Bin::Kind::floor;
-  if (request.bin.kind == Bin::Kind::mesh && bin_model) {
-    s.add(cache.state().tree_of(bin_model), bin_model, request.bin.pose, 0, -1, -1);
-  } else if (request.bin.kind == Bin::Kind::box) {
-    s.add(std::make_shared<MeshTree>(nullptr, box_bin_mesh(request.bin)), nullptr, Pose(), 0, -1, -1);
+  s.floor = bin.kind == Bin::Kind::floor;
+  if (bin.kind == Bin::Kind::mesh && loaded.bin_model) {
+    s.add(cache.state().tree_of(loaded.bin_model), loaded.bin_model, bin.pose, 0, -1, -1);
+  } else if (bin.kind == Bin::Kind::box) {
+    s.add(std::make_shared<MeshTree>(nullptr, box_bin_mesh(bin)), nullptr, Pose(), 0, -1, -1);
   }
   for (const ScenePart& part : scene.parts) {
     s.of_part.push_back(-1);
@@ -225,8 +227,8 @@ Scenery::Scenery(const Scene& scene, const Request& request, const std::vector<P
                         "show at most 65,535 parts in one scene");
     }
     s.of_part.back() = static_cast<std::int64_t>(s.bodies.size());
-    BIN_SCENES_ASSERT(part.line < parts.size());
-    const PartModelPtr& model = parts[part.line];
+    BIN_SCENES_ASSERT(part.line < loaded.parts.size());
+    const PartModelPtr& model = loaded.parts[part.line];
     s.add(cache.state().tree_of(model), model, part.pose, static_cast<std::uint16_t>(part.id + 1),
           static_cast<std::int32_t>(part.line), part.id);
   }

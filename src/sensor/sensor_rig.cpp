@@ -55,26 +55,24 @@ void flag_what_stands_inside(const Sensor& sensor, Scene& scene, const std::vect
 SensorRig::SensorRig() : cache_(std::make_unique<SceneryCache>()) {}
 SensorRig::~SensorRig() = default;
 
-std::vector<RangeImage> SensorRig::render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                                          const PartModelPtr& bin_model) {
+std::vector<RangeImage> SensorRig::render(Scene& scene, const LoadedRequest& loaded) {
   std::vector<RangeImage> images(scene.sensors.size());
-  render(scene, request, parts, bin_model, std::vector<bool>(images.size(), true), images);
+  render(scene, loaded, std::vector<bool>(images.size(), true), images);
   return images;
 }
 
-void SensorRig::render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                       const PartModelPtr& bin_model, const std::vector<bool>& wanted,
+void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vector<bool>& wanted,
                        std::vector<RangeImage>& images) {
   std::vector<std::size_t> to_make;
   for (std::size_t s = 0; s < scene.sensors.size(); ++s)
     if (wanted.at(s) && images.at(s).depth.empty()) to_make.push_back(s);
   if (to_make.empty()) return;
 
-  const Scenery scenery(scene, request, parts, bin_model, *cache_);
-  const Surfaces surfaces = surfaces_of(request);
+  const Scenery scenery(scene, loaded, *cache_);
+  const Surfaces surfaces = surfaces_of(loaded.request);
   for (const std::size_t s : to_make) {
     const Sensor& sensor = scene.sensors[s];
-    flag_what_stands_inside(sensor, scene, parts);
+    flag_what_stands_inside(sensor, scene, loaded.parts);
     View view = bin_scenes::render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
     std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};

@@ -1,3 +1,5 @@
+/// Draws triangles where projection keeps lines straight, and asks rays where it does not. What the view shows already
+/// is not asked again.
 #include "bin_scenes/sensor/silhouettes.hpp"
 
 #include "core/in_parallel.hpp"

@@ -73,7 +73,7 @@ void Targets::add(const Mesh& mesh, const Pose& pose, const Surface& surface) {
 }
 
 Scenery Targets::scenery() {
-  return Scenery(scene_, request_, models_, nullptr, *cache_);
+  return Scenery(scene_, {request_, models_}, *cache_);
 }
 
 }  // namespace bin_scenes

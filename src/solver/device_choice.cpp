@@ -1,3 +1,5 @@
+/// Times a standard heap on CPU and GPU, keeps the figures on disk, and predicts by the number of parts which is
+/// faster.
 #include "solver/device_choice.hpp"
 
 #include "bin_scenes/core/error.hpp"

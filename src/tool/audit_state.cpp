@@ -1,3 +1,5 @@
+/// Puts the parts of a BOP scene into a request and measures overlap, gap, drift and visibility by the library's own
+/// judge, solver and rays.
 #include "tool/audit_state.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -71,11 +73,10 @@ std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
 
 /// A heap as a request that goes on from it.
 struct Auditor::Placed {
-  Request request;
+  LoadedRequest loaded;
   Scene scene;
-  std::vector<PartModelPtr> parts;  ///< by line
-  std::vector<std::size_t> entry;   ///< of the view, by id
-  Pose shift;                       ///< from the set's world to the bin frame
+  std::vector<std::size_t> entry;  ///< of the view, by id
+  Pose shift;                      ///< from the set's world to the bin frame
 };
 
 Auditor::Auditor(const BopSet& set) : set_(set) {
@@ -99,7 +100,7 @@ Auditor::Placed Auditor::place(const BopView& view, const AuditBin& bin) const {
     ends.push_back(end);
     diagonal = std::max(diagonal, model.diagonal());
   }
-  Request& request = placed.request;
+  Request& request = placed.loaded.request;
   if (!bin.inner_size) placed.shift.position.z() = -bin.floor.value_or(fitted_floor(ends, diagonal));
   if (bin.inner_size) {
     request.bin.inner_size = *bin.inner_size;
@@ -130,7 +131,7 @@ Auditor::Placed Auditor::place(const BopView& view, const AuditBin& bin) const {
     line.count = line.poses.size();
     if (line.count == 0) continue;
     request.parts.push_back(line);
-    placed.parts.push_back(model);
+    placed.loaded.parts.push_back(model);
   }
   return placed;
 }
@@ -142,7 +143,7 @@ void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& fi
   if (first.parts.empty()) return;
   Placed placed = place(first, bin);
   for (ScenePart& part : placed.scene.parts) {
-    const Vec3 center = part.pose * placed.parts[part.line]->mass().center;
+    const Vec3 center = part.pose * placed.loaded.parts[part.line]->mass().center;
     const bool beside =
         bin.inner_size && (center.head<2>().array().abs() > 0.5 * bin.inner_size->head<2>().array()).any();
     if (!beside && center.z() > 0.0) continue;
@@ -155,8 +156,8 @@ void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& fi
 }
 
 void Auditor::audit_quality(const Placed& placed, AuditFigures& figures) const {
-  for (const PartQuality& part : part_quality(placed.scene, placed.request, placed.parts)) {
-    const double diagonal = placed.parts[placed.scene.parts[static_cast<std::size_t>(part.id)].line]->diagonal();
+  for (const PartQuality& part : part_quality(placed.scene, placed.loaded)) {
+    const double diagonal = placed.loaded.parts[placed.scene.parts[static_cast<std::size_t>(part.id)].line]->diagonal();
     figures.overlap.values.push_back(100.0 * part.overlap_relative);
     figures.overlap_mm.values.push_back(millimetres_per_metre * part.overlap);
     figures.into_bin.values.push_back(millimetres_per_metre * part.into_bin);
@@ -167,14 +168,14 @@ void Auditor::audit_quality(const Placed& placed, AuditFigures& figures) const {
 }
 
 void Auditor::audit_drift(const Placed& placed, AuditFigures& figures) {
-  Heap heap = generator_.heap(placed.request);
+  Heap heap = generator_.heap(placed.loaded.request);
   heap.settle();
   const Scene after = heap.scene();
   for (const ScenePart& start : placed.scene.parts) {
     if (start.state == PartState::escaped) continue;
     const ScenePart& end = after.parts.at(static_cast<std::size_t>(start.id));
     if (!end.pose.finite()) continue;
-    const PartModel& model = *placed.parts[start.line];
+    const PartModel& model = *placed.loaded.parts[start.line];
     const double move = (end.pose * model.mass().center - start.pose * model.mass().center).norm();
     figures.drift.values.push_back(100.0 * move / model.diagonal());
     figures.drift_mm.values.push_back(millimetres_per_metre * move);
@@ -214,10 +215,8 @@ void Auditor::audit_image(const BopView& view, const Placed& placed, AuditFigure
     const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
     part.pose = placed.shift * told_part.in_world;
   }
-  Request request = placed.request;
-  request.sensors = {sensor};
-  scene.sensors = {resolved(sensor, request.bin, nullptr)};
-  rig_.render(scene, request, placed.parts);
+  scene.sensors = {resolved(sensor, placed.loaded.request.bin, nullptr)};
+  rig_.render(scene, placed.loaded);
   for (const ScenePart& part : scene.parts) {
     const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
     figures.visible.values.push_back(std::abs(*told_part.visible - part.visible_fraction.at(sensor.name)));

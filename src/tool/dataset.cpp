@@ -1,3 +1,5 @@
+/// The command `dataset` and those below it: reads options, listens to signals, prints progress. The work is in
+/// src/dataset.
 #include "bin_scenes/config/plan.hpp"
 #include "dataset/bop_root.hpp"
 #include "dataset/merge.hpp"

@@ -1,3 +1,5 @@
+/// Prints one line for each thing that the tool needs, with its remedy, and lets each solver drop a box. Exit code 3
+/// without OpenGL.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
@@ -101,7 +103,7 @@ void test_solver(const char* name, SolverType type, SolverSettings::Preset prese
     const std::vector<PartModelPtr> parts = {box(cube_edge)};
     std::string reason;
     const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-    const Scene scene = pour(request, parts, *solver, {0}).at(0);
+    const Scene scene = pour({request, parts}, *solver, {0}).at(0);
     const double error = std::abs(scene.parts.at(0).pose.position.z() - 0.5 * cube_edge);
     std::ostringstream found;
     found << name << ": box " << (scene.report.at_rest ? "at rest" : "still moving") << " after "

@@ -1,3 +1,5 @@
+/// The command `generate`: options over the request, scenes that are there already, progress, trace. Folders are
+/// written by scene_store.cpp.
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
@@ -155,7 +157,7 @@ int generate(const GenerateOptions& options) {
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;
     request.scenes = count;
-    run.prepare = [&](Generator::Result& result) { store.prepare(result, request, generator); };
+    run.prepare = [&](Generator::Result& result) { store.prepare(result, generator); };
     generator.generate(request, run, [&](Generator::Result&& result) {
       store.commit(result, request, generator);
       const Report& report = result.scene.report;

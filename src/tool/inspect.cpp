@@ -1,3 +1,5 @@
+/// The command `inspect`: what a model file is, its mass, holes, symmetries, and the error of each solver's shape, as
+/// text or JSON.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/part/part_model.hpp"

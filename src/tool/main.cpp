@@ -9,10 +9,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <vector>
 
 namespace {
 
@@ -98,63 +102,86 @@ void add_submit(CLI::App& app, SubmitOptions& o) {
   app.add_option("--sbatch", o.sbatch, "further option of sbatch, such as --sbatch=--partition=long");
 }
 
+void add_verify(CLI::App& app, VerifyOptions& o) {
+  app.add_option("DIR", o.directory, "directory of the data set");
+  app.add_flag("--list", o.list, "what is checked");
+}
+
+void add_merge(CLI::App& app, MergeOptions& o) {
+  app.add_option("DIR", o.shares, "directories of the shares")->required();
+  app.add_option("--out", o.out, "directory of the whole data set")->required();
+}
+
+void add_toolkit(CLI::App& app, ToolkitOptions& o) {
+  app.add_option("DIR", o.directory, "directory of the data set")->required();
+  app.add_option("--name", o.name, "name that bop_toolkit shall know it by")->required();
+}
+
+void add_report(CLI::App& app, ReportOptions& o) {
+  app.add_option("DIR", o.directory, "directory of the data set")->required();
+  app.add_option("--out", o.out, "HTML file; left out: DIR/report.html");
+}
+
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+class Commands {
+ public:
+  template <class Options>
+  CLI::App& add(CLI::App& app, int (*run)(const Options&), const char* name, const char* text,
+                void (*add_options)(CLI::App&, Options&)) {
+    CLI::App* command = app.add_subcommand(name, text);
+    const auto options = std::make_shared<Options>();
+    add_options(*command, *options);
+    all_.push_back({command, [=] { return run(*options); }});
+    return *command;
+  }
+  CLI::App& add(CLI::App& app, const std::function<int()>& run, const char* name, const char* text) {
+    all_.push_back({app.add_subcommand(name, text), run});
+    return *all_.back().app;
+  }
+  /// The command that was named: of a command and its own, the one that was added last.
+  int run() const {
+    const auto named = std::find_if(all_.rbegin(), all_.rend(), [](const Command& c) { return c.app->parsed(); });
+    return named == all_.rend() ? exit_done : named->run();
+  }
+
+ private:
+  std::vector<Command> all_;
+};
+
+int print_reference() {
+  std::cout << request_reference();
+  return exit_done;
+}
+
+void add_commands(CLI::App& app, Commands& all) {
+  all.add(app, generate, "generate", "make scenes from a request", add_generate);
+  all.add(app, inspect, "inspect", "what a model is, and how well its proxies fit it", add_inspect);
+  all.add(app, symmetries, "symmetries", "turns after which a part looks the same, as BOP lists them", add_symmetries);
+  all.add(app, sensor, "sensor", "what a sensor is worth: its noise, and how well it measures", add_sensor);
+  CLI::App& set =
+      all.add(app, dataset, "dataset", "make a data set from a plan; it goes on where it was stopped", add_dataset);
+  all.add(set, dataset_verify, "verify", "read a data set and check it against itself", add_verify);
+  all.add(set, dataset_merge, "merge", "join shares of a data set", add_merge);
+  all.add(set, dataset_toolkit, "toolkit",
+          "entry of the data set for dataset_params.py of bop_toolkit; DIR/bop is its folder there", add_toolkit);
+  all.add(set, dataset_submit, "submit", "make a data set on a cluster: submit, watch, merge", add_submit);
+  all.add(app, report, "report", "a data set as one HTML page", add_report);
+  all.add(app, audit, "audit",
+          "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions", add_audit);
+  all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");
+  all.add(app, print_reference, "reference", "docs/use/request.md").group("");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Scenes of parts lying in a bin: poured, at rest, judged on their true meshes, seen by range cameras.");
   app.set_version_flag("--version", BIN_SCENES_VERSION);
   app.require_subcommand(1);
-
-  GenerateOptions generate_options;
-  CLI::App* generate_app = app.add_subcommand("generate", "make scenes from a request");
-  add_generate(*generate_app, generate_options);
-
-  InspectOptions inspect_options;
-  CLI::App* inspect_app = app.add_subcommand("inspect", "what a model is, and how well its proxies fit it");
-  add_inspect(*inspect_app, inspect_options);
-
-  SymmetriesOptions symmetries_options;
-  CLI::App* symmetries_app =
-      app.add_subcommand("symmetries", "turns after which a part looks the same, as BOP lists them");
-  add_symmetries(*symmetries_app, symmetries_options);
-
-  SensorOptions sensor_options;
-  CLI::App* sensor_app = app.add_subcommand("sensor", "what a sensor is worth: its noise, and how well it measures");
-  add_sensor(*sensor_app, sensor_options);
-
-  DatasetOptions dataset_options;
-  CLI::App* dataset_app = app.add_subcommand("dataset", "make a data set from a plan; it goes on where it was stopped");
-  add_dataset(*dataset_app, dataset_options);
-  VerifyOptions verify_options;
-  CLI::App* verify_app = dataset_app->add_subcommand("verify", "read a data set and check it against itself");
-  verify_app->add_option("DIR", verify_options.directory, "directory of the data set");
-  verify_app->add_flag("--list", verify_options.list, "what is checked");
-  MergeOptions merge_options;
-  CLI::App* merge_app = dataset_app->add_subcommand("merge", "join shares of a data set");
-  merge_app->add_option("DIR", merge_options.shares, "directories of the shares")->required();
-  merge_app->add_option("--out", merge_options.out, "directory of the whole data set")->required();
-
-  ToolkitOptions toolkit_options;
-  CLI::App* toolkit_app = dataset_app->add_subcommand(
-      "toolkit", "entry of the data set for dataset_params.py of bop_toolkit; DIR/bop is its folder there");
-  toolkit_app->add_option("DIR", toolkit_options.directory, "directory of the data set")->required();
-  toolkit_app->add_option("--name", toolkit_options.name, "name that bop_toolkit shall know it by")->required();
-
-  SubmitOptions submit_options;
-  CLI::App* submit_app = dataset_app->add_subcommand("submit", "make a data set on a cluster: submit, watch, merge");
-  add_submit(*submit_app, submit_options);
-
-  ReportOptions report_options;
-  CLI::App* report_app = app.add_subcommand("report", "a data set as one HTML page");
-  report_app->add_option("DIR", report_options.directory, "directory of the data set")->required();
-  report_app->add_option("--out", report_options.out, "HTML file; left out: DIR/report.html");
-
-  AuditOptions audit_options;
-  CLI::App* audit_app = app.add_subcommand(
-      "audit", "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions");
-  add_audit(*audit_app, audit_options);
-
-  CLI::App* doctor_app = app.add_subcommand("doctor", "what of this machine can be used, and what is missing");
-  CLI::App* reference_app = app.add_subcommand("reference", "docs/use/request.md")->group("");
-
+  Commands commands;
+  add_commands(app, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
@@ -163,20 +190,7 @@ int run(int argc, char** argv) {
     const Error wrong = input_error(error.what(), "", "see bin_scenes --help");  // an argument may hold anything
     return complain(wrong.what(), static_cast<int>(wrong.kind()));
   }
-  if (generate_app->parsed()) return generate(generate_options);
-  if (inspect_app->parsed()) return inspect(inspect_options);
-  if (symmetries_app->parsed()) return symmetries(symmetries_options);
-  if (sensor_app->parsed()) return sensor(sensor_options);
-  if (verify_app->parsed()) return dataset_verify(verify_options);
-  if (merge_app->parsed()) return dataset_merge(merge_options);
-  if (toolkit_app->parsed()) return dataset_toolkit(toolkit_options);
-  if (submit_app->parsed()) return dataset_submit(submit_options);
-  if (report_app->parsed()) return report(report_options);
-  if (audit_app->parsed()) return audit(audit_options);
-  if (dataset_app->parsed()) return dataset(dataset_options);
-  if (doctor_app->parsed()) return doctor();
-  if (reference_app->parsed()) std::cout << request_reference();
-  return exit_done;
+  return commands.run();
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+/// Decides for each scene whether its folder is whole and of the same request, and writes new ones under hidden names.
+/// BOP's models are written once.
 #include "tool/scene_store.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -121,16 +123,16 @@ std::vector<std::string> SceneStore::reasons(std::size_t index) const {
   return read_scene_json((fs::path(folder(index, false)) / "scene.json").string()).report.reasons;
 }
 
-void SceneStore::prepare(Generator::Result& result, const Request& request, const Generator& generator) {
+void SceneStore::prepare(Generator::Result& result, const Generator& generator) {
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
   const auto folders = std::make_shared<WholeFolders>();
-  folders->write(folder(scene.index, accepted), [&](const std::string& hidden) {
-    write_scene_files(hidden, formats_, result, request, generator.parts(), generator.bin_model());
-  });
+  folders->write(folder(scene.index, accepted),
+                 [&](const std::string& hidden) { write_scene_files(hidden, formats_, result, generator.loaded()); });
   if (wants("bop")) {
-    folders->write(bop_folder(scene.index, accepted),
-                   [&](const std::string& hidden) { write_bop(hidden, scene, generator.parts(), result.images); });
+    folders->write(bop_folder(scene.index, accepted), [&](const std::string& hidden) {
+      write_bop(hidden, scene, generator.loaded().parts, result.images);
+    });
   }
   result.images.clear();  // they are in files now, and a scene may wait long for its turn
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -143,7 +145,7 @@ void SceneStore::commit(const Generator::Result& result, const Request& request,
   if (wants("bop") && models_written_.count(accepted) == 0) {
     WholeFolders models;
     models.write(root(accepted) / "bop" / "models",
-                 [&](const std::string& hidden) { write_bop_models(hidden, generator.parts()); });
+                 [&](const std::string& hidden) { write_bop_models(hidden, generator.loaded().parts); });
     models.commit();
     models_written_.insert(accepted);
   }

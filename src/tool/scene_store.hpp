@@ -44,7 +44,7 @@ class SceneStore {
 
   /// Writes all folders of the scene under hidden names, in any thread and for several scenes at once, and lets its
   /// images go.
-  void prepare(Generator::Result& result, const Request& request, const Generator& generator);
+  void prepare(Generator::Result& result, const Generator& generator);
   /// Gives the folders their names: all of them or none. What an earlier scene of this index left on the other side
   /// goes.
   void commit(const Generator::Result& result, const Request& request, const Generator& generator);

@@ -78,7 +78,7 @@ void write_symmetry_picture(const std::string& path, const PartModelPtr& part, c
   sensor.near = 0.1 * size, sensor.far = 10.0 * size;
   scene.sensors = {resolved(sensor, request.bin, nullptr)};
   SensorRig rig;
-  Picture picture(rig.render(scene, request, {part}).at(0), *sensor.pose);
+  Picture picture(rig.render(scene, {request, {part}}).at(0), *sensor.pose);
   const auto draw = [&](const Vec3& axis, const Colour& colour) {
     picture.line(center - 0.75 * size * axis, center + 0.75 * size * axis, colour);
   };

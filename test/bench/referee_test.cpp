@@ -44,7 +44,7 @@ struct Box {
     placed.pose.position = Vec3(0.01, -0.02, z);
     placed.state = PartState::resting;
     scene.parts = {placed};
-    return referee_drift(scene, request, {part}, {pieces});
+    return referee_drift(scene, {request, {part}}, {pieces});
   }
 };
 
@@ -116,7 +116,7 @@ TEST(Referee, SeesHowDeepBoxesOverlap) {
   const double depth = 0.01 * diagonal;
   // The second stands in the first by its depth, also where the first's two pieces meet; the third stands apart.
   const Scene scene = boxes_at({Vec3::Zero(), Vec3(0.01, 0, size.z() - depth), Vec3(0.1, 0, 0)});
-  const Overlap overlap = referee_overlap(scene, box.request, {box.part}, {box.pieces});
+  const Overlap overlap = referee_overlap(scene, {box.request, {box.part}}, {box.pieces});
   ASSERT_EQ(overlap.pairs.size(), 1u);
   EXPECT_NEAR(overlap.pairs[0], 0.01, 1e-5);
   EXPECT_EQ(overlap.bin, (std::vector<double>{0.0, 0.0, 0.0}));
@@ -126,7 +126,7 @@ TEST(Referee, SeesHowDeepBoxesAreInFloorAndWalls) {
   const Box box;
   const double wall = 0.5 * box.request.bin.inner_size.x();
   const Scene scene = boxes_at({Vec3(0, 0, -0.02 * diagonal), Vec3(wall - size.x() + 0.03 * diagonal, 0, 0)});
-  const Overlap overlap = referee_overlap(scene, box.request, {box.part}, {box.pieces});
+  const Overlap overlap = referee_overlap(scene, {box.request, {box.part}}, {box.pieces});
   ASSERT_EQ(overlap.bin.size(), 2u);
   EXPECT_NEAR(overlap.bin[0], 0.02, 1e-9);
   EXPECT_NEAR(overlap.bin[1], 0.03, 1e-9);

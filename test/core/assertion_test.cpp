@@ -40,7 +40,8 @@ TEST_F(AssertionDeath, QuaternionOfAnotherLength) {
   scene.parts.resize(1);
   scene.parts[0].state = PartState::resting;
   scene.parts[0].pose.orientation.coeffs() *= 1.01;
-  EXPECT_DEATH(judge(scene, request, parts), "is_unit\\(part.pose.orientation\\) \\(judge.cpp");
+  const LoadedRequest loaded{request, parts};
+  EXPECT_DEATH(judge(scene, loaded), "is_unit\\(part.pose.orientation\\) \\(judge.cpp");
 }
 
 TEST_F(AssertionDeath, ListThatIsNotSorted) {

@@ -67,7 +67,7 @@ TEST_F(GeneratorTest, LinesOfNearlyTheSameScaleHaveTheirOwnSizes) {
   request.parts[0].scale = 1.0e-6;
   request.parts[1].scale = 1.4e-6;
   run(request);
-  const double ratio = generator.parts()[1]->diagonal() / generator.parts()[0]->diagonal();
+  const double ratio = generator.loaded().parts[1]->diagonal() / generator.loaded().parts[0]->diagonal();
   EXPECT_NEAR(ratio, 1.4, 1e-6);
 }
 
@@ -237,12 +237,12 @@ TEST_F(GeneratorTest, TheNextSceneTakesThePlaceOfOneThatRests) {
 
 TEST_F(GeneratorTest, KeepsAModelUntilItsFileChanges) {
   run(boxes(1));
-  const PartModelPtr once = generator.parts().at(0);
+  const PartModelPtr once = generator.loaded().parts.at(0);
   run(boxes(1));
-  EXPECT_EQ(generator.parts().at(0), once);
+  EXPECT_EQ(generator.loaded().parts.at(0), once);
   std::ofstream(dir / "box.stl") << box_stl(0.0401);
   run(boxes(1));
-  EXPECT_NE(generator.parts().at(0), once);
+  EXPECT_NE(generator.loaded().parts.at(0), once);
 }
 
 TEST_F(GeneratorTest, ProgressNeverFallsAndNamesKnownPhases) {

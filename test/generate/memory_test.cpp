@@ -103,7 +103,7 @@ TEST(Memory, ACoarserFieldIsTold) {
     r.parts.push_back(request(1).parts[0]);
   }
   std::string reason;
-  const Heap heap(r, boxes, make_solver(r, boxes, reason));
+  const Heap heap({r, boxes}, make_solver(r, boxes, reason));
   const auto flags = heap.scene().report.flags;
   const auto coarsened = [](const Flag& flag) { return flag.code == "field_coarsened"; };
   ASSERT_EQ(std::count_if(flags.begin(), flags.end(), coarsened), 1);

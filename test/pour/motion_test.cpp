@@ -43,7 +43,7 @@ class MotionTest : public ::testing::TestWithParam<SolverType> {
       times.push_back(time);
       track.push_back(states[0]);
     };
-    return pour(request, parts, *solver, {0}, hooks)[0];
+    return pour({request, parts}, *solver, {0}, hooks)[0];
   }
   const BodyState& at(double time) const {
     std::size_t k = 0;
@@ -88,7 +88,7 @@ TEST(MotionRefused, ByASolverThatCannotMoveAnything) {
   RunHooks hooks;
   hooks.trace_rate = 200.0;
   hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>&) { simulated = time; };
-  EXPECT_THROW(pour(request, parts, *solver, {0}, hooks), Error);
+  EXPECT_THROW(pour({request, parts}, *solver, {0}, hooks), Error);
   EXPECT_EQ(simulated, 0.0);
 }
 

@@ -33,7 +33,7 @@ Request request_of(std::size_t count) {
 std::vector<Scene> poured(const Request& request, const std::vector<std::size_t>& indices, const RunHooks& hooks = {}) {
   const auto solver = make_bullet_solver(request.solver.bullet);
   const std::vector<PartModelPtr> parts(request.parts.size(), small_box());
-  return pour(request, parts, *solver, indices, hooks);
+  return pour({request, parts}, *solver, indices, hooks);
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ TEST(Pour, SetTimeIsKeptExactly) {
       request.solver.sphere.device = SphereSettings::Device::cpu;
       std::string reason;
       const auto solver = make_solver(request, {small_box()}, reason);
-      const Scene scene = pour(request, {small_box()}, *solver, {0})[0];
+      const Scene scene = pour({request, {small_box()}}, *solver, {0})[0];
       EXPECT_NEAR(scene.report.simulated_s, seconds, 1e-12) << name_of(type);
       EXPECT_NEAR(scene.parts[0].pose.position.x(), seconds, 1e-6) << "at 1 m/s";
       EXPECT_NEAR(scene.parts[0].velocity.linear.z(), -9.81 * seconds, 1e-5);
@@ -233,7 +233,7 @@ TEST(Pour, MeshBinHoldsItsPartsWhereItsPosePutsIt) {
   request.bin.mesh = "tray";
   request.bin.pose = {Vec3(0.5, -0.3, 0.1), Quat(Eigen::AngleAxisd(0.4, Vec3::UnitZ()))};
   const auto solver = make_bullet_solver(request.solver.bullet);
-  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  const Scene scene = pour({request, {small_box()}, tray()}, *solver, {0})[0];
   EXPECT_TRUE(scene.report.at_rest);
   EXPECT_TRUE(scene.report.escaped.empty());
   EXPECT_TRUE(scene.report.not_poured.empty());
@@ -255,7 +255,7 @@ TEST(Pour, WhatLeavesAMeshBinHasEscaped) {
   request.parts[0].count = 2;
   request.parts[0].poses = {Pose{Vec3(0, 0, 0.03), Quat::Identity()}, Pose{Vec3(0.3, 0, 0.03), Quat::Identity()}};
   const auto solver = make_bullet_solver(request.solver.bullet);
-  const Scene scene = pour(request, {small_box()}, *solver, {0}, {}, tray())[0];
+  const Scene scene = pour({request, {small_box()}, tray()}, *solver, {0})[0];
   EXPECT_EQ(scene.report.escaped, std::vector<int>{1});
   EXPECT_EQ(scene.parts[0].state, PartState::resting);
 }
@@ -393,7 +393,7 @@ Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, doubl
   request.pour.finish = finish;
   request.pour.rest_window = rest_window;
   request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
-  const Report report = pour(request, {small_box()}, solver, {0})[0].report;
+  const Report report = pour({request, {small_box()}}, solver, {0})[0].report;
   EXPECT_TRUE(report.at_rest);
   EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
   return {solver.phases, solver.probed_s};
@@ -409,14 +409,14 @@ TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
 TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove}));
+             verify = Stage::verify;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify}));
   EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
   habits.jumps_at_s = 0.015;
   habits.jumps = 1;
   EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
   habits.jumps_at_s = 0.05;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}))
       << "it comes to lie in the first, and stands the second";
   habits.jumps = 100;
   EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
@@ -427,12 +427,12 @@ TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
 TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
-  habits.jumps_in = prove;
+             verify = Stage::verify;
+  habits.jumps_in = verify;
   habits.jumps_at_s = 1e-3;
   habits.slides_s = 0.05;
   habits.jumps = 2;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, prove, prove, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify, verify, verify}))
       << "forces are forgotten anew each time";
   habits.heeds_phases = false;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle})) << "a solver to which all stages are the same";
@@ -441,13 +441,13 @@ TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
 TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
+             verify = Stage::verify;
   habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, prove}));
-  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, prove}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
+  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, verify}))
       << "one of many is waited for";
   habits.swings_s = 1.5;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove})) << "in time";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify})) << "in time";
 }
 
 // A part that fell sent the heap back to soft contacts, on which it sagged as a whole; 1,000 rods never came to an end.
@@ -456,10 +456,10 @@ TEST(Pour, WhatFallsInAProbeIsWaitedFor) {
   habits.swings_fast = true;
   habits.swings_s = 0.3;
   const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             prove = Stage::prove;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, prove}));
+             verify = Stage::verify;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}));
   habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, prove}));
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
 }
 
 TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
@@ -482,12 +482,12 @@ TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
     request.pour.pattern = Pour::Pattern::given;
     request.pour.finish = Pour::Finish::probed;
     for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
-    EXPECT_TRUE(pour(request, {small_box()}, solver, {0})[0].report.at_rest);
+    EXPECT_TRUE(pour({request, {small_box()}}, solver, {0})[0].report.at_rest);
     return solver.phases;
   };
-  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, prove = Stage::prove;
+  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, verify = Stage::verify;
   EXPECT_EQ(phases_of(0.0), (std::vector<Stage>{press}));
-  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, prove}));
+  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, verify}));
 }
 
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {

@@ -42,7 +42,7 @@ std::unique_ptr<Solver> solver_of(const Request& request) {
 using Ends = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 Ends ends_of(const Request& request, Solver& solver, const std::vector<std::size_t>& indices) {
   Ends ends;
-  for (const Scene& scene : pour(request, {angle()}, solver, indices)) {
+  for (const Scene& scene : pour({request, {angle()}}, solver, indices)) {
     EXPECT_TRUE(scene.report.at_rest);
     ends.emplace_back(scene.report.state_hash, scene.report.steps);
   }
@@ -108,7 +108,7 @@ TEST_P(Repeatability, ASceneGoesThroughEveryStage) {
   request.pour.finish = Pour::Finish::probed;
   Watched solver(solver_of(request));
   const Ends watched = ends_of(request, solver, {1});
-  for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::prove})
+  for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::verify})
     EXPECT_GT(solver.stages[stage], 0) << row(stage).name;
   EXPECT_EQ(watched, ends_of(request, {1})) << "looked at at once, not while the device works on another";
 }

@@ -18,6 +18,65 @@ BY_HAND = re.compile(r"shaders/(?!shared/sphere/)")
 TIDY = ("src/core/", "src/scene/")
 TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr/include/eigen3"]
 
+# Parameters and lines of a function; test programs list what they try, and may be longer.
+MOST_PARAMETERS, MOST_LINES = 7, 60
+# Functions above a limit that others are at work on: a name goes when it is split.
+LARGE = """
+shaders/shared/sphere/edge.h descend, shaders/shared/sphere/edge.h ways_out_at_edge,
+shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
+shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
+src/sensor/models/illumination.cpp light_seen_from, src/sensor/models/illumination.cpp light,
+src/sensor/models/indirect_field.cpp IndirectField, src/sensor/models/interreflection.cpp gather,
+src/sensor/models/laser_line.cpp line_at, src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
+src/solver/sphere/passes/contact_rows.cpp set_lane, src/solver/sphere/passes/find_pairs.cpp find_pairs,
+src/solver/sphere_gl/batch.cpp add, src/solver/thesis/memory.cpp lay_out, src/solver/thesis/twin.cpp detect"""
+
+
+def bare(text):
+    """C++ or GLSL without comments, texts and lines of the preprocessor; each line keeps its number."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match[0])
+    text = re.sub(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"', blank, text, flags=re.S)
+    text = re.sub(r"\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", lambda m: '"' + " " * (len(m[0]) - 2) + '"', text)
+    return re.sub(r"(?m)^\s*#(?:[^\n]*\\\n)*[^\n]*", blank, text)
+
+
+def parameters(text):
+    """How many there are up to the parenthesis that closes; text begins behind the one that opens."""
+    depth, in_template, count = 1, 0, 0
+    for at, sign in enumerate(text):
+        if sign in "([{":
+            depth += 1
+        elif sign in ")]}":
+            depth -= 1
+        elif sign in "<>":
+            in_template += 1 if sign == "<" else -1
+        elif sign == "," and depth == 1 and in_template <= 0:
+            count += 1
+        if depth == 0:
+            return count + bool(text[:at].strip())
+    return 0
+
+
+def functions(text):
+    """Name, parameters and lines of the body of each function that stands in no other one."""
+    text, begins, start = bare(text), [], 0
+    name = re.compile(r"\s*(?:template\s*<[^{]*?>\s*)?(?!(?:if|for|while|switch|return|else|do|catch)\b)"
+                      r"[\w:<>,&*\s\[\]~]*?([~\w]+|operator\S+)\s*\(")
+    for mark in re.finditer(r"[{};]", text):
+        at = mark.start()
+        if mark[0] == "{":
+            head = text[start:at]
+            found = None if any(begins) else name.match(head)
+            if found and found[1].isupper():  # a macro: no statement
+                found = None
+            begins.append((found[1], parameters(head[found.end():]), text.count("\n", 0, at)) if found else None)
+        elif mark[0] == "}" and begins:
+            begun = begins.pop()
+            if begun:
+                yield begun[0], begun[1], max(0, text.count("\n", 0, at) - begun[2] - 1)
+        start = at + 1
+
 
 def tree():
     """Paths of the tree as scripts/check_layers sees it, which needs no git."""
@@ -66,6 +125,30 @@ class Style(unittest.TestCase):
             found = pool.map(lambda path: complaints(
                 [program, "--quiet", "--warnings-as-errors=*", path, "--", *TIDY_FLAGS]), files)
         self.assertEqual("".join(found), "")
+
+    def test_functions_are_read(self):
+        code = "template <class T>\nint f(const std::map<int, T>& m, int b = g(1, 2)) {\n  if (b) {\n  }\n\n}\nvoid h() {}\n"
+        self.assertEqual(list(functions(code)), [("f", 2, 3), ("h", 0, 0)])
+
+    def test_functions_are_small(self):
+        pending = set(re.split(r",\s+", LARGE.strip()))
+        large, count = set(), 0
+        for path in PATHS:
+            if not path.endswith((".cpp", ".hpp", ".h", ".comp")):
+                continue
+            for name, given, lines in functions((ROOT / path).read_text()):
+                count += 1
+                if given > MOST_PARAMETERS or lines > MOST_LINES and not path.startswith("test/"):
+                    large.add(path + " " + name)
+        self.assertGreater(count, 5000)
+        self.assertEqual(large - pending, set(), "above %d parameters or %d lines" % (MOST_PARAMETERS, MOST_LINES))
+        self.assertEqual(pending - large, set(), "these are small now: take them from LARGE")
+
+    def test_long_files_say_what_they_do(self):
+        for path in PATHS:
+            if path.endswith(".cpp") and path.startswith(("src/", "bench/")):
+                text = (ROOT / path).read_text()
+                self.assertTrue(text.startswith("///") or text.count("\n") <= 150, path + " begins without saying what it does")
 
     def test_slips_in_shell(self):
         files = list(scripts(".sh", b"bash"))

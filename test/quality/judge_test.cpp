@@ -28,7 +28,7 @@ struct Heap {
     return scene.parts.back();
   }
   const Report& judged() {
-    judge(scene, request, models);
+    judge(scene, {request, models});
     return scene.report;
   }
 };

@@ -60,7 +60,7 @@ TEST_F(Markers, PartsAreDrawnAsLargeAsTheyAre) {
     Scene scene;
     scene.parts.emplace_back();
     scene.parts[0].model = path(c);
-    const auto markers = scene_markers(scene, request, {model}, nullptr, Frames(), stamp).markers;
+    const auto markers = scene_markers(scene, {request, {model}}, Frames(), stamp).markers;
     const auto& part = markers.back();
     ASSERT_EQ(part.ns, "parts");
     EXPECT_EQ(part.mesh_resource, "file://" + path(c));
@@ -79,7 +79,7 @@ TEST_F(Markers, ABinOfAMeshIsDrawnWhereAndAsLargeAsItIs) {
     request.bin.mesh = path(c);
     request.bin.pose.position = Vec3(0.1, 0.2, 0.3);
     const PartModelPtr model = load(c, 1.0);
-    const auto markers = scene_markers(Scene(), request, {}, model, Frames(), stamp).markers;
+    const auto markers = scene_markers(Scene(), {request, {}, model}, Frames(), stamp).markers;
     ASSERT_EQ(markers.size(), 2u);
     EXPECT_EQ(markers[1].ns, "bin");
     EXPECT_EQ(markers[1].pose.position.z, 0.3);

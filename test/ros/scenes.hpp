@@ -52,7 +52,7 @@ inline Report full_report() {
   r.escaped = {1};
   r.not_poured = {3};
   r.state_hash = 0xfedcba9876543210ull;
-  r.flags = {{"mesh_repaired", "2 holes closed", "mend the file"}};
+  r.flags = {{"mesh_repaired", "2 holes closed", "repair the file"}};
   return r;
 }
 

@@ -85,7 +85,7 @@ std::string refusal(const Sensor& sensor, const Bin& bin = {}, const std::vector
     request.parts.back().poses = {poses[i]};
   }
   try {
-    resolved_sensors(request, models, nullptr);
+    resolved_sensors({request, models});
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_EQ(error.where(), "sensors: camera");

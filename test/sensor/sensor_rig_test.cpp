@@ -28,7 +28,7 @@ struct Stage : test::Stage {
   }
   RangeImage render() {
     scene.sensors = {resolved(request.sensors[0], request.bin)};
-    return SensorRig().render(scene, request, models).front();
+    return SensorRig().render(scene, {request, models}).front();
   }
 };
 

@@ -33,7 +33,7 @@ struct Stage {
     part.state = PartState::resting;
     scene.parts.push_back(part);
   }
-  Scenery scenery(const PartModelPtr& bin = nullptr) { return Scenery(scene, request, models, bin, cache); }
+  Scenery scenery(const PartModelPtr& bin = nullptr) { return Scenery(scene, {request, models, bin}, cache); }
 };
 
 inline Pose at(double x, double y, double z, const Quat& turn = Quat::Identity()) {

@@ -103,7 +103,7 @@ TEST(ToyModel, Measures) {
   sensor.model = "toy";
   sensor.pose = Pose();
   stage.scene.sensors = {resolved(sensor, stage.request.bin)};
-  const RangeImage image = SensorRig().render(stage.scene, stage.request, stage.models).at(0);
+  const RangeImage image = SensorRig().render(stage.scene, {stage.request, stage.models}).at(0);
   std::size_t seen = 0;
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
     if (std::isnan(image.depth[i])) continue;

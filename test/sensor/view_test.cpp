@@ -89,7 +89,7 @@ TEST(View, HasTheSameBitsOnOneThreadAndOnTwo) {
   const auto once = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     SceneryCache cache;
-    return render(Scenery(stage.scene, stage.request, stage.models, nullptr, cache), lens, Pose(), 0.05, 10.0);
+    return render(Scenery(stage.scene, {stage.request, stage.models}, cache), lens, Pose(), 0.05, 10.0);
   };
   const View one = once(1), two = once(2);
   EXPECT_EQ(one.label, two.label);

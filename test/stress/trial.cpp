@@ -94,7 +94,7 @@ void judge_scene(const Scene& scene, const Request& request, const std::vector<P
 
 std::string request_text(const Case& c, const std::string& solver) {
   Request request = c.request;
-  request.pour.finish = Pour::Finish::probed;  // the suite asks for all the proof there is
+  request.pour.finish = Pour::Finish::probed;  // the suite asks for the last finish there is
   request.solver.type = solver == "bullet" ? SolverType::bullet : SolverType::sphere;
   if (solver == "thesis") request.solver.preset = SolverSettings::Preset::thesis;
   if (solver == "sphere/gpu") request.solver.sphere.device = SphereSettings::Device::gpu;
@@ -128,14 +128,14 @@ Outcome run_here(const std::string& yaml, const std::string& directory, const Ex
     if (expect.traced) {
       options.hooks.trace_rate = trace_rate;
       options.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-        if (time == 0.0) watch = std::make_unique<Watch>(request, generator.parts());
+        if (time == 0.0) watch = std::make_unique<Watch>(request, generator.loaded().parts);
         watch->observe(states);
       };
     }
     std::vector<double> cpu = {cpu_seconds()}, in_use;
     cpu.reserve(request.scenes + 1), in_use.reserve(request.scenes);  // or they grow themselves
     generator.generate(request, options, [&](Generator::Result&& result) {
-      judge_scene(result.scene, request, generator.parts(), expect, outcome);
+      judge_scene(result.scene, request, generator.loaded().parts, expect, outcome);
       if (watch) {
         outcome.energy = std::max(outcome.energy, watch->energy_gain());
         if (!watch->finite()) outcome.failures.push_back("velocity not finite");

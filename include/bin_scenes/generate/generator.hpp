@@ -46,9 +46,8 @@ class Generator {
   /// The result of generate() for the current state of a heap: judged, and rendered as its request asks.
   Result result(const Heap& heap, const Options& options);
 
-  /// Models of the last request, by part line.
-  const std::vector<PartModelPtr>& parts() const;
-  const PartModelPtr& bin_model() const;
+  /// The last request, with its models.
+  const LoadedRequest& loaded() const;
 
  private:
   struct State;

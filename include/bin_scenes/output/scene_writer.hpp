@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
@@ -73,8 +73,7 @@ void write_ply(const std::string& path, const Mesh& mesh, double scale = 1.0);
 
 /// Writes a scene into a bag with the topics and types of the live node. Set by the ROS rim when it is built in.
 using BagWriter =
-    std::function<void(const std::string& path, const Scene&, const Request&, const std::vector<RangeImage>& images,
-                       const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model)>;
+    std::function<void(const std::string& path, const Scene&, const LoadedRequest&, const std::vector<RangeImage>&)>;
 void register_bag_writer(BagWriter writer);
 /// Empty without ROS.
 const BagWriter& bag_writer();

@@ -1,7 +1,7 @@
 /// A heap that outlives its scene: parts are poured, taken out and added, and it settles again. A scene is a snapshot
 /// of it.
 ///
-///     Heap heap(request, parts, solver);
+///     Heap heap({request, parts}, solver);
 ///     heap.settle();                       // pours
 ///     heap.remove({3});                    // a pick
 ///     heap.settle();                       // only what part 3 held up moves
@@ -22,13 +22,19 @@ struct NewParts {
   PartModelPtr part;
 };
 
+/// Scenes of a request, by place: a rule instead of a list, since a request may ask for a thousand million.
+struct SceneList {
+  std::size_t count = 0;
+  std::function<std::size_t(std::size_t place)> index;
+};
+
 /// One thread at a time, as its solver.
 class Heap {
  public:
-  /// Scene `index` of the request, not poured yet. `parts`: by part line; `bin_model`: Bin::Kind::mesh only, loaded
-  /// through the cache when not given; `solver_reason`: of make_solver(), for the report.
-  Heap(const Request& request, const std::vector<PartModelPtr>& parts, std::shared_ptr<Solver> solver,
-       std::size_t index = 0, PartModelPtr bin_model = nullptr, std::string solver_reason = "");
+  /// Scene `index` of the request, not poured yet. The model of a mesh bin is loaded through the cache when not given;
+  /// `solver_reason`: of make_solver(), for the report.
+  Heap(const LoadedRequest& loaded, std::shared_ptr<Solver> solver, std::size_t index = 0,
+       std::string solver_reason = "");
   Heap(Heap&&) noexcept;
   Heap& operator=(Heap&&) noexcept;
   ~Heap();
@@ -64,13 +70,23 @@ class Heap {
 
   const Request& request() const;                  ///< with the lines that were added, and the gravity of now
   const std::vector<PartModelPtr>& parts() const;  ///< by part line
-  const PartModelPtr& bin_model() const;
+  LoadedRequest loaded() const;                    ///< both, with the model of the bin
   const std::shared_ptr<Solver>& solver() const;
   const std::string& solver_reason() const;
 
  private:
+  friend void settle_scenes(const LoadedRequest&, const std::shared_ptr<Solver>&, const std::string&, const SceneList&,
+                            const RunHooks&, const std::function<void(std::size_t, Heap&&)>&);
   struct State;
+  explicit Heap(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Heap::settle() of many scenes of a request, Solver::worlds_at_once() of them at a time: a heap that is done is
+/// handed to `settled`, from the calling thread, with its place in the list, and the next takes its place. A scene
+/// depends on (request, seed, index) alone, not on what runs beside it.
+void settle_scenes(const LoadedRequest& loaded, const std::shared_ptr<Solver>& solver, const std::string& solver_reason,
+                   const SceneList& scenes, const RunHooks& hooks,
+                   const std::function<void(std::size_t place, Heap&& heap)>& settled);
 
 }  // namespace bin_scenes

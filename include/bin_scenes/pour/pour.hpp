@@ -2,6 +2,7 @@
 /// simulated time. Knows no solver but the interface.
 #pragma once
 
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
@@ -29,20 +30,11 @@ struct RunHooks {
 };
 
 /// World of one scene of the request (bodies in order of part lines, one id each; walls up to the rim).
-/// `bin_model`: Bin::Kind::mesh only; loaded through the cache when not given.
-WorldDef world_of(const Request& request, const std::vector<PartModelPtr>& parts, PartModelPtr bin_model = nullptr);
+/// The model of a mesh bin is loaded through the cache when not given.
+WorldDef world_of(const LoadedRequest& loaded);
 
-/// Scenes to pour, by place: a rule instead of a list, since a request may ask for a thousand million.
-struct SceneList {
-  std::size_t count = 0;
-  std::function<std::size_t(std::size_t place)> index;
-};
-
-/// Pours scene `index` of the request for each of the given scenes, Solver::worlds_at_once() of them at a time (a
-/// world that is done leaves and the next index takes its place), and hands each to `poured` as soon as it rests, with
-/// its place in the list, from the calling thread: poses, states, at_rest, escaped, not_poured, simulated_s, steps,
-/// flags and state_hash filled in. Quality and visibility are not (quality/, sensor/). A scene depends on (request,
-/// seed, index) alone, not on what runs beside it.
+/// Pours scene `index` of the request for each of the given indices, as settle_scenes() (heap.hpp) does; scenes in the
+/// order of the indices.
 ///
 /// While parts come in, the walls of a box reach above the rim far enough to hold what enters; when all are in and
 /// slow, they are cut back to the rim if the heap stands above it. A part whose centre of mass is then beside the inner
@@ -54,14 +46,8 @@ struct SceneList {
 ///
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
-void pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver, const SceneList& scenes,
-          const RunHooks& hooks, PartModelPtr bin_model,
-          const std::function<void(std::size_t place, Scene&& scene)>& poured);
-
-/// The same, with all scenes at the end, in order of `indices`.
-std::vector<Scene> pour(const Request& request, const std::vector<PartModelPtr>& parts, Solver& solver,
-                        const std::vector<std::size_t>& indices, const RunHooks& hooks = {},
-                        PartModelPtr bin_model = nullptr);
+std::vector<Scene> pour(const LoadedRequest& loaded, Solver& solver, const std::vector<std::size_t>& indices,
+                        const RunHooks& hooks = {});
 
 /// Of the poses of all parts, bit for bit.
 std::uint64_t state_hash(const std::vector<ScenePart>& parts);

@@ -1,7 +1,7 @@
 /// Judgement of a finished scene on the true meshes, independent of solvers and their collision shapes.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
 #include <vector>
@@ -30,7 +30,6 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
                 double limit);
 
 /// Fills report.penetration, report.gap, accepted and reasons of the scene from its poses and flags.
-/// `parts[scene.parts[i].line]` is the model of part i; `bin_model` only for a mesh bin.
 ///
 /// Penetration: of all pairs with a movable part; overlap below 1e-6 of the smaller diagonal is rounding and
 /// does not count; escaped parts are measured against each other, not against the bin.
@@ -41,8 +40,7 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
 /// more than accept.gap, a part gained more energy from nowhere than accept.energy (report.energy, which pour fills
 /// in), parts escaped (and accept.escaped is not set), no part was poured, or the scene is not at rest (and no exact
 /// time was asked for).
-void judge(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-           const PartModelPtr& bin_model = nullptr);
+void judge(Scene& scene, const LoadedRequest& loaded);
 
 /// The same measures, part by part, of the parts that are there, in the order of the scene.
 struct PartQuality {
@@ -52,8 +50,7 @@ struct PartQuality {
   double into_bin = 0.0;          ///< m: overlap with the bin
   double gap = 0.0;               ///< m: free fall; infinite where nothing lies below, and of parts not at rest
 };
-std::vector<PartQuality> part_quality(const Scene& scene, const Request& request,
-                                      const std::vector<PartModelPtr>& parts, const PartModelPtr& bin_model = nullptr);
+std::vector<PartQuality> part_quality(const Scene& scene, const LoadedRequest& loaded);
 
 /// Drift of the poses `before` -> `after` of the same scene (centres of mass, turn): fills report.drift.
 DriftReport drift(const Scene& before, const Scene& after, const std::vector<PartModelPtr>& parts);

@@ -1,8 +1,7 @@
 /// Fills in the poses and intrinsics of a sensor that the request leaves out.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/sensor/lens.hpp"
 
 #include <vector>
@@ -15,10 +14,9 @@ namespace bin_scenes {
 /// bin without rim is taken for a floor of Bin::inner_size. Throws an input Error if K or the range make no sense.
 Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds = nullptr);
 
-/// All sensors of a request. `bin_model` of a bin given as a mesh. Throws an input Error also for a camera, projector
-/// or laser that stands below the floor, looks away from the bin or stands inside a part that is there from the start.
-std::vector<Sensor> resolved_sensors(const Request& request, const std::vector<PartModelPtr>& parts,
-                                     const PartModelPtr& bin_model);
+/// All sensors of a request. Throws an input Error also for a camera, projector or laser that stands below the floor,
+/// looks away from the bin or stands inside a part that is there from the start.
+std::vector<Sensor> resolved_sensors(const LoadedRequest& loaded);
 
 Lens lens_of(const Sensor& sensor);  ///< of the camera; K filled in
 Lens lens_of(const Projector& projector);

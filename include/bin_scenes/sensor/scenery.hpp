@@ -1,7 +1,7 @@
 /// Ray casting against the true meshes of a scene, for all cameras, projectors and lasers.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
 #include <cstdint>
@@ -44,10 +44,8 @@ class SceneryCache {
 /// Embree finds the triangle in single precision; distance and normal are those of the triangle's plane in double.
 class Scenery {
  public:
-  /// `parts[line]` are the models; `bin_model` that of a bin given as a mesh. Throws an input Error if a part's id has
-  /// no 16-bit label.
-  Scenery(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-          const PartModelPtr& bin_model, SceneryCache& cache);
+  /// Throws an input Error if a part's id has no 16-bit label.
+  Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache);
   ~Scenery();
   Scenery(Scenery&&) noexcept;
 

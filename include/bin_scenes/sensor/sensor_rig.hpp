@@ -1,7 +1,7 @@
 /// Runs all sensors of a request on one scene after the other.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
@@ -19,14 +19,12 @@ class SensorRig {
   ~SensorRig();
   /// One image a sensor of `scene.sensors`, which are resolved(). Sets the parts' visible fractions and counts views
   /// and silhouettes in the report's profile. For several scenes at once in several threads. The same scene gives the
-  /// same bits each time. Parts that were not poured or whose pose is not finite are not there. `parts[line]` are the
-  /// models.
-  std::vector<RangeImage> render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                                 const PartModelPtr& bin_model = nullptr);
+  /// same bits each time. Parts that were not poured or whose pose is not finite are not there.
+  std::vector<RangeImage> render(Scene& scene, const LoadedRequest& loaded);
   /// The same for some sensors: makes the images of those that are wanted, unless they are there already. `wanted` and
   /// `images` have one entry a sensor; an image that has not been made is RangeImage().
-  void render(Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-              const PartModelPtr& bin_model, const std::vector<bool>& wanted, std::vector<RangeImage>& images);
+  void render(Scene& scene, const LoadedRequest& loaded, const std::vector<bool>& wanted,
+              std::vector<RangeImage>& images);
 
  private:
   std::unique_ptr<SceneryCache> cache_;

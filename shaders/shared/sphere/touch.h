@@ -106,9 +106,9 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   return false;
 }
 
-// Near a sharp edge ways out are exact: what presses against none of them does not press there. Turned into the cone,
-// the way out past an edge held up what leant on it from the side. The sample presses against the first that it can,
-// or against `all`. Whether any leads out.
+// Near a sharp edge the ways out are exact, so that a sample whose normal cone fits none of them does not press there.
+// (A way past an edge, turned into the cone, held up parts that leant against the edge from the side.) Makes a
+// contact of the first way that fits, of each that fits if `all`. Returns whether any of the ways ends outside.
 INLINE bool offer_ways(IN(View) view, IN(vec3) point, IN(WaysOut) ways, bool all, IN(Cone) cone, uint feature) {
   bool out_there = all;
   for (uint i = 0u; i < ways.count; ++i) {

@@ -1,3 +1,5 @@
+/// Adds light to the images of a pixel, and reads phase and Gray code from them. The sigma of the column follows from
+/// the noise at the fringe's mean.
 #include "sensor/models/fringes.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,5 @@
+/// A node for each face of a tile of the image, and in each quarter again where other surfaces are near; light is
+/// gathered there. A pixel takes from the nodes of its own face.
 #include "sensor/models/indirect_field.hpp"
 
 #include "core/in_parallel.hpp"

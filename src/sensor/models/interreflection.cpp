@@ -1,3 +1,5 @@
+/// Casts rays from a point, looks how the projector lights what they hit, and carries that light back. A second bounce
+/// is one more ray from there.
 #include "sensor/models/interreflection.hpp"
 
 #include "sensor/models/lobe.hpp"

@@ -1,3 +1,5 @@
+/// Casts the sheet as a fan of rays for each step, projects what it hits into the camera, and finds the peak of the
+/// line in every sample. Noise and speckle move the peak.
 #include "sensor/models/laser_line.hpp"
 
 #include "core/in_parallel.hpp"

@@ -1,3 +1,5 @@
+/// Renders the dot pattern into both cameras, and matches by OpenCV (`decoded`) or errs by a formula whose noise is the
+/// same over a window (`analytic`).
 #include "sensor/models/stereo.hpp"
 
 #include "core/in_parallel.hpp"

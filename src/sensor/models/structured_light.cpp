@@ -1,3 +1,5 @@
+/// Light and column of every pixel, then its noise: by formula, or by images that are decoded. Pixels near edges are in
+/// structured_light_strip.cpp.
 #include "sensor/models/structured_light.hpp"
 
 #include "core/in_parallel.hpp"

@@ -1,3 +1,5 @@
+/// Finds the pixels of some rows that see more than one face or light, asks their cells by rays, and sums the light.
+/// Rows are done in strips, so that memory does not grow with the image.
 #include "sensor/models/structured_light_strip.hpp"
 
 #include <algorithm>

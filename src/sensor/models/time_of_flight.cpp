@@ -1,3 +1,5 @@
+/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light. Noise is drawn along and
+/// across the ray.
 #include "sensor/models/time_of_flight.hpp"
 
 #include "core/in_parallel.hpp"
@@ -121,12 +123,12 @@ class Row {
 }  // namespace
 
 Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfaces& surfaces,
-                           const TimeOfFlightSettings& s, bool noise, double near, double far, const Random& random) {
+                           const TimeOfFlightSettings& s, bool noise, const DepthRange& range, const Random& random) {
   Measurement out(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t y) {
     Random draw = random.of_piece(y);
-    const Row row(scenery, view, surfaces, y, near, far, s.edge_step);
+    const Row row(scenery, view, surfaces, y, range.near, range.far, s.edge_step);
     std::vector<double> incidence(width, 0.0);
     std::vector<Eigen::Vector2d> jitter(width, Eigen::Vector2d::Zero());
     for (std::size_t x = 0; x < width; ++x) {
@@ -155,7 +157,7 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
         const double facing =
             light[x].signal * light[x].depth * light[x].depth / std::max(std::cos(incidence[x]), 1e-3);
         const double z = light[x].depth + axial * (noise ? axial_sigma(s, light[x].depth, incidence[x], facing) : 0.0);
-        const bool in_range = z >= near && z <= far;
+        const bool in_range = z >= range.near && z <= range.far;
         out.validity[i] = in_range ? Validity::valid : Validity::nothing;
         if (in_range) out.depth[i] = z;
       }

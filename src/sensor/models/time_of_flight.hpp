@@ -9,9 +9,13 @@
 
 namespace bin_scenes {
 
-/// @param near, far  m, depths that the camera reports
+/// Depths that a camera reports, m.
+struct DepthRange {
+  double near, far;
+};
+
 Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfaces& surfaces,
-                           const TimeOfFlightSettings& settings, bool noise, double near, double far,
+                           const TimeOfFlightSettings& settings, bool noise, const DepthRange& range,
                            const Random& random);
 
 }  // namespace bin_scenes

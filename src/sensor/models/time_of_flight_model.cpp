@@ -33,7 +33,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
   Measurement measured = time_of_flight(scenery, view, surfaces, sensor.settings.of<TimeOfFlightSettings>(),
-                                        sensor.noise, sensor.near, sensor.far, random_of(draw));
+                                        sensor.noise, {sensor.near, sensor.far}, random_of(draw));
   return image_of(std::move(view), std::move(measured));
 }
 

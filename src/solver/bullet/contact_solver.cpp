@@ -1,3 +1,5 @@
+/// Replaces the sweeps of Bullet's solver by sub-steps with soft contacts, a cone of friction and one rebound. Bullet
+/// keeps collision detection, islands and rows.
 #include "contact_solver.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

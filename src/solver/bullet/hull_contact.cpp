@@ -1,3 +1,5 @@
+/// GJK or EPA for the normal of two convex pieces, then clipping of the faces that lie against each other. Margins are
+/// taken out again.
 #include "hull_contact.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

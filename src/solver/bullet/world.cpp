@@ -1,3 +1,5 @@
+/// Makes Bullet's shapes and bodies from a world's definition, in scaled lengths, and steps them. Bullet wakes whole
+/// islands; bodies that sleep one by one are frozen here.
 #include "world.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

@@ -1,3 +1,5 @@
+/// Fills a World from the common definition, places bodies, and takes phases. Both forms, passes and sphere_gl, begin
+/// from it.
 #include "solver/sphere/make_world.hpp"
 
 #include "solver/sphere/effort.hpp"

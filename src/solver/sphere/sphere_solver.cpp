@@ -1,3 +1,5 @@
+/// Steps worlds by the passes of solver/sphere/passes, with shorter steps where something is fast or small. GPU form:
+/// src/solver/sphere_gl/gl_sphere_solver.cpp.
 #include "solver/sphere/sphere_solver.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

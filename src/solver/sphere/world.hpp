@@ -34,7 +34,9 @@ using Sleep = Phase::Sleep;
 struct Settings {
   float time_step = 1.0f / 400;  ///< duration of a step, with one collision detection
   bool cut_steps = true;         ///< shorter steps for small and for fast parts
-  int sub_steps = 4;             ///< sub-steps a step; stiffness of contacts grows with the square of their number
+  /// A step. Stiffness of contacts grows with the square of their number. 4 is for tests that build a World themselves:
+  /// make_world() sets the request's number, 2 by default.
+  int sub_steps = 4;
   int sweeps = 2;        ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
   float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = an
                          ///< impact in a wedge or a chain gives energy

@@ -1,3 +1,4 @@
+/// Buffers of all worlds, their growth, and the dispatches of a step. CPU form of each pass: src/solver/sphere/passes.
 #include "solver/sphere_gl/batch.hpp"
 
 #include "bin_scenes/gl/device.hpp"

@@ -1,3 +1,5 @@
+/// Keeps the host's copy of each world, sends what changed, and looks at results when the device is done. CPU form:
+/// src/solver/sphere/sphere_solver.cpp.
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 #include "bin_scenes/core/error.hpp"

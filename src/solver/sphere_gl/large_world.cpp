@@ -1,3 +1,5 @@
+/// The passes of a world that fills more than one group, as chains of dispatches (shaders/sphere/large). CPU form:
+/// src/solver/sphere/passes.
 #include "solver/sphere_gl/large_world.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Lays worlds out in the arrays that the device reads. The CPU twins work on the same arrays.
 #include "memory.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+/// Loads the arrays to the device and dispatches the passes of shaders/thesis in order. CPU form: twin.cpp.
 #include "passes.hpp"
 
 #include <cstddef>

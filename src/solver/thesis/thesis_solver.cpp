@@ -1,3 +1,4 @@
+/// Turns parts into spheres, collects worlds into a batch and runs it by the passes on the device (passes.cpp).
 #include "bin_scenes/solver/thesis_solver.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,4 @@
+/// Each pass as a plain loop over the arrays of memory.hpp. GPU form: shaders/thesis.
 #include "twin.hpp"
 
 #include <algorithm>

@@ -109,7 +109,7 @@ TEST(Solve, APressAfterAProbeBeginsWithoutForcesButWithFriction) {
   world.bodies[0].x = Vec3f(0, 0, 0.005f);
   take_phase(world, phases::press);
   EXPECT_FALSE(world.forgets) << "what was never at rest has nothing to forget";
-  for (const Phase& phase : {phases::probe, phases::prove, phases::prove}) {
+  for (const Phase& phase : {phases::probe, phases::verify, phases::verify}) {
     EXPECT_TRUE(take_phase(world, phase));
     EXPECT_TRUE(world.forgets);
     const float before = world.bodies[0].v.x();

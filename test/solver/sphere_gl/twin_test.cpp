@@ -308,7 +308,7 @@ TEST_P(TwinTest, SolveMovesBodiesAsTheTwinDoes) {
   using Phases = std::vector<Phase>;
   // Softness, sub-steps and friction differ; a probe, and a press after a press, forget forces.
   for (const Phases& told :
-       {Phases{phases::settle}, {phases::probe}, {phases::press}, {phases::press, phases::prove}}) {
+       {Phases{phases::settle}, {phases::probe}, {phases::press}, {phases::press, phases::verify}}) {
     const Phase phase = told.back();
     SCOPED_TRACE(::testing::Message() << static_cast<int>(phase.stiffness) << ", " << told.size());
     Capacity capacity = GetParam().capacity;

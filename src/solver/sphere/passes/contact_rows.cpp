@@ -1,3 +1,5 @@
+/// Loads contacts of eight manifolds into lanes, with masses and levers, and stores their forces back. GPU form:
+/// shaders/sphere/contact_row.h.
 #include "solver/sphere/passes/contact_rows.hpp"
 
 #include <algorithm>

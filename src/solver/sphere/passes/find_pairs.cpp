@@ -1,3 +1,5 @@
+/// Sweeps upright boxes along strips, then tests oriented boxes. GPU forms: shaders/sphere/find_pairs.comp, and
+/// shaders/sphere/large for wide worlds.
 #include "solver/sphere/passes/counting_sort.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

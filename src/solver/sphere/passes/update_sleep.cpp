@@ -72,10 +72,12 @@ std::vector<char> kept_awake(const World& world) {
 
 }  // namespace
 
-/// An island sleeps when all its bodies stayed where they are for the rest window; a moving body that presses on a
-/// sleeping one wakes the whole island. Never a body alone: that would freeze unsupported parts. But for a probe, in
-/// which all have been awake, and stayed, before they sleep one by one; who is woken sleeps again if it stays. What is
-/// woken by touch must stay for the rest window before it sleeps again, but does not wake others meanwhile.
+/// By island: an island of bodies that press on each other sleeps once all of them have stayed where they are for the
+/// rest window; a moving body that presses on a sleeping one wakes the whole island. Single bodies never sleep: one
+/// that nothing supports yet would stay in the air.
+/// By part (a probe): each body sleeps alone once it has stayed. That is safe since all of them are awake at first.
+/// By touch (a repair): a body that moves wakes those it touches. Who is woken sleeps again after a rest window, and
+/// wakes others only if it moves itself.
 void update_sleep(World& world) {
   for (Body& b : world.bodies)
     if (b.moves()) note_motion(world, b);

@@ -1,3 +1,5 @@
+/// Builds nodes, edges, creases, cones and clusters of a part from its surface samples, and keeps them in the cache on
+/// disk.
 #include "solver/sphere/shapes/contact_samples.hpp"
 
 #include "part/part_bytes.hpp"

@@ -1,3 +1,4 @@
+/// Collects sharp edges, joins those that continue each other straight, and works out the cone of each.
 #include "solver/sphere/shapes/sharp_edges.hpp"
 
 #include <algorithm>
