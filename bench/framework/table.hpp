@@ -1,4 +1,5 @@
-/// Results as rows of named columns, and the CSV file they are kept in. Each column says what it is good for.
+/// Results as rows of named columns, and the CSV file they are kept in. Each column says what it is good for, so that
+/// two files can be compared without knowing their benchmark.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ enum class Role {
   exact,    ///< the same on every run of the same code on the same class of device: counts, flags, hashes
   measure,  ///< median of several samples (runs, or seeds); its spread is the column `<name>_spread`
   spread,   ///< range (largest - smallest) of the samples of the measure before it; empty if there was one sample
-  info      ///< for readers only
+  info      ///< for readers only, never compared
 };
 const char* name_of(Role role);
 

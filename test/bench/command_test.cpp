@@ -112,5 +112,19 @@ TEST_F(BenchCommand, StressRefusesWhatItDoesNotKnow) {
   EXPECT_NE(outcome.err.find("nosuch"), std::string::npos) << outcome.err;
 }
 
+TEST_F(BenchCommand, ComparesTwoFolders) {
+  const std::string head = "# benchmark: scenes\n# roles: key measure spread\npart,time_s,time_s_spread\n";
+  put("a/scenes.csv", head + "ring,1,0.1\ntee,2,0.1\n");
+  put("b/scenes.csv", head + "ring,1.05,0.1\ntee,3,0.1\n");
+  const Outcome moved = run("compare a b");
+  EXPECT_EQ(moved.code, 1) << moved.err;
+  EXPECT_NE(moved.out.find("moved: scenes: part=tee: time_s"), std::string::npos) << moved.out;
+  EXPECT_EQ(moved.out.find("part=ring"), std::string::npos) << moved.out;
+  EXPECT_EQ(run("compare a a").code, 0);
+  const Outcome missing = run("compare a c");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("neither a file nor a folder"), std::string::npos) << missing.err;
+}
+
 }  // namespace
 }  // namespace bin_scenes
