@@ -73,35 +73,43 @@ struct Place {
 
 }  // namespace
 
-void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
-                  std::vector<ContactRows>& rows) {
+std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                           std::vector<Color>& colors, std::vector<ContactRows>& rows) {
   const Slice order = blocks.manifolds(block);
   const auto color = [&](std::uint32_t manifold) { return world.manifolds[manifold].color; };
-  std::uint32_t row = 0;
+  std::uint32_t row = 0, pieces = 1;
   bundles.clear();
+  colors.clear();
   for (auto next = order.begin(); next != order.end();) {
     const int shade = color(*next);
     const int most = shade == shared_color ? 1 : lane_count;
+    const auto index = static_cast<std::uint32_t>(bundles.size());
+    if (index == 0 || bundles.back().color != shade) colors.push_back({index, index, shade == shared_color});
+    const std::uint32_t piece = colors.back().in_turn ? 0 : (index - colors.back().first) / bundles_per_piece;
+    pieces = std::max(pieces, piece + 1);
+    colors.back().last = index + 1;
     Bundle& bundle = bundles.emplace_back();
     bundle.color = shade;
-    bundle.a.fill(blocks.place(block, ground));
+    const auto place = [&](std::uint32_t body) {
+      const std::uint32_t at = blocks.place(block, body);
+      return at < blocks.bodies(block).size() ? at : at + piece;
+    };
+    bundle.a.fill(place(ground));
     bundle.b = bundle.a;
     bundle.first = bundle.last = row;
     for (; bundle.lanes < most && next != order.end() && color(*next) == shade; ++next) {
       const int lane = bundle.lanes++;
       const Manifold& m = world.manifolds[bundle.manifold[lane] = *next];
       bundle.last = std::max(bundle.last, bundle.first + m.solved);
-      bundle.a[lane] = blocks.place(block, m.a);
-      bundle.b[lane] = blocks.place(block, m.b);
+      bundle.a[lane] = place(m.a);
+      bundle.b[lane] = place(m.b);
     }
     row = bundle.last;
   }
-  for (std::size_t i = 0; i + 1 < bundles.size(); ++i) {
-    const int shade = bundles[i].color;
-    bundles[i].paired = shade != shared_color && bundles[i + 1].color == shade;
-    i += bundles[i].paired;
-  }
+  for (const Color& c : colors)
+    for (std::uint32_t i = c.first; !c.in_turn && i + 1 < c.last; i += 2) bundles[i].paired = true;
   rows.resize(row);
+  return pieces;
 }
 
 BIN_SCENES_WIDE

@@ -155,9 +155,21 @@ inline void store(const Velocities& velocities, const Bundle& bundle, std::vecto
   scatter(velocities.wb, Lanes{}, bundle.b, &Motion::w, motions);
 }
 
-/// The manifolds of a block in bundles, in order of color; the longest of a color first, so that lanes are filled.
-void make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
-                  std::vector<ContactRows>& rows);
+/// Bundles of one color, which share no moving body and may be swept in any order; and those without a color, one by
+/// one.
+struct Color {
+  std::uint32_t first, last;
+  bool in_turn;
+};
+
+/// Bundles that one thread takes at once. Even, so that paired ones stay together.
+constexpr std::uint32_t bundles_per_piece = 4;
+
+/// The manifolds of a block in bundles, in order of color; the longest of a color first, so that lanes are filled. What
+/// does not move lies behind the block's bodies, once for each piece of a color: no two threads write the same.
+/// Returns how often.
+std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t block, std::vector<Bundle>& bundles,
+                           std::vector<Color>& colors, std::vector<ContactRows>& rows);
 /// Fills a bundle and its rows from its manifolds, with the forces of the last step as impulses of a sub-step of `h`
 /// seconds. Also notes the contacts' normals in world axes.
 void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& bundle, std::vector<ContactRows>& rows);

@@ -6,6 +6,9 @@
 #include "solver/sphere/passes/lanes.hpp"
 #include "solver/sphere/world.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +18,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
+constexpr std::size_t entries_per_piece = 256;     ///< of a thread; fewer = more handing over
 constexpr std::size_t entries_between_stops = 16;  ///< each may meet all others: milliseconds with 20,000 in one place
 
 struct Bounds {
@@ -120,6 +124,38 @@ BIN_SCENES_WIDE void sweep(const std::vector<Entry>& entries, const std::vector<
   }
 }
 
+bool may_touch(const World& world, const Bounds& p, const Bounds& r) {
+  const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
+  if (!a.moves() && !b.moves()) return false;
+  if (a.inverse_mass == 0 && b.inverse_mass == 0) return false;  // on their paths
+  return !world.settings.oriented_boxes || !boxes_apart(world, a, b, p.margin + r.margin);
+}
+
+/// `work(begin, end, pairs)` for pieces of `count` entries, in parallel where there are many; what they find goes to
+/// `found`, in order of the pieces.
+template <class Work>
+void for_each_piece(std::size_t count, std::vector<Pair>& found, const Work& work) {
+  static thread_local std::vector<std::vector<Pair>> kept;
+  const std::size_t pieces = (count + entries_per_piece - 1) / entries_per_piece;
+  std::vector<std::vector<Pair>>& of_piece = kept;  // of this thread, whichever thread works on a piece
+  if (of_piece.size() < pieces) of_piece.resize(pieces);
+  const auto piece = [&](std::size_t k) {
+    of_piece[k].clear();
+    const std::size_t last = std::min((k + 1) * entries_per_piece, count);
+    for (std::size_t begin = k * entries_per_piece; begin < last; begin += entries_between_stops) {
+      stop_if_cancelled();
+      work(begin, std::min(begin + entries_between_stops, last), of_piece[k]);
+    }
+  };
+  tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
+    tbb::parallel_for(std::size_t{0}, pieces, [&, flag = cancel_flag()](std::size_t k) {
+      const CancelScope scope(flag);
+      piece(k);
+    });
+  });
+  for (std::size_t k = 0; k < pieces; ++k) found.insert(found.end(), of_piece[k].begin(), of_piece[k].end());
+}
+
 /// By a, then b; the ground comes last.
 void sort_pairs(std::vector<Pair>& pairs, std::size_t bodies) {
   static thread_local std::vector<Pair> by_b;
@@ -171,19 +207,18 @@ void find_pairs(World& world) {
     return std::tie(a.strip, a.lower_x, a.box) < std::tie(b.strip, b.lower_x, b.box);
   });
   fill_lanes(entries, boxes, lanes);
-  const auto meeting = [&](std::size_t i, std::size_t j) {
-    const Bounds &p = boxes[entries[i].box], &r = boxes[entries[j].box];
-    if (std::max(p.strip, r.strip) != entries[i].strip) return;  // met in an earlier strip
-    const Body &a = world.bodies[p.body], &b = world.bodies[r.body];
-    if (!a.moves() && !b.moves()) return;
-    if (a.inverse_mass == 0 && b.inverse_mass == 0) return;  // on their paths
-    if (world.settings.oriented_boxes && boxes_apart(world, a, b, p.margin + r.margin)) return;
-    found.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
-  };
-  for (std::size_t begin = 0; begin < entries.size(); begin += entries_between_stops) {
-    stop_if_cancelled();
-    sweep(entries, boxes, lanes, begin, std::min(begin + entries_between_stops, entries.size()), meeting);
-  }
+  // Of this thread, whichever thread works on a piece.
+  const std::vector<Bounds>& all_boxes = boxes;
+  const std::vector<Entry>& all_entries = entries;
+  const std::vector<EntryLanes>& all_lanes = lanes;
+  for_each_piece(entries.size(), found, [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
+    const auto meeting = [&](std::size_t i, std::size_t j) {
+      const Bounds &p = all_boxes[all_entries[i].box], &r = all_boxes[all_entries[j].box];
+      if (std::max(p.strip, r.strip) != all_entries[i].strip) return;  // met in an earlier strip
+      if (may_touch(world, p, r)) pairs.emplace_back(std::min(p.body, r.body), std::max(p.body, r.body));
+    };
+    sweep(all_entries, all_boxes, all_lanes, begin, end, meeting);
+  });
   sort_pairs(found, world.bodies.size());
 
   // Merge with the manifolds of the last step: forces and recyclable contacts live on under the same key.

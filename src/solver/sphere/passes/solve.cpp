@@ -5,6 +5,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
+#include "solver/sphere/passes/team.hpp"
 #include "solver/sphere/passes/turning_bin.hpp"
 #include "solver/sphere/world.hpp"
 
@@ -19,7 +20,7 @@ namespace bin_scenes::sphere {
 
 namespace {
 
-constexpr std::size_t bundles_per_task = 8;  ///< fewer = more handing over; more = threads wait for the last one
+constexpr std::size_t manifolds_for_a_team = 1000;  ///< fewer = helpers wait longer than they work
 
 /// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
 /// step, whose solve would take the same scratch memory.
@@ -44,19 +45,21 @@ Vec3f vector_of(Quad q) {
 
 /// What the solve of a block works on. Kept for its memory alone.
 struct Scratch {
-  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of all that does not move
+  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of what does not move: make_bundles
   std::vector<char> free;       ///< bodies that nothing is near
   std::vector<char> slides;     ///< bodies with a contact that slips; and behind them what does not move
   std::vector<float> speeds;    ///< of bodies when the sub-step begins (m/s), turns counted at their radius
   std::vector<Bundle> bundles;  ///< in order of color
+  std::vector<Color> colors;
   std::vector<ContactRows> rows;
 };
 
 /// The solve of one step of a block. Bodies that sleep or are fixed take part as if nothing could move them.
 class ContactSolver {
  public:
-  ContactSolver(World& world, const Blocks& blocks, std::size_t block, Scratch& scratch)
+  ContactSolver(World& world, const Blocks& blocks, std::size_t block, Scratch& scratch, Team& team)
       : world_(world),
+        team_(team),
         blocks_(blocks),
         block_(block),
         bodies_(blocks.bodies(block)),
@@ -75,6 +78,7 @@ class ContactSolver {
         slides_(scratch.slides),
         speeds_(scratch.speeds),
         bundles_(scratch.bundles),
+        colors_(scratch.colors),
         rows_(scratch.rows) {}
 
   void prepare();  ///< rows from contacts, with the forces of the last step
@@ -96,7 +100,35 @@ class ContactSolver {
   void finish();          ///< back into bodies and contacts
 
  private:
-  void prepare_motions();
+  void prepare_motions(std::size_t unmoved);
+  /// `work(first, last)` of bundles, color by color; within a color by all threads.
+  template <class Work>
+  void for_each_color(const Work& work) {
+    for (const Color& c : colors_) {
+      const std::uint32_t count = c.last - c.first;
+      team_.share(count, c.in_turn ? count : bundles_per_piece,
+                  [&](std::uint32_t first, std::uint32_t last) { work(c.first + first, c.first + last); });
+    }
+  }
+  /// Of all colors at once.
+  template <class Work>
+  void for_each_bundle(const Work& work) {
+    team_.share(static_cast<std::uint32_t>(bundles_.size()), bundles_per_piece,
+                [&](std::uint32_t first, std::uint32_t last) {
+                  for (std::uint32_t i = first; i < last; ++i) work(bundles_[i]);
+                });
+  }
+  /// `work(i)` for each body of the block.
+  template <class Work>
+  void for_each_body(const Work& work) {
+    constexpr std::uint32_t bodies_per_piece = 64;
+    team_.share(static_cast<std::uint32_t>(bodies_.size()), bodies_per_piece,
+                [&](std::uint32_t first, std::uint32_t last) {
+                  for (std::uint32_t i = first; i < last; ++i) work(i);
+                });
+  }
+  void warm_start(std::uint32_t first, std::uint32_t last);
+  bool sweep(std::uint32_t from, std::uint32_t to, bool push, bool first);
   /// A bundle in a sweep.
   struct Swept {
     const Bundle& bundle;
@@ -106,7 +138,7 @@ class ContactSolver {
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
   void observe_gaps(const Bundle& bundle);
-  void solve_normal(ContactRows& c, Velocities& u, const Give& give);
+  void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unsettled) const;
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
   LaneMask hit(const ContactRows& c) const;
@@ -114,6 +146,7 @@ class ContactSolver {
   void bounce(const Bundle& bundle, LaneMask lanes);
 
   World& world_;
+  Team& team_;
   const Blocks& blocks_;
   const std::size_t block_;
   const Slice bodies_;
@@ -124,7 +157,6 @@ class ContactSolver {
   const Give softly_, firmly_;
   const bool shares_impacts_;  ///< by further sweeps
   const float settled_;        ///< m/s
-  LaneMask unsettled_{};       ///< by this sweep
   bool friction_holds_ = true;
   bool impact_ = false;  ///< some contact closes fast
   std::vector<Motion>& motions_;
@@ -132,13 +164,14 @@ class ContactSolver {
   std::vector<char>& slides_;
   std::vector<float>& speeds_;
   std::vector<Bundle>& bundles_;
+  std::vector<Color>& colors_;
   std::vector<ContactRows>& rows_;
 };
 
-void ContactSolver::prepare_motions() {
-  motions_.assign(bodies_.size() + 1, Motion{});
+void ContactSolver::prepare_motions(std::size_t unmoved) {
+  motions_.assign(bodies_.size() + unmoved, Motion{});
   free_.assign(bodies_.size(), 1);
-  slides_.assign(bodies_.size() + 1, 0);
+  slides_.assign(bodies_.size() + unmoved, 0);
   speeds_.assign(bodies_.size(), 0.0f);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& b = world_.bodies[bodies_[i]];
@@ -148,10 +181,8 @@ void ContactSolver::prepare_motions() {
 }
 
 void ContactSolver::prepare() {
-  prepare_motions();
-  make_bundles(world_, blocks_, block_, bundles_, rows_);
-  for_each_in_parallel(bundles_.size(), bundles_per_task,
-                       [&](std::size_t i) { sphere::prepare(world_, motions_, h_, bundles_[i], rows_); });
+  prepare_motions(make_bundles(world_, blocks_, block_, bundles_, colors_, rows_));
+  for_each_bundle([&](Bundle& bundle) { sphere::prepare(world_, motions_, h_, bundle, rows_); });
   for (const Bundle& bundle : bundles_) {
     impact_ = impact_ || any(bundle.strikes);
     for (int lane = 0; lane < bundle.lanes; ++lane)
@@ -165,16 +196,16 @@ void ContactSolver::prepare() {
 void ContactSolver::accelerate() {
   const Vec3f gain = h_ * world_.gravity;
   if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for_each_body([&](std::size_t i) {
     Motion& motion = motions_[i];
-    if (motion.inverse_mass() == 0) continue;  // on a path
+    if (motion.inverse_mass() == 0) return;  // on a path
     speeds_[i] = speed(i);
     Body& b = world_.bodies[bodies_[i]];
     Vec3f v = vector_of(motion.v);
     add_exactly(gain, v, b.v_rest);
     motion.v = padded(v, motion.inverse_mass());
     if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
-      continue;  // 1e-4 rad a sub-step: the term is rounding
+      return;  // 1e-4 rad a sub-step: the term is rounding
     // Only the change is turned back to world axes: turning all of the spin would let |L| creep by a thousandth in ten
     // thousand sub-steps of single precision.
     const Mat3f r = b.q.toRotationMatrix();
@@ -185,12 +216,17 @@ void ContactSolver::accelerate() {
       change = -h_ * (b.inverse_inertia * mid.cross(b.inertia * mid));
     }
     motion.w += padded(r * change);
-  }
+  });
+}
+
+void ContactSolver::warm_start() {
+  for_each_color([&](std::uint32_t first, std::uint32_t last) { warm_start(first, last); });
 }
 
 BIN_SCENES_WIDE
-void ContactSolver::warm_start() {
-  for (const Bundle& bundle : bundles_) {
+void ContactSolver::warm_start(std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t k = first; k < last; ++k) {
+    const Bundle& bundle = bundles_[k];
     Velocities u = velocities_of(bundle, motions_);
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
       ContactRows& c = rows_[i];
@@ -221,12 +257,12 @@ void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give) {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unsettled) const {
   const Lanes before = c.normal_impulse;
   c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, give);
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
-  if (shares_impacts_) unsettled_ |= is_unsettled(more, c.normal_mass, settled_);
+  if (shares_impacts_) unsettled |= is_unsettled(more, c.normal_mass, settled_);
   u.push_along_normal(more, c);
 }
 
@@ -259,18 +295,26 @@ ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool 
   return swept;
 }
 
-BIN_SCENES_WIDE
 bool ContactSolver::sweep(bool push, bool first) {
-  unsettled_ = LaneMask{};
+  std::atomic<bool> unsettled{false};
+  for_each_color([&](std::uint32_t begin, std::uint32_t end) {
+    if (sweep(begin, end, push, first)) unsettled.store(true, std::memory_order_relaxed);
+  });
+  return unsettled;
+}
+
+BIN_SCENES_WIDE
+bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool first) {
+  LaneMask unsettled{};
   const Give& give = push ? softly_ : firmly_;
   const auto normal = [&](Swept& s, std::uint32_t k) {
-    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give);
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give, unsettled);
   };
   const auto friction = [&](Swept& s, std::uint32_t k) {
     if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
       solve_friction(rows_[s.bundle.first + k], s.friction, s.bundle, s.u);
   };
-  for (std::size_t i = 0; i < bundles_.size(); ++i) {
+  for (std::uint32_t i = from; i < to; ++i) {
     Swept p = begin(bundles_[i], push, first);
     if (!p.bundle.paired) {
       for (std::uint32_t k = 0; k < p.bundle.rows(); ++k) normal(p, k);
@@ -292,12 +336,13 @@ bool ContactSolver::sweep(bool push, bool first) {
     store(p.u, p.bundle, motions_);
     store(q.u, q.bundle, motions_);
   }
-  return any(unsettled_);
+  return any(unsettled);
 }
 
 void ContactSolver::refresh_levers() {
-  for (Bundle& bundle : bundles_)
+  for_each_bundle([&](Bundle& bundle) {
     if (any(bundle.refreshed)) sphere::refresh_levers(world_, motions_, bundle, rows_);
+  });
 }
 
 float ContactSolver::speed(std::size_t body) const {
@@ -327,7 +372,7 @@ void ContactSolver::note_sliding() {
 /// way too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
 void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for_each_body([&](std::size_t i) {
     Motion& motion = motions_[i];
     const float h = slides_[i] ? h_ * mean_share(speeds_[i], speed(i)) : h_;
     motion.moved += h * motion.v;
@@ -335,7 +380,7 @@ void ContactSolver::move() {
     motion.turned += h * motion.w;
     Quatf& q = world_.bodies[bodies_[i]].q;
     q = integrated(q, vector_of(motion.w), h);
-  }
+  });
 }
 
 LaneMask ContactSolver::hit(const ContactRows& c) const {
@@ -385,10 +430,11 @@ void ContactSolver::restitute() {
 }
 
 void ContactSolver::finish() {
-  for (const Bundle& bundle : bundles_)
+  for_each_bundle([&](Bundle& bundle) {
     for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
       forget_impact(rows_[i], bundle, impact_speed_, settings_.restitution_speed);
-  for (const Bundle& bundle : bundles_) keep_forces(bundle, rows_, h_, world_);
+    keep_forces(bundle, rows_, h_, world_);
+  });
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& b = world_.bodies[bodies_[i]];
     b.v = vector_of(motions_[i].v);
@@ -397,13 +443,9 @@ void ContactSolver::finish() {
   }
 }
 
-/// Returns how many bodies nothing was near.
-std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
-  static thread_local Scratch scratch;
-  ContactSolver solver(world, blocks, block, scratch);
+void solve_block(ContactSolver& solver, const StepPlan& plan) {
   solver.prepare();
   solver.refresh_levers();
-  const StepPlan plan = world.plan();
   for (int k = 0; k < plan.sub_steps; ++k) {
     solver.hold_by_friction(k >= plan.slip_sub_steps);
     solver.accelerate();
@@ -419,6 +461,17 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   }
   solver.restitute();
   solver.finish();
+}
+
+/// Returns how many bodies nothing was near.
+std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
+  static thread_local Scratch scratch;
+  Team team;
+  ContactSolver solver(world, blocks, block, scratch, team);
+  const bool large = blocks.manifolds(block).size() >= manifolds_for_a_team;
+  tbb::this_task_arena::isolate([&] {
+    team.run(large ? tbb::this_task_arena::max_concurrency() - 1 : 0, [&] { solve_block(solver, world.plan()); });
+  });
   return solver.falling();
 }
 

@@ -1,0 +1,105 @@
+/// Loops of a few microseconds, shared among threads: the colors of a large block. A parallel loop of the scheduler
+/// costs as much as such a color takes; here helpers wait for the next loop and claim pieces of it by one atomic
+/// ticket.
+///
+/// Whoever leads never waits for a helper to come, only for pieces that one has claimed: with none, it does all itself.
+#pragma once
+
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+namespace bin_scenes::sphere {
+
+class Team {
+ public:
+  /// Runs `lead()` with this team, and other threads of the arena as its helpers while it lasts.
+  template <class Lead>
+  void run(int helpers, const Lead& lead) {
+    tbb::task_group group;
+    helped_ = helpers > 0;
+    over_ = false;
+    for (int k = 0; k < helpers; ++k) group.run([this] { help(); });
+    struct End {  // also if it is cancelled
+      Team& team;
+      tbb::task_group& group;
+      ~End() {
+        team.over_ = true;
+        group.wait();
+      }
+    } end{*this, group};
+    lead();
+  }
+
+  /// `work(first, last)` for pieces of `grain` of 0 to `count`, in no order. Returns when all are done.
+  template <class Work>
+  void share(std::uint32_t count, std::uint32_t grain, const Work& work) {
+    if (!helped_ || count <= grain) {
+      if (count > 0) work(std::uint32_t{0}, count);
+      return;
+    }
+    call_ = [](const void* what, std::uint32_t first, std::uint32_t last) {
+      (*static_cast<const Work*>(what))(first, last);
+    };
+    work_ = &work;
+    grain_ = grain;
+    count_ = count;
+    done_.store(0, std::memory_order_relaxed);
+    ticket_.store((ticket_.load(std::memory_order_relaxed) & ~std::uint64_t{0xffffffff}) + next_loop + count,
+                  std::memory_order_release);
+    while (claim()) {
+    }
+    for (int k = 0; done_.load(std::memory_order_acquire) != count; ++k) pause(k);
+  }
+
+ private:
+  // The ticket: number of the loop, and below it how much of the loop is not claimed yet.
+  static constexpr std::uint64_t next_loop = std::uint64_t{1} << 32;
+
+  /// Does a piece, if one is left. What the loop is stays as it is until the piece is done.
+  bool claim() {
+    std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
+    while (const auto left = static_cast<std::uint32_t>(ticket)) {
+      // A stale grain can only be read with a stale ticket, which the exchange refuses.
+      const std::uint32_t grain = grain_.load(std::memory_order_relaxed), piece = std::min(left, grain);
+      if (!ticket_.compare_exchange_weak(ticket, ticket - piece, std::memory_order_acq_rel)) continue;
+      const std::uint32_t first = count_.load(std::memory_order_relaxed) - left;
+      call_.load(std::memory_order_relaxed)(work_.load(std::memory_order_relaxed), first, first + piece);
+      done_.fetch_add(piece, std::memory_order_release);
+      return true;
+    }
+    return false;
+  }
+
+  void help() {
+    for (int k = 0; !over_.load(std::memory_order_relaxed);) {
+      if (claim())
+        k = 0;
+      else
+        pause(k++);
+    }
+  }
+
+  /// Waits a little; the longer it has waited, the more it leaves the processor to others.
+  static void pause(int waited) {
+    constexpr int most = 2000;
+    if (waited >= most) return std::this_thread::yield();
+#ifdef __x86_64__
+    __builtin_ia32_pause();
+#endif
+  }
+
+  using Call = void (*)(const void*, std::uint32_t, std::uint32_t);
+  bool helped_ = false;
+  std::atomic<bool> over_{false};
+  std::atomic<std::uint64_t> ticket_{0};
+  std::atomic<std::uint32_t> done_{0}, grain_{1}, count_{0};
+  std::atomic<const void*> work_{nullptr};
+  std::atomic<Call> call_{nullptr};
+};
+
+}  // namespace bin_scenes::sphere
