@@ -53,8 +53,8 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
   gain_ = gain();
   if (setup.indirect.bounces == 0) return;
   const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
-  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, int count, float* out) {
-    add_paths(paths, count, out);
+  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
+    add_paths(paths, steps, out);
   };
   const int all = channels + fringes_.images();
   indirect_ = std::make_unique<const IndirectField>(scenery, view, surfaces, lamp, setup.indirect, all,
@@ -62,14 +62,25 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
 }
 
 /// Fringes as a sum of phasors, Gray bits as sums of lit and dark. Each path stands for all columns of its sample.
-void StructuredLight::add_paths(const std::vector<Path>& paths, int count, float* out) const {
+void StructuredLight::add_paths(const std::vector<Path>& paths, const Vec3* steps, float* out) const {
   const double turn = 2.0 * M_PI / setup_.settings.period;
+  const int all = channels + fringes_.images();
   for (const Path& path : paths) {
     const double seen = path.weight * fringes_.seen_through(path.spread, 0.0, 0.0);
+    const double c = seen * std::cos(turn * path.column), s = seen * std::sin(turn * path.column);
     out[white] += static_cast<float>(path.weight);
-    out[cosine] += static_cast<float>(seen * std::cos(turn * path.column));
-    out[sine] += static_cast<float>(seen * std::sin(turn * path.column));
-    if (count > channels) fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
+    out[cosine] += static_cast<float>(c);
+    out[sine] += static_cast<float>(s);
+    for (int axis = 0; axis < 2; ++axis) {
+      float* const growth = out + (1 + axis) * all;
+      const double step = path.slope.dot(steps[axis]);
+      growth[cosine] -= static_cast<float>(turn * step * s);
+      growth[sine] += static_cast<float>(turn * step * c);
+      if (setup_.only_analytic) continue;
+      fringes_.add_even_light(path.column + 0.5 * step, path.spread, path.weight, growth + channels);
+      fringes_.add_even_light(path.column - 0.5 * step, path.spread, -path.weight, growth + channels);
+    }
+    fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
   }
 }
 
@@ -170,6 +181,13 @@ void StructuredLight::add_phasor(const float* indirect, double& column, Fringe& 
   fringe.amplitude = std::hypot(c, s);
 }
 
+/// Whether no noise lifts a fringe of indirect light alone over the threshold.
+bool StructuredLight::too_dark(const float* indirect) const {
+  const double mean = setup_.imager.ambient + gain_ * indirect[white] * fringes_.mean();
+  const double amplitude = gain_ * fringes_.amplitude() * std::hypot(indirect[cosine], indirect[sine]);
+  return amplitude + 6.0 * fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))) < setup_.settings.min_modulation;
+}
+
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
   const double turn = 2.0 * M_PI / setup_.settings.period;
@@ -185,6 +203,10 @@ Measurement StructuredLight::analytic(const Random& random) const {
         const bool twice = indirect_ && indirect_->at(i, channels, indirect);
         if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
         const Pixel p = pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row));
+        if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
+          out.intensity[i] = static_cast<float>(std::min(ambient(i) + gain_ * indirect[white] * fringes_.mean(), 1.0));
+          continue;
+        }
         if (twice && (code != Validity::valid || indirect[white] > turns_bits * whites_[i])) {
           Random draw = random.of_piece(view_.depth.size() + i);
           read(strip, p, images, draw, out);

@@ -68,7 +68,7 @@ class StructuredLight {
   enum Channel { white, cosine, sine, channels };
 
   void light_row(std::size_t row);
-  void add_paths(const std::vector<Path>& paths, int count, float* channels) const;
+  void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
   Vec2 slope(const Pixel& pixel) const;
@@ -76,6 +76,7 @@ class StructuredLight {
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
   void add_phasor(const float* indirect, double& column, Fringe& fringe) const;
+  bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   template <class Work>
