@@ -24,6 +24,10 @@ struct Surface {
   double albedo = 0.5;  ///< share of the light sent back, 0..1; dark parts are noisier and drop out
   double gloss = 0.0;  ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
   double roughness = 0.4;  ///< width of the mirrored lobe, 0..1; smaller = narrower and brighter highlights
+  /// Complex index of refraction of a metal, n + i k, both 0 for none: what is mirrored is then, of albedo * gloss, the
+  /// share that Fresnel's formulas say.
+  double refraction = 0.0, extinction = 0.0;
+  bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 
 /// The bin. Its origin is the middle of the floor's top, z up.

@@ -1,4 +1,5 @@
 #include "sensor/models/interreflection.hpp"
+#include "sensor/models/facets.hpp"
 #include "sensor/models/lobe.hpp"
 #include "sensor/models/structured_light.hpp"
 #include "sensor/targets.hpp"
@@ -34,15 +35,17 @@ Targets furnace(const Surface& surface) {
   return targets;
 }
 
+const Vec3 eye(-0.05, 0.02, -0.04);
+const std::vector<Vec3> places = {{0.02, 0.03, 0.05}, {0.14, 0.09, 0.05}, {-0.1, 0.0, 0.05}};
+
 double gathered(Targets& targets, int samples, int bounces) {
   const Scenery scenery = targets.scenery();
   Gathered light;
   double sum = 0.0;
-  const std::vector<Vec3> places = {{0.02, 0.03, 0.05}, {0.14, 0.09, 0.05}, {-0.1, 0.0, 0.05}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const SeenPoint point{places[i], -Vec3::UnitZ(), 0, true};
-    gather(scenery, EvenLamp(), targets.surfaces(), point, {-0.05, 0.02, -0.04}, samples, bounces,
-           Random(1, i, Stream::sensor), 1e9, light);
+    gather(scenery, EvenLamp(), targets.surfaces(), point, eye, samples, bounces, Random(1, i, Stream::sensor), 1e9,
+           light);
     for (const Path& path : light.paths) sum += path.weight / static_cast<double>(places.size());
   }
   return sum;
@@ -60,6 +63,12 @@ TEST(Interreflection, WhiteFurnace) {
     EXPECT_NEAR(gathered(shiny, 4096, 1), 1.0, 0.01) << roughness;
     EXPECT_NEAR(gathered(shiny, 4096, 2), 2.0, 0.02) << roughness;
   }
+  // Light from everywhere that a smooth metal takes once: what Fresnel leaves at the angles of sight.
+  Targets metal = furnace({1.0, 1.0, 0.2, 2.9114, 3.0893});
+  double left = 0.0;
+  for (const Vec3& place : places) left += fresnel(-(eye - place).normalized().z(), 2.9114, 3.0893) / 3.0;
+  EXPECT_NEAR(gathered(metal, 4096, 1), left, 0.01);
+  EXPECT_NEAR(gathered(metal, 4096, 2), left + left * left, 0.05);
 }
 
 /// What is drawn is as dense as it says: the density integrates to the share of samples above the surface.
