@@ -44,7 +44,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   const Vec3& direction = sensor.scan.direction;
   if (!direction.allFinite() || !(direction.norm() > 0.0))
     throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
-  if (sensor.bounces > 0 && !sensor_model(sensor.model).indirect)
+  if (sensor.bounces.value_or(0) > 0 && !sensor_model(sensor.model).indirect)
     throw input_error("indirect light is no part of model " + sensor.model, key + ".bounces",
                       "leave it out; models that see such light: " + names_of(&SensorModel::indirect));
   for (const SensorModel* model : sensor_models())

@@ -17,7 +17,7 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
           s.noise,
           s.near,
           s.far,
-          {s.bounces, s.indirect_samples}};
+          indirect_of(s)};
 }
 
 namespace {
@@ -76,6 +76,7 @@ constexpr SensorModel model() {
   SensorModel m{"laser_line", "the line of light and its peak", visit_keys, nullptr, check_places, measured, sigma};
   m.image = SensorModel::Image::profiles;
   m.imager = m.laser = m.indirect = true;
+  m.bounces = 1;
   return m;
 }
 
