@@ -97,6 +97,11 @@ void visit(Visitor& v, ImagerSettings& s) {
        "dark parts, and bright or shiny ones saturate",
        above(0.0, 1000.0)},
       s.exposure);
+  v.field({"exposures", "",
+           "structured_light: several of them, ascending, merged: a pixel takes the longest that does not saturate; "
+           "exposure is that of the grey image; []: exposure alone",
+           above(0.0, 1000.0)},
+          s.exposures);
   v.field(
       {"reference_distance", "m",
        "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "

@@ -50,6 +50,9 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       whites_(view.depth.size()),
       planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
+  for (const double exposure : setup.imager.exposures)
+    scales_.insert(scales_.begin(), exposure / setup.imager.exposure);
+  if (scales_.empty()) scales_ = {1.0};
   gain_ = gain();
   if (setup.indirect.bounces == 0) return;
   const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
@@ -158,9 +161,19 @@ double StructuredLight::depth_sigma(std::size_t index) const {
   return depth_sigma(p, fringe(p));
 }
 
+/// The longest exposure of a fringe that does not saturate, else the shortest.
+double StructuredLight::scale_for(const Fringe& f, double column) const {
+  const double most = f.mean + f.amplitude * fringes_.brightest(column);
+  for (const double scale : scales_) {
+    if (!imager_.saturated(scale * most)) return scale;
+  }
+  return scales_.back();
+}
+
 double StructuredLight::depth_sigma(const Pixel& pixel, const Fringe& f) const {
+  const double scale = scale_for(f, columns_[pixel.index]);
   return triangulation_.depth_per_column(pixel.ray, view_.depth[pixel.index]) *
-         fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
+         fringes_.column_sigma(std::sqrt(imager_.variance(scale * f.mean)), scale * f.amplitude);
 }
 
 void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double column) const {
@@ -183,8 +196,9 @@ void StructuredLight::add_phasor(const float* indirect, double& column, Fringe& 
 
 /// Whether no noise lifts a fringe of indirect light alone over the threshold.
 bool StructuredLight::too_dark(const float* indirect) const {
-  const double mean = setup_.imager.ambient + gain_ * indirect[white] * fringes_.mean();
-  const double amplitude = gain_ * fringes_.amplitude() * std::hypot(indirect[cosine], indirect[sine]);
+  const double scale = scales_.front();
+  const double mean = scale * (setup_.imager.ambient + gain_ * indirect[white] * fringes_.mean());
+  const double amplitude = scale * gain_ * fringes_.amplitude() * std::hypot(indirect[cosine], indirect[sine]);
   return amplitude + 6.0 * fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))) < setup_.settings.min_modulation;
 }
 
@@ -228,6 +242,9 @@ Measurement StructuredLight::analytic(const Random& random) const {
           f = fringe(p);
         }
         if (twice) add_phasor(indirect, column, f);
+        out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
+        const double scale = scale_for(f, column);
+        f = {scale * f.mean, scale * f.amplitude};
         const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
         // The amplitude's noise matters where it may fall below the threshold.
         double amplitude = f.amplitude;
@@ -235,7 +252,6 @@ Measurement StructuredLight::analytic(const Random& random) const {
         if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread) {
           amplitude += spread * normals.next();
         }
-        out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
         if (mixed) {
           out.validity[i] = Validity::mixed;
         } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {
