@@ -54,8 +54,20 @@ class LaserLine {
   double depth_sigma() const;
 
  private:
-  struct Line;
-  struct Lines;  ///< what a profile's camera could see
+  /// Light of the laser on a surface, as one sample of the camera sees it.
+  struct Line {
+    int sample;
+    double across, depth,
+        signal;          ///< pixel, m along the optical axis, share of the full well; 0: other surfaces' light
+    Vec3 point, normal;  ///< bin frame
+    std::uint16_t label;
+    bool visible;
+  };
+  /// What a profile's camera could see.
+  struct Lines {
+    std::vector<Line> lines;      ///< by sample
+    std::vector<Validity> codes;  ///< by sample: why there is none
+  };
   struct Carriage {
     Vec3 laser, eye;  ///< bin frame, at one profile
   };
