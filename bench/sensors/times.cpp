@@ -90,6 +90,10 @@ void view_times(Run& out) {
     whole_of(heap, "structured light, analytic, 50 parts, bounces " + std::to_string(bounces), 0.0, "structured_light",
              Fidelity::analytic, bounces);
   }
+  for (const int bounces : {0, 1}) {
+    whole_of(heap, "laser line, 1000 profiles, 50 parts, bounces " + std::to_string(bounces), 0.0, "laser_line",
+             Fidelity::analytic, bounces);
+  }
   whole("structured light, decoded", 3.0, "structured_light", Fidelity::decoded);
   whole("laser line, 1000 profiles", 1.0, "laser_line", Fidelity::analytic);
   whole("stereo 848 x 480, 128 disparities, matched", 0.5, "stereo", Fidelity::decoded);

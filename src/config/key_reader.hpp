@@ -41,10 +41,11 @@ class Source {
   std::map<std::string, int> lines_;
 };
 
-/// A map that names a preset starts from its values; only sensors do.
+/// A map that names a preset starts from its values: sensors and surfaces do.
 template <class Struct>
 void start_from_preset(const YAML::Node&, const std::string&, const Source&, Struct&) {}
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Sensor& sensor);
+void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Surface& surface);
 
 class KeyReader {
  public:

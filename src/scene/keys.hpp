@@ -60,6 +60,11 @@ void visit(Visitor& v, Motion& motion) {
 
 template <class Visitor>
 void visit(Visitor& v, Surface& surface) {
+  std::string material;  // its values have been read, and are what is written
+  v.field({"material", "",
+           "name of a file of config/materials whose values are the defaults here: steel_brushed, plastic_black, ...",
+           anything, false},
+          material);
   v.field({"albedo", "", "share of the light that is sent back, 0 to 1; dark parts are noisier and drop out",
            at_least(0.0, 1.0)},
           surface.albedo);
@@ -69,6 +74,11 @@ void visit(Visitor& v, Surface& surface) {
   v.field({"roughness", "", "width of the mirrored lobe, 0 to 1; smaller = narrower and brighter highlights",
            at_least(0.0, 1.0)},
           surface.roughness);
+  v.field({"refraction", "",
+           "metals: n of the index of refraction n + i k; mirrors as Fresnel says; 0 with extinction 0 = all",
+           at_least(0.0, 100.0)},
+          surface.refraction);
+  v.field({"extinction", "", "metals: k of that index", at_least(0.0, 100.0)}, surface.extinction);
 }
 
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.

@@ -250,6 +250,8 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
   }
   if (!full.projector.pose) full.projector.pose = beside(*full.pose, full.projector.baseline, target);
   if (!full.laser.pose) full.laser.pose = beside(*full.pose, full.laser.baseline, target);
+  const SensorModel& model = sensor_model(sensor.model);
+  if (!full.bounces && model.indirect) full.bounces = model.bounces;
   full.depth_scale = scale_for(deepest(full, bin, room_of(bin, bounds)));
   return full;
 }

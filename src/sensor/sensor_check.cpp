@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 
@@ -27,6 +28,11 @@ void check_intrinsics(const std::string& key, const std::vector<double>& k) {
   if (k[1] != 0) throw input_error("has a skew, which no image is made with", key, "set its second number to 0");
 }
 
+void check_exposures(const std::string& key, const std::vector<double>& exposures) {
+  if (std::adjacent_find(exposures.begin(), exposures.end(), std::greater_equal<>()) == exposures.end()) return;
+  throw input_error("does not ascend", key, "list each exposure once, the shortest first: [0.2, 0.8, 3.2]");
+}
+
 void check_baseline(const std::string& key, double baseline) {
   if (baseline == 0.0)
     throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
@@ -39,12 +45,13 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   check_intrinsics(key + ".k", sensor.k);
   visit(ranges, copy);
   check_name(key + ".name", sensor.name);
+  check_exposures(key + ".imager.exposures", sensor.imager.exposures);
   check_baseline(key + ".projector.baseline", sensor.projector.baseline);
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);
   const Vec3& direction = sensor.scan.direction;
   if (!direction.allFinite() || !(direction.norm() > 0.0))
     throw input_error("is no direction", key + ".scan.direction", "for instance [1, 0, 0]");
-  if (sensor.bounces > 0 && !sensor_model(sensor.model).indirect)
+  if (sensor.bounces.value_or(0) > 0 && !sensor_model(sensor.model).indirect)
     throw input_error("indirect light is no part of model " + sensor.model, key + ".bounces",
                       "leave it out; models that see such light: " + names_of(&SensorModel::indirect));
   for (const SensorModel* model : sensor_models())

@@ -44,6 +44,14 @@ inline std::string users_of(bool SensorModel::*device) {
   return names_of(device) + ": ";
 }
 
+/// Those that see indirect light unless told not to.
+inline std::string with_bounces() {
+  std::string names;
+  for (const SensorModel* model : sensor_models())
+    if (model->bounces > 0) names += (names.empty() ? "" : ", ") + std::string(model->name);
+  return names;
+}
+
 inline Names<Fidelity> names(Fidelity) {
   return {{"analytic", Fidelity::analytic}, {"decoded", Fidelity::decoded}};
 }
@@ -89,6 +97,11 @@ void visit(Visitor& v, ImagerSettings& s) {
        "dark parts, and bright or shiny ones saturate",
        above(0.0, 1000.0)},
       s.exposure);
+  v.field({"exposures", "",
+           "structured_light: several of them, ascending, merged: a pixel takes the longest that does not saturate; "
+           "exposure is that of the grey image; []: exposure alone",
+           above(0.0, 1000.0)},
+          s.exposures);
   v.field(
       {"reference_distance", "m",
        "from the light; 0 = automatic exposure: for a white surface parallel to the image at the median distance of "
@@ -171,7 +184,8 @@ void visit(Visitor& v, Sensor& sensor) {
   }
   const std::string bounces = users_of(&SensorModel::indirect) +
                               "other surfaces that light may meet on its way; more = depth errs in corners and on "
-                              "shiny parts as real devices do, slower";
+                              "shiny parts as real devices do, slower; left out: 1 for " +
+                              with_bounces() + ", else 0";
   v.field({"bounces", "", bounces.c_str(), at_least(0.0, 2.0)}, sensor.bounces);
   v.field(
       {"indirect_samples", "", "rays that look for such light; more = less noise in it, slower", at_least(4.0, 4096.0)},

@@ -1,3 +1,4 @@
+#include "bin_scenes/config/materials.hpp"
 #include "bin_scenes/config/sensor_presets.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
@@ -191,7 +192,7 @@ TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
     const std::string name = entry.path.substr(entry.path.find_last_of('.') + 1);
     const bool excluded = entry.path == "bin.mesh" || entry.path == "bin.unit" || entry.path == "bin.pose" ||
                           entry.path == "bin.floor" || entry.path == "bin.none" || entry.path == "pour.scene" ||
-                          entry.path == "rig" || entry.path.rfind("sensors[].views", 0) == 0;
+                          entry.path == "rig" || name == "material" || entry.path.rfind("sensors[].views", 0) == 0;
     EXPECT_TRUE(excluded || written.find(name + ":") != std::string::npos) << entry.path;
   }
 }
@@ -530,6 +531,30 @@ TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
     SCOPED_TRACE(name);
     const Sensor s = sensor("preset: " + name);
     EXPECT_EQ(s.preset, name);
+  }
+}
+
+TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
+  const std::string bolts = "parts: [{model: bolt.stl, surface: ";
+  const Surface brass = material("brass");
+  EXPECT_TRUE(brass.metal());
+  const Surface s = read(bolts + "{material: brass, roughness: 0.7}}]\n").parts[0].surface;
+  EXPECT_EQ(s.refraction, brass.refraction);
+  EXPECT_EQ(s.extinction, brass.extinction);
+  EXPECT_EQ(s.albedo, brass.albedo);
+  EXPECT_EQ(s.gloss, brass.gloss);
+  EXPECT_EQ(s.roughness, 0.7);
+  EXPECT_EQ(read("bin: {surface: {material: cardboard}}\nparts: [{model: bolt.stl}]\n").bin.surface.gloss, 0.0);
+  EXPECT_EQ(read(bolts + "{albedo: 0.5}}]\n", {"parts[0].surface.material=rubber_black"}).parts[0].surface.gloss,
+            material("rubber_black").gloss);
+  expect_refused(bolts + "{material: steel_brushd}}]\n", {"did you mean 'steel_brushed'?", "request.yaml:1"});
+  EXPECT_EQ(materials().size(), 12u);
+  for (const std::string& name : materials()) {
+    SCOPED_TRACE(name);
+    const Surface known = material(name);
+    EXPECT_GT(known.albedo, 0.0);
+    EXPECT_LE(known.albedo, 1.0);
+    EXPECT_LE(known.gloss, 1.0);
   }
 }
 

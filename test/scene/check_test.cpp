@@ -116,6 +116,8 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
               r.sensors[0].bounces = 3;
             }),
             "sensors[0].bounces");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.exposures = {0.8, 0.2}; }), "sensors[0].imager.exposures");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].imager.exposures = {0.0, 0.2}; }), "sensors[0].imager.exposures[0]");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].bounces = 1; }), "sensors[0].bounces");  // ideal
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].indirect_samples = 0; }), "sensors[0].indirect_samples");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StructuredLightSettings>().steps = 2; }),

@@ -190,5 +190,20 @@ TEST(Resolve, DepthIsCountedAsFinelyAsTheBinAllows) {
   EXPECT_EQ(resolved(sensor, none).depth_scale, 2e-4) << "10 m of range";
 }
 
+TEST(Resolve, IndirectLightIsAsTheModelHasItUnlessGiven) {
+  const std::pair<const char*, std::optional<int>> defaults[] = {{"ideal", std::nullopt},
+                                                                 {"structured_light", 1},
+                                                                 {"laser_line", 1},
+                                                                 {"stereo", 0},
+                                                                 {"time_of_flight", std::nullopt}};
+  for (const auto& [model, bounces] : defaults) {
+    Sensor sensor;
+    sensor.model = model;
+    EXPECT_EQ(resolved(sensor, Bin()).bounces, bounces) << model;
+    sensor.bounces = 0;
+    EXPECT_EQ(resolved(sensor, Bin()).bounces, 0) << model;
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

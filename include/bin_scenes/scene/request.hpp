@@ -24,6 +24,10 @@ struct Surface {
   double albedo = 0.5;  ///< share of the light sent back, 0..1; dark parts are noisier and drop out
   double gloss = 0.0;  ///< share of that which is mirrored instead of scattered, 0..1; shiny parts saturate or drop out
   double roughness = 0.4;  ///< width of the mirrored lobe, 0..1; smaller = narrower and brighter highlights
+  /// Complex index of refraction of a metal, n + i k, both 0 for none: what is mirrored is then, of albedo * gloss, the
+  /// share that Fresnel's formulas say.
+  double refraction = 0.0, extinction = 0.0;
+  bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 
 /// The bin. Its origin is the middle of the floor's top, z up.
@@ -210,15 +214,17 @@ struct Sensor {
   Views views;
   double near = 0.05, far = 10.0;  ///< m; nothing outside this range is measured
   Fidelity fidelity = Fidelity::analytic;
-  Projector projector;     ///< structured_light, stereo
-  Laser laser;             ///< laser_line
-  Scan scan;               ///< laser_line
-  ImagerSettings imager;   ///< structured_light, laser_line, stereo: the camera's chip
-  ModelSettings settings;  ///< of the models, by type: settings.of<StereoSettings>()
-  int bounces = 0;         ///< structured_light, stereo: other surfaces that light may meet, 0 to 2; more = depth errs
-                           ///< in corners and on shiny parts as real devices do, slower
-  int indirect_samples = 24;  ///< rays for them at a node, one for some pixels; noise of indirect light falls with them
-  bool noise = true;          ///< false: every random effect is off; geometry (shadow, field of view) stays
+  Projector projector;         ///< structured_light, stereo
+  Laser laser;                 ///< laser_line
+  Scan scan;                   ///< laser_line
+  ImagerSettings imager;       ///< structured_light, laser_line, stereo: the camera's chip
+  ModelSettings settings;      ///< of the models, by type: settings.of<StereoSettings>()
+  std::optional<int> bounces;  ///< structured_light, laser_line, stereo: other surfaces that light may meet, 0 to 2;
+                               ///< more = depth errs in corners and on shiny parts as real devices do, slower. None: as
+                               ///< the model has it (SensorModel::bounces)
+  int indirect_samples = 16;   ///< rays for them at a node, one for some pixels, or 32 rays of a laser's fan; noise
+                               ///< of indirect light falls with them
+  bool noise = true;           ///< false: every random effect is off; geometry (shadow, field of view) stays
   double depth_scale = 1e-4;  ///< m a count of its 16-bit depth images; no key, set with the poses (sensor/resolve.hpp)
 };
 

@@ -3,6 +3,8 @@
 /// the value its comment names; `noise: false` of a sensor switches off all that are random.
 #pragma once
 
+#include <vector>
+
 namespace bin_scenes {
 
 /// Treatment of a pixel whose footprint crosses a depth edge.
@@ -20,8 +22,10 @@ struct ImagerSettings {
   double ambient = 0.02;            ///< signal of a white surface without the sensor's light; adds shot noise only
   double full_well = 10000.0;       ///< electrons at saturation; shot noise of a signal s is sqrt(s / full_well)
   double read_noise = 5.0;          ///< electrons, standard deviation; 0 = none
-  double blur = 0.0;  ///< structured_light: camera pixels, standard deviation of the lens's blur; 0 = sharp
-  int bits = 12;      ///< of the analogue-digital converter, 1 to 16; fewer = coarser steps
+  double blur = 0.0;              ///< structured_light: camera pixels, standard deviation of the lens's blur; 0 = sharp
+  int bits = 12;                  ///< of the analogue-digital converter, 1 to 16; fewer = coarser steps
+  std::vector<double> exposures;  ///< structured_light: several instead of `exposure`, ascending; of each pixel the
+                                  ///< longest counts that does not saturate
 };
 
 /// Fringe projection: a phase shift of `steps` images, periods told apart by a Gray code.

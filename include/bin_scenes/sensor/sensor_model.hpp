@@ -62,7 +62,8 @@ struct SensorModel {
   bool projector = false;
   bool laser = false;     ///< and Scan
   bool fidelity = false;  ///< it has both
-  bool indirect = false;  ///< it sees light that met other surfaces: bounces
+  bool indirect = false;  ///< it sees light that met other surfaces
+  int bounces = 0;        ///< Sensor::bounces unless given
   bool exact = false;     ///< it measures the truth: without noise, with true normals
 };
 

@@ -80,14 +80,43 @@ class Table {
 
 }  // namespace
 
-double facet_lobe(double alpha, double in, double out, double half) {
+double facet_lobe(double alpha, double in, double out, double half, double once, double often) {
   static const Table table;
   const double a2 = alpha * alpha, bend = half * half * (a2 - 1.0) + 1.0, roughness = std::sqrt(alpha);
   const double facets = a2 / (M_PI * bend * bend);
   const double visible = 0.5 / (in * slant(out, a2) + out * slant(in, a2));
-  const double lost = std::max(1.0 - table.mean(roughness), 1e-6);
+  const double mean = table.mean(roughness), lost = std::max(1.0 - mean, 1e-6);
   const double again = (1.0 - table.at(roughness, in)) * (1.0 - table.at(roughness, out)) / lost;
-  return (M_PI * facets * visible + again) * in;
+  if (once == 1.0 && often == 1.0) return (M_PI * facets * visible + again) * in;
+  // Each facet more takes its share again (Kulla and Conty).
+  const double kept = often * often * mean / (1.0 - often * lost);
+  return (M_PI * facets * visible * once + again * kept) * in;
+}
+
+double fresnel(double cosine, double refraction, double extinction) {
+  const double c2 = cosine * cosine, s2 = 1.0 - c2, n2 = refraction * refraction, k2 = extinction * extinction;
+  const double real = n2 - k2 - s2, size = std::sqrt(real * real + 4.0 * n2 * k2);  // of (n + i k)^2 - sin^2
+  const double twice = 2.0 * std::sqrt(std::max(0.0, 0.5 * (size + real))) * cosine;
+  const double across = (size + c2 - twice) / (size + c2 + twice);
+  const double sum = c2 * size + s2 * s2;
+  const double along = across * (sum - twice * s2) / (sum + twice * s2);
+  return 0.5 * (across + along);
+}
+
+double mean_fresnel(double refraction, double extinction) {
+  struct Known {
+    double refraction = -1.0, extinction = -1.0, mean = 0.0;
+  };
+  thread_local Known known;  // one metal is asked many times
+  if (known.refraction != refraction || known.extinction != extinction) {
+    constexpr int steps = 64;
+    known = {refraction, extinction, 0.0};
+    for (int i = 0; i < steps; ++i) {
+      const double c = (i + 0.5) / steps;
+      known.mean += fresnel(c, refraction, extinction) * 2.0 * c / steps;
+    }
+  }
+  return known.mean;
 }
 
 }  // namespace bin_scenes

@@ -9,6 +9,14 @@ namespace bin_scenes {
 /// correlated by height), over a white matte surface that faces the light. It sends back all light from everywhere.
 /// @param alpha  width, 0.001 to 1
 /// @param in, out, half  cosines of the normal to light, to eye and to what is half way between them; above 0
-double facet_lobe(double alpha, double in, double out, double half);
+/// @param once   share that a facet sends on at this angle, 1 of a perfect mirror
+/// @param often  mean of that share over all angles
+double facet_lobe(double alpha, double in, double out, double half, double once = 1.0, double often = 1.0);
+
+/// Share of unpolarised light that a smooth metal mirrors (Born, Wolf, "Principles of Optics", 14.2).
+/// @param cosine  of the angle to the normal
+double fresnel(double cosine, double refraction, double extinction);
+/// Its mean over a hemisphere of even light.
+double mean_fresnel(double refraction, double extinction);
 
 }  // namespace bin_scenes

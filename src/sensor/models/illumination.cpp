@@ -14,7 +14,14 @@ double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_ligh
   const double matte = diffuse_share(surface) * in;
   if (surface.gloss <= 0.0) return matte;
   const double alpha = std::max(surface.roughness * surface.roughness, 1e-3);
-  const double half = normal.dot((to_light + to_eye).normalized());
+  const Vec3 between = (to_light + to_eye).normalized();
+  const double half = normal.dot(between);
+  if (surface.metal()) {
+    const double once = fresnel(std::min(to_light.dot(between), 1.0), surface.refraction, surface.extinction);
+    return matte + surface.albedo * surface.gloss *
+                       facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half, once,
+                                  mean_fresnel(surface.refraction, surface.extinction));
+  }
   return matte + surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half);
 }
 

@@ -17,10 +17,11 @@ class IndirectField {
  public:
   struct Setup {
     int bounces = 0;   ///< 0: no indirect light
-    int samples = 24;  ///< rays a node
+    int samples = 16;  ///< rays a node, where nodes lie far apart
   };
-  /// What a pattern makes of light by some paths: adds to the first `count` channels, which interpolation mixes.
-  using Respond = std::function<void(const std::vector<Path>& paths, int count, float* channels)>;
+  /// What a pattern makes of light by some paths: adds to the channels, which interpolation mixes, to as many by which
+  /// they grow as the paths' ends move by steps[0] (m), and to as many for steps[1].
+  using Respond = std::function<void(const std::vector<Path>& paths, const Vec3* steps, float* channels)>;
 
   /// Asks `lamp` and `respond` while it is made only.
   /// @param channels  of `respond`
@@ -33,28 +34,36 @@ class IndirectField {
   bool at(std::size_t pixel, int count, float* channels) const;
 
  private:
+  /// What makes two pixels see one face.
+  struct Face {
+    Eigen::Vector3f point, normal;  ///< camera frame, m
+    std::int32_t line;
+    std::uint16_t label;
+  };
   struct Node {
-    std::size_t pixel;
+    Face face;
     float x, y;   ///< its place (pixel)
     float reach;  ///< pixel, over which it is averaged with others
     bool lit;
   };
-  struct Tile {
-    std::vector<Node> nodes;
-    std::vector<float> values;        ///< of its nodes: channels, and their growth to the right and down
-    std::vector<std::uint32_t> near;  ///< nodes of this tile and those around it; none if no one is lit
+  /// Nodes, and of each the channels and their growth to the right and down.
+  struct Nodes {
+    std::vector<Node> all;
+    std::vector<float> values;
   };
-  bool reaches(const Node& node, int column, int row) const;
+  static bool one_face(const Face& a, const Face& b);
+  Face face(std::size_t pixel) const;
   bool nearest(std::size_t pixel, int count, float* channels) const;
   std::size_t tile_of(std::size_t pixel) const;
-  Vec3 position(std::size_t pixel) const { return points_[pixel].cast<double>(); }
-  bool one_face(std::size_t a, std::size_t b) const;
-  void fill(Tile& tile, int left, int top) const;
-  void divide(Tile& tile, int left, int top, int spacing, std::vector<std::size_t> pixels) const;
+  void fill(Nodes& out, int left, int top) const;
+  void divide(Nodes& out, int left, int top, int spacing, std::vector<std::size_t> pixels) const;
+  int samples_at(int spacing) const;
+  std::size_t middle_of(const std::vector<std::size_t>& pixels) const;
   Vec3 step_on_face(std::size_t pixel, const Vec3& step) const;
-  SeenPoint point_of(std::size_t pixel) const;
-  double nearness(std::size_t pixel, int spacing) const;
-  void add_node(Tile& tile, std::size_t pixel, int spacing) const;
+  void add_node(Nodes& out, std::size_t pixel, int spacing, const Gathered& light) const;
+  void tell_tiles();
+  template <class Work>
+  void for_tiles(const Node& node, const Work& work) const;
 
   const Scenery& scenery_;
   const View& view_;
@@ -64,11 +73,13 @@ class IndirectField {
   int channels_, growing_;
   const Respond& respond_;
   Random random_;
-  int width_, height_, columns_;
+  int width_, height_;
+  int columns_, rows_;                   ///< of tiles
   std::vector<Eigen::Vector3f> points_;  ///< m, camera frame, by pixel
-  std::vector<Tile> tiles_;
-  std::vector<Node> nodes_;
-  std::vector<float> values_;  ///< of nodes_, as of a tile's
+  Nodes nodes_;
+  std::vector<std::uint32_t> near_;   ///< nodes that count in tiles, tile by tile
+  std::vector<std::uint32_t> first_;  ///< by tile, and one more: its first in near_
+  std::vector<char> lit_;             ///< by tile: whether one of them is lit
 };
 
 }  // namespace bin_scenes

@@ -59,6 +59,16 @@ struct Batch {
   std::vector<double> distances;
   std::vector<Lit> lit;
 
+  void clear() {
+    from.clear();
+    samples.clear();
+    onward_of.clear();
+    angles.clear();
+    met.clear();
+    eyes.clear();
+    distances.clear();
+    lit.clear();
+  }
   /// Rays that fill the lobe of what an eye sees of a point.
   void spread(const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye, int count, Random key) {
     const Lobe lobe(surfaces.of(point.line), point.normal, (eye - point.position).normalized());
@@ -140,24 +150,18 @@ Vec3 ProjectorLamp::slope(const Vec3& point, double column) const {
   return (share_ - column * ahead_) / ahead_.dot(point - pose_.position);
 }
 
-double nearness(const Scenery& scenery, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye, int samples,
-                Random key) {
-  Batch batch;
-  batch.spread(surfaces, point, eye, samples, key);
-  batch.trace(scenery);
-  return batch.nearness();
-}
-
-void gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, Gathered& out) {
+bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
+            int samples, int bounces, Random key, double too_near, Gathered& out) {
   out.paths.clear();
-  Batch first;
+  thread_local Batch first;  // keeps its memory: it is asked for each node
+  first.clear();
   first.spread(surfaces, point, eye, samples, key.of_piece(0));
   first.trace(scenery);
+  out.nearness = first.nearness();
+  if (out.nearness >= too_near) return false;
   first.light(lamp);
   add_paths(lamp, first, nullptr, out.paths);
-  out.nearness = first.nearness();
-  if (bounces < 2) return;
+  if (bounces < 2) return true;
   // One ray goes on from each place met; together they fill the hemisphere as evenly. In another order, or where they
   // go would depend on where they came from.
   Batch second;
@@ -177,6 +181,7 @@ void gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, 
   second.trace(scenery);
   second.light(lamp);
   add_paths(lamp, second, &first, out.paths);
+  return true;
 }
 
 }  // namespace bin_scenes

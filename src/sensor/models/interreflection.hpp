@@ -46,14 +46,12 @@ struct Gathered {
   double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
 };
 
-/// Mean of 1 / distance (1/m) to what a point meets, alone.
-double nearness(const Scenery& scenery, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye, int samples,
-                Random key);
-
 /// @param samples  rays, as the surface takes light
 /// @param bounces  1: light that met one other surface; 2: those that met two as well
 /// @param key      of the random numbers of this point
-void gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, Gathered& out);
+/// @param too_near  nearness (1/m) from which on nothing is lit
+/// @return false   it was too near
+bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
+            int samples, int bounces, Random key, double too_near, Gathered& out);
 
 }  // namespace bin_scenes

@@ -37,22 +37,8 @@ void add_speckle(double contrast, Random& draw, std::vector<float>& window) {
 
 }  // namespace
 
-/// The laser's light on a surface, as one sample of the camera sees it.
-struct LaserLine::Line {
-  int sample;
-  double across, depth, signal;  ///< pixel, m along the optical axis, share of the full well
-  Vec3 point, normal;            ///< bin frame
-  std::uint16_t label;
-  bool visible;
-};
-
-struct LaserLine::Lines {
-  std::vector<Line> lines;      ///< by sample
-  std::vector<Validity> codes;  ///< by sample: why there is none
-};
-
-LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup)
-    : scenery_(scenery), surfaces_(surfaces), setup_(setup), imager_(setup.imager, setup.noise) {
+LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup, const Random& key)
+    : scenery_(scenery), surfaces_(surfaces), setup_(setup), imager_(setup.imager, setup.noise), rays_(key) {
   to_camera_ = setup_.camera_pose.orientation.toRotationMatrix().transpose();
   sheet_ = setup_.laser_pose.orientation * Vec3::UnitX();
   const Vec3 seen = setup_.camera_pose.orientation.conjugate() * sheet_;
@@ -83,7 +69,7 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
 /// image, so that both of its ends on one side of the image are enough; a distorted line bends, and its fan stays
 /// whole.
 void LaserLine::keep_what_the_camera_can_see() {
-  if (setup_.camera.distorts()) return;
+  if (setup_.camera.distorts() || setup_.indirect.bounces > 0) return;  // light comes in from beside
   const Vec3 laser = to_camera_ * (setup_.laser_pose.position - setup_.camera_pose.position);
   /// -1: before the image's first sample, 1: behind its last one, 0: perhaps in it.
   const auto side = [&](const Vec3& direction) {
@@ -175,9 +161,7 @@ void LaserLine::extend(const Carriage& at, const std::vector<Hit>& hits, std::si
   }
 }
 
-void LaserLine::find_lines(const Vec3& offset, Lines& out) const {
-  const Carriage at{setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
-  const std::vector<Hit> hits = fan(at.laser);
+void LaserLine::find_lines(const Carriage& at, const std::vector<Hit>& hits, Lines& out) const {
   const auto sample_of = [&](std::size_t i) -> std::optional<double> {
     if (std::isnan(hits[i].distance)) return std::nullopt;
     const auto pixel = pixel_of(at, at.laser + hits[i].distance * directions_[i]);
@@ -270,9 +254,8 @@ void LaserLine::hide(const Carriage& at, std::vector<Line>& lines) const {
   }
 }
 
-void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, Profiles& out,
+void LaserLine::read_lines(const Carriage& at, const Lines& seen, const SheetGlow* glow, Random draw, Profiles& out,
                            std::size_t profile) const {
-  const Vec3 eye = setup_.camera_pose.position + offset, laser = setup_.laser_pose.position + offset;
   const Pose back = setup_.camera_pose.inverse();
   const std::size_t row = profile * static_cast<std::size_t>(samples_);
   std::copy(seen.codes.begin(), seen.codes.end(), out.validity.begin() + static_cast<std::ptrdiff_t>(row));
@@ -288,7 +271,7 @@ void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, P
       if (!line->visible) continue;
       // A window of the image around this line, with the light of all of them.
       const double sigma = sigma_at(line->depth);
-      const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+      const int reach = reach_of(sigma);
       const int begin = static_cast<int>(std::lround(line->across)) - reach;
       window.assign(static_cast<std::size_t>(2 * reach + 1), 0.0f);
       for (auto other = first; other != last; ++other) {
@@ -299,20 +282,23 @@ void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, P
           window[i] += static_cast<float>(other->signal * std::exp(-0.5 * x * x));
         }
       }
+      for (std::size_t i = 0; glow && i < window.size(); ++i) {
+        window[i] += static_cast<float>(glow->at(line->sample, begin + static_cast<int>(i)));
+      }
       if (setup_.noise && setup_.settings.speckle > 0.0) add_speckle(setup_.settings.speckle, draw, window);
       imager_.expose(window.data(), window.size(), draw);
       const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
       if (!peak) {
-        if (best < 0.0) out.validity[pixel] = Validity::dark;
+        if (best < 0.0 && line->signal > 0.0) out.validity[pixel] = Validity::dark;
         continue;
       }
-      const double rank = setup_.settings.peak == LaserLineSettings::Peak::strongest ? peak->height : 1.0 / line->depth;
-      if (rank <= best) continue;
-      best = rank;
       const double b = begin + peak->row;
       const Vec3 ray = upright_ ? setup_.camera.ray(b, line->sample) : setup_.camera.ray(line->sample, b);
       const Vec3 direction = setup_.camera_pose.orientation * ray;
-      const double z = sheet_.dot(laser - eye) / sheet_.dot(direction);
+      const double z = sheet_.dot(at.laser - at.eye) / sheet_.dot(direction);
+      const double rank = setup_.settings.peak == LaserLineSettings::Peak::strongest ? peak->height : 1.0 / z;
+      if (rank <= best) continue;
+      best = rank;
       out.intensity[pixel] = static_cast<float>(peak->height);
       out.label[pixel] = line->label;
       out.normals[pixel] = as_floats(back.orientation * line->normal);
@@ -323,7 +309,7 @@ void LaserLine::read_lines(const Vec3& offset, const Lines& seen, Random draw, P
         out.validity[pixel] = Validity::decoding;
       } else {
         out.validity[pixel] = Validity::valid;
-        out.points[pixel] = as_floats(back * (eye + z * direction));
+        out.points[pixel] = as_floats(back * (at.eye + z * direction));
       }
     }
     first = last;
@@ -334,11 +320,12 @@ double LaserLine::depth_sigma() const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr int draws = 4000;  // know a standard deviation within 1 %
   Lines lines;
-  find_lines(Vec3::Zero(), lines);
+  const Carriage at = carriage(Vec3::Zero());
+  find_lines(at, fan(at.laser), lines);
   for (const Line& line : lines.lines) {
     if (line.sample != samples_ / 2 || !line.visible || line.signal < setup_.settings.min_signal) continue;
     const double sigma = sigma_at(line.depth);
-    const int reach = static_cast<int>(std::ceil(4.0 * sigma)) + 2;
+    const int reach = reach_of(sigma);
     Random draw(0, 0, Stream::probe);
     std::vector<float> window(static_cast<std::size_t>(2 * reach + 1));
     double square = 0.0;
@@ -381,9 +368,17 @@ Profiles LaserLine::scanned(const Random& random) const {
   out.intensity.assign(pixels, 0.0f);
   in_parallel(static_cast<std::size_t>(out.height), [&](std::size_t profile) {
     const Vec3 offset = (static_cast<double>(profile) - 0.5 * (out.height - 1)) * setup_.scan;
+    const Carriage at = carriage(offset);
+    const std::vector<Hit> hits = fan(at.laser);
     Lines lines;
-    find_lines(offset, lines);
-    read_lines(offset, lines, random.of_piece(profile), out, profile);
+    find_lines(at, hits, lines);
+    std::optional<SheetGlow> glow;
+    if (setup_.indirect.bounces > 0) {
+      glow.emplace(glow_camera());
+      follow(at, hits, rays_.of_piece(profile), *glow);
+      add_second_lines(at, *glow, lines.lines);
+    }
+    read_lines(at, lines, glow ? &*glow : nullptr, random.of_piece(profile), out, profile);
   });
   return out;
 }

@@ -3,13 +3,19 @@
 /// The line lies across the image's rows or its columns, whichever the sheet's normal is nearer to. Along it the camera
 /// has one sample a row (or column); in each the device seeks the line's peak between columns (or rows), and the ray of
 /// the peak meets the sheet in the point measured.
+///
+/// Light that other surfaces send on lies over the lines; where it is brightest beside them, it is taken for a line
+/// itself (sheet_glow.hpp).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
+#include "sensor/models/indirect_field.hpp"
+#include "sensor/models/sheet_glow.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -35,9 +41,12 @@ class LaserLine {
     LaserLineSettings settings;
     ImagerSettings imager;
     bool noise = true;
-    double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+    double near = 0.0, far = 1e9;     ///< m, depths that the camera reports
+    IndirectField::Setup indirect{};  ///< rays: so many for 32 rays of the fan
   };
-  LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup);
+  /// @param key  of the indirect light's samples
+  LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Setup& setup,
+            const Random& key = Random(0, 0, Stream::sensor));
 
   Profiles scanned(const Random& random) const;
   /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two
@@ -45,8 +54,20 @@ class LaserLine {
   double depth_sigma() const;
 
  private:
-  struct Line;
-  struct Lines;  ///< what a profile's camera could see
+  /// Light of the laser on a surface, as one sample of the camera sees it.
+  struct Line {
+    int sample;
+    double across, depth,
+        signal;          ///< pixel, m along the optical axis, share of the full well; 0: other surfaces' light
+    Vec3 point, normal;  ///< bin frame
+    std::uint16_t label;
+    bool visible;
+  };
+  /// What a profile's camera could see.
+  struct Lines {
+    std::vector<Line> lines;      ///< by sample
+    std::vector<Validity> codes;  ///< by sample: why there is none
+  };
   struct Carriage {
     Vec3 laser, eye;  ///< bin frame, at one profile
   };
@@ -58,20 +79,29 @@ class LaserLine {
   std::optional<Eigen::Vector2d> pixel_of(const Carriage& at, const Vec3& point) const {
     return setup_.camera.project(to_camera_ * (point - at.eye));
   }
-  void find_lines(const Vec3& offset, Lines& lines) const;
+  void find_lines(const Carriage& at, const std::vector<Hit>& hits, Lines& lines) const;
   std::optional<Line> line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own, std::size_t a,
                               double at_a, std::size_t b, double at_b) const;
   void extend(const Carriage& at, const std::vector<Hit>& hits, std::size_t own, std::size_t next,
               std::vector<Line>& asked) const;
   void keep_lit(const Carriage& at, const std::vector<Line>& asked, std::vector<Line>& lines) const;
   void hide(const Carriage& at, std::vector<Line>& lines) const;
-  void read_lines(const Vec3& offset, const Lines& lines, Random draw, Profiles& out, std::size_t profile) const;
+  SheetGlow::Camera glow_camera() const;
+  void follow(const Carriage& at, const std::vector<Hit>& hits, const Random& key, SheetGlow& glow) const;
+  void add_second_lines(const Carriage& at, const SheetGlow& glow, std::vector<Line>& lines) const;
+  void read_lines(const Carriage& at, const Lines& lines, const SheetGlow* glow, Random draw, Profiles& out,
+                  std::size_t profile) const;
+  Carriage carriage(const Vec3& offset) const {
+    return {setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
+  }
   double sigma_at(double depth) const;
+  int reach_of(double sigma) const { return static_cast<int>(std::ceil(4.0 * sigma)) + 2; }  ///< of a window, pixel
 
   const Scenery& scenery_;
   const Surfaces& surfaces_;
   Setup setup_;
   Imager imager_;
+  Random rays_;
   bool upright_;  ///< the line runs along the image's columns: a sample is a row
   int samples_;
   std::vector<Vec3> directions_;  ///< of the fan, bin frame

@@ -16,7 +16,8 @@ LaserLine::Setup laser_line_setup(const Sensor& s) {
           s.imager,
           s.noise,
           s.near,
-          s.far};
+          s.far,
+          indirect_of(s)};
 }
 
 namespace {
@@ -46,7 +47,7 @@ void check_places(const Sensor& sensor, const std::string& where) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  Profiles profiles = LaserLine(scenery, surfaces, laser_line_setup(sensor)).scanned(random_of(draw));
+  Profiles profiles = LaserLine(scenery, surfaces, laser_line_setup(sensor), rays_of(draw)).scanned(random_of(draw));
   RangeImage image;
   image.width = profiles.width;
   image.height = profiles.height;
@@ -74,7 +75,8 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 constexpr SensorModel model() {
   SensorModel m{"laser_line", "the line of light and its peak", visit_keys, nullptr, check_places, measured, sigma};
   m.image = SensorModel::Image::profiles;
-  m.imager = m.laser = true;
+  m.imager = m.laser = m.indirect = true;
+  m.bounces = 1;
   return m;
 }
 

@@ -11,6 +11,10 @@ namespace bin_scenes {
 
 const Names<MixedPixels> mixed_pixels{{"remove", MixedPixels::remove}, {"keep", MixedPixels::keep}};
 
+IndirectField::Setup indirect_of(const Sensor& sensor) {
+  return {sensor.bounces.value_or(sensor_model(sensor.model).bounces), sensor.indirect_samples};
+}
+
 Random random_of(const Draw& draw) {
   return Random(draw.seed, draw.scene, Stream::noise).of_piece(draw.sensor);
 }

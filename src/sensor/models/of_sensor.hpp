@@ -25,6 +25,7 @@ StructuredLight::Setup structured_light_setup(const Sensor& sensor);
 Stereo::Setup stereo_setup(const Sensor& sensor);
 LaserLine::Setup laser_line_setup(const Sensor& sensor);
 
+IndirectField::Setup indirect_of(const Sensor& sensor);
 Random random_of(const Draw& draw);
 /// Of the samples of indirect light.
 Random rays_of(const Draw& draw);

@@ -86,8 +86,8 @@ std::vector<float> Stereo::haze(const View& view, const Random& random) const {
   if (setup_.indirect.bounces == 0) return {};
   const ProjectorLamp lamp(scenery_, setup_.projector, setup_.projector_pose, surfaces_);
   const IndirectField field(
-      scenery_, view, surfaces_, lamp, setup_.indirect, 1, 1,
-      [](const std::vector<Path>& paths, int, float* white) {
+      scenery_, view, surfaces_, lamp, setup_.indirect, 1, 0,
+      [](const std::vector<Path>& paths, const Vec3*, float* white) {
         for (const Path& path : paths) *white += static_cast<float>(path.weight);
       },
       random);

@@ -5,14 +5,8 @@
 namespace bin_scenes {
 
 Stereo::Setup stereo_setup(const Sensor& s) {
-  return {lens_of(s.projector),
-          *s.projector.pose,
-          s.settings.of<StereoSettings>(),
-          s.imager,
-          s.noise,
-          s.near,
-          s.far,
-          {s.bounces, s.indirect_samples}};
+  return {lens_of(s.projector), *s.projector.pose, s.settings.of<StereoSettings>(), s.imager, s.noise, s.near, s.far,
+          indirect_of(s)};
 }
 
 namespace {

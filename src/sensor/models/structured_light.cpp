@@ -52,11 +52,14 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       whites_(view.depth.size()),
       planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
+  for (const double exposure : setup.imager.exposures)
+    scales_.insert(scales_.begin(), exposure / setup.imager.exposure);
+  if (scales_.empty()) scales_ = {1.0};
   gain_ = gain();
   if (setup.indirect.bounces == 0) return;
   const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
-  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, int count, float* out) {
-    add_paths(paths, count, out);
+  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
+    add_paths(paths, steps, out);
   };
   const int all = channels + fringes_.images();
   indirect_ = std::make_unique<const IndirectField>(scenery, view, surfaces, lamp, setup.indirect, all,
@@ -64,14 +67,25 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
 }
 
 /// Fringes as a sum of phasors, Gray bits as sums of lit and dark. Each path stands for all columns of its sample.
-void StructuredLight::add_paths(const std::vector<Path>& paths, int count, float* out) const {
+void StructuredLight::add_paths(const std::vector<Path>& paths, const Vec3* steps, float* out) const {
   const double turn = 2.0 * M_PI / setup_.settings.period;
+  const int all = channels + fringes_.images();
   for (const Path& path : paths) {
     const double seen = path.weight * fringes_.seen_through(path.spread, 0.0, 0.0);
+    const double c = seen * std::cos(turn * path.column), s = seen * std::sin(turn * path.column);
     out[white] += static_cast<float>(path.weight);
-    out[cosine] += static_cast<float>(seen * std::cos(turn * path.column));
-    out[sine] += static_cast<float>(seen * std::sin(turn * path.column));
-    if (count > channels) fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
+    out[cosine] += static_cast<float>(c);
+    out[sine] += static_cast<float>(s);
+    for (int axis = 0; axis < 2; ++axis) {
+      float* const growth = out + (1 + axis) * all;
+      const double step = path.slope.dot(steps[axis]);
+      growth[cosine] -= static_cast<float>(turn * step * s);
+      growth[sine] += static_cast<float>(turn * step * c);
+      if (setup_.only_analytic) continue;
+      fringes_.add_even_light(path.column + 0.5 * step, path.spread, path.weight, growth + channels);
+      fringes_.add_even_light(path.column - 0.5 * step, path.spread, -path.weight, growth + channels);
+    }
+    fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
   }
 }
 
@@ -149,9 +163,19 @@ double StructuredLight::depth_sigma(std::size_t index) const {
   return depth_sigma(p, fringe(p));
 }
 
+/// The longest exposure of a fringe that does not saturate, else the shortest.
+double StructuredLight::scale_for(const Fringe& f, double column) const {
+  const double most = f.mean + f.amplitude * fringes_.brightest(column);
+  for (const double scale : scales_) {
+    if (!imager_.saturated(scale * most)) return scale;
+  }
+  return scales_.back();
+}
+
 double StructuredLight::depth_sigma(const Pixel& pixel, const Fringe& f) const {
+  const double scale = scale_for(f, columns_[pixel.index]);
   return triangulation_.depth_per_column(pixel.ray, view_.depth[pixel.index]) *
-         fringes_.column_sigma(std::sqrt(imager_.variance(f.mean)), f.amplitude);
+         fringes_.column_sigma(std::sqrt(imager_.variance(scale * f.mean)), scale * f.amplitude);
 }
 
 void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double column) const {
@@ -172,6 +196,14 @@ void StructuredLight::add_phasor(const float* indirect, double& column, Fringe& 
   fringe.amplitude = std::hypot(c, s);
 }
 
+/// Whether no noise lifts a fringe of indirect light alone over the threshold.
+bool StructuredLight::too_dark(const float* indirect) const {
+  const double scale = scales_.front();
+  const double mean = scale * (setup_.imager.ambient + gain_ * indirect[white] * fringes_.mean());
+  const double amplitude = scale * gain_ * fringes_.amplitude() * std::hypot(indirect[cosine], indirect[sine]);
+  return amplitude + 6.0 * fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))) < setup_.settings.min_modulation;
+}
+
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
   const double turn = 2.0 * M_PI / setup_.settings.period;
@@ -187,6 +219,10 @@ Measurement StructuredLight::analytic(const Random& random) const {
         const bool twice = indirect_ && indirect_->at(i, channels, indirect);
         if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
         const Pixel p = pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row));
+        if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
+          out.intensity[i] = static_cast<float>(std::min(ambient(i) + gain_ * indirect[white] * fringes_.mean(), 1.0));
+          continue;
+        }
         if (twice && (code != Validity::valid || indirect[white] > turns_bits * whites_[i])) {
           Random draw = random.of_piece(view_.depth.size() + i);
           read(strip, p, images, draw, out);
@@ -208,6 +244,9 @@ Measurement StructuredLight::analytic(const Random& random) const {
           f = fringe(p);
         }
         if (twice) add_phasor(indirect, column, f);
+        out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
+        const double scale = scale_for(f, column);
+        f = {scale * f.mean, scale * f.amplitude};
         const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
         // The amplitude's noise matters where it may fall below the threshold.
         double amplitude = f.amplitude;
@@ -215,7 +254,6 @@ Measurement StructuredLight::analytic(const Random& random) const {
         if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread) {
           amplitude += spread * normals.next();
         }
-        out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
         if (mixed) {
           out.validity[i] = Validity::mixed;
         } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {

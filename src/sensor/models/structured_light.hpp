@@ -68,7 +68,7 @@ class StructuredLight {
   enum Channel { white, cosine, sine, channels };
 
   void light_row(std::size_t row);
-  void add_paths(const std::vector<Path>& paths, int count, float* channels) const;
+  void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
   Vec2 slope(const Pixel& pixel) const;
@@ -76,6 +76,8 @@ class StructuredLight {
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
   void add_phasor(const float* indirect, double& column, Fringe& fringe) const;
+  double scale_for(const Fringe& fringe, double column) const;
+  bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   template <class Work>
@@ -97,6 +99,7 @@ class StructuredLight {
   std::vector<double> columns_, distances_;  ///< of the projector; m from it
   std::vector<double> whites_;               ///< reflected / distance^2
   std::vector<double> planes_;               ///< Pixel::plane
+  std::vector<double> scales_;               ///< exposures / ImagerSettings::exposure, the longest first
   double gain_ = 0.0;                        ///< signal of the projector's white = gain * white
 
   std::unique_ptr<const IndirectField> indirect_;  ///< none: no bounces

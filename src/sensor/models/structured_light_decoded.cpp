@@ -56,14 +56,22 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     if (twice) images[n] += static_cast<float>(gain_) * indirect[channels + n];
     images[n] += static_cast<float>(background);
   }
-  imager_.expose(images.data(), images.size(), draw);
-
-  const auto shifts = images.begin() + setup_.settings.steps;
-  out.intensity[i] = std::accumulate(images.begin(), shifts, 0.0f) / static_cast<float>(setup_.settings.steps);
-  const Fringes::Reading reading = fringes_.read(images.data());
+  thread_local std::vector<float> shot;
+  bool saturated = true;
+  float scale = 1.0f;
+  for (std::size_t k = 0; k < scales_.size() && saturated; ++k) {
+    scale = static_cast<float>(scales_[k]);
+    shot.assign(images.begin(), images.end());
+    for (float& signal : shot) signal *= scale;
+    imager_.expose(shot.data(), shot.size(), draw);
+    saturated = imager_.saturated(*std::max_element(shot.begin(), shot.begin() + setup_.settings.steps));
+  }
+  const float sum = std::accumulate(shot.begin(), shot.begin() + setup_.settings.steps, 0.0f);
+  out.intensity[i] = std::min(1.0f, sum / static_cast<float>(setup_.settings.steps) / scale);
+  const Fringes::Reading reading = fringes_.read(shot.data());
   if (mixed) {
     out.validity[i] = Validity::mixed;
-  } else if (imager_.saturated(*std::max_element(images.begin(), shifts))) {
+  } else if (saturated) {
     out.validity[i] = Validity::saturated;
   } else if (reading.modulation < setup_.settings.min_modulation) {
     out.validity[i] = code == Validity::valid ? Validity::dark : code;

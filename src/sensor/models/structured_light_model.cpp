@@ -12,7 +12,7 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
           s.noise,
           s.near,
           s.far,
-          {s.bounces, s.indirect_samples},
+          indirect_of(s),
           s.fidelity == Fidelity::analytic};
 }
 
@@ -82,6 +82,7 @@ constexpr SensorModel model() {
   SensorModel m{
       "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
   m.imager = m.projector = m.fidelity = m.indirect = true;
+  m.bounces = 1;
   return m;
 }
 

@@ -17,7 +17,8 @@ double below(double x, double sigma) {
 }
 
 bool same(const Surface& a, const Surface& b) {
-  return a.albedo == b.albedo && a.gloss == b.gloss && a.roughness == b.roughness;
+  return a.albedo == b.albedo && a.gloss == b.gloss && a.roughness == b.roughness && a.refraction == b.refraction &&
+         a.extinction == b.extinction;
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "sensor/models/illumination.hpp"
+#include "sensor/models/facets.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 namespace bin_scenes {
 namespace {
@@ -38,6 +40,48 @@ TEST(Illumination, LightMayGoEitherWay) {
   const Surface surface{0.7, 0.8, 0.6};
   const Vec3 a = Vec3(0.8, 0.1, 0.4).normalized(), b = Vec3(-0.3, 0.5, 0.9).normalized(), normal = Vec3::UnitZ();
   EXPECT_NEAR(reflected(surface, normal, a, b) / a.z(), reflected(surface, normal, b, a) / b.z(), 1e-12);
+}
+
+/// Fresnel's amplitudes in complex numbers.
+double mirrored(double cosine, std::complex<double> index) {
+  const std::complex<double> inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
+  const double across = std::norm((cosine - index * inside) / (cosine + index * inside)),
+               along = std::norm((index * cosine - inside) / (index * cosine + inside));
+  return 0.5 * (across + along);
+}
+
+TEST(Illumination, MetalsMirrorAsFresnelSays) {
+  for (const std::complex<double> index : {std::complex<double>(2.9114, 3.0893), {1.3456, 7.4746}, {0.444, 3.695}}) {
+    const double n = index.real(), k = index.imag();
+    EXPECT_NEAR(fresnel(1.0, n, k), ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k), 1e-12);
+    EXPECT_NEAR(fresnel(0.0, n, k), 1.0, 1e-12);
+    double mean = 0.0;
+    for (int i = 0; i < 10000; ++i) {
+      const double c = (i + 0.5) / 10000;
+      ASSERT_NEAR(fresnel(c, n, k), mirrored(c, index), 1e-12) << c;
+      mean += mirrored(c, index) * 2.0 * c / 10000;
+    }
+    EXPECT_NEAR(mean_fresnel(n, k), mean, 1e-4);
+  }
+  // Glass at Brewster's angle mirrors one polarisation only.
+  const double c = 1.0 / std::sqrt(1.0 + 1.5 * 1.5), across = (1.0 - 1.5 * 1.5) / (1.0 + 1.5 * 1.5);
+  EXPECT_NEAR(fresnel(c, 1.5, 0.0), 0.5 * across * across, 1e-12);
+}
+
+TEST(Illumination, MetalsSendBackNoMoreThanTheyGet) {
+  for (const double roughness : {0.2, 0.35, 0.5, 0.7, 1.0}) {
+    for (const double degrees : {0.0, 60.0, 86.0}) {
+      const double t = degrees * M_PI / 180.0, share = sent_back({1.0, 1.0, roughness, 2.9114, 3.0893}, t);
+      EXPECT_LE(share, 1.0) << roughness << " " << degrees;
+      if (roughness < 0.3 && degrees < 80.0) {
+        EXPECT_NEAR(share, fresnel(std::cos(t), 2.9114, 3.0893), 0.01);
+      }
+      EXPECT_GT(share, 0.25) << roughness << " " << degrees;
+    }
+  }
+  const Surface brass{0.9, 0.8, 0.6, 0.444, 3.695};
+  const Vec3 a = Vec3(0.8, 0.1, 0.4).normalized(), b = Vec3(-0.3, 0.5, 0.9).normalized(), normal = Vec3::UnitZ();
+  EXPECT_NEAR(reflected(brass, normal, a, b) / a.z(), reflected(brass, normal, b, a) / b.z(), 1e-12);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace bin_scenes {
 namespace {
@@ -202,6 +203,102 @@ TEST(LaserLine, DarkAndMissingLines) {
   const double expected = 2.0 * std::tan(0.1) * std::hypot(1.0, 0.3) * setup.camera.fy;
   EXPECT_NEAR(static_cast<double>(count(p, Validity::valid)) / 40.0, expected, 2.0);
   EXPECT_GT(count(p, Validity::outside), 4000u);
+}
+
+/// Two faces at right angles that meet in a line along y at 0.75 m; the sheet runs along the left one, 6 mm from it. A
+/// plate hides that line from the camera: what it sees is the light on the right face.
+struct HiddenLine {
+  static constexpr double apart = 0.006, depth = 0.75;
+  LaserLine::Setup setup;
+  Surface left, right;
+  Vec3 lit = Vec3(0, 0, depth) + apart * along(-1);
+
+  HiddenLine(const Surface& left, const Surface& right) : left(left), right(right) {
+    setup.camera = Lens::from_fov(1200, 200, 0.3);
+    setup.near = 0.3;
+    setup.far = 3.0;
+    setup.profiles = 1;
+    setup.noise = false;
+    setup.imager.bits = 16;
+    const Vec3 laser(0.3, 0, 0);
+    setup.laser_pose = {laser, Quat(Eigen::AngleAxisd(std::atan2(lit.x() - laser.x(), lit.z()), Vec3::UnitY()))};
+    setup.indirect.bounces = 1;
+  }
+  static Vec3 along(int side) { return Vec3(side, 0.0, -1.0) / std::sqrt(2.0); }
+  Targets targets() const {
+    Targets targets;
+    for (const int side : {-1, 1}) {
+      Mesh face;
+      for (const double far : {0.0, 0.06}) {
+        for (const double y : {-0.2, 0.2}) face.vertices.push_back(Vec3(0, y, depth) + far * along(side));
+      }
+      face.triangles = {{0, 1, 2}, {1, 3, 2}};
+      targets.add(face, Pose(), side < 0 ? left : right);
+    }
+    targets.add(box_target({0.06, 0.5, 0.001}), {Vec3(-0.031, 0, 0.6), Quat::Identity()}, {0.0, 0.0, 0.4});
+    return targets;
+  }
+  double across(const Vec3& point) const { return setup.camera.project(point)->x(); }
+  /// Of the sheet on a white surface that faces it: signal times width (m).
+  double line() const {
+    const double sigma = std::hypot(setup.settings.blur * lit.z() / setup.camera.fx, 0.25 * setup.line_width);
+    return setup.settings.power * std::sqrt(2.0 * M_PI) * sigma;
+  }
+};
+
+/// The line lights the other face with x d / 2 (x^2 + d^2)^1.5 of its light a metre, most at x = d / sqrt(2).
+TEST(LaserLine, LightFromAMatteFaceIsAsInTheClosedForm) {
+  HiddenLine scene({0.9, 0.0, 0.4}, {0.8, 0.0, 0.4});
+  scene.setup.settings.power = 20.0;
+  scene.setup.imager.reference_distance = (scene.lit - scene.setup.laser_pose.position).norm();
+  scene.setup.indirect.samples = 8192;
+  Targets targets = scene.targets();
+  const Profiles p = scan(targets, scene.setup);
+  const double d = HiddenLine::apart, x = d / std::sqrt(2.0), r = std::hypot(x, d);
+  const double expected = scene.line() * 0.9 * 0.8 * x * d / (2.0 * r * r * r);
+  const double at = scene.across(Vec3(0, 0, HiddenLine::depth) + x * HiddenLine::along(1));
+  double intensity = 0.0, across = 0.0;
+  for (std::size_t i = 30; i < 170; ++i) {
+    ASSERT_EQ(p.validity[i], Validity::valid);
+    EXPECT_EQ(p.label[i], 2);
+    intensity += p.intensity[i] / 140.0;
+    across += scene.across(Vec3(p.points[i][0], p.points[i][1], p.points[i][2])) / 140.0;
+  }
+  EXPECT_NEAR(intensity / expected, 1.0, 0.03);
+  EXPECT_NEAR(across, at, 0.03 * (at - scene.across(Vec3(0, 0, HiddenLine::depth))));
+}
+
+/// A mirror throws the line onto the other face: the device takes it for the line, and errs by what its triangle says.
+TEST(LaserLine, AMirrorMakesASecondLine) {
+  HiddenLine scene({1.0, 1.0, 0.03}, {0.8, 0.0, 0.4});
+  Targets targets = scene.targets();
+  const Profiles p = scan(targets, scene.setup);
+  const Vec3 normal = HiddenLine::along(1), way = (scene.lit - scene.setup.laser_pose.position).normalized();
+  const Vec3 mirrored = way - 2.0 * normal.dot(way) * normal, other = HiddenLine::along(-1);
+  const Vec3 met = scene.lit - other.dot(scene.lit - Vec3(0, 0, HiddenLine::depth)) / other.dot(mirrored) * mirrored;
+  const double ray_at = scene.across(met);
+  std::size_t seen = 0;
+  for (std::size_t i = 30; i < 170; ++i) {
+    ASSERT_EQ(p.validity[i], Validity::valid) << i;
+    const Vec3 point(p.points[i][0], p.points[i][1], p.points[i][2]);
+    EXPECT_NEAR(scene.across(point), ray_at, 0.7) << i;
+    EXPECT_NEAR((scene.setup.laser_pose.inverse() * point).x(), 0.0, 1e-5);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 140u);
+  scene.setup.indirect.bounces = 0;
+  EXPECT_EQ(count(scan(targets, scene.setup), Validity::valid), 0u);
+}
+
+TEST(LaserLine, APlateThatNothingFacesIsUnchangedByBounces) {
+  LaserLine::Setup setup = device();
+  Targets targets = plate(1.0);
+  const Profiles direct = scan(targets, setup);
+  setup.indirect.bounces = 2;
+  const Profiles twice = scan(targets, setup);
+  EXPECT_EQ(direct.validity, twice.validity);
+  EXPECT_EQ(direct.intensity, twice.intensity);
+  EXPECT_EQ(0, std::memcmp(direct.points.data(), twice.points.data(), sizeof(direct.points[0]) * direct.points.size()));
 }
 
 TEST(LaserLine, SameSeedSameBits) {

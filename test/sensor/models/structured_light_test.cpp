@@ -260,6 +260,34 @@ Targets still_life() {
   return targets;
 }
 
+/// A bright plate beside a dark one: the short exposure leaves the dark one out, the long one the bright.
+TEST(StructuredLight, EachPixelTakesTheLongestExposureThatDoesNotSaturate) {
+  Targets targets;
+  for (const int side : {-1, 1}) {
+    targets.add(box_target({4.0, 8.0, 0.02}), {Vec3(2.0 * side, 0, 1.01), Quat::Identity()},
+                {side < 0 ? 0.9 : 0.01, 0.0, 0.4});
+  }
+  for (const bool decoded : {false, true}) {
+    Device device;
+    device.setup.imager.ambient = 0.0;
+    const auto valid = [&](double exposure, std::vector<double> exposures) {
+      device.setup.imager.exposure = exposure;
+      device.setup.imager.exposures = std::move(exposures);
+      return share(shoot(targets, device, decoded), Validity::valid);
+    };
+    EXPECT_LT(valid(0.4, {}), 0.55);
+    EXPECT_LT(valid(8.0, {}), 0.55);
+    EXPECT_GT(valid(0.4, {0.4, 8.0}), 0.95);
+    std::size_t count = 0;
+    EXPECT_NEAR(over_predicted(targets, device, decoded, 20000, count), 1.0, 0.05);
+    device.setup.imager.exposure = 0.8;
+    device.setup.imager.exposures = {};
+    const Shot alone = shoot(targets, device, decoded);
+    device.setup.imager.exposures = {0.8};
+    EXPECT_EQ(shoot(targets, device, decoded).measured.intensity, alone.measured.intensity);
+  }
+}
+
 TEST(StructuredLight, BothFidelitiesAgree) {
   Targets targets = still_life();
   const Shot a = shoot(targets, Device(), false), d = shoot(targets, Device(), true);
