@@ -1,5 +1,4 @@
-# OpenCASCADE, which reads STEP and IGES. Its parts for documents (TKXDESTEP) are left out: they bring viewers, X11 and OpenGL
-# into every program.
+# OpenCASCADE, which reads STEP and IGES. Its documents (TKXDESTEP) are left out: they bring viewers into every program.
 set(OCCT_LIBRARIES)
 if(BIN_SCENES_CAD)
   find_path(OCCT_INCLUDE_DIR STEPControl_Reader.hxx PATH_SUFFIXES opencascade)

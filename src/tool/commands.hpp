@@ -26,7 +26,7 @@ int generate(const GenerateOptions& options);
 struct InspectOptions {
   std::string model, unit, solid;
   std::optional<double> chord, angle;  ///< m, rad
-  std::string hulls;  ///< OBJ file for the convex hulls; empty = none
+  std::string hulls;                   ///< OBJ file for the convex hulls; empty = none
   bool json = false;
 };
 int inspect(const InspectOptions& options);
