@@ -131,7 +131,8 @@ std::vector<std::pair<std::string, std::string>> Plan::drawn() const {
 
 bool is_of(const PlanObject& object, const PartLine& line) {
   return object.sha256 == line.sha256 && object.unit == line.unit && object.scale == line.scale &&
-         object.thickness == line.thickness;
+         object.thickness == line.thickness && object.tessellation.chord == line.tessellation.chord &&
+         object.tessellation.angle == line.tessellation.angle && object.solid == line.solid;
 }
 
 }  // namespace bin_scenes

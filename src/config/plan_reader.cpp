@@ -311,7 +311,8 @@ class PlanFile {
     for (const PartLine& line : request.parts) {
       const auto same = [&](const PlanObject& object) { return is_of(object, line); };
       if (std::any_of(plan_.objects.begin(), plan_.objects.end(), same)) continue;
-      PlanObject object{line.model, line.path, line.sha256, line.unit, line.scale, line.thickness, {}, {}};
+      PlanObject object{line.model,     line.path,         line.sha256, line.unit, line.scale,
+                        line.thickness, line.tessellation, line.solid,  {},        {}};
       read_symmetries(object);
       plan_.objects.push_back(object);
       digests_ += line.sha256;

@@ -105,14 +105,15 @@ struct Targets {
   OrderedJson views = OrderedJson::array();         ///< multi-view bop25: by scene
 };
 
-/// Images that are looked at together: all views of the evaluated sensor, or the first one of every sensor.
+/// Images that are looked at together: all views of the evaluated sensor, or of every sensor where it has one.
 OrderedJson views_together(const std::vector<SensorInfo>& sensors, const std::string& evaluated) {
   OrderedJson views = OrderedJson::array();
   for (const SensorInfo& sensor : sensors)
     if (sensor.name == evaluated && sensor.views > 1)
       for (std::size_t view = 0; view < sensor.views; ++view) views.push_back({sensor.name, view});
   if (!views.empty()) return views;
-  for (const SensorInfo& sensor : sensors) views.push_back({sensor.name, 0});
+  for (const SensorInfo& sensor : sensors)
+    for (std::size_t view = 0; view < sensor.views; ++view) views.push_back({sensor.name, view});
   return views;
 }
 

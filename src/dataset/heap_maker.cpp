@@ -54,6 +54,8 @@ LoadOptions options_of(const PlanObject& object) {
   options.unit = object.unit;
   options.scale = object.scale;
   options.thickness = object.thickness;
+  options.tessellation = object.tessellation;
+  options.solid = object.solid;
   return options;
 }
 
@@ -230,13 +232,10 @@ std::vector<int> HeapMaker::object_ids(const Request& request) const {
 
 double HeapMaker::volume_of(const PartLine& line) {
   double& volume = volumes_[line.sha256 + "|" + std::to_string(line.scale) + "|" +
-                            std::to_string(line.unit ? metres_per(*line.unit) : 0.0)];
+                            std::to_string(line.unit ? metres_per(*line.unit) : 0.0) + "|" +
+                            std::to_string(line.thickness.value_or(0.0)) + "|" + line.solid];
   if (volume == 0.0) {
-    LoadOptions options;
-    options.unit = line.unit;
-    options.scale = line.scale;
-    options.thickness = line.thickness;
-    volume = PartModel::load(line.path, options)->mass().volume;
+    volume = PartModel::load(line.path, load_options(line))->mass().volume;
   }
   return volume;
 }

@@ -66,6 +66,12 @@ std::vector<Finding> Findings::sorted() const {
   return all;
 }
 
+std::optional<nlohmann::json> json_map_in(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  const nlohmann::json json = nlohmann::json::parse(read_file(path.string()), nullptr, false);
+  return json.is_object() ? std::optional<nlohmann::json>(json) : std::nullopt;
+}
+
 const std::vector<std::pair<const char*, const char*>>& invariants() {
   static const std::vector<std::pair<const char*, const char*>> all = {
       {"plan_unchanged", "plan.yaml has the digest that dataset.json tells"},
@@ -102,6 +108,7 @@ const std::vector<std::pair<const char*, const char*>>& invariants() {
       {"bop_parts", "BOP lists the parts of the scene, each once"},
       {"bop_rotation", "rotations are orthonormal and right-handed"},
       {"bop_pose", "BOP's poses are those of scene.json in the camera"},
+      {"bop_camera", "scene_camera has the intrinsics, the pose and the depth scale of the sensor"},
       {"bop_object", "objects have a model"},
       {"bop_image", "images of every modality are there, with the size of the sensor"},
       {"bop_coco", "scene_gt_coco annotates every visible part, with its object and its mask"},

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ const std::vector<std::pair<const char*, const char*>>& invariants();
 
 /// Reads every file of the data set.
 void verify_dataset(const DataFolder& folder, Findings& findings);
+
+/// The JSON map in a file; none if it is missing or damaged.
+std::optional<nlohmann::json> json_map_in(const std::filesystem::path& path);
 
 // The parts of it.
 void verify_index(const DataFolder& folder, const DataSetFacts& facts, Findings& findings);

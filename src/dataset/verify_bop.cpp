@@ -2,18 +2,15 @@
 /// masks are counted anew.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
-#include "core/read_file.hpp"
 #include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "output/bop_image.hpp"
-#include "output/evaluation_mesh.hpp"
 #include "output/png_reader.hpp"
 #include "output/tiff.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <optional>
 #include <set>
@@ -36,12 +33,6 @@ Vec3 vector_of(const Json& json) {
 Pose pose_of(const Json& json) {
   const auto q = json.at("orientation_xyzw").get<std::array<double, 4>>();
   return {vector_of(json.at("position")), Quat(q[3], q[0], q[1], q[2])};
-}
-
-std::optional<Json> json_in(const fs::path& path) {
-  if (!fs::is_regular_file(path)) return std::nullopt;
-  const Json json = Json::parse(read_file(path.string()), nullptr, false);
-  return json.is_object() ? std::optional<Json>(json) : std::nullopt;
 }
 
 /// BOP has x, y, and last pixel less first.
@@ -157,6 +148,18 @@ std::optional<LoadedImage> true_labels(const fs::path& scene, const Json& sensor
   }
 }
 
+/// scene_camera against the sensor of scene.json.
+void verify_camera(const ImageFiles& image, Findings& findings) {
+  const Json &told = image.camera, &sensor = image.sensor;
+  const Pose bin_in_camera = pose_of(sensor.at("pose")).inverse();
+  const double scale = 1e3 * sensor.at("depth_scale").get<double>();
+  const bool same = (matrix_of(told.at("cam_K")) - matrix_of(sensor.at("K"))).norm() < 1e-6 &&
+                    std::abs(told.at("depth_scale").get<double>() - scale) < 1e-9 * scale &&
+                    (matrix_of(told.at("cam_R_w2c")) - bin_in_camera.orientation.toRotationMatrix()).norm() < 1e-6 &&
+                    (vector_of(told.at("cam_t_w2c")) - 1e3 * bin_in_camera.position).norm() < 1e-3;
+  findings.expect(same, "bop_camera", image.name(), "scene_camera is not that of the sensor in scene.json");
+}
+
 void verify_pictures(const ImageFiles& image, Findings& findings) {
   for (const BopPlace::File& file : image.place.files) {
     const std::string path = (image.folder / file.folder / (six_digits(image.place.image) + file.extension)).string();
@@ -197,6 +200,7 @@ void verify_image(const ImageFiles& image, const Json& scene, const std::map<int
                   Findings& findings) {
   const std::string where = image.name();
   const Json &truth = image.truth, &info = image.info;
+  verify_camera(image, findings);
   verify_pictures(image, findings);
   std::map<int, const Json*> parts;
   for (const Json& part : scene.at("parts"))
@@ -232,93 +236,6 @@ void verify_image(const ImageFiles& image, const Json& scene, const std::map<int
   }
 }
 
-/// Vertices of the binary PLY files that this project writes: three floats each, first in the file's data.
-std::vector<std::array<double, 3>> read_vertices(const std::string& path) {
-  const std::string bytes = read_file(path), end = "end_header\n", element = "element vertex ";
-  const std::size_t count_at = bytes.find(element), data = bytes.find(end);
-  std::vector<std::array<double, 3>> vertices;
-  if (count_at == std::string::npos || data == std::string::npos) return vertices;
-  const std::size_t count = std::stoul(bytes.substr(count_at + element.size(), 12));
-  const char* at = bytes.data() + data + end.size();
-  if (data + end.size() + count * 12 > bytes.size()) return vertices;
-  for (std::size_t i = 0; i < count; ++i, at += 12) {
-    float v[3];
-    std::memcpy(v, at, sizeof v);
-    vertices.push_back({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
-  }
-  return vertices;
-}
-
-}  // namespace
-
-namespace {
-
-struct Bounds3 {
-  Vec3 lower = Vec3::Constant(1e300), upper = Vec3::Constant(-1e300);
-  explicit Bounds3(const std::vector<std::array<double, 3>>& vertices) {
-    for (const auto& v : vertices) {
-      lower = lower.cwiseMin(Vec3(v[0], v[1], v[2]));
-      upper = upper.cwiseMax(Vec3(v[0], v[1], v[2]));
-    }
-  }
-};
-
-bool info_fits(const Json& model, const std::vector<std::array<double, 3>>& vertices) {
-  const Bounds3 bounds(vertices);
-  const Vec3 size = bounds.upper - bounds.lower;
-  const double diameter = model.value("diameter", 0.0);
-  bool good = !vertices.empty() && diameter >= size.maxCoeff() * 0.999 && diameter <= size.norm() * 1.001 &&
-              std::abs(model.value("size_x", 0.0) - size.x()) < 1e-3 * diameter &&
-              std::abs(model.value("min_z", 0.0) - bounds.lower.z()) < 1e-3 * diameter;
-  for (const Json& symmetry : model.value("symmetries_discrete", Json::array())) {
-    Mat3 turn;
-    for (int i = 0; i < 9; ++i) turn(i / 3, i % 3) = symmetry.at(static_cast<std::size_t>(4 * (i / 3) + i % 3));
-    good &= (turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6;
-  }
-  return good;
-}
-
-std::string model_path(const fs::path& models, const std::string& id) {
-  return (models / ("obj_" + six_digits(std::stoul(id)) + ".ply")).string();
-}
-
-/// models_eval: the same objects, as large, with the same models_info.json.
-void verify_evaluation_models(const fs::path& folder, const Json& info, const std::map<int, BopModel>& models,
-                              Findings& findings) {
-  const auto own = json_in(folder / "models_info.json");
-  findings.expect(own == info, "model_eval", folder.string(), "models_info.json is not that of models");
-  verify_files(folder, findings);
-  for (const auto& [id, model] : models) {
-    const std::string path = model_path(folder, std::to_string(id));
-    const Bounds3 whole(model.vertices), resampled(fs::exists(path) ? read_vertices(path) : decltype(model.vertices)());
-    const double size = (whole.upper - whole.lower).norm();
-    findings.expect((whole.lower - resampled.lower).norm() < evaluation_spacing * size &&
-                        (whole.upper - resampled.upper).norm() < evaluation_spacing * size,
-                    "model_eval", path, "is missing, or has not the size of the model");
-  }
-}
-
-}  // namespace
-
-std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findings) {
-  const fs::path models = folder.root / "bop" / "models";
-  std::map<int, BopModel> all;
-  const auto info = json_in(models / "models_info.json");
-  if (!findings.expect(info.has_value(), "model_info", models.string(), "models_info.json is missing or damaged"))
-    return all;
-  verify_files(models, findings);
-  for (const auto& [key, model] : info->items()) {
-    const std::string path = model_path(models, key);
-    const auto vertices = fs::exists(path) ? read_vertices(path) : std::vector<std::array<double, 3>>();
-    findings.expect(info_fits(model, vertices), "model_info", path, "models_info does not fit the model");
-    all[std::stoi(key)].vertices = vertices;
-  }
-  verify_evaluation_models(folder.root / "bop" / "models_eval", *info, all, findings);
-  return all;
-}
-
-namespace {
-
 /// The JSON files of one sensor.
 struct SensorFiles {
   std::optional<Json> camera, truth, info, coco;
@@ -326,9 +243,9 @@ struct SensorFiles {
 
 SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coco, std::size_t images,
                      Findings& findings) {
-  SensorFiles files{json_in(folder / ("scene_camera" + suffix + ".json")),
-                    json_in(folder / ("scene_gt" + suffix + ".json")),
-                    json_in(folder / ("scene_gt_info" + suffix + ".json")),
+  SensorFiles files{json_map_in(folder / ("scene_camera" + suffix + ".json")),
+                    json_map_in(folder / ("scene_gt" + suffix + ".json")),
+                    json_map_in(folder / ("scene_gt_info" + suffix + ".json")),
                     {}};
   const bool good = files.camera && files.truth && files.info && files.camera->size() == images &&
                     files.truth->size() == images && files.info->size() == images;
@@ -336,7 +253,7 @@ SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coc
                        "JSON files are missing, damaged or of different images"))
     return {};
   if (coco) {
-    files.coco = json_in(folder / ("scene_gt_coco" + suffix + ".json"));
+    files.coco = json_map_in(folder / ("scene_gt_coco" + suffix + ".json"));
     findings.expect(files.coco.has_value() && files.coco->contains("annotations") &&
                         files.coco->value("images", Json::array()).size() == images,
                     "bop_coco", folder.string() + suffix, "scene_gt_coco is missing, damaged or of other images");

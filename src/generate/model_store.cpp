@@ -23,6 +23,8 @@ std::string text_of(double number) {
 std::string key_of(const std::string& path, const std::string& sha256, const LoadOptions& options) {
   std::string key = path + "|" + (options.unit ? name_of(*options.unit) : "-") + "|" + text_of(options.scale) + "|" +
                     (options.thickness ? text_of(*options.thickness) : "-") +
+                    (options.tessellation.chord ? "|" + text_of(*options.tessellation.chord) : "|-") + "|" +
+                    text_of(options.tessellation.angle) + "|" + options.solid +
                     (options.require_closed ? "|closed|" : "|open|");
   if (!sha256.empty()) return key + sha256;
   std::error_code ignored;
@@ -49,7 +51,9 @@ void check_sizes(const LoadedRequest& loaded) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PartLine& line = request.parts[i];
     if (line.fixed && line.unit) continue;  // a floor or a machine bed may well be larger than the bin
-    check_plausible_size(parts[i]->mesh(), request.bin, line.path, line.unit, bin ? &bin->mesh() : nullptr);
+    const LoadReport& file = parts[i]->load_report();
+    const std::optional<Unit> stated = is_cad(file.format) ? std::optional<Unit>(file.unit) : line.unit;
+    check_plausible_size(parts[i]->mesh(), request.bin, line.path, stated, bin ? &bin->mesh() : nullptr);
   }
 }
 
@@ -76,11 +80,7 @@ void ModelStore::load(const Request& request) {
   }
   std::vector<PartModelPtr> parts;
   for (const PartLine& line : request.parts) {
-    LoadOptions options;
-    options.unit = line.unit;
-    options.scale = line.scale;
-    options.thickness = line.thickness;
-    parts.push_back(get(line.path, line.sha256, options));
+    parts.push_back(get(line.path, line.sha256, load_options(line)));
   }
   check_sizes({request, parts, bin});
   keep(std::move(used));

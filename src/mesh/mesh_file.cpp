@@ -5,6 +5,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
+#include "cad.hpp"
 #include "collada.hpp"
 #include "contained.hpp"
 #include "core/read_file.hpp"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t max_triangles = 20'000'000;  // 2 GB in memory
-const char* const formats = "give an STL, OBJ, PLY, DAE or OFF file";
+const char* const formats = "give an STL, OBJ, PLY, DAE, OFF, STEP or IGES file";
 
 /// Refuses what cannot be a model before any of it is read.
 void check_file(const std::string& path) {
@@ -68,13 +69,21 @@ bool is_binary_stl(const std::string& bytes) {
   return count && bytes.size() == 84 + 50 * static_cast<std::size_t>(*count);
 }
 
+/// Lines of 80 characters, of which the 73rd names the section, and the first section is the start.
+bool is_iges(const std::string& bytes) {
+  return bytes.size() > 80 && bytes.find_first_of("\r\n") == 80 && bytes[72] == 'S' &&
+         std::atoi(bytes.substr(73, 7).c_str()) == 1;
+}
+
 std::string format_of_name(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::toupper(c); });
-  for (const char* known : {"STL", "OBJ", "PLY", "DAE", "OFF"}) {
+  for (const char* known : {"STL", "OBJ", "PLY", "DAE", "OFF", "STEP", "IGES"}) {
     if (extension == std::string(".") + known) return known;
   }
+  if (extension == ".STP") return "STEP";
+  if (extension == ".IGS") return "IGES";
   return {};
 }
 
@@ -85,7 +94,9 @@ std::string format_of_content(const std::string& bytes) {
   if (starts_with(start, "ply\n") || starts_with(start, "ply\r")) return "PLY";
   if (start.find("<COLLADA") != std::string::npos) return "DAE";
   if (starts_with(start, "OFF\n") || starts_with(start, "OFF\r") || starts_with(start, "OFF ")) return "OFF";
+  if (is_iges(bytes)) return "IGES";
   const std::size_t first = start.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && start.compare(first, 12, "ISO-10303-21") == 0) return "STEP";
   if (first != std::string::npos && start.compare(first, 5, "solid") == 0 && start.find("facet") != std::string::npos) {
     return "STL";
   }
@@ -361,7 +372,7 @@ void read_asset(const std::string& bytes, const std::string& path, MeshFile& fil
 
 }  // namespace
 
-MeshFile parse_mesh_file(const ModelFile& model) {
+MeshFile parse_mesh_file(const ModelFile& model, const LoadOptions& options) {
   const std::string& path = model.path;
   MeshFile file;
   const std::optional<std::string> text = utf8_from_utf16(model.bytes);
@@ -379,6 +390,13 @@ MeshFile parse_mesh_file(const ModelFile& model) {
   }
   check_promised_counts(bytes, file.format, path);
 
+  if (is_cad(file.format)) {
+    if (content.empty())
+      throw input_error("is named ." + file.format + ", but its contents are not", path, "copy or export it again");
+    return cad::read_contained(bytes, file.format, path, options);
+  }
+  if (!options.solid.empty())
+    throw input_error("'solid' chooses one of a STEP or IGES file, and this is " + file.format, path, "leave it out");
   if (file.format == "DAE") read_asset(bytes, path, file);
   Import import = import_contained(bytes, file.format);
   if (!import.complaint.empty() && file.format == "DAE") {

@@ -1,5 +1,6 @@
 /// A model file as it is: all triangles of all its meshes with node transforms applied, in the file's own unit and
-/// axes, nothing welded or repaired. The only place that sees assimp.
+/// axes, nothing welded or repaired. The only place that sees
+/// assimp.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"
@@ -13,14 +14,15 @@ namespace bin_scenes {
 
 struct MeshFile {
   Mesh mesh;
-  std::string format;  ///< "STL", "OBJ", "PLY", "DAE", "OFF"
+  std::string format;  ///< "STL", "OBJ", "PLY", "DAE", "OFF", "STEP", "IGES"
   std::size_t meshes = 0;
   std::optional<double> metres_per_unit;  ///< where the file states it
+  double tessellation_error = 0.0;        ///< STEP, IGES: largest distance of a triangle from the true surface
   std::vector<Flag> flags;                ///< what had to be repaired in memory, what was left out
 };
 
 /// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where
 /// that can be told), nothing but points or lines.
-MeshFile parse_mesh_file(const ModelFile& file);
+MeshFile parse_mesh_file(const ModelFile& file, const LoadOptions& options);
 
 }  // namespace bin_scenes

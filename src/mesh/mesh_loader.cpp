@@ -36,6 +36,11 @@ void check_options(const LoadOptions& options, const std::string& where) {
   if (options.thickness && !positive(*options.thickness)) {
     throw input_error("thickness is " + number(*options.thickness) + " m", where, "give a thickness above 0");
   }
+  const Tessellation& fine = options.tessellation;
+  if (fine.chord && !positive(*fine.chord))
+    throw input_error("tessellation.chord is " + number(*fine.chord) + " m", where, "give a distance above 0");
+  if (!(fine.angle >= 0.01 && fine.angle <= 1.0))
+    throw input_error("tessellation.angle is " + number(fine.angle) + " rad", where, "give 0.01 to 1");
 }
 
 /// Refuses what no repair can make sense of. Returns the bounding diagonal.
@@ -282,6 +287,16 @@ class Repair {
 
 }  // namespace
 
+LoadOptions load_options(const PartLine& line) {
+  LoadOptions options;
+  options.unit = line.unit;
+  options.scale = line.scale;
+  options.thickness = line.thickness;
+  options.tessellation = line.tessellation;
+  options.solid = line.solid;
+  return options;
+}
+
 LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string& where) {
   check_options(options, where);
   LoadedMesh loaded;
@@ -302,7 +317,7 @@ LoadedMesh load_mesh(const std::string& path, const LoadOptions& options) {
 LoadedMesh load_mesh(const ModelFile& model, const LoadOptions& options) {
   const std::string& path = model.path;
   check_options(options, path);
-  MeshFile file = parse_mesh_file(model);
+  MeshFile file = parse_mesh_file(model, options);
   const double own_unit = file.metres_per_unit.value_or(1.0);
   const double metres = options.unit ? metres_per(*options.unit) : own_unit;
   for (Vec3& v : file.mesh.vertices) v *= metres * options.scale;
@@ -314,6 +329,7 @@ LoadedMesh load_mesh(const ModelFile& model, const LoadOptions& options) {
   report.content_sha256 = model.sha256;
   report.metres_per_unit = metres;
   report.file_metres_per_unit = own_unit;
+  report.tessellation_error = metres * options.scale * file.tessellation_error;
   for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch}) {
     if (std::abs(metres_per(unit) - metres) <= 1e-6 * metres) report.unit = unit;
   }

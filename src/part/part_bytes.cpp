@@ -38,6 +38,7 @@ void for_each_member(Report& r, Each&& each) {
   each(r.unit);
   each(r.metres_per_unit);
   each(r.file_metres_per_unit);
+  each(r.tessellation_error);
   each(r.content_sha256);
 }
 

@@ -17,7 +17,7 @@
 namespace bin_scenes {
 
 /// Raise it whenever a layout below or the way a proxy is made changes: older cache files are then passed over.
-constexpr int part_format = 6;
+constexpr int part_format = 7;
 
 class ByteWriter {
  public:

@@ -10,7 +10,7 @@ namespace {
 
 /// Formats whose geometry is in the one file: only for them do the file's bytes say what the mesh is.
 bool self_contained(const std::string& extension) {
-  for (const char* known : {"stl", "obj", "ply", "dae", "off"}) {
+  for (const char* known : {"stl", "obj", "ply", "dae", "off", "step", "stp", "iges", "igs"}) {
     if (extension == known) return true;
   }
   return false;
@@ -27,7 +27,8 @@ std::string extension_of(const std::string& path) {
 std::string load_key(const ModelFile& file, const std::string& extension, const LoadOptions& o) {
   return file.sha256 + " " + extension + " " + (o.unit ? name_of(*o.unit) : "own") + " " + key_text(o.scale) +
          key_text(o.weld) + key_text(o.max_hole) + (o.thickness ? key_text(*o.thickness) : "solid ") +
-         (o.require_closed ? "closed" : "open");
+         (o.require_closed ? "closed " : "open ") + (o.tessellation.chord ? key_text(*o.tessellation.chord) : "own ") +
+         key_text(o.tessellation.angle) + o.solid;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int tries_per_part = 12;  ///< places tried for a part at each look; the lowest is taken
+constexpr int tries_per_part = 12;  ///< places tried for a part, turned one way, at each look
 constexpr int misses_per_look = 4;  ///< consecutive parts without a place after which a look stops trying
 
 }  // namespace

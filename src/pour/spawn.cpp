@@ -45,6 +45,23 @@ void scatter(const std::array<Vec3, 3>& triangle, const Aabb& bounds, double edg
   for (const Vec3& v : triangle) cells[cell].extend(v);
 }
 
+struct Turned {
+  Quat orientation;
+  Aabb bounds;  ///< of the part turned so, its frame at the origin
+};
+
+/// Uniform among the orientations that fit between the walls; none if that takes too many draws.
+std::optional<Turned> turned_to_fit(const PartModel& part, const Opening& opening, Random& random) {
+  constexpr int draws = 64;
+  const Vec3 room = opening.upper - opening.lower;
+  for (int i = 0; i < draws; ++i) {
+    const Quat orientation = random.orientation();
+    const Aabb bounds = posed_bounds(part, orientation);
+    if (bounds.size().x() <= room.x() && bounds.size().y() <= room.y()) return Turned{orientation, bounds};
+  }
+  return std::nullopt;
+}
+
 /// Height by which ball b must stand above its height now to clear ball a; -infinity if it passes beside it.
 double lift(const Vec3& a, double ra, const Vec3& b, double rb) {
   const double reach = ra + rb, beside = (a - b).head<2>().squaredNorm();
@@ -92,17 +109,17 @@ const std::vector<Vec3>& Rain::balls_of(Obstacle& obstacle) {
 }
 
 std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Random& random, int tries) {
+  // One way round for all tries: the lowest of several would stand and hang where its frame lies low.
+  const auto turned = turned_to_fit(part, opening_, random);
+  if (!turned) return std::nullopt;
+  const auto& [orientation, bounds] = *turned;
+  const Vec3 lower = opening_.lower - bounds.lower, upper = opening_.upper - bounds.upper;
   std::optional<Pose> best;
   std::vector<Vec3> own(shape.balls.size());  // where its balls are, this try
   sort();
   for (int t = 0; t < tries; ++t) {
-    Pose pose;
-    pose.orientation = random.orientation();
     const double u = random.uniform(), v = random.uniform();  // drawn before any test: one try, one set of numbers
-    const Aabb bounds = posed_bounds(part, pose.orientation);
-    const Vec3 lower = opening_.lower - bounds.lower, upper = opening_.upper - bounds.upper;
-    if (lower.x() > upper.x() || lower.y() > upper.y()) continue;  // this way it does not fit between the walls
-    pose.position = {lower.x() + u * (upper.x() - lower.x()), lower.y() + v * (upper.y() - lower.y()), 0.0};
+    Pose pose{{lower.x() + u * (upper.x() - lower.x()), lower.y() + v * (upper.y() - lower.y()), 0.0}, orientation};
 
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
     const Vec3 middle = pose * shape.center;

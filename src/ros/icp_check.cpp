@@ -79,8 +79,16 @@ geometry_msgs::Transform transform_of(const Isometry3d& pose) {
   return t;
 }
 
+bin_scenes::Mesh mesh_of(const std::vector<geometry_msgs::Point>& corners) {
+  bin_scenes::Mesh mesh;
+  for (const geometry_msgs::Point& p : corners) mesh.vertices.emplace_back(p.x, p.y, p.z);
+  for (std::uint32_t v = 0; v + 2 < mesh.vertices.size(); v += 3) mesh.triangles.push_back({v, v + 1, v + 2});
+  return mesh;
+}
+
 /// The mesh that a marker shows, in metres.
 bin_scenes::Mesh mesh_of(const visualization_msgs::Marker& marker) {
+  if (marker.type == visualization_msgs::Marker::TRIANGLE_LIST) return mesh_of(marker.points);
   const resource_retriever::MemoryResource file = resource_retriever::Retriever().get(marker.mesh_resource);
   const std::string bytes(reinterpret_cast<const char*>(file.data.get()), file.size);
   bin_scenes::LoadOptions options;
@@ -188,7 +196,9 @@ class IcpCheck {
   }
 
   Model& model_of(const visualization_msgs::Marker& marker) {
-    const std::string key = marker.mesh_resource + " " + std::to_string(marker.scale.x);
+    std::string key = marker.mesh_resource + " " + std::to_string(marker.scale.x);
+    for (const geometry_msgs::Point& p : marker.points)
+      for (const double x : {p.x, p.y, p.z}) key.append(reinterpret_cast<const char*>(&x), sizeof x);
     const auto known = models_.find(key);
     return known != models_.end() ? known->second : models_.try_emplace(key, marker).first->second;
   }

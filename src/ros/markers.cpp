@@ -24,10 +24,26 @@ Marker marker(const std::string& name, int id, const Pose& pose, const Frames& f
   return m;
 }
 
+/// For RViz, which reads no CAD files: the triangles themselves.
+void set_triangles(Marker& m, const Mesh& mesh) {
+  m.type = Marker::TRIANGLE_LIST;
+  m.scale.x = m.scale.y = m.scale.z = 1.0;
+  m.points.reserve(3 * mesh.triangles.size());
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const Vec3& v = mesh.vertices[corner];
+      geometry_msgs::Point point;
+      point.x = v.x(), point.y = v.y(), point.z = v.z();
+      m.points.push_back(point);
+    }
+  }
+}
+
 /// RViz reads a COLLADA file in the unit that the file states, and any other in metres; what is left to do is `scale`
 /// and the difference to the unit that the request gives.
 void set_mesh(Marker& m, const std::string& model, const PartModel& part, double scale) {
   const LoadReport& file = part.load_report();
+  if (is_cad(file.format)) return set_triangles(m, part.mesh());
   m.type = Marker::MESH_RESOURCE;
   m.mesh_resource = resource_uri(model, part.path());
   m.scale.x = m.scale.y = m.scale.z = scale * file.metres_per_unit / file.file_metres_per_unit;

@@ -152,6 +152,11 @@ Keys part_keys(const msgs::PartLine& part, const std::string& path) {
   keys.optional("friction", part.friction);
   keys.optional("restitution", part.restitution);
   keys.number("thickness", part.thickness);
+  keys.text("solid", part.solid);
+  Keys tessellation(path + ".tessellation");
+  tessellation.number("chord", part.tessellation_chord);
+  tessellation.number("angle", part.tessellation_angle);
+  keys.section("tessellation", tessellation);
   if (!part.poses.empty()) keys.value("poses", values(part.poses));
   if (!part.velocities.empty()) keys.value("velocities", values(part.velocities));
   if (part.fixed) keys.value("fixed", true);

@@ -114,13 +114,23 @@ void visit(Visitor& v, Bin& bin) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, Tessellation& fine) {
+  v.field({"chord", "m", "largest distance of triangles from the surface; left out: 2e-4 of the part's diagonal",
+           above(0.0, 1.0)},
+          fine.chord);
+  v.field({"angle", "rad", "between neighbouring triangles of a curved surface; smaller = finer small fillets",
+           at_least(0.01, 1.0)},
+          fine.angle);
+}
+
+template <class Visitor>
 void visit(Visitor& v, PartLine& part) {
-  v.field(
-      {"model", "",
-       "mesh file: path relative to the request, absolute, or package://name/path; it must be a closed solid: holes "
-       "of at most 2 % of its diagonal around are closed, and the report says so; larger holes are an error unless "
-       "thickness is given"},
-      part.model);
+  v.field({"model", "",
+           "mesh or CAD file (STL, OBJ, PLY, DAE, OFF, STEP, IGES): path relative to the request, absolute, or "
+           "package://name/path; it must be a closed solid: holes "
+           "of at most 2 % of its diagonal around are closed, and the report says so; larger holes are an error unless "
+           "thickness is given"},
+          part.model);
   v.field({"unit", "",
            "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
            "bin, which is an error that names the likely unit"},
@@ -138,6 +148,12 @@ void visit(Visitor& v, PartLine& part) {
           part.restitution);
   v.field({"thickness", "m", "gives an open surface walls of this thickness instead of refusing it", above(0.0, 1.0)},
           part.thickness);
+  v.section(
+      {"tessellation", "", "STEP, IGES: how finely surfaces become triangles", anything, part.tessellation.given()},
+      part.tessellation);
+  v.field({"solid", "", "STEP, IGES: name of the solid to take; left out: all of the file, which must touch", anything,
+           !part.solid.empty()},
+          part.solid);
   v.field({"poses", "m",
            "start poses of the model frame in the bin frame, one a part: [x, y, z, qx, qy, qz, qw]; needed by "
            "pour.pattern given and by fixed parts",

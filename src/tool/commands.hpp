@@ -24,14 +24,15 @@ struct GenerateOptions {
 int generate(const GenerateOptions& options);
 
 struct InspectOptions {
-  std::string model, unit;
-  std::string hulls;  ///< OBJ file for the convex hulls; empty = none
+  std::string model, unit, solid;
+  std::optional<double> chord, angle;  ///< m, rad
+  std::string hulls;                   ///< OBJ file for the convex hulls; empty = none
   bool json = false;
 };
 int inspect(const InspectOptions& options);
 
 struct SymmetriesOptions {
-  std::string model, unit;
+  std::string model, unit, solid;
   std::optional<double> tolerance_mm;  ///< none: a hundredth of the part's size
   std::string picture;                 ///< PNG file; empty: none
   bool json = false;

@@ -2,6 +2,7 @@
 /// without OpenGL.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/cache.hpp"
 #include "bin_scenes/pour/pour.hpp"
@@ -114,6 +115,11 @@ void test_solver(const char* name, SolverType type, SolverSettings::Preset prese
   }
 }
 
+void report_cad() {
+  line("cad", reads_cad(), reads_cad() ? "STEP and IGES are read" : "STEP and IGES are not read by this build",
+       "install libocct-data-exchange-dev and build again, or export STL files");
+}
+
 void report_ros() {
   const char* distribution = std::getenv("ROS_DISTRO");
   const char* packages = std::getenv("ROS_PACKAGE_PATH");
@@ -145,6 +151,7 @@ int doctor() {
   test_solver("bullet", SolverType::bullet, SolverSettings::Preset::standard);
   test_solver("sphere", SolverType::sphere, SolverSettings::Preset::standard);
   test_solver("sphere/thesis", SolverType::sphere, SolverSettings::Preset::thesis);
+  report_cad();
   report_ros();
   report_cache();
   return gl ? exit_done : static_cast<int>(ErrorKind::environment);

@@ -56,6 +56,7 @@ Json file_json(const LoadReport& report) {
       {"format", report.format},        {"unit", unit_text(report)},        {"metres_per_unit", report.metres_per_unit},
       {"meshes", report.meshes},        {"vertices", report.file_vertices}, {"triangles", report.file_triangles},
       {"sha256", report.content_sha256}};
+  if (report.tessellation_error > 0.0) json["tessellation_error"] = report.tessellation_error;
   Json& flags = json["flags"] = Json::array();
   for (const Flag& flag : report.flags) {
     flags.push_back({{"code", flag.code}, {"text", flag.text}, {"remedy", flag.remedy}});
@@ -128,6 +129,9 @@ Json inspection(const InspectOptions& options) {
     }
     if (!load.unit) throw input_error("unknown unit '" + options.unit + "'", "--unit", "m, cm, mm or inch");
   }
+  load.solid = options.solid;
+  load.tessellation.chord = options.chord;
+  if (options.angle) load.tessellation.angle = *options.angle;
   const std::string cache = Cache::global().directory();
   const std::size_t before = files_below(cache);
   const PartModelPtr part = PartModel::load(options.model, load);
@@ -174,6 +178,10 @@ void print_text(const Json& j) {
               j["file"]["unit"].get<std::string>().c_str());
   std::printf("mesh        %zu vertices, %zu triangles, %zu shells\n", j["vertices"].get<std::size_t>(),
               j["triangles"].get<std::size_t>(), j["shells"].get<std::size_t>());
+  if (j["file"].contains("tessellation_error"))
+    std::printf("triangles   at most %.3g mm (%.2g %% of the diagonal) from the true surface\n",
+                1000 * number(j["file"]["tessellation_error"]),
+                100 * number(j["file"]["tessellation_error"]) / number(j["diagonal"]));
   for (const Json& flag : j["file"]["flags"]) {
     std::printf("flag        %s (%s)\n", flag["text"].get<std::string>().c_str(),
                 flag["remedy"].get<std::string>().c_str());

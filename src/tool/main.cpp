@@ -72,15 +72,19 @@ void add_audit(CLI::App& app, AuditOptions& o) {
 }
 
 void add_inspect(CLI::App& app, InspectOptions& o) {
-  app.add_option("MODEL", o.model, "mesh file")->required();
+  app.add_option("MODEL", o.model, "mesh or CAD file")->required();
   app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
+  app.add_option("--solid", o.solid, "of a STEP or IGES file with several");
+  app.add_option("--chord", o.chord, "m: largest distance of triangles from the surface of a STEP or IGES file");
+  app.add_option("--angle", o.angle, "rad: between neighbouring triangles of its curved surfaces");
   app.add_option("--hulls", o.hulls, "OBJ file to write the convex hulls to, an object each (m)");
   app.add_flag("--json", o.json, "as JSON");
 }
 
 void add_symmetries(CLI::App& app, SymmetriesOptions& o) {
-  app.add_option("PART", o.model, "mesh file")->required();
+  app.add_option("PART", o.model, "mesh or CAD file")->required();
   app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
+  app.add_option("--solid", o.solid, "of a STEP or IGES file with several");
   app.add_option("--tolerance", o.tolerance_mm,
                  "mm that surfaces may lie apart; left out: a hundredth of the part's size");
   app.add_option("--picture", o.picture, "PNG file of the part with its axes");

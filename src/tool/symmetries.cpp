@@ -18,8 +18,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double millimetres = 1e3;
 
-LoadOptions load_options(const std::string& unit) {
+LoadOptions options_of(const std::string& unit, const std::string& solid) {
   LoadOptions load;
+  load.solid = solid;
   load.require_closed = false;
   if (unit.empty()) return load;
   for (const Unit known : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
@@ -71,7 +72,7 @@ void print(const PartModel& part, const SymmetryReport& report) {
 }  // namespace
 
 int symmetries(const SymmetriesOptions& options) {
-  const PartModelPtr part = PartModel::load(options.model, load_options(options.unit));
+  const PartModelPtr part = PartModel::load(options.model, options_of(options.unit, options.solid));
   if (options.tolerance_mm && !(*options.tolerance_mm > 0.0 && *options.tolerance_mm < millimetres * part->diagonal()))
     throw input_error(
         "must be above 0 and below the part's size, " + std::to_string(millimetres * part->diagonal()) + " mm",

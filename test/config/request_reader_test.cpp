@@ -37,6 +37,8 @@ parts:
     friction: 0.3
     restitution: 0.05
     thickness: 0.001
+    tessellation: {chord: 0.0001, angle: 0.3}
+    solid: "pin#2"
     poses:
       - [0.1, 0.2, 0.3, 0, 0, 0, 1]
       - {position: [0, 0, 0.1], orientation_xyzw: [0.6, 0, 0, 0.8]}
@@ -113,6 +115,9 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(p.friction, 0.3);
   EXPECT_EQ(p.restitution, 0.05);
   EXPECT_EQ(p.thickness, 0.001);
+  EXPECT_EQ(p.tessellation.chord, 1e-4);
+  EXPECT_EQ(p.tessellation.angle, 0.3);
+  EXPECT_EQ(p.solid, "pin#2");
   ASSERT_EQ(p.poses.size(), 2u);
   EXPECT_EQ(p.poses[0].position, Vec3(0.1, 0.2, 0.3));
   EXPECT_NEAR(p.poses[1].orientation.x(), 0.6, 1e-15);

@@ -3,8 +3,12 @@
 
     industrial_test.py TOOL
 """
+import csv
 import json
+import re
 import shutil
+import subprocess
+import sys
 
 import numpy as np
 from PIL import Image
@@ -134,6 +138,43 @@ class Industrial(DataSetTest):
         self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "out").stdout)
         request = (self.folder / "out/scenes/scene_000000/request.yaml").read_text()
         self.assertEqual(request.count('view_of: "camera"'), 5)
+
+    def test_views_of_another_sensor_are_looked_at_together_with_the_evaluated_one(self):
+        root = self.made(bop="bop: {layout: industrial}", scenes=1, outputs="json, bop",
+                         side="    - {name: side, width: 64, height: 48, views: {count: 3, distance: 0.5, tilt: 0.5}}")
+        self.assertEqual(load(root / "test_targets_multiview_bop25.json"),
+                         [{"im_id": [["camera", 0], ["side", 0], ["side", 1], ["side", 2]], "scene_id": 0}])
+
+    def test_the_toy_estimator_is_scored(self):
+        self.made(camera="    - {name: camera, width: 480, height: 360, fov: 0.6, pose: [0, 0, 0.6, 1, 0, 0, 0]}")
+        results = self.folder / "toy_mybins-test_pose.csv"
+
+        def scores(move):
+            done = subprocess.run(
+                [sys.executable, data_set.ROOT / "python/examples/toy_estimator.py", self.folder / "out/bop", "--sensor", "camera",
+                 "--move", str(move), "--turn", str(move), "--out", results],
+                capture_output=True, text=True, env={"PYTHONPATH": str(data_set.ROOT / "python")})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return [float(score) for score in re.findall(r"score ([0-9.]+)", done.stdout)]
+        start, found = scores(5)
+        self.assertGreater(found, start + 0.1)
+        self.assertGreater(found, 0.9)
+        start, found = scores(0)
+        self.assertEqual(start, 1)
+        self.assertGreater(found, 0.95)
+        with open(results, newline="") as file:
+            rows = list(csv.DictReader(file))
+        truth = [part for split, scene in self.scenes(self.folder / "out/bop") if split == "test"
+                 for part in load(scene / "scene_gt_camera.json")["0"]]
+        self.assertEqual([int(row["obj_id"]) for row in rows], [part["obj_id"] for part in truth])
+        for row in rows:
+            turn = np.array(row["R"].split(), float).reshape(3, 3)
+            np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-6)
+        missing = subprocess.run([sys.executable, data_set.ROOT / "python/examples/toy_estimator.py", self.folder / "out/bop",
+                                  "--sensor", "camera", "--split", "tset"], capture_output=True, text=True,
+                                 env={"PYTHONPATH": str(data_set.ROOT / "python")})
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("there are: test, train_pbr", missing.stderr)
 
     def test_tif_of_every_modality_is_what_png_is(self):
         png = self.made()
@@ -275,6 +316,10 @@ CORRUPTIONS = [
     ("bop_image", lambda root: shutil.copy(root / SCENE / "gray_side/000000.png", root / SCENE / "depth_side/000000.png")),
     ("bop_mask_there", drop(SCENE + "mask_side/000000_000000.png")),
     ("bop_pose", change(SCENE + "scene_gt_side.json", lambda t: t["0"][0].update(cam_t_m2c=[0, 0, 500]))),
+    ("bop_camera", change(SCENE + "scene_camera_side.json", lambda c: c["0"]["cam_K"].__setitem__(2, 30.5))),
+    ("bop_camera", change(SCENE + "scene_camera_side.json", lambda c: c["0"].update(depth_scale=1))),
+    ("bop_camera", change(SCENE + "scene_camera_camera.json", lambda c: c["0"]["cam_t_w2c"].__setitem__(0, 1))),
+    ("bop_camera", change(SCENE + "scene_camera_camera.json", lambda c: c["0"].update(cam_R_w2c=[1, 0, 0, 0, 1, 0, 0, 0, 1]))),
     ("bop_root", change("bop/camera_side.json", lambda c: c.update(fx=1))),
     ("bop_root", drop("bop/camera.json")),
     ("bop_root", change("bop/dataset_info.json", lambda d: d.update(targets="val"))),

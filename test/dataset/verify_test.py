@@ -164,6 +164,7 @@ CORRUPTIONS = [
     ("bop_parts", bop("scene_gt", lambda gt: gt.pop())),
     ("bop_rotation", bop("scene_gt", lambda gt: gt[0].update(cam_R_m2c=[-x for x in gt[0]["cam_R_m2c"]]))),
     ("bop_pose", bop("scene_gt", lambda gt: gt[0].update(cam_t_m2c=[x + 1 for x in gt[0]["cam_t_m2c"]]))),
+    ("bop_camera", lambda root: edit_json(root / (BOP + "scene_camera.json"), lambda cameras: cameras["0"].update(depth_scale=3))),
     ("bop_object", bop("scene_gt", lambda gt: gt[0].update(obj_id=77))),
     ("bop_image", remove(BOP + "depth/000000.png")),
     ("bop_mask_there", remove(BOP + "mask_visib/000000_000000.png")),

@@ -3,6 +3,10 @@
 #include "box_mesh.hpp"
 #include "dae.hpp"
 
+#ifdef MARKERS_TEST_CAD
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <STEPControl_Writer.hxx>
+#endif
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -70,6 +74,31 @@ TEST_F(Markers, PartsAreDrawnAsLargeAsTheyAre) {
     EXPECT_EQ(part.scale.x, part.scale.z);
   }
 }
+
+#ifdef MARKERS_TEST_CAD
+TEST_F(Markers, PartsOfCadFilesAreDrawnAsTriangles) {
+  STEPControl_Writer writer;
+  writer.Transfer(BRepPrimAPI_MakeBox(30.0, 20.0, 10.0).Shape(), STEPControl_AsIs);
+  const std::string file = (folder_ / "box.step").string();
+  ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
+  Request request;
+  request.parts.emplace_back();
+  request.parts[0].scale = 2.0;
+  LoadOptions options;
+  options.scale = 2.0;
+  Scene scene;
+  scene.parts.emplace_back();
+  const auto markers =
+      scene_markers(scene, request, {PartModel::load(file, options)}, nullptr, Frames(), stamp).markers;
+  const auto& part = markers.back();
+  EXPECT_EQ(part.type, visualization_msgs::Marker::TRIANGLE_LIST);
+  EXPECT_TRUE(part.mesh_resource.empty());
+  ASSERT_EQ(part.points.size(), 36u);
+  double longest = 0.0;
+  for (const auto& p : part.points) longest = std::max(longest, p.x);
+  EXPECT_NEAR(longest * part.scale.x, 0.06, 1e-9);
+}
+#endif
 
 TEST_F(Markers, ABinOfAMeshIsDrawnWhereAndAsLargeAsItIs) {
   for (const Case& c : cases_) {

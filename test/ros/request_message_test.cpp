@@ -132,6 +132,19 @@ parts:
   EXPECT_NE(error_of(m).find("parts[0].surface.albedo"), std::string::npos) << error_of(m);
 }
 
+TEST(RequestMessage, CadFilesAreChosenFromAndRefinedAsInAFile) {
+  msgs::SceneRequest m = one_bolt();
+  m.parts[0].solid = "pin#2";
+  m.parts[0].tessellation_chord = 1e-4;
+  m.parts[0].tessellation_angle = 0.1;
+  const Request request = request_from(m, all_rules);
+  EXPECT_EQ(request.parts[0].solid, "pin#2");
+  EXPECT_EQ(request.parts[0].tessellation.chord, 1e-4);
+  EXPECT_EQ(request.parts[0].tessellation.angle, 0.1);
+  m.parts[0].tessellation_angle = 2.0;
+  EXPECT_NE(error_of(m).find("parts[0].tessellation.angle"), std::string::npos) << error_of(m);
+}
+
 TEST(RequestMessage, BinsOfEveryKind) {
   msgs::SceneRequest m = one_bolt();
   m.bin.kind = "floor";

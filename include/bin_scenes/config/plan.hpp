@@ -34,6 +34,8 @@ struct PlanObject {
   std::optional<Unit> unit;
   double scale = 1.0;
   std::optional<double> thickness;
+  Tessellation tessellation;
+  std::string solid;
   /// Axes (model frame) about which the part looks the same at any angle, and rotations after which it does; given by
   /// the plan instead of being looked for on the mesh.
   std::optional<std::vector<Vec3>> continuous;

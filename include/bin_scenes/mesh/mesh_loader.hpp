@@ -1,6 +1,7 @@
-/// From a model file (STL, OBJ, PLY, DAE, OFF) to one closed, outward-oriented mesh in metres.
-/// Coordinates stay in the file's own axes, whatever axis a DAE calls up (RViz, MoveIt and Gazebo do the same), so
-/// that a pose of the part fits a marker of its file; a flag says so. A DAE's own unit is honoured unless one is given.
+/// From a model file (STL, OBJ, PLY, DAE, OFF; STEP and IGES where OpenCASCADE was there) to one closed,
+/// outward-oriented mesh in metres. Coordinates stay in the file's own axes, whatever axis a DAE calls up (RViz, MoveIt
+/// and Gazebo do the same), so that a pose of the part fits a marker of its file; a flag says so. A DAE's own unit is
+/// honoured unless one is given.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"
@@ -18,13 +19,23 @@ namespace bin_scenes {
 constexpr std::uintmax_t max_model_file_size = std::uintmax_t{1} << 30;
 
 struct LoadOptions {
-  std::optional<Unit> unit;         ///< none: metres (or the file's own unit where the format states one, as DAE does)
+  std::optional<Unit> unit;         ///< none: metres (or the file's own unit where the format states one)
   double scale = 1.0;               ///< multiplies after the unit
   double weld = 1e-6;               ///< vertices closer than this / diagonal are one
   double max_hole = 0.02;           ///< holes with a perimeter below this / diagonal are closed (1 = every hole)
   std::optional<double> thickness;  ///< m: an open surface becomes a shell of this thickness
+  Tessellation tessellation;        ///< STEP, IGES
+  std::string solid;                ///< STEP, IGES: the one to take, by name; empty: all, which must touch
   bool require_closed = true;       ///< false: report openness instead of throwing (inspect, bins)
 };
+
+/// What a part line says of its file.
+LoadOptions load_options(const PartLine& line);
+
+/// Whether this build reads STEP and IGES.
+bool reads_cad();
+/// Whether LoadReport::format is one of these two.
+bool is_cad(const std::string& format);
 
 /// A model file, read once: what its digest says is what becomes of it, whoever writes to the file meanwhile.
 struct ModelFile {
@@ -36,7 +47,7 @@ struct ModelFile {
 /// Findings in the file, and the repairs.
 struct LoadReport {
   std::string format;
-  std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;
+  std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;  ///< meshes: solids, of STEP and IGES
   std::size_t welded_vertices = 0, degenerate_removed = 0, duplicate_removed = 0, holes_closed = 0;
   std::size_t t_junctions_split = 0;  ///< vertices inserted into long edges that met several short ones
   std::size_t turned = 0;             ///< triangles whose winding disagreed with their neighbours'
@@ -46,9 +57,11 @@ struct LoadReport {
   bool closed = false;                ///< after repair
   Unit unit = Unit::metre;            ///< the one used, where it has a name
   double metres_per_unit = 1.0;       ///< the one used, scale not included
-  double file_metres_per_unit = 1.0;  ///< the one that the file states (DAE); 1 where its format states none
-  std::vector<Flag> flags;            ///< one per repair; plain welding of equal vertices is none
-  std::string content_sha256;         ///< of the file's bytes
+  double file_metres_per_unit =
+      1.0;                          ///< the one that the file states (DAE, STEP, IGES); 1 where its format states none
+  double tessellation_error = 0.0;  ///< m; STEP, IGES: largest distance of a triangle from the true surface
+  std::vector<Flag> flags;          ///< one per repair; plain welding of equal vertices is none
+  std::string content_sha256;       ///< of the file's bytes
 };
 
 struct LoadedMesh {

@@ -52,6 +52,13 @@ struct Bin {
 };
 
 /// One line of `parts`: `count` copies of one model.
+/// How finely the surfaces of a STEP or IGES file become triangles.
+struct Tessellation {
+  std::optional<double> chord;  ///< m between triangles and surface; none: 2e-4 of the part's diagonal
+  double angle = 0.2;           ///< rad between neighbouring triangles of a curved surface
+  bool given() const { return chord || angle != Tessellation().angle; }
+};
+
 struct PartLine {
   std::string model;         ///< path as written by the user
   std::string path;          ///< resolved absolute path; filled by the reader
@@ -64,6 +71,8 @@ struct PartLine {
   double friction = 0.5;
   double restitution = 0.1;
   std::optional<double> thickness;  ///< m: gives an open surface this wall thickness instead of refusing it
+  Tessellation tessellation;        ///< of a STEP or IGES file
+  std::string solid;                ///< of a STEP or IGES file: the one to take, by name
   std::vector<Pose> poses;          ///< given start poses of the model frame in the bin frame; size = count or empty
   std::vector<Twist> velocities;    ///< given start velocities; empty = at rest
   bool fixed = false;               ///< an obstacle: stays at its given pose, or follows its motion

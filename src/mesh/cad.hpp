@@ -1,0 +1,25 @@
+/// STEP and IGES files, made triangles by OpenCASCADE. It works in a contained process, as assimp does.
+#pragma once
+
+#include "mesh_file.hpp"
+
+namespace bin_scenes::cad {
+
+/// What a contained process hands back.
+struct Solids {
+  std::string complaint, remedy;   ///< empty if the file was read
+  Mesh mesh;                       ///< in the file's own unit
+  std::uint64_t count = 0;         ///< solids in the file
+  double metres_per_unit = 0.001;  ///< as the file states it
+  double error = 0.0;              ///< largest distance of a triangle from the true surface, in the file's own unit
+  std::vector<Flag> flags;
+};
+
+/// In this process; `read_contained` is what protects from a crash or an endless loop.
+Solids read_here(const std::string& bytes, const std::string& format, const LoadOptions& options);
+
+/// Throws an input Error as parse_mesh_file().
+MeshFile read_contained(const std::string& bytes, const std::string& format, const std::string& path,
+                        const LoadOptions& options);
+
+}  // namespace bin_scenes::cad
