@@ -71,7 +71,7 @@ TEST(Rain, PartsOfAHeapEnterTurnedUniformly) {
       }
     };
     const auto solver = make_bullet_solver({});
-    pour(request, {bolt()}, *solver, {index}, hooks);
+    pour({request, {bolt()}}, *solver, {index}, hooks);
   }
   ASSERT_EQ(heights.size(), 200u) << "some never entered";
   EXPECT_LT(chi_squared(heights), unlikely);

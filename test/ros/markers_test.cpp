@@ -89,7 +89,7 @@ TEST_F(Markers, PartsOfCadFilesAreDrawnAsTriangles) {
   Scene scene;
   scene.parts.emplace_back();
   const auto markers =
-      scene_markers(scene, request, {PartModel::load(file, options)}, nullptr, Frames(), stamp).markers;
+      scene_markers(scene, {request, {PartModel::load(file, options)}}, Frames(), stamp).markers;
   const auto& part = markers.back();
   EXPECT_EQ(part.type, visualization_msgs::Marker::TRIANGLE_LIST);
   EXPECT_TRUE(part.mesh_resource.empty());
