@@ -61,6 +61,7 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
     image.normal.push_back(valid ? profiles.normals[i] : no_normal);
   }
   image.intensity = std::move(profiles.intensity);
+  image.snr = std::move(profiles.snr);
   image.points = std::move(profiles.points);
   image.truth_normal = std::move(view.normal);  // the others are of profiles, not of the camera's image
   add_truth(image, std::move(view));

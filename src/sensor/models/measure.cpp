@@ -16,6 +16,9 @@ RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, co
   RangeImage image = sensor_model(sensor.model).measure(scenery, std::move(view), sensor, surfaces, draw);
   image.sensor = sensor;
   if (image.width == 0) image.width = sensor.width, image.height = sensor.height;
+  image.snr.resize(image.validity.size(), 0.0f);  // a model need not predict its noise
+  for (std::size_t i = 0; i < image.snr.size(); ++i)
+    if (image.validity[i] != static_cast<std::uint8_t>(Validity::valid)) image.snr[i] = 0.0f;
   return image;
 }
 
