@@ -1,3 +1,4 @@
+#include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <utility>
@@ -19,6 +20,7 @@ RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, co
   image.snr.resize(image.validity.size(), 0.0f);  // a model need not predict its noise
   for (std::size_t i = 0; i < image.snr.size(); ++i)
     if (image.validity[i] != static_cast<std::uint8_t>(Validity::valid)) image.snr[i] = 0.0f;
+  filter(sensor.settings.of<FilterSettings>(), image);
   return image;
 }
 
