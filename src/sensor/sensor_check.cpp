@@ -64,6 +64,9 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   if (sensor.bounces.value_or(0) > 0 && !sensor_model(sensor.model).indirect)
     throw input_error("indirect light is no part of model " + sensor.model, key + ".bounces",
                       "leave it out; models that see such light: " + names_of(&SensorModel::indirect));
+  if (sensor.settings.of<CalibrationSettings>().any() && sensor_model(sensor.model).exact)
+    throw input_error("model " + sensor.model + " measures the truth, whatever its calibration", key + ".calibration",
+                      "leave it out, or take another model");
   for (const SensorModel* model : sensor_models())
     if (model->check) model->check(sensor, key);
   if (!(sensor.far >= sensor.near)) throw input_error("is nearer than near", key + ".far", "m, beyond near");
