@@ -94,10 +94,11 @@ TEST(Snr, OfTimeOfFlightIsDepthOverItsNoise) {
 
 TEST(Snr, OfStereoIsThatOfTheGreyValue) {
   Sensor sensor = device("stereo");
+  sensor.projector.width = 200, sensor.projector.height = 150;  // made anew for each image
   const auto& s = sensor.settings.of<StereoSettings>();
   const double full = std::sqrt(Imager(sensor.imager, true).variance(1.0)), scale = lens_of(sensor).fx * s.baseline;
   // Pixels so far apart that their windows share nothing.
-  squares_of_depth(shots(sensor, 60), 14, [&](std::size_t, std::size_t, double snr) {
+  squares_of_depth(shots(sensor, 200), 14, [&](std::size_t, std::size_t, double snr) {
     return std::hypot(s.disparity_noise / (full * snr), 1.0 / 16.0 / std::sqrt(12.0)) / scale;
   }).expect_one("analytic");
 }
