@@ -49,6 +49,11 @@ class Sample:
         return read_tiff(self.raw("gray.tiff"))
 
     @property
+    def snr(self):
+        """Signal over the noise that the sensor's model predicts, float32, to 0.05; 0 where nothing was measured."""
+        return read_png(self.raw("snr.png")).astype(np.float32) / np.float32(10)
+
+    @property
     def labels(self):
         """What is truly seen, measured or not: 0 background and bin, id + 1 a part; uint16."""
         return read_png(self.raw("truth_labels.png"))

@@ -15,9 +15,9 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* files_of_image[] = {"camera.json",     "depth.png",        "gray.tiff",
-                                          "gt.json",         "gt_info.json",     "mask.json",
-                                          "mask_visib.json", "truth_labels.png", "truth_normal.png"};
+constexpr const char* files_of_image[] = {"camera.json",      "depth.png",       "gray.tiff",       "gt.json",
+                                          "gt_info.json",     "mask.json",       "mask_visib.json", "snr.png",
+                                          "truth_labels.png", "truth_normal.png"};
 
 void verify_run_lengths(const std::string& key, const std::map<std::string, std::string>& files,
                         const std::string& where, Findings& findings) {
@@ -65,9 +65,10 @@ bool labels_agree(const Json& truth, const Json& masks, const LoadedImage& label
 
 void verify_shard_images(const std::string& key, const std::map<std::string, std::string>& files, bool by_truth,
                          const std::string& where, Findings& findings) {
-  LoadedImage depth, labels, normals;
+  LoadedImage depth, snr, labels, normals;
   try {
     depth = png_from(files.at("depth.png"), where + ", " + key + ".depth.png");
+    snr = png_from(files.at("snr.png"), where + ", " + key + ".snr.png");
     labels = png_from(files.at("truth_labels.png"), where + ", " + key + ".truth_labels.png");
     normals = png_from(files.at("truth_normal.png"), where + ", " + key + ".truth_normal.png");
   } catch (const Error& error) {
@@ -78,8 +79,8 @@ void verify_shard_images(const std::string& key, const std::map<std::string, std
     return image.width == depth.width && image.height == depth.height;
   };
   const std::string image = where + ", " + key;
-  if (!findings.expect(same(labels) && same(normals) && normals.channels == 3, "shard_images", image,
-                       "depth, labels and normals have different sizes"))
+  if (!findings.expect(same(snr) && same(labels) && same(normals) && normals.channels == 3, "shard_images", image,
+                       "depth, SNR, labels and normals have different sizes"))
     return;
   if (by_truth)
     findings.expect(labels_agree(Json::parse(files.at("gt.json")), Json::parse(files.at("mask_visib.json")), labels),

@@ -11,14 +11,14 @@ namespace bin_scenes {
 
 namespace {
 
-/// A point as it lies in a file, little-endian; a byte of validity lies between its two halves.
+/// A point as it lies in a file, little-endian; a byte of validity lies between its two halves, the SNR at its end.
 struct Measured {
   std::array<float, 3> position, normal;
   float intensity;
   std::uint32_t label;
 };
 using TrueNormal = std::array<float, 3>;
-constexpr std::size_t point_bytes = sizeof(Measured) + 1 + sizeof(TrueNormal);
+constexpr std::size_t point_bytes = sizeof(Measured) + 1 + sizeof(TrueNormal) + sizeof(float);
 static_assert(sizeof(Measured) == 32 && sizeof(TrueNormal) == 12, "no padding");
 
 struct Field {
@@ -37,7 +37,8 @@ constexpr Field fields[] = {{"x", "x", "float"},
                             {"validity", "validity", "uchar"},
                             {"truth_normal_x", "truth_nx", "float"},
                             {"truth_normal_y", "truth_ny", "float"},
-                            {"truth_normal_z", "truth_nz", "float"}};
+                            {"truth_normal_z", "truth_nz", "float"},
+                            {"snr", "snr", "float"}};
 
 /// Position, then quaternion w x y z.
 std::string pose_text(const Pose& pose) {
@@ -60,6 +61,7 @@ void write_points(const std::string& path, const std::string& header, const Rang
     std::memcpy(at, &point, sizeof point);
     at[sizeof point] = static_cast<char>(image.validity[i]);
     std::memcpy(at + sizeof point + 1, &image.normal[i], sizeof(TrueNormal));
+    std::memcpy(at + sizeof point + 1 + sizeof(TrueNormal), &image.snr[i], sizeof(float));
   }
   write_bytes(path, bytes.get(), size);
 }

@@ -91,7 +91,8 @@ struct Code {
 /// By Validity.
 constexpr Code codes[] = {{"valid", {205, 210, 205}},   {"nothing", {255, 255, 255}}, {"shadow", {70, 75, 95}},
                           {"outside", {150, 165, 200}}, {"dark", {120, 70, 30}},      {"saturated", {250, 210, 40}},
-                          {"mixed", {225, 60, 50}},     {"decoding", {170, 60, 190}}, {"unmatched", {30, 150, 190}}};
+                          {"mixed", {225, 60, 50}},     {"decoding", {170, 60, 190}}, {"unmatched", {30, 150, 190}},
+                          {"outlier", {190, 20, 110}}};
 
 }  // namespace
 

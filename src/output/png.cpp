@@ -91,6 +91,15 @@ std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double
   return samples;
 }
 
+std::vector<std::uint16_t> counted_snr(const std::vector<float>& snr) {
+  std::vector<std::uint16_t> samples(snr.size());
+  std::transform(snr.begin(), snr.end(), samples.begin(), [](float ratio) {
+    return ratio > 0.0f ? static_cast<std::uint16_t>(std::clamp(10.0f * ratio + 0.5f, 1.0f, 65535.0f))
+                        : std::uint16_t{0};
+  });
+  return samples;
+}
+
 std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals) {
   std::vector<std::uint8_t> samples;
   samples.reserve(3 * normals.size());
@@ -117,6 +126,7 @@ void write_pngs(const std::string& directory, const RangeImage& image) {
   write_bytes(base + "_labels.png", labels);
   write_bytes(base + "_truth_labels.png",
               image.truth_label.empty() ? labels : png16(sensor.width, sensor.height, image.truth_label));
+  write_bytes(base + "_snr.png", png16(image.width, image.height, counted_snr(image.snr)));
   write_bytes(base + "_validity.png", png8(image.width, image.height, 1, image.validity));
   write_bytes(base + ".png", png8(image.width, image.height, 3, shaded_picture(image)));
   write_bytes(base + "_depth_picture.png", png_of(depth_picture(image)));

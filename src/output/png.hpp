@@ -27,6 +27,9 @@ Bytes png_of(const Palette& picture);
 /// Depth in counts of the sensor's depth_scale, 0 where nothing is valid, 65535 where it is that many or more.
 std::vector<std::uint16_t> counted_depth(const std::vector<float>& depth, double scale);
 
+/// Tenths of the SNR, 0 where it is 0, 65535 where it is that many tenths or more.
+std::vector<std::uint16_t> counted_snr(const std::vector<float>& snr);
+
 /// Three channels of 8 bits: n = value / 127.5 - 1; black where there is nothing.
 std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>>& normals);
 

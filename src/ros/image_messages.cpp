@@ -21,10 +21,10 @@ namespace {
 
 /// One point as it lies in the cloud's data.
 struct Point {
-  float x, y, z, normal_x, normal_y, normal_z, intensity;
+  float x, y, z, normal_x, normal_y, normal_z, intensity, snr;
   std::uint32_t label;
 };
-static_assert(sizeof(Point) == 32);
+static_assert(sizeof(Point) == 36);
 
 sensor_msgs::PointField field(const char* name, std::size_t offset, std::uint8_t type) {
   sensor_msgs::PointField f;
@@ -96,6 +96,7 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
                     field("normal_y", offsetof(Point, normal_y), Field::FLOAT32),
                     field("normal_z", offsetof(Point, normal_z), Field::FLOAT32),
                     field("intensity", offsetof(Point, intensity), Field::FLOAT32),
+                    field("snr", offsetof(Point, snr), Field::FLOAT32),
                     field("label", offsetof(Point, label), Field::UINT32)};
   message.is_bigendian = false;
   message.is_dense = false;
@@ -109,7 +110,8 @@ sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::
       const std::size_t pixel = std::size_t(row) * image.width + column;
       const auto& p = points[pixel];
       const auto& n = normals[pixel];
-      const Point point = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.label[pixel]};
+      const Point point = {
+          p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[pixel], image.snr[pixel], image.label[pixel]};
       std::memcpy(out, &point, sizeof point);
       out += sizeof point;
     }

@@ -23,8 +23,8 @@ struct ImageMessages {
 
 ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, const std::string& frame_prefix = "");
 
-/// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity (float32) label (uint32);
-/// NaN where nothing was seen (REP 117), hence not dense.
+/// Organised cloud in the optical frame: fields x y z normal_x normal_y normal_z intensity snr (float32) label
+/// (uint32); NaN where nothing was seen (REP 117), hence not dense.
 sensor_msgs::PointCloud2 cloud_message(const RangeImage& image, const std_msgs::Header& header);
 /// The same with a field `rgb` (float32 that holds 0x00rrggbb, as PCL and RViz read it): each part in the colour of its
 /// marker, the bin in grey.

@@ -1,6 +1,7 @@
 /// Shows a sensor balls and plates over its field of view, with the models that scenes use, and fits what it measured.
 #include "bin_scenes/sensor/metrics.hpp"
 
+#include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "sensor/fit.hpp"
@@ -44,8 +45,11 @@ Sensor at_origin(const Sensor& sensor) {
 
 RangeImage shot(const Sensor& sensor, Targets& targets, std::size_t index) {
   const Scenery scenery = targets.scenery();
-  return measure(scenery, render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far), sensor,
-                 targets.surfaces(), {0, index, 0});
+  const Sensor device = true_device({sensor}, 0, 0);
+  RangeImage image = measure(scenery, render(scenery, lens_of(device), *device.pose, sensor.near, sensor.far), device,
+                             targets.surfaces(), {0, index, 0});
+  report_as_believed(image, device, sensor);
+  return image;
 }
 
 /// Valid points, optionally of one label.

@@ -38,6 +38,15 @@ void check_baseline(const std::string& key, double baseline) {
     throw input_error("is 0: without it there is no triangle to measure with", key, "0.1 to 0.3 m is usual");
 }
 
+void check_outliers(const std::string& key, const OutlierFilter& outlier) {
+  if (outlier.window % 2 == 0)
+    throw input_error("is even: a window has a middle", key + ".window", "3, 5 or 7 is usual");
+  const int most = outlier.window * outlier.window - 1;
+  if (outlier.neighbours > most)
+    throw input_error("is more than a window of " + std::to_string(outlier.window) + " pixels has", key + ".neighbours",
+                      "give at most " + std::to_string(most) + ", or a larger window");
+}
+
 /// What only some models use is checked whatever the model: a mistake in it must not wait for a change of model.
 void check_sensor(const std::string& key, const Sensor& sensor) {
   Sensor copy = sensor;  // visitors take references to fields that are not const
@@ -46,6 +55,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   visit(ranges, copy);
   check_name(key + ".name", sensor.name);
   check_exposures(key + ".imager.exposures", sensor.imager.exposures);
+  check_outliers(key + ".filter.outlier", sensor.settings.of<FilterSettings>().outlier);
   check_baseline(key + ".projector.baseline", sensor.projector.baseline);
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);
   const Vec3& direction = sensor.scan.direction;
@@ -54,6 +64,9 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   if (sensor.bounces.value_or(0) > 0 && !sensor_model(sensor.model).indirect)
     throw input_error("indirect light is no part of model " + sensor.model, key + ".bounces",
                       "leave it out; models that see such light: " + names_of(&SensorModel::indirect));
+  if (sensor.settings.of<CalibrationSettings>().any() && sensor_model(sensor.model).exact)
+    throw input_error("model " + sensor.model + " measures the truth, whatever its calibration", key + ".calibration",
+                      "leave it out, or take another model");
   for (const SensorModel* model : sensor_models())
     if (model->check) model->check(sensor, key);
   if (!(sensor.far >= sensor.near)) throw input_error("is nearer than near", key + ".far", "m, beyond near");

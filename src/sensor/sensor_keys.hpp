@@ -1,6 +1,8 @@
 /// The table of keys of sensors (see scene/keys.hpp); those of the models come from their SensorModel.
 #pragma once
 
+#include "bin_scenes/sensor/calibration.hpp"
+#include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <string>
@@ -124,6 +126,34 @@ void visit(Visitor& v, ImagerSettings& s) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, OutlierFilter& outlier) {
+  v.field(
+      {"neighbours", "", "so many pixels of the window need its depth; more = more holes; 0 = off", at_least(0.0, 1e5)},
+      outlier.neighbours);
+  v.field({"window", "pixel", "odd: edge of the window", at_least(3.0, 301.0)}, outlier.window);
+  v.field({"step", "m", "largest difference of depth; smaller = steep faces go as well", above(0.0, 10.0)},
+          outlier.step);
+}
+
+template <class Visitor>
+void visit(Visitor& v, FilterSettings& filter) {
+  v.field({"snr", "", "pixels with less are taken away (code 4); 0 = off", at_least(0.0, 1e6)}, filter.snr);
+  v.section({"outlier", "", "pixels with too few neighbours of their depth are taken away (code 9)"}, filter.outlier);
+}
+
+template <class Visitor>
+void visit(Visitor& v, CalibrationSettings& sigma) {
+  v.field({"focal", "pixel", "sigma of fx; fy errs by the same share", at_least(0.0, 1000.0)}, sigma.focal);
+  v.field({"center", "pixel", "sigma of cx and of cy", at_least(0.0, 1000.0)}, sigma.center);
+  v.field(
+      {"baseline", "m", "sigma of the distance from camera to projector, laser or second camera", at_least(0.0, 1.0)},
+      sigma.baseline);
+  v.field({"position", "m", "sigma of the whole device along each axis of its optical frame", at_least(0.0, 10.0)},
+          sigma.position);
+  v.field({"rotation", "rad", "sigma of the whole device about each axis", at_least(0.0, 1.0)}, sigma.rotation);
+}
+
+template <class Visitor>
 void visit(Visitor& v, Views& views) {
   v.field({"poses", "", "optical frames in the bin frame, one a view: [x, y, z, qx, qy, qz, qw]"}, views.poses);
   v.field({"count", "", "instead of poses: so many, spread evenly over a dome; view 0 is the most upright"},
@@ -177,6 +207,14 @@ void visit(Visitor& v, Sensor& sensor) {
   v.section({"scan", "", scan.c_str()}, sensor.scan);
   const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
   v.section({"imager", "", imager.c_str()}, sensor.imager);
+  CalibrationSettings& calibration = sensor.settings.of<CalibrationSettings>();
+  v.section({"calibration", "",
+             "errors of it, drawn once from seed and sensor: K, baseline and pose of the request are what the device "
+             "believes; 0 = exact",
+             anything, calibration.any()},
+            calibration);
+  FilterSettings& filter = sensor.settings.of<FilterSettings>();
+  v.section({"filter", "", "of the driver, on what was measured; off unless given", anything, filter.any()}, filter);
   for (const SensorModel* known : sensor_models()) {
     if (!known->visit) continue;
     SettingsOfModel section{*known, sensor.settings};

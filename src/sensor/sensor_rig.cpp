@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
@@ -73,10 +74,12 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
   for (const std::size_t s : to_make) {
     const Sensor& sensor = scene.sensors[s];
     flag_what_stands_inside(sensor, scene, loaded.parts);
-    View view = bin_scenes::render(scenery, lens_of(sensor), *sensor.pose, sensor.near, sensor.far);
+    const Sensor device = true_device(scene.sensors, s, scene.seed);
+    View view = bin_scenes::render(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
     std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};
-    RangeImage& image = images[s] = measure(scenery, std::move(view), sensor, surfaces, draw);
+    RangeImage& image = images[s] = measure(scenery, std::move(view), device, surfaces, draw);
+    report_as_believed(image, device, sensor);
     count_pixels(image, scene, std::move(alone));
     scene.report.profile.count("views");
     scene.report.profile.count("noisy_images", sensor.noise && !sensor_model(sensor.model).exact);

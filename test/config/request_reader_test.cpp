@@ -3,6 +3,8 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/sensor/calibration.hpp"
+#include "bin_scenes/sensor/filter.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -69,10 +71,13 @@ sensors:
   - {name: left, width: 320, height: 240, fov: 0.9, pose: [0, 0, 1, 1, 0, 0, 0], near: 0.1, far: 5}
   - name: right
     view_of: left
+    model: time_of_flight
     k: [500, 0, 320, 0, 500, 240, 0, 0, 1]
     bounces: 0
     indirect_samples: 48
     imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
+    calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4}
+    filter: {snr: 8, outlier: {neighbours: 6, window: 7, step: 0.01}}
     structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
                        mixed: keep, edge_step: 0.002}
     laser_line: {fan: 0.7, power: 0.4, blur: 0.9, speckle: 0.1, min_signal: 0.03, peak: nearest}
@@ -171,6 +176,17 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.sensors[0].far, 5.0);
   EXPECT_FALSE(r.sensors[1].pose);
   EXPECT_EQ(r.sensors[1].k[4], 500.0);
+  const auto& errors = r.sensors[1].settings.of<CalibrationSettings>();
+  EXPECT_EQ(errors.focal, 0.4);
+  EXPECT_EQ(errors.center, 0.3);
+  EXPECT_EQ(errors.baseline, 1e-4);
+  EXPECT_EQ(errors.position, 2e-4);
+  EXPECT_EQ(errors.rotation, 5e-4);
+  const auto& filter = r.sensors[1].settings.of<FilterSettings>();
+  EXPECT_EQ(filter.snr, 8.0);
+  EXPECT_EQ(filter.outlier.neighbours, 6);
+  EXPECT_EQ(filter.outlier.window, 7);
+  EXPECT_EQ(filter.outlier.step, 0.01);
   EXPECT_EQ(r.accept.penetration, 0.03);
   EXPECT_EQ(r.accept.gap, 0.04);
   EXPECT_TRUE(r.accept.escaped);

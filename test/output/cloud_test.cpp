@@ -8,9 +8,9 @@ namespace {
 
 using Clouds = OutputTest;
 
-const char* const pcd_names[] = {
-    "x",         "y",     "z",        "normal_x",       "normal_y",       "normal_z",
-    "intensity", "label", "validity", "truth_normal_x", "truth_normal_y", "truth_normal_z"};
+const char* const pcd_names[] = {"x",         "y",     "z",        "normal_x",       "normal_y",       "normal_z",
+                                 "intensity", "label", "validity", "truth_normal_x", "truth_normal_y", "truth_normal_z",
+                                 "snr"};
 
 /// A noisy sensor's image: its normals are no longer the true ones.
 RangeImage noisy_image() {
@@ -25,14 +25,15 @@ RangeImage noisy_image() {
 void expect_cloud(const pcl::PCLPointCloud2& blob, const RangeImage& image) {
   ASSERT_EQ(blob.width, 8u);
   ASSERT_EQ(blob.height, 6u);
-  ASSERT_EQ(blob.fields.size(), 12u);
+  ASSERT_EQ(blob.fields.size(), 13u);
   const auto positions = points_of(image), normals = normals_of(image, positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto& p = positions[i];
     const auto& n = normals[i];
     const auto& t = image.normal[i];
-    const float reals[] = {p[0], p[1], p[2], n[0], n[1], n[2], image.intensity[i], 0, 0, t[0], t[1], t[2]};
-    for (std::size_t f = 0; f < 12; ++f) {
+    const float reals[] = {p[0], p[1], p[2], n[0], n[1], n[2],        image.intensity[i],
+                           0,    0,    t[0], t[1], t[2], image.snr[i]};
+    for (std::size_t f = 0; f < 13; ++f) {
       const pcl::PCLPointField& field = blob.fields[f];
       EXPECT_EQ(field.name, pcd_names[f]);
       const std::uint8_t* at = &blob.data[i * blob.point_step + field.offset];

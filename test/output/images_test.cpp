@@ -26,6 +26,18 @@ TEST_F(Images, DepthIsInCountsOfItsScaleAndZeroWhereNothingIsValid) {
   EXPECT_EQ(read_png(path("left_depth.png")).at(3, 0), 16600);
 }
 
+TEST_F(Images, SnrIsInTenths) {
+  RangeImage image = small_image();
+  image.snr[0] = std::numeric_limits<float>::infinity();
+  image.snr[1] = 6553.4f;
+  image.snr[2] = 0.01f;
+  write_pngs(dir.string(), image);
+  const Png snr = read_png(path("left_snr.png"));
+  const std::vector<std::uint16_t> first(snr.samples.begin(), snr.samples.begin() + 8);
+  EXPECT_EQ(first, (std::vector<std::uint16_t>{65535, 65534, 1, 123, 123, 123, 123, 0}));
+  EXPECT_EQ(snr.at(3, 5), 173);
+}
+
 TEST_F(Images, TruthStandsBesideWhatWasMeasured) {
   RangeImage image = small_image();
   write_pngs(dir.string(), image);

@@ -59,6 +59,7 @@ inline RangeImage small_image() {
       image.label.push_back(x == 1 || x == 2 ? 1 : x == 5 ? 3 : 0);
       image.normal.push_back(seen ? std::array<float, 3>{0, 0, -1} : std::array<float, 3>{nan, nan, nan});
       image.validity.push_back(seen ? 0 : 1);
+      image.snr.push_back(seen ? 12.34f + static_cast<float>(y) : 0.0f);
       image.intensity.push_back(seen ? 0.5f + 0.05f * static_cast<float>(x) : nan);
     }
   }

@@ -27,6 +27,7 @@ RangeImage some_image() {
     image.label.push_back(static_cast<std::uint16_t>(i * 5000));
     image.normal.push_back({0.01f * i, 0.02f * i, -1.0f});
     image.intensity.push_back(0.05f * i);
+    image.snr.push_back(3.0f * i);
     image.validity.push_back(static_cast<std::uint8_t>(i % 9));
   }
   image.depth[6] = nan;
@@ -79,7 +80,7 @@ TEST(ImageMessages, CloudIsOrganised) {
   EXPECT_FALSE(cloud.is_bigendian);
   std::string names;
   for (const auto& f : cloud.fields) names += f.name + " ";
-  EXPECT_EQ(names, "x y z normal_x normal_y normal_z intensity label ");
+  EXPECT_EQ(names, "x y z normal_x normal_y normal_z intensity snr label ");
 }
 
 TEST(ImageMessages, ColoredCloudHasTheColoursOfTheMarkers) {
@@ -116,6 +117,7 @@ TEST(ImageMessages, CloudPointsLieOnTheRaysOfTheirPixels) {
       EXPECT_EQ(float_at(cloud, column, row, "normal_y"), image.normal[i][1]);
       EXPECT_EQ(float_at(cloud, column, row, "normal_z"), image.normal[i][2]);
       EXPECT_EQ(float_at(cloud, column, row, "intensity"), image.intensity[i]);
+      EXPECT_EQ(float_at(cloud, column, row, "snr"), image.snr[i]);
       EXPECT_EQ(label_at(cloud, column, row), image.label[i]);
     }
   }

@@ -139,7 +139,7 @@ class NodeTest(unittest.TestCase):
             self.assertEqual(topics[name].header.frame_id, "camera_optical_frame", name)
             self.assertEqual((topics[name].width, topics[name].height), (240, 200), name)
         self.assertEqual([f.name for f in cloud.fields],
-                         ["x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "label"])
+                         ["x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity", "snr", "label"])
         self.assertFalse(cloud.is_dense)
         self.assertEqual(cloud.row_step, cloud.width * cloud.point_step)
         points = data.cloud_array(cloud)

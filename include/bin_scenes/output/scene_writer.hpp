@@ -27,16 +27,16 @@ Scene read_scene_json(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
 
 /// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label
-/// validity truth_normal_x truth_normal_y truth_normal_z, where label is 0 for background and bin, id + 1 for a part,
-/// validity a code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
+/// validity truth_normal_x truth_normal_y truth_normal_z snr, where label is 0 for background and bin, id + 1 for a
+/// part, validity a code of sensor/validity.hpp, and the true normal that of what the pixel sees, measured or not.
 void write_pcd(const std::string& path, const RangeImage& image);
 /// The same as binary little-endian PLY; normals are called nx ny nz there, and truth_nx truth_ny truth_nz.
 void write_ply(const std::string& path, const RangeImage& image);
 
 /// 16 bit: <sensor>_depth.png and <sensor>_truth_depth.png, counts of Sensor::depth_scale, 0 = not valid, 65535 = that
 /// many or more; <sensor>_labels.png, id + 1, 0 where nothing was measured; <sensor>_truth_labels.png, of what is truly
-/// seen. 8 bit: <sensor>_validity.png; <sensor>_truth_normal.png. To look at: <sensor>.png, shaded;
-/// <sensor>_depth_picture.png with a bar in metres; <sensor>_validity_picture.png with a legend.
+/// seen. <sensor>_snr.png, in tenths. 8 bit: <sensor>_validity.png; <sensor>_truth_normal.png. To look at:
+/// <sensor>.png, shaded; <sensor>_depth_picture.png with a bar in metres; <sensor>_validity_picture.png with a legend.
 void write_pngs(const std::string& directory, const RangeImage& image);
 
 /// One scene in the layout of the BOP challenge (github.com/thodan/bop_toolkit, docs/bop_datasets_format.md): a camera

@@ -20,6 +20,7 @@ struct RangeImage {
   std::vector<float> depth;                  ///< z along the optical axis (m); NaN = invalid
   std::vector<std::uint16_t> label;          ///< 0 = background or bin, part id + 1 otherwise
   std::vector<float> intensity;              ///< 0..1; of the ideal model the cosine of incidence
+  std::vector<float> snr;                    ///< signal / standard deviation of the noise that the model predicts there
   std::vector<std::uint8_t> validity;        ///< of Validity
   std::vector<std::array<float, 3>> points;  ///< measured points (m), if they do not lie on the rays of their pixels
 

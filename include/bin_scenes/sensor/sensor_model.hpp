@@ -65,6 +65,9 @@ struct SensorModel {
   bool indirect = false;  ///< it sees light that met other surfaces
   int bounces = 0;        ///< Sensor::bounces unless given
   bool exact = false;     ///< it measures the truth: without noise, with true normals
+  /// Turns depths or points that `device` measured into those that it reports with the calibration of `believed`. None:
+  /// the range along a pixel's ray stays.
+  void (*report)(RangeImage& image, const Sensor& device, const Sensor& believed) = nullptr;
 };
 
 /// In the order of messages and reference.

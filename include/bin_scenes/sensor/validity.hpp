@@ -15,7 +15,8 @@ enum class Validity : std::uint8_t {
   saturated = 5,  ///< too much
   mixed = 6,      ///< foreground and background in one pixel
   decoding = 7,   ///< the code read makes no sense
-  unmatched = 8   ///< no match in the second image
+  unmatched = 8,  ///< no match in the second image
+  outlier = 9     ///< too few neighbours of its depth: the filter took it away
 };
 
 }  // namespace bin_scenes

@@ -3,6 +3,7 @@
 #include "core/in_parallel.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -14,6 +15,7 @@ RangeImage measure_ideal(View&& view) {
   image.depth.resize(pixels);
   image.intensity.resize(pixels);
   image.validity.resize(pixels);
+  image.snr.assign(pixels, std::numeric_limits<float>::infinity());  // there is no noise
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {

@@ -109,6 +109,11 @@ double LaserLine::sigma_at(double depth) const {
   return std::hypot(setup_.settings.blur, 0.25 * setup_.line_width * focal / depth);
 }
 
+/// Standard deviation of one pixel's signal, speckle included.
+double LaserLine::noise_of(double signal) const {
+  return std::hypot(std::sqrt(imager_.variance(signal)), setup_.settings.speckle * signal);
+}
+
 /// The line that a sample shows on the plane of what ray `own` hit, lit through the fan between the rays a and b, whose
 /// samples on that plane are `at_a` and `at_b`. By secants: exact on a plane, whatever the lens does.
 std::optional<LaserLine::Line> LaserLine::line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own,
@@ -300,6 +305,7 @@ void LaserLine::read_lines(const Carriage& at, const Lines& seen, const SheetGlo
       if (rank <= best) continue;
       best = rank;
       out.intensity[pixel] = static_cast<float>(peak->height);
+      out.snr[pixel] = static_cast<float>(peak->height / noise_of(peak->height));
       out.label[pixel] = line->label;
       out.normals[pixel] = as_floats(back.orientation * line->normal);
       out.points[pixel] = as_floats(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -366,6 +372,7 @@ Profiles LaserLine::scanned(const Random& random) const {
   out.normals = out.points;
   out.label.assign(pixels, 0);
   out.intensity.assign(pixels, 0.0f);
+  out.snr.assign(pixels, 0.0f);
   in_parallel(static_cast<std::size_t>(out.height), [&](std::size_t profile) {
     const Vec3 offset = (static_cast<double>(profile) - 0.5 * (out.height - 1)) * setup_.scan;
     const Carriage at = carriage(offset);

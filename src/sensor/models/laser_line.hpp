@@ -28,6 +28,7 @@ struct Profiles {
   std::vector<std::array<float, 3>> normals;  ///< true, same frame
   std::vector<std::uint16_t> label;           ///< true, of the line that was found
   std::vector<float> intensity;               ///< signal of the peak
+  std::vector<float> snr;                     ///< of that signal over noise and speckle of one pixel
 };
 
 class LaserLine {
@@ -95,6 +96,7 @@ class LaserLine {
     return {setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
   }
   double sigma_at(double depth) const;
+  double noise_of(double signal) const;
   int reach_of(double sigma) const { return static_cast<int>(std::ceil(4.0 * sigma)) + 2; }  ///< of a window, pixel
 
   const Scenery& scenery_;

@@ -1,6 +1,7 @@
 /// A sheet of light as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
@@ -61,10 +62,32 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
     image.normal.push_back(valid ? profiles.normals[i] : no_normal);
   }
   image.intensity = std::move(profiles.intensity);
+  image.snr = std::move(profiles.snr);
   image.points = std::move(profiles.points);
   image.truth_normal = std::move(view.normal);  // the others are of profiles, not of the camera's image
   add_truth(image, std::move(view));
   return image;
+}
+
+/// The pixel of the true camera, met with what is believed of the sheet. The carriage goes as it does.
+void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
+  const Lens eye = lens_of(device), read = lens_of(believed);
+  const LaserLine::Setup setup = laser_line_setup(believed);
+  const Pose laser = believed.pose->inverse() * *believed.laser.pose, to_believed = believed.pose->inverse();
+  const Vec3 sheet = laser.orientation * Vec3::UnitX();
+  const auto width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < image.points.size(); ++i) {
+    if (std::isnan(image.depth[i])) continue;
+    const Vec3 gone = (static_cast<double>(i / width) - 0.5 * (setup.profiles - 1)) * setup.scan;
+    const auto& p = image.points[i];
+    const Vec3 seen = Vec3(p[0], p[1], p[2]) - device.pose->orientation.conjugate() * gone;
+    const auto pixel = eye.project(seen);
+    const Vec3 ray = pixel ? read.ray(pixel->x(), pixel->y()) : Vec3::Constant(std::nan(""));
+    const Vec3 met = sheet.dot(laser.position) / sheet.dot(ray) * ray + to_believed.orientation * gone;
+    for (int axis = 0; axis < 3; ++axis) image.points[i][axis] = static_cast<float>(met[axis]);
+    image.depth[i] = image.points[i][2];
+  }
+  report_depths(image, [](double, double, double depth) { return depth; });
 }
 
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
@@ -77,6 +100,7 @@ constexpr SensorModel model() {
   m.image = SensorModel::Image::profiles;
   m.imager = m.laser = m.indirect = true;
   m.bounces = 1;
+  m.report = report;
   return m;
 }
 

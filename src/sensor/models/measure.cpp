@@ -1,3 +1,4 @@
+#include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <utility>
@@ -16,6 +17,10 @@ RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, co
   RangeImage image = sensor_model(sensor.model).measure(scenery, std::move(view), sensor, surfaces, draw);
   image.sensor = sensor;
   if (image.width == 0) image.width = sensor.width, image.height = sensor.height;
+  image.snr.resize(image.validity.size(), 0.0f);  // a model need not predict its noise
+  for (std::size_t i = 0; i < image.snr.size(); ++i)
+    if (image.validity[i] != static_cast<std::uint8_t>(Validity::valid)) image.snr[i] = 0.0f;
+  filter(sensor.settings.of<FilterSettings>(), image);
   return image;
 }
 

@@ -14,11 +14,13 @@ struct Measurement {
   std::vector<double> depth;  ///< m; NaN where the code is not valid
   std::vector<Validity> validity;
   std::vector<float> intensity;  ///< mean signal / full well, at most 1
+  std::vector<float> snr;        ///< signal / standard deviation of its noise, by formula; of no use where not valid
 
   explicit Measurement(std::size_t pixels)
       : depth(pixels, std::numeric_limits<double>::quiet_NaN()),
         validity(pixels, Validity::nothing),
-        intensity(pixels, 0.0f) {}
+        intensity(pixels, 0.0f),
+        snr(pixels, 0.0f) {}
 };
 
 }  // namespace bin_scenes

@@ -36,6 +36,7 @@ RangeImage image_of(View&& view, Measurement&& measured) {
   image.width = view.lens.width;
   image.height = view.lens.height;
   image.intensity = std::move(measured.intensity);
+  image.snr = std::move(measured.snr);
   const std::size_t pixels = view.depth.size();
   BIN_SCENES_ASSERT(measured.depth.size() == pixels && measured.validity.size() == pixels);
   image.depth.resize(pixels);

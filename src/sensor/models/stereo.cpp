@@ -162,7 +162,10 @@ Measurement Stereo::decoded(const Random& random) const {
   const std::vector<float> disparity =
       match(pair, view_.lens.width, view_.lens.height, setup_.settings, imager_, least);
   for (std::size_t i = 0; i < disparity.size(); ++i) {
-    out.intensity[i] = static_cast<float>(pair.first[i]) / 255.0f;
+    constexpr double grey = 1.0 / 255.0;  // a level, whose rounding is noise as well
+    const double signal = grey * pair.first[i];
+    out.intensity[i] = static_cast<float>(signal);
+    out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal) + grey * grey / 12.0));
     const double z = of_disparity(disparity[i]);
     const bool good = z >= setup_.near && z <= setup_.far;
     out.validity[i] = good                                ? Validity::valid
@@ -220,6 +223,7 @@ Measurement Stereo::analytic(const Random& random) const {
       const double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
       const double haze = haze_.empty() ? 0.0 : haze_[i];
       out.intensity[i] = static_cast<float>(std::min(signal + haze, 1.0));
+      out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal + haze)));
       const double truth = of_disparity(view_.depth[i]);
       const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
       if (hidden[x] || !in_second || signal < s.min_signal || (!texture.empty() && !texture[i])) continue;

@@ -1,6 +1,7 @@
 /// Two cameras as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
@@ -62,6 +63,13 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
   return image_by(model, sensor.fidelity, std::move(view), draw);
 }
 
+/// Disparities stay.
+void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
+  const auto scale = [](const Sensor& s) { return lens_of(s).fx * s.settings.of<StereoSettings>().baseline; };
+  const double share = scale(believed) / scale(device);
+  report_depths(image, [&](double, double, double depth) { return share * depth; });
+}
+
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
   Plate plate(sensor, distance, incidence, albedo);
   const View view = plate.seen_in_the_middle();
@@ -71,6 +79,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 constexpr SensorModel model() {
   SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, nullptr, measured, sigma};
   m.imager = m.projector = m.fidelity = m.indirect = true;
+  m.report = report;
   return m;
 }
 

@@ -251,6 +251,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
         // The amplitude's noise matters where it may fall below the threshold.
         double amplitude = f.amplitude;
         const double spread = fringes_.amplitude_sigma(sigma);
+        out.snr[i] = static_cast<float>(f.amplitude / spread);
         if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread) {
           amplitude += spread * normals.next();
         }

@@ -67,8 +67,10 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     saturated = imager_.saturated(*std::max_element(shot.begin(), shot.begin() + setup_.settings.steps));
   }
   const float sum = std::accumulate(shot.begin(), shot.begin() + setup_.settings.steps, 0.0f);
-  out.intensity[i] = std::min(1.0f, sum / static_cast<float>(setup_.settings.steps) / scale);
+  const float mean = sum / static_cast<float>(setup_.settings.steps);
+  out.intensity[i] = std::min(1.0f, mean / scale);
   const Fringes::Reading reading = fringes_.read(shot.data());
+  out.snr[i] = static_cast<float>(reading.modulation / fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))));
   if (mixed) {
     out.validity[i] = Validity::mixed;
   } else if (saturated) {

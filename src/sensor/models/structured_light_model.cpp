@@ -1,6 +1,7 @@
 /// Fringe projection as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
 #include "sensor/models/of_sensor.hpp"
+#include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
@@ -71,6 +72,17 @@ RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, c
   return image_by(model, sensor.fidelity, std::move(view), draw);
 }
 
+/// The column of the true projector, met with what is believed of it.
+void report(RangeImage& image, const Sensor& device, const Sensor& believed) {
+  const Lens eye = lens_of(device), read = lens_of(believed), projector = lens_of(device.projector);
+  const Pose to_projector = device.projector.pose->inverse() * *device.pose;
+  const Triangulation triangle(lens_of(believed.projector), believed.pose->inverse() * *believed.projector.pose);
+  report_depths(image, [&](double column, double row, double depth) {
+    const auto lit = projector.project(to_projector * (depth * eye.ray(column, row)));
+    return lit ? triangle.depth(read.ray(column, row), lit->x()) : std::numeric_limits<double>::quiet_NaN();
+  });
+}
+
 double sigma(const Sensor& sensor, double distance, double incidence, double albedo) {
   Plate plate(sensor, distance, incidence, albedo);
   const View view = plate.seen_in_the_middle();
@@ -83,6 +95,7 @@ constexpr SensorModel model() {
       "structured_light", "fringes: phase shift and Gray code", visit_keys, check, check_places, measured, sigma};
   m.imager = m.projector = m.fidelity = m.indirect = true;
   m.bounces = 1;
+  m.report = report;
   return m;
 }
 

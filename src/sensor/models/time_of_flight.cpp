@@ -156,7 +156,9 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
         // Cosine and distance are in the formula already; what is left of the signal is the surface's.
         const double facing =
             light[x].signal * light[x].depth * light[x].depth / std::max(std::cos(incidence[x]), 1e-3);
-        const double z = light[x].depth + axial * (noise ? axial_sigma(s, light[x].depth, incidence[x], facing) : 0.0);
+        const double sigma = axial_sigma(s, light[x].depth, incidence[x], facing);
+        const double z = light[x].depth + (noise ? axial * sigma : 0.0);
+        out.snr[i] = static_cast<float>(light[x].depth / sigma);
         const bool in_range = z >= range.near && z <= range.far;
         out.validity[i] = in_range ? Validity::valid : Validity::nothing;
         if (in_range) out.depth[i] = z;

@@ -1,0 +1,79 @@
+#include "bin_scenes/sensor/calibration.hpp"
+
+#include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_model.hpp"
+#include "sensor/report_points.hpp"
+
+#include <limits>
+
+namespace bin_scenes {
+
+namespace {
+
+/// A device is the same in all scenes.
+constexpr std::uint64_t no_scene = std::numeric_limits<std::uint64_t>::max();
+
+/// The first view of the same device.
+std::size_t device_of(const std::vector<Sensor>& sensors, std::size_t number) {
+  if (sensors[number].view_of.empty()) return number;
+  std::size_t first = 0;
+  while (sensors[first].view_of != sensors[number].view_of) ++first;
+  return first;
+}
+
+void err_in_lens_and_baseline(const CalibrationSettings& sigma, Random draw, Sensor& device) {
+  const double focal = 1.0 + sigma.focal * draw.normal() / device.k[0];
+  device.k[0] *= focal;
+  device.k[4] *= focal;
+  device.k[2] += sigma.center * draw.normal();
+  device.k[5] += sigma.center * draw.normal();
+  const double longer = sigma.baseline * draw.normal();
+  const auto move = [&](std::optional<Pose>& light) {
+    const Vec3 way = light->position - device.pose->position;
+    if (way.norm() > 0.0) light->position += longer * way.normalized();
+  };
+  move(device.projector.pose);
+  move(device.laser.pose);
+  device.settings.of<StereoSettings>().baseline += longer;
+}
+
+void err_in_pose(const CalibrationSettings& sigma, Random draw, Sensor& device) {
+  const auto normals = [&] {
+    const double x = draw.normal(), y = draw.normal();
+    return Vec3(x, y, draw.normal());
+  };
+  const Vec3 shift = sigma.position * normals(), turn = sigma.rotation * normals();
+  const Quat turned = turn.norm() > 0.0 ? Quat(Eigen::AngleAxisd(turn.norm(), turn.normalized())) : Quat::Identity();
+  const Pose moved = *device.pose * Pose{shift, turned} * device.pose->inverse();
+  for (std::optional<Pose>* pose : {&device.pose, &device.projector.pose, &device.laser.pose}) *pose = moved * **pose;
+}
+
+/// Without triangulation the range along the ray stays.
+void keep_ranges(RangeImage& image, const Sensor& device, const Sensor& believed) {
+  const Lens eye = lens_of(device), read = lens_of(believed);
+  report_depths(image, [&](double column, double row, double depth) {
+    return depth * eye.ray(column, row).norm() / read.ray(column, row).norm();
+  });
+}
+
+}  // namespace
+
+Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::uint64_t seed) {
+  Sensor device = sensors.at(number);
+  const auto sigma = device.settings.of<CalibrationSettings>();
+  if (!sigma.any()) return device;
+  const Random draw(seed, no_scene, Stream::sensor);
+  err_in_lens_and_baseline(sigma, draw.of_piece(2 * device_of(sensors, number)), device);
+  err_in_pose(sigma, draw.of_piece(2 * number + 1), device);
+  return device;
+}
+
+void report_as_believed(RangeImage& image, const Sensor& device, const Sensor& believed) {
+  image.sensor = believed;
+  if (!believed.settings.of<CalibrationSettings>().any()) return;
+  const SensorModel& model = sensor_model(believed.model);
+  (model.report ? model.report : keep_ranges)(image, device, believed);
+}
+
+}  // namespace bin_scenes
