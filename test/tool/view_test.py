@@ -219,6 +219,30 @@ class View(unittest.TestCase):
         self.assertIn('data-drawn="10"', dom)
         self.assertIn('data-labels="0"', dom)
 
+    def test_a_bin_that_is_a_mesh_and_a_laser_are_shown(self):
+        box_stl(self.folder / "models/slab.stl", (300, 300, 10))
+        (self.folder / "request.yaml").write_text("""bin: {mesh: models/slab.stl, unit: mm, pose: [0, 0, -0.005, 0, 0, 0, 1]}
+solver: {type: bullet}
+parts: [{model: models/box.stl, unit: mm, scale: 0.5, count: 1, poses: [[0, 0, 0.013, 0, 0, 0, 1]]}]
+pour: {pattern: given}
+sensors:
+  - {name: laser, model: laser_line, width: 160, height: 120, fov: 0.6, scan: {direction: [1, 0, 0], step: 0.004, profiles: 50}}
+""")
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", "json,png,ply")
+        page = self.view()
+        shape = self.data(page)["bin"]["shape"]
+        vertices = numpy.frombuffer(base64.b64decode(shape["vertices"]), "<f4").reshape(-1, 3)
+        self.assertLess(numpy.abs(vertices.max(0) - [0.15, 0.15, 0.005]).max(), 1e-8)
+        source, cloud = self.cloud(page)
+        self.assertEqual(source, "laser.ply")
+        self.assertNotIn("errors", cloud, "its true depth is no image of profiles")
+        floor = cloud["points"][cloud["labels"] == 0]
+        self.assertGreater(len(floor), 100)
+        self.assertLess(numpy.median(numpy.abs(floor[:, 2])), 0.001)
+        for path in self.scene.glob("laser.ply"):
+            path.unlink()
+        self.assertEqual(self.data(self.view())["clouds"], [], "profiles are no image of rays")
+
     def test_models_are_found_by_their_bytes(self):
         self.make("json")
         self.assertIn("no file of one is there", self.run_tool("view", self.scene).stderr)
