@@ -74,7 +74,12 @@ Mesh find_model(const Json& model, const Json& bin, const std::string& folder, c
   around.kind = bin.contains("inner_size") ? Bin::Kind::box : Bin::Kind::none;
   if (around.kind == Bin::Kind::box)
     for (int i = 0; i < 3; ++i) around.inner_size[i] = bin.at("inner_size").at(i).get<double>();
-  check_plausible_size(mesh, around, file.path, options.unit);
+  try {
+    check_plausible_size(mesh, around, file.path, options.unit);
+  } catch (const Error&) {  // it was poured all the same
+    throw input_error("does not fit the bin in metres, and scene.json, which an earlier version wrote, tells no unit",
+                      file.path, "make the scene anew: generate --overwrite");
+  }
   return mesh;
 }
 

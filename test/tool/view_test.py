@@ -253,6 +253,14 @@ sensors:
         box_stl(self.folder / "elsewhere/bar.stl", (90, 20, 20))
         self.refused([self.scene, "--models", "elsewhere"], "bar.stl", "has changed since the scene was made")
 
+    def test_the_page_beside_a_scene_changes_nothing(self):
+        self.make("json")
+        self.view()
+        before = (self.scene / "scene.json").stat().st_mtime_ns
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", "json", "--verify")
+        self.assertEqual((self.scene / "scene.json").stat().st_mtime_ns, before, "made anew")
+        self.assertTrue((self.scene / "view.html").exists())
+
     def test_bad_input_is_one_clear_error(self):
         self.make("json,ply")
         self.refused(["nowhere"], "nowhere", "there is no scene", "scene.json")
@@ -278,6 +286,10 @@ sensors:
         without(lambda s: s.pop("models"))
         without(lambda s: s["parts"][0].update(line=7))
         without(lambda s: s["parts"][0].update(pose=3))
+        without(lambda s: s.pop("bin"))
+        scene["models"][0].pop("unit")  # as version 0.2 wrote it
+        file.write_text(json.dumps(scene))
+        self.refused([self.scene], "box.stl", "earlier version", "make the scene anew")
         file.write_text("{")
         self.refused([self.scene], "scene.json", "cut off")
 
