@@ -6,6 +6,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/data_folder.hpp"
+#include "dataset/page.hpp"
 #include "dataset/published.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
@@ -37,18 +38,6 @@ constexpr int picture_width = 112;
 
 double rounded(double value) {
   return std::isfinite(value) && value != 0.0 ? std::strtod(std::to_string(value).c_str(), nullptr) : 0.0;
-}
-
-std::string base64(const Bytes& bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned value = 0;
-    for (std::size_t k = 0; k < 3; ++k) value = value << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? letters[value >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
 }
 
 /// Grey images of sensors are dim, as only highlights come near to white: all but the brightest hundredth fills the
@@ -156,30 +145,6 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   return view;
 }
 
-/// three.js and its orbit control, for the page to hold; empty where Debian's libjs-three is not installed.
-std::string three() {
-  const char* set = std::getenv("BIN_SCENES_THREE");
-  const fs::path folder = set && *set ? set : "/usr/share/javascript/three";
-  std::string text;
-  for (const char* file : {"build/three.min.js", "examples/js/controls/OrbitControls.js"}) {
-    std::error_code missing;
-    if (!fs::is_regular_file(folder / file, missing)) return "";
-    text += read_file((folder / file).string()) + "\n";
-  }
-  return text;
-}
-
-/// Text for a script element: nothing in it may end that.
-std::string for_script(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.insert(at + 1, "\\");
-  return text;
-}
-
-void put(std::string& page, const std::string& mark, const std::string& text) {
-  const std::size_t at = page.find(mark);
-  page.replace(at, mark.size(), text);
-}
-
 double mean_of(const std::vector<int>& histogram) {
   double sum = 0.0, weighted = 0.0;
   for (std::size_t i = 0; i < histogram.size(); ++i) {
@@ -264,7 +229,7 @@ ReportResult write_report(const std::string& directory, const std::string& path)
       {"scene3d", scenes.empty() ? Json() : scene_in_3d(folder, facts, scenes[scenes.size() / 2])}};
 
   std::string page = report_page;
-  const std::string library = three();
+  const std::string library = three_js();
   result.in_3d = !library.empty();
   put(page, "/*THREE*/", library);
   put(page, "/*DATA*/null", for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)));

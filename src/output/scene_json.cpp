@@ -38,6 +38,8 @@ Json json_of(const Bin& bin) {
       break;
     case Bin::Kind::mesh:
       json["mesh"] = bin.mesh;
+      if (!bin.mesh_sha256.empty()) json["sha256"] = bin.mesh_sha256;
+      if (bin.unit) json["unit"] = name_of(*bin.unit);
       json["pose"] = json_of(bin.pose);
       break;
     case Bin::Kind::floor:
@@ -49,6 +51,18 @@ Json json_of(const Bin& bin) {
   }
   json["friction"] = bin.friction;
   json["restitution"] = bin.restitution;
+  return json;
+}
+
+/// The file of a part line, and how it was read as far as that was asked for.
+Json model_of(const PartLine& line, const std::string& sha256) {
+  Json json = {{"model", line.model}, {"sha256", sha256}};
+  if (line.unit) json["unit"] = name_of(*line.unit);
+  if (line.scale != 1.0) json["scale"] = line.scale;
+  if (line.thickness) json["thickness"] = *line.thickness;
+  if (!line.solid.empty()) json["solid"] = line.solid;
+  if (line.tessellation.chord) json["chord"] = *line.tessellation.chord;
+  if (line.tessellation.given()) json["angle"] = line.tessellation.angle;
   return json;
 }
 
@@ -251,7 +265,7 @@ std::string scene_json(const Scene& scene, const Request& request, const std::ve
     if (i < images.size()) json["sensors"].back()["truth"] = truth_of(scene, images[i], parts);
   }
   for (std::size_t line = 0; line < scene.model_sha256.size() && line < request.parts.size(); ++line) {
-    json["models"].push_back({{"model", request.parts[line].model}, {"sha256", scene.model_sha256[line]}});
+    json["models"].push_back(model_of(request.parts[line], scene.model_sha256[line]));
   }
   json["parts"] = Json::array();
   for (const ScenePart& part : scene.parts) json["parts"].push_back(json_of(part));

@@ -96,6 +96,13 @@ struct ReportOptions {
 };
 int report(const ReportOptions& options);
 
+struct ViewOptions {
+  std::string scene;   ///< its folder, or its scene.json
+  std::string models;  ///< folder of the model files; empty: they lie beside or above the scene
+  std::string out;     ///< HTML file; empty: view.html in the folder
+};
+int view(const ViewOptions& options);
+
 int doctor();
 
 }  // namespace bin_scenes

@@ -126,6 +126,12 @@ void add_report(CLI::App& app, ReportOptions& o) {
   app.add_option("--out", o.out, "HTML file; left out: DIR/report.html");
 }
 
+void add_view(CLI::App& app, ViewOptions& o) {
+  app.add_option("SCENE", o.scene, "folder of a scene, or its scene.json")->required();
+  app.add_option("--models", o.models, "folder of the models, if they lie neither beside nor above the scene");
+  app.add_option("--out", o.out, "HTML file; left out: SCENE/view.html");
+}
+
 struct Command {
   CLI::App* app;
   std::function<int()> run;
@@ -174,6 +180,7 @@ void add_commands(CLI::App& app, Commands& all) {
           "entry of the data set for dataset_params.py of bop_toolkit; DIR/bop is its folder there", add_toolkit);
   all.add(set, dataset_submit, "submit", "make a data set on a cluster: submit, watch, merge", add_submit);
   all.add(app, report, "report", "a data set as one HTML page", add_report);
+  all.add(app, view, "view", "a scene as one HTML page: parts, clouds, cameras, report", add_view);
   all.add(app, audit, "audit",
           "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions", add_audit);
   all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");

@@ -76,6 +76,34 @@ TEST_F(SceneJson, TellsWhatItsModelsWereByTheirBytes) {
   EXPECT_EQ(read_scene_json(path("scene.json")).model_sha256, scene.model_sha256);
 }
 
+TEST_F(SceneJson, TellsHowItsModelsWereRead) {
+  Scene scene = small_scene();
+  scene.model_sha256 = {"b0"};
+  Request r = request();
+  r.bin.kind = Bin::Kind::mesh;
+  r.bin.mesh = "crate.stl";
+  r.bin.mesh_sha256 = "c2";
+  r.bin.unit = Unit::inch;
+  r.parts.resize(1);
+  r.parts[0].model = "bolt.step";
+  r.parts[0].unit = Unit::millimetre;
+  r.parts[0].scale = 2.0;
+  r.parts[0].thickness = 0.001;
+  r.parts[0].solid = "bolt";
+  r.parts[0].tessellation = {1e-4, 0.1};
+  const auto json = nlohmann::json::parse(scene_json(scene, r));
+  EXPECT_EQ(json.at("models").at(0), nlohmann::json({{"model", "bolt.step"},
+                                                     {"sha256", "b0"},
+                                                     {"unit", "mm"},
+                                                     {"scale", 2.0},
+                                                     {"thickness", 0.001},
+                                                     {"solid", "bolt"},
+                                                     {"chord", 1e-4},
+                                                     {"angle", 0.1}}));
+  EXPECT_EQ(json.at("bin").at("sha256"), "c2");
+  EXPECT_EQ(json.at("bin").at("unit"), "inch");
+}
+
 TEST_F(SceneJson, APartWithoutAPoseStaysWithoutOne) {
   Scene scene = small_scene();
   scene.parts[1].pose = Pose::none();

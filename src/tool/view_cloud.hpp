@@ -1,0 +1,27 @@
+/// The cloud of a sensor, read back from the files of a finished scene.
+#pragma once
+
+#include "bin_scenes/scene/request.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct ViewCloud {
+  /// Sensor's optical frame (m). Pixels without a measurement lie where the truth is, as far as that is known.
+  std::vector<std::array<float, 3>> points;
+  std::vector<std::uint16_t> labels;   ///< 0: background or bin; part id + 1 otherwise
+  std::vector<std::uint8_t> validity;  ///< codes of sensor/validity.hpp
+  std::vector<float> errors;           ///< m: measured less true depth; NaN = not known
+  bool has_errors = false;
+  std::string source;  ///< name of the file; empty: there is none
+};
+
+/// From <sensor>.ply or .pcd, else from its depth image; the truth from <sensor>_truth_depth.png. At most about `most`
+/// points, thinned evenly over the image. Throws an input Error on a damaged file.
+ViewCloud read_view_cloud(const std::string& folder, const Sensor& sensor, std::size_t most);
+
+}  // namespace bin_scenes

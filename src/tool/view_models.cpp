@@ -1,0 +1,93 @@
+#include "tool/view_models.hpp"
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/mesh/mesh_loader.hpp"
+#include "config/paths.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace bin_scenes {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::vector<fs::path> candidates(const std::string& written, const std::string& folder, const std::string& models) {
+  const fs::path path(written), name = path.filename();
+  std::vector<fs::path> all;
+  if (!models.empty()) all = {fs::path(models) / path, fs::path(models) / name};
+  const auto look_in = [&](const fs::path& place) {
+    all.insert(all.end(), {place / path, place / name, place / "models" / name});
+  };
+  look_in(fs::current_path());
+  fs::path above = fs::weakly_canonical(folder);
+  for (look_in(above); above.has_relative_path(); look_in(above)) above = above.parent_path();
+  if (written.rfind("package://", 0) == 0) {
+    try {
+      all.emplace_back(config::resolve_file(written, folder, PathRules(), "models"));
+    } catch (const Error&) {  // no such package: the error below tells the remedy
+    }
+  }
+  return all;
+}
+
+ModelFile find_file(const Json& model, const char* key, const std::string& folder, const std::string& models) {
+  const std::string written = model.at(key).get<std::string>(), sha256 = model.value("sha256", "");
+  std::string other;
+  for (const fs::path& path : candidates(written, folder, models)) {
+    std::error_code missing;
+    if (!fs::is_regular_file(path, missing)) continue;
+    ModelFile file = read_model_file(path.string());
+    if (sha256.empty() || file.sha256 == sha256) return file;
+    if (other.empty()) other = path.string();
+  }
+  if (!other.empty())
+    throw input_error("has changed since the scene was made", other,
+                      "name the folder of the model as it was: --models DIR");
+  throw input_error("the model '" + written + "' is not found beside or above the scene" +
+                        (models.empty() ? "" : ", nor in " + models),
+                    folder, "name the folder of the models: --models DIR");
+}
+
+std::optional<Unit> unit_of(const Json& json) {
+  const std::string name = json.value("unit", "");
+  for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
+    if (name == name_of(unit)) return unit;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Mesh find_model(const Json& model, const Json& bin, const std::string& folder, const std::string& models) {
+  const ModelFile file = find_file(model, "model", folder, models);
+  LoadOptions options;
+  options.unit = unit_of(model);
+  options.scale = model.value("scale", 1.0);
+  if (model.contains("thickness")) options.thickness = model.at("thickness").get<double>();
+  options.solid = model.value("solid", "");
+  if (model.contains("chord")) options.tessellation.chord = model.at("chord").get<double>();
+  options.tessellation.angle = model.value("angle", options.tessellation.angle);
+  Mesh mesh = load_mesh(file, options).mesh;
+  Bin around;
+  around.kind = bin.contains("inner_size") ? Bin::Kind::box : Bin::Kind::none;
+  if (around.kind == Bin::Kind::box)
+    for (int i = 0; i < 3; ++i) around.inner_size[i] = bin.at("inner_size").at(i).get<double>();
+  try {
+    check_plausible_size(mesh, around, file.path, options.unit);
+  } catch (const Error&) {  // it was poured all the same
+    throw input_error("does not fit the bin in metres, and scene.json, which an earlier version wrote, tells no unit",
+                      file.path, "make the scene anew: generate --overwrite");
+  }
+  return mesh;
+}
+
+Mesh find_bin(const Json& bin, const std::string& folder, const std::string& models) {
+  LoadOptions options;
+  options.unit = unit_of(bin);
+  options.require_closed = false;
+  return load_mesh(find_file(bin, "mesh", folder, models), options).mesh;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,298 @@
+#!/usr/bin/env python3
+"""`bin_scenes view`: one page that shows a scene in a browser without a network; pictures of it are looked at pixel by
+pixel. What needs a browser is skipped where there is no Chromium.
+
+    view_test.py TOOL [--keep PNG]
+"""
+import base64
+import colorsys
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+from PIL import Image
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "dataset"))
+from data_set import box_stl  # noqa: E402
+
+TOOL = os.path.abspath(sys.argv.pop(1))
+KEEP = None
+if "--keep" in sys.argv:
+    at = sys.argv.index("--keep")
+    KEEP = sys.argv[at + 1]
+    del sys.argv[at:at + 2]
+CHROMIUM = shutil.which("chromium")
+PANEL = 340  # pixels of the page's right side
+
+REQUEST = """seed: 5
+bin: {inner_size: [0.24, 0.2, 0.15]}
+solver: {type: bullet}
+parts: [{model: box.stl, unit: mm, count: 6}, {model: bar.stl, unit: mm, count: 4}]
+sensors:
+%s
+"""
+SENSORS = """  - {name: camera, model: structured_light, width: 160, height: 120, fov: 0.6, projector: {baseline: 0.15, fov: 0.8}}
+  - {name: side, width: 64, height: 48, pose: [0.3, 0, 0.5, 0.9272, 0, -0.3746, 0]}"""
+
+
+class View(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="bin_scenes_view_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        (self.folder / "models").mkdir()
+        box_stl(self.folder / "models/box.stl", (30, 40, 50))
+        box_stl(self.folder / "models/bar.stl", (80, 20, 20))
+        self.scene = self.folder / "out/scene_000000"
+
+    def run_tool(self, *words, code=0, **environment):
+        done = subprocess.run([TOOL, *map(str, words)], cwd=self.folder, capture_output=True, text=True,
+                              env=dict(os.environ, LP_NUM_THREADS="0", **environment))
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def make(self, formats, sensors=SENSORS):
+        text = REQUEST % sensors if sensors else REQUEST.partition("sensors")[0]
+        (self.folder / "request.yaml").write_text(text.replace("model: b", "model: models/b"))
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", formats, "--overwrite")
+
+    def view(self, *options):
+        self.run_tool("view", self.scene, *options)
+        return (self.scene / "view.html").read_text()
+
+    def data(self, page):
+        return json.loads(re.search(r'type="application/json">(.*?)</script>', page, re.S)[1].replace("<\\/", "</"))
+
+    def refused(self, words, *parts, code=2, **environment):
+        error = self.run_tool("view", *words, code=code, **environment).stderr
+        self.assertEqual(error.count("\n"), 1, error)
+        for part in parts:
+            self.assertIn(part, error)
+
+    def browse(self, *options, at=""):
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                   "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=8000",
+                   "--hide-scrollbars", "--user-data-dir=%s" % (self.folder / "profile"), *options,
+                   "file://%s%s" % (self.scene / "view.html", at)]
+        return subprocess.run(command, capture_output=True, text=True, timeout=300).stdout
+
+    def picture(self, at):
+        """What the page shows, left of the panel."""
+        path = self.folder / "picture.png"
+        self.browse("--window-size=%d,480" % (640 + PANEL), "--screenshot=%s" % path, at=at)
+        return numpy.asarray(Image.open(path).convert("RGB"))[:, :-PANEL]
+
+    def image(self, name):
+        return numpy.asarray(Image.open(self.scene / name)).astype(int)
+
+    def test_the_page_holds_everything_itself(self):
+        self.make("json,png,ply")
+        page = self.view()
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)[^"]*"', page), [])
+        data = self.data(page)
+        self.assertEqual(len(data["parts"]), 10)
+        self.assertEqual(len(data["meshes"]), 2)
+        vertices = numpy.frombuffer(base64.b64decode(data["meshes"][0]["vertices"]), "<f4").reshape(-1, 3)
+        self.assertLess(numpy.abs(vertices.max(0) - vertices.min(0) - [0.03, 0.04, 0.05]).max(), 1e-8)
+        self.assertEqual([cloud["source"] for cloud in data["clouds"]], ["camera.ply", "side.ply"])
+        self.assertEqual(data["report"], json.loads((self.scene / "scene.json").read_text())["report"])
+
+    def cloud(self, page):
+        cloud = self.data(page)["clouds"][0]
+        unpacked = {key: numpy.frombuffer(base64.b64decode(cloud[key]), kind) for key, kind in
+                    (("points", "<f4"), ("labels", "<u2"), ("validity", "u1"), ("errors", "<f4")) if key in cloud}
+        unpacked["points"] = unpacked["points"].reshape(-1, 3)
+        return cloud["source"], unpacked
+
+    def test_clouds_of_all_files_are_the_same(self):
+        self.make("json,png,ply,pcd")
+        shown = {}
+        for name in ("ply", "pcd", "png"):
+            source, shown[name] = self.cloud(self.view())
+            self.assertEqual(source, "camera." + name if name != "png" else "camera_depth.png")
+            for path in self.scene.glob("*." + name):
+                path.unlink()
+        for name in ("pcd", "png"):
+            for key in ("labels", "validity"):
+                self.assertTrue((shown[name][key] == shown["ply"][key]).all(), key)
+            # 0.5 counts of 0.01 mm, and float
+            self.assertLess(numpy.abs(shown[name]["points"] - shown["ply"]["points"]).max(), 7e-6)
+        self.assertTrue((shown["pcd"]["errors"][shown["pcd"]["validity"] == 0] ==
+                         shown["ply"]["errors"][shown["ply"]["validity"] == 0]).all())
+
+    def test_points_lie_where_sensor_and_truth_say(self):
+        self.make("json,png,ply")
+        _, cloud = self.cloud(self.view())
+        depth, truth = self.image("camera_depth.png"), self.image("camera_truth_depth.png")
+        valid = self.image("camera_validity.png")
+        sensor = json.loads((self.scene / "scene.json").read_text())["sensors"][0]
+        scale, height = sensor["depth_scale"], sensor["pose"]["position"][2]
+        self.assertEqual(sensor["pose"]["orientation_xyzw"], [1, 0, 0, 0], "it looks straight down")
+        there = (depth > 0) | (truth > 0)
+        self.assertEqual(len(cloud["points"]), there.sum())
+        shown = numpy.where(depth > 0, depth, truth)[there] * scale
+        self.assertLess(numpy.abs(height - cloud["points"][:, 2] - shown).max(), scale)
+        self.assertTrue((cloud["validity"] == valid[there]).all())
+        self.assertTrue((cloud["labels"] == self.image("camera_labels.png")[there]).all())
+        errors = numpy.where(depth > 0, (depth - truth) * scale, numpy.nan)[there]
+        self.assertTrue((numpy.isnan(errors) == numpy.isnan(cloud["errors"])).all())
+        self.assertLess(numpy.nanmax(numpy.abs(errors - cloud["errors"])), 1.1 * scale)
+        self.assertGreater(numpy.nanmedian(numpy.abs(cloud["errors"])), 0, "structured light is noisy")
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_a_browser_shows_parts_where_the_labels_say(self):
+        self.make("json,png,ply")
+        self.view()
+        dom = self.browse("--dump-dom")
+        self.assertIn('data-ready="yes"', dom, "the page's script did not reach its end")
+        self.assertIn('data-drawn="10"', dom)
+        seen = set(self.image("camera_labels.png").flat) | set(self.image("side_labels.png").flat)
+        self.assertIn('data-labels="%d"' % len(seen - {0}), dom)
+        self.assertIn("penetration.median", dom)
+
+        labels = self.image("camera_truth_labels.png").repeat(4, 0).repeat(4, 1)  # the view is 640 x 480
+        inside = labels.copy()
+        for shift in ((0, 6), (0, -6), (6, 0), (-6, 0)):  # away from borders
+            inside[numpy.roll(labels, shift, (0, 1)) != labels] = 0
+        picture = self.picture("#through=camera&colour=none")
+        for label in set(labels.flat) - {0}:
+            colours = picture[inside == label]
+            if len(colours) < 30:
+                continue
+            hues = numpy.array([colorsys.rgb_to_hsv(*(c / 255))[0] for c in colours])
+            wrong = numpy.abs((hues - (label - 1) * 0.618 + 0.5) % 1 - 0.5) > 0.03
+            self.assertLess(wrong.mean(), 0.02, "part %d is not where it has to be" % (label - 1))
+        self.assertGreater((inside > 0).mean(), 0.05)
+        outside = picture[(labels == 0) & (numpy.arange(480) > 0)[:, None]]
+        saturation = (outside.max(1).astype(int) - outside.min(1)) / numpy.maximum(outside.max(1), 1)
+        self.assertLess((saturation > 0.25).mean(), 0.02, "colours of parts where there are none")
+        if KEEP:
+            self.browse("--window-size=1280,860", "--screenshot=%s" % KEEP, at="#colour=error")
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_a_browser_shows_the_cloud_in_each_colouring(self):
+        self.make("json,png,ply")
+        self.view()
+        empty = self.picture("#through=camera&parts=0&bin=0&colour=none")
+        self.assertEqual(len(numpy.unique(empty.reshape(-1, 3), axis=0)), 1, "nothing is to be seen")
+        pictures = [self.picture("#through=camera&parts=0&bin=0&sensor=camera&colour=" + way)
+                    for way in ("depth", "label", "validity", "error")]
+        measured = (self.image("camera_depth.png") > 0).repeat(4, 0).repeat(4, 1)
+        for picture in pictures:
+            drawn = (picture != empty[0, 0]).any(2)
+            # points of 2.5 pixels, one every 4 pixels
+            self.assertGreater(drawn[measured].mean(), 0.2)
+        of_parts = (self.image("camera_labels.png") > 0).repeat(4, 0).repeat(4, 1)
+        drawn = (self.picture("#through=camera&parts=0&bin=0&sensor=camera&labelled=1") != empty[0, 0]).any(2)
+        self.assertGreater(drawn[of_parts].mean(), 0.2)
+        self.assertLess(drawn[~of_parts].mean(), 0.02)
+        for i, a in enumerate(pictures):
+            for b in pictures[:i]:
+                self.assertGreater((a != b).any(2)[measured].mean(), 0.05)
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_a_browser_shows_the_cameras(self):
+        self.make("json")
+        self.view()
+        picture = self.picture("#parts=0&bin=0")
+        hidden = self.picture("#parts=0&bin=0&frusta=0")
+        self.assertEqual(len(numpy.unique(hidden.reshape(-1, 3), axis=0)), 1)
+        drawn = picture[(picture != hidden).any(2)] / 255
+        for hue in (0.58, 0.961):  # of the first and the second sensor
+            near = [abs((colorsys.rgb_to_hsv(*rgb)[0] - hue + 0.5) % 1 - 0.5) < 0.05 for rgb in drawn]
+            self.assertGreater(sum(near), 200)
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_a_scene_without_sensors_is_a_page_without_cloud(self):
+        self.make("json", sensors="")
+        done = self.run_tool("view", self.scene / "scene.json", "--out", self.scene / "view.html")
+        self.assertIn("no cloud, since the scene has no sensors", done.stderr)
+        dom = self.browse("--dump-dom")
+        self.assertIn('data-ready="yes"', dom)
+        self.assertIn('data-drawn="10"', dom)
+        self.assertIn('data-labels="0"', dom)
+
+    def test_a_bin_that_is_a_mesh_and_a_laser_are_shown(self):
+        box_stl(self.folder / "models/slab.stl", (300, 300, 10))
+        (self.folder / "request.yaml").write_text("""bin: {mesh: models/slab.stl, unit: mm, pose: [0, 0, -0.005, 0, 0, 0, 1]}
+solver: {type: bullet}
+parts: [{model: models/box.stl, unit: mm, scale: 0.5, count: 1, poses: [[0, 0, 0.013, 0, 0, 0, 1]]}]
+pour: {pattern: given}
+sensors:
+  - {name: laser, model: laser_line, width: 160, height: 120, fov: 0.6, scan: {direction: [1, 0, 0], step: 0.004, profiles: 50}}
+""")
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", "json,png,ply")
+        page = self.view()
+        shape = self.data(page)["bin"]["shape"]
+        vertices = numpy.frombuffer(base64.b64decode(shape["vertices"]), "<f4").reshape(-1, 3)
+        self.assertLess(numpy.abs(vertices.max(0) - [0.15, 0.15, 0.005]).max(), 1e-8)
+        source, cloud = self.cloud(page)
+        self.assertEqual(source, "laser.ply")
+        self.assertNotIn("errors", cloud, "its true depth is no image of profiles")
+        floor = cloud["points"][cloud["labels"] == 0]
+        self.assertGreater(len(floor), 100)
+        self.assertLess(numpy.median(numpy.abs(floor[:, 2])), 0.001)
+        for path in self.scene.glob("laser.ply"):
+            path.unlink()
+        self.assertEqual(self.data(self.view())["clouds"], [], "profiles are no image of rays")
+
+    def test_models_are_found_by_their_bytes(self):
+        self.make("json")
+        self.assertIn("no file of one is there", self.run_tool("view", self.scene).stderr)
+        shutil.move(self.folder / "models", self.folder / "elsewhere")
+        self.refused([self.scene], "models/box.stl", "not found beside or above the scene", "--models DIR")
+        self.refused([self.scene, "--models", "out"], "models/box.stl", "out", "--models DIR")
+        self.view("--models", "elsewhere")
+        box_stl(self.folder / "elsewhere/bar.stl", (90, 20, 20))
+        self.refused([self.scene, "--models", "elsewhere"], "bar.stl", "has changed since the scene was made")
+
+    def test_the_page_beside_a_scene_changes_nothing(self):
+        self.make("json")
+        self.view()
+        before = (self.scene / "scene.json").stat().st_mtime_ns
+        self.run_tool("generate", "request.yaml", "--out", "out", "--formats", "json", "--verify")
+        self.assertEqual((self.scene / "scene.json").stat().st_mtime_ns, before, "made anew")
+        self.assertTrue((self.scene / "view.html").exists())
+
+    def test_bad_input_is_one_clear_error(self):
+        self.make("json,ply")
+        self.refused(["nowhere"], "nowhere", "there is no scene", "scene.json")
+        self.refused([self.folder], "there is no scene")
+        self.refused([self.scene], "three.js", "libjs-three", code=3, BIN_SCENES_THREE="/nowhere")
+        cloud = self.scene / "camera.ply"
+        whole = cloud.read_bytes()
+        for broken in (b"", whole[:200], whole[:-1], whole + b"x", whole.replace(b"num_cols 160", b"num_cols 99999999999"),
+                       struct.pack("<4f", 1, 2, 3, 4)):
+            cloud.write_bytes(broken)
+            self.refused([self.scene], "camera.ply")
+        cloud.write_bytes(whole)
+        file = self.scene / "scene.json"
+        scene = json.loads(file.read_text())
+
+        def without(change):
+            broken = json.loads(json.dumps(scene))
+            change(broken)
+            file.write_text(json.dumps(broken))
+            self.refused([self.scene], "scene.json")
+        without(lambda s: s["sensors"][0].pop("K"))
+        without(lambda s: s["sensors"][0]["K"].pop())
+        without(lambda s: s.pop("models"))
+        without(lambda s: s["parts"][0].update(line=7))
+        without(lambda s: s["parts"][0].update(pose=3))
+        without(lambda s: s.pop("bin"))
+        scene["models"][0].pop("unit")  # as version 0.2 wrote it
+        file.write_text(json.dumps(scene))
+        self.refused([self.scene], "box.stl", "earlier version", "make the scene anew")
+        file.write_text("{")
+        self.refused([self.scene], "scene.json", "cut off")
+
+
+if __name__ == "__main__":
+    unittest.main()
