@@ -1,3 +1,4 @@
+/// Rows of two results that moved beyond their noise. What a column says, its role decides (table.hpp).
 #include "framework/compare.hpp"
 
 #include "bin_scenes/core/error.hpp"

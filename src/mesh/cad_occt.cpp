@@ -1,4 +1,4 @@
-// The only user of OpenCASCADE.
+/// Reads STEP and IGES files, heals and triangulates their solids. The only user of OpenCASCADE.
 #include "cad.hpp"
 
 #include <sys/mman.h>

@@ -88,8 +88,7 @@ TEST_F(Markers, PartsOfCadFilesAreDrawnAsTriangles) {
   options.scale = 2.0;
   Scene scene;
   scene.parts.emplace_back();
-  const auto markers =
-      scene_markers(scene, {request, {PartModel::load(file, options)}}, Frames(), stamp).markers;
+  const auto markers = scene_markers(scene, {request, {PartModel::load(file, options)}}, Frames(), stamp).markers;
   const auto& part = markers.back();
   EXPECT_EQ(part.type, visualization_msgs::Marker::TRIANGLE_LIST);
   EXPECT_TRUE(part.mesh_resource.empty());

@@ -48,6 +48,7 @@ std::vector<Row> thin_parts(bool soak) {
     row.cases.push_back(heap(with("needle_", aspect), needle, thickness, soak ? 20 : 6, Vec3(0.3, 0.25, 0.1)));
     if (aspect == 200) {
       row.known["bullet: one dropped across another"] = "rests sunk in by 0.7 of its thickness; why was not looked at";
+      row.known["bullet: 6 poured"] = "one of 12 seeds: a needle that leans slides on";
     }
     rows.push_back(row);
   }

@@ -1,3 +1,4 @@
+/// Light of a laser sheet that surfaces throw on to others: rays from the lit line, gathered by pixel columns.
 #include "sensor/models/sheet_glow.hpp"
 
 #include "sensor/models/lobe.hpp"

@@ -252,9 +252,8 @@ Measurement StructuredLight::analytic(const Random& random) const {
         double amplitude = f.amplitude;
         const double spread = fringes_.amplitude_sigma(sigma);
         out.snr[i] = static_cast<float>(f.amplitude / spread);
-        if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread) {
+        if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread)
           amplitude += spread * normals.next();
-        }
         if (mixed) {
           out.validity[i] = Validity::mixed;
         } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {
