@@ -141,7 +141,7 @@ void verify_files(const fs::path& folder, Findings& findings) {
   const nlohmann::json list = nlohmann::json::parse(file, nullptr, false);
   const bool good = list.is_object() && list.contains("files") && list["files"].is_object();
   if (!findings.expect(good, "manifest", folder.string(), "files.json is missing or damaged")) return;
-  std::set<std::string> listed = {"files.json"};
+  std::set<std::string> listed = {"files.json", "view.html"};  // the page of `view`, which anybody may make
   for (const auto& [name, entry] : list["files"].items()) {
     const fs::path path = folder / name;
     listed.insert(name);

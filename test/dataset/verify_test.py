@@ -194,6 +194,7 @@ CORRUPTIONS = [
 class Verify(DataSetTest):
     def test_each_corruption_is_found_by_the_invariant_that_it_breaks(self):
         self.make(self.plan(scenes=3), "sound")
+        (self.folder / "sound" / SCENE / "view.html").write_text("as bin_scenes view makes it")
         done = self.run_tool("dataset", "verify", "sound")
         self.assertIn(" 0 findings", done.stdout)
         names = [line.split()[0] for line in self.run_tool("dataset", "verify", "--list").stdout.splitlines()]
