@@ -41,7 +41,7 @@ std::size_t number_after(const std::string& header, const std::string& word, con
 
 /// A file of output/cloud.cpp: where its fields lie in a point is known.
 Organised read_cloud(const std::string& path, bool ply) {
-  constexpr std::size_t point_bytes = 45, label_at = 28, validity_at = 32;
+  constexpr std::size_t point_bytes = 49, label_at = 28, validity_at = 32;
   const std::string bytes = read_file(path), end = ply ? "end_header\n" : "DATA binary\n";
   const std::size_t header = bytes.find(end);
   if (header == std::string::npos) throw input_error("is no cloud that bin_scenes wrote", path, make_anew);

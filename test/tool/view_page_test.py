@@ -1,8 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """`bin_scenes view`: one page that shows a scene in a browser without a network; pictures of it are looked at pixel by
 pixel. What needs a browser is skipped where there is no Chromium.
 
-    view_test.py TOOL [--keep PNG]
+    view_page_test.py TOOL [--keep PNG]
 """
 import base64
 import colorsys
