@@ -1,5 +1,6 @@
 /// Organised clouds as PCD and PLY files, with all fields.
 #include "bin_scenes/output/scene_writer.hpp"
+#include "output/cloud_point.hpp"
 #include "output/png.hpp"
 
 #include <algorithm>
@@ -10,16 +11,6 @@
 namespace bin_scenes {
 
 namespace {
-
-/// A point as it lies in a file, little-endian; a byte of validity lies between its two halves, the SNR at its end.
-struct Measured {
-  std::array<float, 3> position, normal;
-  float intensity;
-  std::uint32_t label;
-};
-using TrueNormal = std::array<float, 3>;
-constexpr std::size_t point_bytes = sizeof(Measured) + 1 + sizeof(TrueNormal) + sizeof(float);
-static_assert(sizeof(Measured) == 32 && sizeof(TrueNormal) == 12, "no padding");
 
 struct Field {
   const char* pcd;   ///< name
@@ -52,16 +43,16 @@ std::string pose_text(const Pose& pose) {
 
 /// Tens of megabytes, not written twice; through write_bytes(), where a full disk is an error and no signal.
 void write_points(const std::string& path, const std::string& header, const RangeImage& image) {
-  const std::size_t size = header.size() + image.depth.size() * point_bytes;
+  const std::size_t size = header.size() + image.depth.size() * cloud_point::bytes;
   const std::unique_ptr<char[]> bytes(new char[size]);
   char* at = std::copy(header.begin(), header.end(), bytes.get());
   const std::vector<std::array<float, 3>> positions = points_of(image), normals = normals_of(image, positions);
-  for (std::size_t i = 0; i < positions.size(); ++i, at += point_bytes) {
-    const Measured point = {positions[i], normals[i], image.intensity[i], image.label[i]};
+  for (std::size_t i = 0; i < positions.size(); ++i, at += cloud_point::bytes) {
+    const cloud_point::Measured point = {positions[i], normals[i], image.intensity[i], image.label[i]};
     std::memcpy(at, &point, sizeof point);
-    at[sizeof point] = static_cast<char>(image.validity[i]);
-    std::memcpy(at + sizeof point + 1, &image.normal[i], sizeof(TrueNormal));
-    std::memcpy(at + sizeof point + 1 + sizeof(TrueNormal), &image.snr[i], sizeof(float));
+    at[cloud_point::validity_at] = static_cast<char>(image.validity[i]);
+    std::memcpy(at + cloud_point::true_normal_at, &image.normal[i], sizeof(cloud_point::TrueNormal));
+    std::memcpy(at + cloud_point::snr_at, &image.snr[i], sizeof(float));
   }
   write_bytes(path, bytes.get(), size);
 }

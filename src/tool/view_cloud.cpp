@@ -4,6 +4,7 @@
 #include "bin_scenes/sensor/range_image.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "core/read_file.hpp"
+#include "output/cloud_point.hpp"
 #include "output/png_reader.hpp"
 
 #include <cmath>
@@ -39,9 +40,8 @@ std::size_t number_after(const std::string& header, const std::string& word, con
   return number;
 }
 
-/// A file of output/cloud.cpp: where its fields lie in a point is known.
+/// A file of output/cloud.cpp.
 Organised read_cloud(const std::string& path, bool ply) {
-  constexpr std::size_t point_bytes = 49, label_at = 28, validity_at = 32;
   const std::string bytes = read_file(path), end = ply ? "end_header\n" : "DATA binary\n";
   const std::size_t header = bytes.find(end);
   if (header == std::string::npos) throw input_error("is no cloud that bin_scenes wrote", path, make_anew);
@@ -50,18 +50,18 @@ Organised read_cloud(const std::string& path, bool ply) {
   cloud.width = number_after(head, ply ? "obj_info num_cols" : "WIDTH", path);
   cloud.height = number_after(head, ply ? "obj_info num_rows" : "HEIGHT", path);
   const std::size_t size = cloud.width * cloud.height;
-  if (bytes.size() != header + end.size() + size * point_bytes)
+  if (bytes.size() != header + end.size() + size * cloud_point::bytes)
     throw input_error("is cut off, or no cloud that bin_scenes wrote", path, make_anew);
   cloud.points.resize(size);
   cloud.labels.resize(size);
   cloud.validity.resize(size);
   const char* at = bytes.data() + header + end.size();
-  for (std::size_t i = 0; i < size; ++i, at += point_bytes) {
-    std::uint32_t label;
-    std::memcpy(&cloud.points[i], at, sizeof cloud.points[i]);
-    std::memcpy(&label, at + label_at, sizeof label);
-    cloud.labels[i] = static_cast<std::uint16_t>(label);
-    cloud.validity[i] = static_cast<std::uint8_t>(at[validity_at]);
+  for (std::size_t i = 0; i < size; ++i, at += cloud_point::bytes) {
+    cloud_point::Measured point;
+    std::memcpy(&point, at, sizeof point);
+    cloud.points[i] = point.position;
+    cloud.labels[i] = static_cast<std::uint16_t>(point.label);
+    cloud.validity[i] = static_cast<std::uint8_t>(at[cloud_point::validity_at]);
   }
   return cloud;
 }

@@ -18,7 +18,7 @@ struct Outcome {
   double simulated_s = 0.0;           ///< all scenes
   std::uint64_t steps = 0;            ///< in that time, as they were cut
   double cpu_s = 0.0, peak_mb = 0.0;  ///< of the process
-  double growth_bytes = 0.0;          ///< flat: in use at the last scene over a tenth of the way
+  double growth_bytes = 0.0;          ///< flat: three times the least growth of memory in a quarter of the scenes
   double pace = 1.0;                  ///< flat: CPU time of the last tenth of the scenes / of the second tenth
   std::size_t parts = 0, resting = 0;
   std::string device;
@@ -32,7 +32,8 @@ std::string request_text(const Case& c, const std::string& solver);
 Outcome run_here(const std::string& yaml, const std::string& directory, const Expect& expect);
 
 /// Fails what grows over many scenes. CPU time (s) at the start and after each scene, bytes in use after each. Judged
-/// by tenths, for scenes that are poured side by side are handed over in bursts; the first tenth warms up.
+/// by tenths, for scenes that are poured side by side are handed over in bursts; the first tenth warms up. Memory by
+/// quarters: what grows with every scene grows in each of them, a buffer that is enlarged once does not.
 void judge_growth(const std::vector<double>& cpu, const std::vector<double>& in_use, Outcome& outcome);
 
 struct Limits {

@@ -9,7 +9,6 @@
 #include "solver/sphere/passes/turning_bin.hpp"
 #include "solver/sphere/world.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -25,13 +24,12 @@ constexpr std::size_t manifolds_for_a_team = 1000;  ///< fewer = helpers wait lo
 /// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
 /// step, whose solve would take the same scratch memory.
 template <class Work>
-void for_each_in_parallel(std::size_t count, std::size_t per_task, const Work& work) {
+void for_each_in_parallel(std::size_t count, const Work& work) {
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task),
-                      [&, flag = cancel_flag()](const auto& range) {
-                        const CancelScope scope(flag);
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
-                      });
+    tbb::parallel_for(std::size_t{0}, count, [&, flag = cancel_flag()](std::size_t i) {
+      const CancelScope scope(flag);
+      work(i);
+    });
   });
 }
 
@@ -482,7 +480,7 @@ void solve(World& world) {
   Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
   blocks.make(world);
   std::atomic<std::uint64_t> falling{0};
-  for_each_in_parallel(blocks.count(), 1, [&](std::size_t block) { falling += solve_block(world, blocks, block); });
+  for_each_in_parallel(blocks.count(), [&](std::size_t block) { falling += solve_block(world, blocks, block); });
   world.counters.free_steps += falling;
 }
 
