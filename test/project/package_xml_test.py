@@ -33,6 +33,7 @@ OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assim
         "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
         "glslang-tools", "spirv-tools", "spirv-headers",  # rosdep has no key of them; where one is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
+        "libfastcdr-dev",  # neither of it: its key is of ROS 2
         "libocct-data-exchange-dev",  # without it STEP and IGES are not read
         "libjs-three",  # for reports; without it they have no 3-D view
         # a browser and a cluster, which tests start; where they are missing these tests are skipped
