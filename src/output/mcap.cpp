@@ -1,3 +1,5 @@
+/// Records as the specification numbers them. A chunk is kept in memory until it is full; what the summary needs of it
+/// is remembered then.
 #include "output/mcap.hpp"
 
 #include "bin_scenes/core/error.hpp"
