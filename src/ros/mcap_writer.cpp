@@ -2,7 +2,6 @@
 
 #include "bin_scenes/config/request_reader.hpp"
 #include "cdr.hpp"
-#include "output/mcap.hpp"
 
 namespace bin_scenes {
 
@@ -15,26 +14,6 @@ std::string quality_of_service(Latch latch) {
   return std::string("- history: 1\n  depth: 1\n  reliability: 1\n  durability: ") + (latch == Latch::yes ? "1" : "2") +
          "\n  deadline: " + endless + "\n  lifespan: " + endless +
          "\n  liveliness: 1\n  liveliness_lease_duration: " + endless + "\n  avoid_ros_namespace_conventions: false\n";
-}
-
-template <class Message>
-McapChannel ros1_channel(const std::string& topic, Latch latch) {
-  namespace traits = ros::message_traits;
-  return {topic,
-          "ros1",
-          {traits::datatype<Message>(), "ros1msg", traits::definition<Message>()},
-          {{"callerid", "/bin_scenes"},
-           {"latching", latch == Latch::yes ? "true" : "false"},
-           {"md5sum", traits::md5sum<Message>()}}};
-}
-
-template <class Message>
-McapChannel ros2_channel(const std::string& topic, Latch latch) {
-  namespace traits = ros::message_traits;
-  const std::string type = traits::datatype<Message>();
-  static const std::string definition = ros2_definition(type, traits::definition<Message>());
-  return {
-      topic, "cdr", {ros2_type(type), "ros2msg", definition}, {{"offered_qos_profiles", quality_of_service(latch)}}};
 }
 
 template <class Message>
@@ -61,6 +40,24 @@ McapTexts facts(const Scene& scene, const Request& request) {
 
 }  // namespace
 
+McapChannel mcap_channel(McapProfile profile, const std::string& topic, const RosType& type, Latch latch,
+                         const std::string& sender) {
+  if (profile == McapProfile::ros2) {
+    return {topic,
+            "cdr",
+            {ros2_type(type.name), "ros2msg", ros2_definition(type.name, type.definition)},
+            {{"offered_qos_profiles", quality_of_service(latch)}}};
+  }
+  return {topic,
+          "ros1",
+          {type.name, "ros1msg", type.definition},
+          {{"callerid", sender}, {"latching", latch == Latch::yes ? "true" : "false"}}};
+}
+
+void describe_profile(McapFile& file, McapProfile profile) {
+  if (profile == McapProfile::ros2) file.add_metadata("rosbag2", {{"ROS_DISTRO", "humble"}});
+}
+
 void write_mcap(const std::string& path, McapProfile profile, const Scene& scene, const LoadedRequest& loaded,
                 const std::vector<RangeImage>& images, const ros::Time& stamp, const std::string& name_space) {
   const std::uint64_t time = stamp.toNSec();
@@ -68,9 +65,7 @@ void write_mcap(const std::string& path, McapProfile profile, const Scene& scene
   for_each_message(scene, loaded, images, stamp, {}, [&](const std::string& name, const auto& message, Latch latch) {
     using Message = std::decay_t<decltype(message)>;
     const std::string topic = recorded_name(name, name_space);
-    const bool ros2 = profile == McapProfile::ros2;
-    write(file, profile, ros2 ? ros2_channel<Message>(topic, latch) : ros1_channel<Message>(topic, latch), time,
-          message);
+    write(file, profile, mcap_channel(profile, topic, ros_type_of<Message>(), latch, "/bin_scenes"), time, message);
   });
   Request one = loaded.request;
   one.scenes = 1;
@@ -78,8 +73,7 @@ void write_mcap(const std::string& path, McapProfile profile, const Scene& scene
   file.attach("request.yaml", "application/yaml", time, write_request(one));
   file.attach("scene.json", "application/json", time, scene_json(scene, loaded.request, images, loaded.parts));
   file.add_metadata("bin_scenes", facts(scene, loaded.request));
-  // Tells rosbag2 that qualities of service are written as Humble does.
-  if (profile == McapProfile::ros2) file.add_metadata("rosbag2", {{"ROS_DISTRO", "humble"}});
+  describe_profile(file, profile);
   file.close();
 }
 
