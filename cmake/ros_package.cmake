@@ -17,7 +17,7 @@ endif()
 
 find_package(catkin REQUIRED COMPONENTS
   actionlib actionlib_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet
-  rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
+  rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 if(BIN_SCENES_PCL)  # for the example icp_check alone; the rest of src/ros does without PCL's headers
   find_package(pcl_conversions REQUIRED)
   find_package(resource_retriever REQUIRED)

@@ -71,6 +71,7 @@ class PlanFile {
       complain("must be 1 to 1000000000", "scenes", "number of heaps");
     if (plan_.attempts < 1 || plan_.attempts > 1000) complain("must be 1 to 1000", "attempts", "3 is the default");
     read_outputs(keys.node({"outputs", "", ""}));
+    read_mcap(keys.node({"mcap", "", ""}));
     if (!keys.node({"request", "", ""})) complain("is missing", "request", "give a request, or the path of its file");
     read_draws(keys.node({"draw", "", ""}));
     read_amount(keys.node({"amount", "", ""}));
@@ -89,14 +90,26 @@ class PlanFile {
   void read_outputs(const YAML::Node& node) {
     plan_.formats = {"json"};
     if (!node) return;
-    if (!node.IsSequence()) return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, bop, shards");
+    if (!node.IsSequence())
+      return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, mcap, bop, shards");
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
-      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "bop", "shards"};
+      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "mcap", "bop", "shards"};
       if (std::find(known.begin(), known.end(), name) == known.end())
-        complain("unknown output '" + name + "'", "outputs", "known are json, pcd, ply, png, bag, bop and shards");
+        complain("unknown output '" + name + "'", "outputs",
+                 "known are json, pcd, ply, png, bag, mcap, bop and shards");
       plan_.formats.push_back(name);
+    }
+  }
+
+  void read_mcap(const YAML::Node& node) {
+    if (!node) return;
+    if (!plan_.wants("mcap")) complain("says which MCAP file to write, but outputs has none", "mcap", "add mcap to it");
+    try {
+      plan_.mcap = mcap_profile_of(node.IsScalar() ? node.Scalar() : "", source_.where("mcap"));
+    } catch (const Error& error) {
+      errors_.push_back(error);
     }
   }
 

@@ -199,7 +199,7 @@ void HeapMaker::write_scene(const Generator::Result& result, const LoadedRequest
     folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
   folders.write(folder_.scene(scene), [&](const std::string& hidden) {
-    write_scene_files(hidden, formats, result, loaded);
+    write_scene_files(hidden, formats, result, loaded, plan_.mcap);
     write_text((fs::path(hidden) / "request.yaml").string(), write_request(loaded.request));
   });
 }

@@ -72,7 +72,8 @@ double estimate_scene_bytes(const Plan& plan) {
   if (plan.wants("png")) bytes += 4.0 * pixels + 7 * block * sensors;
   for (const char* cloud : {"pcd", "ply"})
     if (plan.wants(cloud)) bytes += 45.0 * pixels;
-  if (plan.wants("bag")) bytes += 45.0 * pixels;
+  for (const char* recording : {"bag", "mcap"})
+    if (plan.wants(recording)) bytes += 45.0 * pixels;
   if (plan.wants("bop")) bytes += 2.2 * pixels + parts * sensors * 2 * block + 6 * block;
   if (plan.wants("shards")) bytes += 2.2 * pixels + parts * sensors * 2500.0;
   return bytes;

@@ -25,12 +25,15 @@ void make_directory(const fs::path& path) {
 
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
   for (const std::string& format : formats) {
-    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag"};
+    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag", "mcap"};
     if (known.count(format) == 0)
-      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop or bag");
+      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag or mcap");
   }
-  if (formats.count("bag") && !bag_writer()) {
-    throw environment_error("this build has no ROS and writes no bags", where, "build with -DBIN_SCENES_ROS=ON");
+  for (const auto& [recording, writable] :
+       {std::pair("bag", bool(bag_writer())), std::pair("mcap", bool(mcap_writer()))}) {
+    if (formats.count(recording) == 0 || writable) continue;
+    throw environment_error("this build has no ROS, whose messages '" + std::string(recording) + "' holds", where,
+                            "build with -DBIN_SCENES_ROS=ON, or ask for json, pcd, ply, png or bop");
   }
 }
 
@@ -87,7 +90,7 @@ bool has_manifest(const std::string& folder) {
 }
 
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
-                       const LoadedRequest& loaded) {
+                       const LoadedRequest& loaded, McapProfile mcap) {
   const fs::path base(folder);
   for (const RangeImage& image : result.images) {
     if (formats.count("pcd")) write_pcd((base / (image.sensor.name + ".pcd")).string(), image);
@@ -95,6 +98,7 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
     if (formats.count("png")) write_pngs(folder, image);
   }
   if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
+  if (formats.count("mcap")) mcap_writer()((base / "scene.mcap").string(), mcap, result.scene, loaded, result.images);
   write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
 }
 

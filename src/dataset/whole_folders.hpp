@@ -3,6 +3,7 @@
 
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/output/mcap_profile.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -33,9 +34,9 @@ bool has_manifest(const std::string& folder);
 /// A folder without the list of its files is of a run that was killed, or of an earlier version.
 bool whole(const std::filesystem::path& folder, bool digests);
 
-/// The files of one scene in the formats json, pcd, ply, png and bag.
+/// The files of one scene in the formats json, pcd, ply, png, bag and mcap.
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
-                       const LoadedRequest& loaded);
+                       const LoadedRequest& loaded, McapProfile mcap = McapProfile::ros1);
 
 /// Folders that are written under hidden names and take their own only when all of them are whole. Without commit()
 /// nothing of them is left, nor of the directories above them that were made for them.

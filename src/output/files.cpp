@@ -1,35 +1,53 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "output/png.hpp"
+#include "output/whole_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace bin_scenes {
 
-void write_bytes(const std::string& path, const void* data, std::size_t size) {
-  const auto fail = [&](const char* what) {
-    return environment_error(std::string(what) + ": " + std::strerror(errno), path, "check permissions and free space");
-  };
-  Temporary file(path);
-  const int descriptor = ::open(file.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw fail("cannot be written");
+WholeFile::WholeFile(const std::string& path)
+    : path_(path),
+      temporary_(path),
+      descriptor_(::open(temporary_.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail("cannot be written");
+}
+
+WholeFile::~WholeFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void WholeFile::append(const void* data, std::size_t size) {
   const char* from = static_cast<const char*>(data);
+  size_ += size;
   while (size > 0) {
-    const ssize_t written = ::write(descriptor, from, size);
+    const ssize_t written = ::write(descriptor_, from, size);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const Error error = fail("cannot be written");
-      ::close(descriptor);
-      throw error;
-    }
+    if (written < 0) fail("cannot be written");
     from += written;
     size -= static_cast<std::size_t>(written);
   }
-  if (::close(descriptor) != 0) throw fail("cannot be closed");  // some file systems tell of a full disk only here
+}
+
+void WholeFile::commit() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0) fail("cannot be closed");  // some file systems tell of a full disk only here
+  temporary_.commit();
+}
+
+void WholeFile::fail(const char* what) const {
+  throw environment_error(std::string(what) + ": " + std::strerror(errno), path_, "check permissions and free space");
+}
+
+void write_bytes(const std::string& path, const void* data, std::size_t size) {
+  WholeFile file(path);
+  file.append(data, size);
   file.commit();
 }
 
@@ -42,6 +60,10 @@ BagWriter& registered_bag_writer() {
   static BagWriter writer;
   return writer;
 }
+McapWriter& registered_mcap_writer() {
+  static McapWriter writer;
+  return writer;
+}
 }  // namespace
 
 void register_bag_writer(BagWriter writer) {
@@ -49,6 +71,13 @@ void register_bag_writer(BagWriter writer) {
 }
 const BagWriter& bag_writer() {
   return registered_bag_writer();
+}
+
+void register_mcap_writer(McapWriter writer) {
+  registered_mcap_writer() = std::move(writer);
+}
+const McapWriter& mcap_writer() {
+  return registered_mcap_writer();
 }
 
 }  // namespace bin_scenes

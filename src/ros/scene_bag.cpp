@@ -6,10 +6,8 @@ namespace bin_scenes {
 
 SceneBag::SceneBag(const std::string& path, const std::string& name_space)
     : temporary_(path),
-      space_(name_space.empty() || name_space[0] == '/' ? name_space : "/" + name_space),
-      bag_(std::make_unique<rosbag::Bag>(temporary_.path(), rosbag::bagmode::Write)) {
-  while (!space_.empty() && space_.back() == '/') space_.pop_back();
-}
+      space_(name_space),
+      bag_(std::make_unique<rosbag::Bag>(temporary_.path(), rosbag::bagmode::Write)) {}
 
 /// A bag that is still open tries to close itself, and where the disk is full its destructor throws: the end of the
 /// process. Such a bag is given up instead.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"
+#include "recording.hpp"
 
 #include <rosbag/bag.h>
 #include <boost/make_shared.hpp>
@@ -12,12 +13,10 @@
 
 namespace bin_scenes {
 
-enum class Latch { no, yes };
-
 /// An open bag under a temporary name, which close() renames.
 class SceneBag {
  public:
-  /// @param name_space of the topics, as of a node: "cell", "/cell/"; those that begin with "/" stay where they are
+  /// @param name_space of the topics, as recorded_name() takes it
   SceneBag(const std::string& path, const std::string& name_space);
   ~SceneBag();
   SceneBag(const SceneBag&) = delete;
@@ -33,7 +32,7 @@ class SceneBag {
     (*header)["message_definition"] = traits::definition<Message>();
     (*header)["callerid"] = "/bin_scenes";
     (*header)["latching"] = latch == Latch::yes ? "1" : "0";
-    bag_->write(topic.front() == '/' ? topic : space_ + "/" + topic, stamp, message, header);
+    bag_->write(recorded_name(topic, space_), stamp, message, header);
   }
 
   void close();

@@ -1,4 +1,4 @@
-#include "topics.hpp"
+#include "recording.hpp"
 
 #include "bin_scenes/scene/sensor_name.hpp"
 
@@ -7,6 +7,13 @@ namespace bin_scenes {
 std::string topic::of_sensor(const char* name, const std::string& sensor, std::size_t sensors) {
   const std::string space = graph_name(sensor);
   return sensors == 1 || space == "camera" ? name : space + "/" + name;
+}
+
+std::string recorded_name(const std::string& topic, const std::string& name_space) {
+  if (topic.front() == '/') return topic;
+  std::string space = name_space.empty() || name_space.front() == '/' ? name_space : "/" + name_space;
+  while (!space.empty() && space.back() == '/') space.pop_back();
+  return space + "/" + topic;
 }
 
 void set_stamp(SceneMessages& messages, const ros::Time& stamp) {

@@ -15,8 +15,9 @@ struct GenerateOptions {
   std::optional<std::string> seed, scenes, first, solver, seconds;  ///< overrides, judged like --set
   std::vector<std::string> set;
   std::vector<std::string> formats = {"json"};
-  std::string trace;        ///< CSV file; empty = none
-  double trace_rate = 100;  ///< Hz of simulated time
+  std::optional<std::string> mcap;  ///< profile of MCAP files; none: ros1
+  std::string trace;                ///< CSV file; empty = none
+  double trace_rate = 100;          ///< Hz of simulated time
   bool overwrite = false;
   bool verify = false;  ///< read every file of the scenes that are there
   bool verbose = false;

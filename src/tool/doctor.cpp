@@ -124,8 +124,8 @@ void report_ros() {
   const char* distribution = std::getenv("ROS_DISTRO");
   const char* packages = std::getenv("ROS_PACKAGE_PATH");
   const bool built = static_cast<bool>(bag_writer());
-  line("ros", built, built ? "built in: node, messages and bags" : "not in this build",
-       "for bags and the node, install ros-core and build with -DBIN_SCENES_ROS=ON");
+  line("ros", built, built ? "built in: node, messages, bags and MCAP" : "not in this build",
+       "for bags, MCAP and the node, install ros-core and build with -DBIN_SCENES_ROS=ON");
   std::printf("%-9s      ROS_DISTRO %s, ROS_PACKAGE_PATH %s\n", "", distribution ? distribution : "not set",
               packages ? packages : "not set (package:// paths will not be found)");
 }

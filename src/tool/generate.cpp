@@ -94,11 +94,18 @@ std::vector<ScenePart> traced(const std::vector<BodyState>& states) {
   return parts;
 }
 
+McapProfile mcap_profile(const GenerateOptions& options) {
+  if (!options.mcap) return McapProfile::ros1;
+  if (std::find(options.formats.begin(), options.formats.end(), "mcap") == options.formats.end())
+    throw input_error("says which MCAP file to write, but --formats has none", "--mcap", "add mcap to it");
+  return mcap_profile_of(*options.mcap, "--mcap");
+}
+
 /// Refuses options that the request cannot serve.
 void check_options(const GenerateOptions& options, const Request& request, bool needs_sensors) {
   if (needs_sensors && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
-                      "add `sensors: [{name: camera}]`, or ask for --formats json,bag alone");
+                      "add `sensors: [{name: camera}]`, or ask for --formats json,bag,mcap alone");
   }
   if (std::find(options.formats.begin(), options.formats.end(), "bop") != options.formats.end()) {
     for (const Sensor& sensor : request.sensors) {
@@ -122,7 +129,7 @@ int generate(const GenerateOptions& options) {
   const std::atomic<bool>& interrupted = stop_on_signals(500'000, "bin_scenes: cancelled; finished scenes are kept\n");
   const CancelScope scope(&interrupted);
   Request request = read_request(options.request, overrides_of(options));
-  SceneStore store(options.out, options.formats, options.verify);
+  SceneStore store(options.out, options.formats, mcap_profile(options), options.verify);
   check_options(options, request, store.needs_sensors());
 
   std::set<std::size_t> there;

@@ -43,8 +43,9 @@ bool is_of(const Request& request, const nlohmann::json& scene) {
 
 }  // namespace
 
-SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify)
-    : directory_(directory), formats_(formats.begin(), formats.end()), verify_(verify) {
+SceneStore::SceneStore(const std::string& directory, const std::vector<std::string>& formats, McapProfile mcap,
+                       bool verify)
+    : directory_(directory), formats_(formats.begin(), formats.end()), mcap_(mcap), verify_(verify) {
   check_formats(formats_, "--formats");
   check_writable(directory);
   for (const bool accepted : {true, false}) {
@@ -56,7 +57,7 @@ bool SceneStore::needs_sensors() const {
   return wants("pcd") || wants("ply") || wants("png") || wants("bop");
 }
 bool SceneStore::needs_images() const {
-  return needs_sensors() || wants("bag");
+  return needs_sensors() || wants("bag") || wants("mcap");
 }
 
 fs::path SceneStore::root(bool accepted) const {
@@ -79,6 +80,7 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
   const fs::path base(folder);
   if (!whole(base, verify_)) return false;
   if (wants("bag") && !there(base / "scene.bag")) return false;
+  if (wants("mcap") && mcap_profile_in((base / "scene.mcap").string()) != name_of(mcap_)) return false;
   for (const Sensor& sensor : request.sensors) {
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("ply") && !there(base / (sensor.name + ".ply"))) return false;
@@ -127,8 +129,9 @@ void SceneStore::prepare(Generator::Result& result, const Generator& generator) 
   const Scene& scene = result.scene;
   const bool accepted = scene.report.accepted;
   const auto folders = std::make_shared<WholeFolders>();
-  folders->write(folder(scene.index, accepted),
-                 [&](const std::string& hidden) { write_scene_files(hidden, formats_, result, generator.loaded()); });
+  folders->write(folder(scene.index, accepted), [&](const std::string& hidden) {
+    write_scene_files(hidden, formats_, result, generator.loaded(), mcap_);
+  });
   if (wants("bop")) {
     folders->write(bop_folder(scene.index, accepted), [&](const std::string& hidden) {
       write_bop(hidden, scene, generator.loaded().parts, result.images);

@@ -1,6 +1,7 @@
 /// The directory of a job: one folder a scene, which appears under its name only when it is whole.
 ///
-///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag
+///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag,
+///                                  scene.mcap
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it
@@ -10,6 +11,7 @@
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/output/mcap_profile.hpp"
 
 #include <filesystem>
 #include <map>
@@ -27,8 +29,10 @@ class SceneStore {
  public:
   /// Checks the formats and that `directory` can be written, removes what killed runs left half-written, and makes
   /// nothing yet.
+  /// @param mcap    whose MCAP files are written
   /// @param verify  what is there counts only if the digests of its files agree too
-  SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify = false);
+  SceneStore(const std::string& directory, const std::vector<std::string>& formats,
+             McapProfile mcap = McapProfile::ros1, bool verify = false);
 
   bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
   bool needs_images() const;   ///< some format holds what sensors see, if there are any
@@ -58,6 +62,7 @@ class SceneStore {
 
   std::string directory_;
   std::set<std::string> formats_;
+  McapProfile mcap_;
   bool verify_;
   std::mutex mutex_;
   std::map<std::size_t, std::shared_ptr<WholeFolders>> prepared_;  ///< by index of the scene; under mutex_

@@ -36,6 +36,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -61,7 +62,14 @@ class Cad : public ::testing::Test {
     STEPControl_Writer writer;
     writer.Transfer(shape, STEPControl_AsIs);
     EXPECT_EQ(writer.Write(file(name).c_str()), IFSelect_RetDone);
-    return file(name);
+    return kept(file(name));
+  }
+  /// For test/readers/step_test.js, which lets another program read what is written here.
+  static std::string kept(const std::string& path) {
+    static int number = 0;
+    if (const char* folder = std::getenv("CAD_TEST_KEEP"))
+      fs::copy_file(path, fs::path(folder) / (std::to_string(number++) + "_" + fs::path(path).filename().string()));
+    return path;
   }
   std::string iges(const TopoDS_Shape& shape, const char* unit = "MM", int solids = 0) const {
     IGESControl_Writer writer(unit, solids);
@@ -251,7 +259,7 @@ TEST_F(Cad, SolidsThatTouchAreOnePartAndOthersAreListed) {
     STEPCAFControl_Writer writer;
     writer.Transfer(document(gap), STEPControl_AsIs);
     EXPECT_EQ(writer.Write(file("assembly.stp").c_str()), IFSelect_RetDone);
-    return file("assembly.stp");
+    return kept(file("assembly.stp"));
   };
   const double pin = M_PI * 16.0 * 15.0, base = 4000.0;
   const LoadedMesh whole = load_mesh(write(0.0));

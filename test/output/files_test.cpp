@@ -4,23 +4,11 @@
 
 #include <csignal>
 #include <cstring>
-#include <functional>
 
 namespace bin_scenes {
 namespace {
 
 using Files = OutputTest;
-
-ErrorKind kind_of_failure(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_FALSE(error.remedy().empty());
-    return error.kind();
-  }
-  ADD_FAILURE() << "did not fail";
-  return ErrorKind::input;
-}
 
 TEST_F(Files, AreReplacedWholeAndLeaveNothingBeside) {
   write_text(path("a.txt"), "old and long");

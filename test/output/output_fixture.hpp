@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -37,6 +38,17 @@ class OutputTest : public ::testing::Test {
 
   std::filesystem::path dir;
 };
+
+inline ErrorKind kind_of_failure(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_FALSE(error.remedy().empty());
+    return error.kind();
+  }
+  ADD_FAILURE() << "did not fail";
+  return ErrorKind::input;
+}
 
 /// 8 x 6 pixels: a slope of the bin, part 0 in columns 1-2, part 2 in column 5, nothing seen in the last column.
 inline RangeImage small_image() {

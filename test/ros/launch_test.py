@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,32 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scene_data as data  # noqa: E402
 from launched import LaunchTestCase, Launched  # noqa: E402
 from scene_client import CAMERA, Doors, wait_until  # noqa: E402
+
+
+def mcap_summary(path):
+    """(profile, {topic: (type, number of messages)}) as the summary at the end of an MCAP file tells; see mcap.dev."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == data[-8:] == b"\x89MCAP0\r\n"
+
+    def text(at):
+        return data[at + 4:at + 4 + struct.unpack_from("<I", data, at)[0]].decode()
+
+    at, = struct.unpack_from("<Q", data, len(data) - 28)
+    schemas, channels, counts = {}, {}, {}
+    while data[at] in range(0x03, 0x0e):
+        op, size = data[at], struct.unpack_from("<Q", data, at + 1)[0]
+        content = at + 9
+        if op == 0x03:
+            schemas[struct.unpack_from("<H", data, content)[0]] = text(content + 2)
+        if op == 0x04:
+            number, schema = struct.unpack_from("<HH", data, content)
+            channels[number] = (text(content + 4), schemas[schema])
+        if op == 0x0b:
+            length = struct.unpack_from("<I", data, content + 42)[0]
+            counts = dict(struct.iter_unpack("<HQ", data[content + 46:content + 46 + length]))
+        at = content + size
+    return text(17), {topic: (kind, counts[number]) for number, (topic, kind) in channels.items()}
 
 
 class LaunchTest(LaunchTestCase):
@@ -93,6 +120,31 @@ class LaunchTest(LaunchTestCase):
                 self.assertIn(topic, found)
             stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw"])}
         self.assertEqual(stamps, {scene.header.stamp})
+
+    def test_record_mcap(self):
+        """The recorder of MCAP has the topics of rosbag, for either ROS; a format that is none is refused."""
+        for profile, cloud in (("ros1", "sensor_msgs/PointCloud2"), ("ros2", "sensor_msgs/msg/PointCloud2")):
+            prefix = os.path.join(self.folder.name, profile)
+            with Launched("bin_scenes.launch"):
+                doors = Doors()
+                with Launched("record.launch", "bag:=" + prefix, "bag_format:=mcap", "mcap:=" + profile) as recorder:
+                    wait_until(self.recorder_listens, 60)
+                    doors.scene(CAMERA)
+                    time.sleep(1.0)
+                    self.assertEqual(glob.glob(prefix + "*"), [], "a file that is still written has no name")
+            files = glob.glob(prefix + "*.mcap")
+            self.assertEqual(len(files), 1, recorder.output())
+            found_profile, channels = mcap_summary(files[0])
+            self.assertEqual(found_profile, profile)
+            for topic in ("/scene", "/markers", "/points", "/depth/image_rect", "/depth/camera_info", "/labels/image_raw",
+                          "/validity/image_raw", "/acquisition_done", "/tf", "/tf_static"):
+                self.assertGreater(channels[topic][1], 0, topic)
+            self.assertEqual(channels["/points"][0], cloud)
+            self.assertNotIn("Traceback", recorder.output())
+        refused = subprocess.run(["roslaunch", "bin_scenes", "record.launch", "bag_format:=zip"], capture_output=True, text=True,
+                                 timeout=60)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("zip", refused.stderr + refused.stdout)
 
     @staticmethod
     def recorder_listens():

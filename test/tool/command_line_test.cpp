@@ -141,7 +141,7 @@ TEST_F(CommandLine, AnEnvironmentThatDoesNotDoEndsWithCodeThree) {
 
 TEST_F(CommandLine, AFullDiskEndsEveryFormatWithOneMessageAndNothingHalfWritten) {
   std::vector<std::string> formats = {"pcd", "ply", "png", "bop"};
-  if (with_ros()) formats.push_back("bag");
+  if (with_ros()) formats.insert(formats.end(), {"bag", "mcap"});
   for (const std::string& format : formats) {
     const Outcome full = run("generate request.yaml --out " + format + " --formats " + format +
                                  " --set 'sensors=[{name: top, width: 64, height: 48}]'",
@@ -428,6 +428,21 @@ TEST_F(CommandLine, ABagNeedsNoSensor) {
   const Outcome outcome = run("generate request.yaml --out out --formats bag");
   EXPECT_EQ(outcome.code, with_ros() ? 0 : 3) << outcome.err;
   EXPECT_EQ(fs::exists(dir / "out/scene_000000/scene.bag"), with_ros());
+}
+
+TEST_F(CommandLine, AnMcapFileIsMadeAnewForTheOtherRos) {
+  expect_failure("generate request.yaml --out out --mcap ros2", 2, {"--mcap", "--formats"});
+  expect_failure("generate request.yaml --out out --formats mcap --mcap ros3", 2, {"ros3", "ros1 or ros2"});
+  const std::string job = "generate request.yaml --out out --formats mcap";
+  if (!with_ros()) return expect_failure(job, 3, {"no ROS", "BIN_SCENES_ROS", "json, pcd, ply, png or bop"});
+  const std::string file = "out/scene_000000/scene.mcap";
+  const auto profile = [&] { return text(file).substr(21, 4); };  // behind magic, head of the record and length
+  EXPECT_EQ(run(job).code, 0);
+  EXPECT_EQ(profile(), "ros1");
+  EXPECT_NE(run(job).err.find("there already"), std::string::npos);
+  EXPECT_EQ(run(job + " --mcap ros2").code, 0);
+  EXPECT_EQ(profile(), "ros2");
+  EXPECT_NE(run(job + " --mcap ros2").err.find("there already"), std::string::npos);
 }
 
 TEST_F(CommandLine, VerboseTellsStagesAndCounters) {

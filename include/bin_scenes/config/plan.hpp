@@ -4,6 +4,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
 #include "bin_scenes/output/bop_layout.hpp"
+#include "bin_scenes/output/mcap_profile.hpp"
 #include "bin_scenes/scene/request.hpp"
 
 #include <array>
@@ -53,7 +54,8 @@ class Plan {
   std::uint64_t seed = 0;
   std::size_t heaps = 1;             ///< to pour; key `scenes`
   std::size_t attempts = 3;          ///< for a heap: one that is not accepted is drawn and poured anew so many times
-  std::vector<std::string> formats;  ///< of json, pcd, ply, png, bag, bop, shards; key `outputs`
+  std::vector<std::string> formats;  ///< of json, pcd, ply, png, bag, mcap, bop, shards; key `outputs`
+  McapProfile mcap = McapProfile::ros1;
   /// bop: 0: a pixel shows the part that is truly seen there; else m behind the measured surface up to which a part is
   /// visible. Keys bop.visible and bop.tolerance.
   double tolerance = 0.0;

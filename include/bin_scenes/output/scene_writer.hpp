@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/output/mcap_profile.hpp"
 #include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/scene/scene.hpp"
@@ -77,5 +78,12 @@ using BagWriter =
 void register_bag_writer(BagWriter writer);
 /// Empty without ROS.
 const BagWriter& bag_writer();
+
+/// As BagWriter, into an MCAP file.
+using McapWriter = std::function<void(const std::string& path, McapProfile, const Scene&, const LoadedRequest&,
+                                      const std::vector<RangeImage>&)>;
+void register_mcap_writer(McapWriter writer);
+/// Empty without ROS.
+const McapWriter& mcap_writer();
 
 }  // namespace bin_scenes

@@ -1,0 +1,72 @@
+/// The container MCAP: messages with their definitions and an index in one file. Written as its specification says
+/// (mcap.dev, version 0), with chunks packed by zstd, and with checksums of all of them. What the messages are is for
+/// the caller to say.
+#pragma once
+
+#include "output/whole_file.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+using McapTexts = std::map<std::string, std::string>;
+
+/// Definition of a type of messages.
+struct McapSchema {
+  std::string name, encoding, text;
+};
+
+/// Messages of one topic and one type.
+struct McapChannel {
+  std::string topic;
+  std::string encoding;  ///< of its messages
+  McapSchema schema;
+  McapTexts metadata;
+};
+
+/// A file that is written front to back and appears with close(). Times are in ns since the epoch. A file cut off
+/// behind a chunk is still read up to there, because each type and channel is told in the chunk of its first message.
+/// All functions throw an environment Error if the file cannot be written.
+class McapFile {
+ public:
+  McapFile(const std::string& path, const std::string& profile);
+
+  using ChannelId = std::uint16_t;
+  ChannelId add_channel(const McapChannel& channel);
+  void write(ChannelId channel, std::uint64_t time, const void* data, std::size_t size);
+  void attach(const std::string& name, const std::string& media_type, std::uint64_t time, const std::string& data);
+  void add_metadata(const std::string& name, const McapTexts& texts);
+  void close();
+
+ private:
+  struct Span {  ///< ns, from the earliest to the latest message
+    std::uint64_t first = 0, last = 0;
+    bool empty = true;
+    void add(std::uint64_t time);
+  };
+  void put(const std::string& bytes);
+  void flush();
+  std::uint16_t schema_id(const McapSchema& schema);
+  std::string write_message_index();
+  std::string statistics() const;
+  std::string summary_offsets(std::uint64_t start, std::string& summary) const;
+
+  WholeFile file_;
+  std::uint32_t crc_ = 0;  ///< of the bytes put so far
+  std::string chunk_;      ///< records of the open chunk
+  /// Of the open chunk: time and place of each message.
+  std::map<ChannelId, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;
+  Span chunk_span_, span_;  ///< of the open chunk; of all
+
+  std::vector<McapSchema> schemas_;  ///< [id - 1]
+  std::map<ChannelId, std::uint64_t> counts_;
+  std::uint32_t chunks_ = 0, attachments_ = 0, texts_ = 0;
+  /// Records of the summary that are known already.
+  std::string schema_records_, channel_records_, chunk_indices_, attachment_indices_, metadata_indices_;
+};
+
+}  // namespace bin_scenes

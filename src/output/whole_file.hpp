@@ -1,0 +1,33 @@
+/// A file written piece by piece that appears whole or not at all.
+#pragma once
+
+#include "bin_scenes/core/temporary.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace bin_scenes {
+
+/// Throws an environment Error that names the file where a piece cannot be written. Without commit() nothing is left.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string& path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void append(const void* data, std::size_t size);
+  std::uint64_t size() const { return size_; }
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+
+  std::string path_;
+  Temporary temporary_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace bin_scenes

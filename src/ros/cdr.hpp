@@ -1,0 +1,77 @@
+/// Messages of ROS 1 as ROS 2 sends and describes them: as CDR, which says how many bytes stand where, and by
+/// definitions with the names of ROS 2 (those of Humble and later).
+///
+/// A definition of ROS 2 has the fields of that of ROS 1 in the same order, but for three differences: a Header has no
+/// `seq`, names of fields are in small letters, and a Marker may have a texture and the file of its mesh.
+#pragma once
+
+#include <fastcdr/Cdr.h>
+#include <ros/serialization.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+#include <boost/array.hpp>
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace bin_scenes {
+
+/// What the serializers that ROS 1 generates write to: they hand over one field after another.
+class CdrStream {
+ public:
+  explicit CdrStream(eprosima::fastcdr::Cdr& cdr) : cdr_(cdr) {}
+
+  template <class Field>
+  void next(const Field& field) {
+    if constexpr (std::is_arithmetic_v<Field>) {
+      cdr_.serialize(field);
+    } else {
+      ros::serialization::Serializer<Field>::template allInOne<CdrStream, const Field&>(*this, field);
+    }
+  }
+  void next(const std::string& text) { cdr_.serialize(text); }
+  void next(const ros::Time& time);
+  void next(const ros::Duration& duration);
+  void next(const std_msgs::Header& header);
+  void next(const visualization_msgs::Marker& marker);
+  template <class Element, class Allocator>
+  void next(const std::vector<Element, Allocator>& elements) {
+    next(static_cast<std::uint32_t>(elements.size()));
+    each(elements);
+  }
+  template <class Element, std::size_t size>
+  void next(const boost::array<Element, size>& elements) {
+    each(elements);
+  }
+
+ private:
+  template <class Elements>
+  void each(const Elements& elements) {
+    if constexpr (std::is_arithmetic_v<typename Elements::value_type>) {
+      cdr_.serializeArray(elements.data(), elements.size());
+    } else {
+      for (const auto& element : elements) next(element);
+    }
+  }
+
+  eprosima::fastcdr::Cdr& cdr_;
+};
+
+template <class Message>
+std::vector<char> cdr_bytes(const Message& message) {
+  eprosima::fastcdr::FastBuffer buffer;
+  buffer.reserve(ros::serialization::serializationLength(message) + 4096);  // room for padding; it grows if need be
+  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR);
+  cdr.serialize_encapsulation();
+  CdrStream(cdr).next(message);
+  return {buffer.getBuffer(), buffer.getBuffer() + cdr.getSerializedDataLength()};
+}
+
+/// "sensor_msgs/Image" -> "sensor_msgs/msg/Image".
+std::string ros2_type(const std::string& type);
+/// Full definition of a message of ROS 1, with those of its fields -> that of ROS 2.
+std::string ros2_definition(const std::string& type, const std::string& definition);
+
+}  // namespace bin_scenes

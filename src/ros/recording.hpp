@@ -1,0 +1,39 @@
+/// What a recording of the live node holds of one scene. Bags and MCAP files share it.
+#pragma once
+
+#include "topics.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+enum class Latch { no, yes };
+
+/// A topic as a node in that namespace has it: "cell", "/cell/"; names that begin with "/" stay where they are.
+std::string recorded_name(const std::string& topic, const std::string& name_space);
+
+/// Gives each message of a scene to write(topic, message, latch). `images`: none, or one for each sensor of the scene.
+template <class Write>
+void for_each_message(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images,
+                      const ros::Time& stamp, const Frames& frames, const Write& write) {
+  const SceneMessages messages = scene_messages(scene, loaded, frames, stamp);
+  write(topic::tf_static, messages.statics, Latch::yes);  // first, so that a player knows the frames at once
+  write(topic::tf, messages.parts, Latch::yes);
+  write(topic::scene, messages.scene, Latch::yes);
+  write(topic::markers, messages.markers, Latch::yes);
+  for (const RangeImage& taken : images) {
+    const ImageMessages image = image_messages(taken, stamp, frames.prefix);
+    const auto name = [&](const char* relative) {
+      return topic::of_sensor(relative, taken.sensor.name, images.size());
+    };
+    write(name(topic::points), image.points, Latch::yes);
+    write(name(topic::depth), image.depth, Latch::yes);
+    if (image.camera_info) write(name(topic::camera_info), *image.camera_info, Latch::yes);
+    write(name(topic::labels), image.labels, Latch::yes);
+    write(name(topic::validity), image.validity, Latch::yes);
+  }
+  write(topic::acquisition_done, messages.done, Latch::no);
+}
+
+}  // namespace bin_scenes
