@@ -1,0 +1,128 @@
+/// Depth errors of structured light in a V-groove, whose faces light each other, by albedo, period and bounces.
+#include "framework/benchmark.hpp"
+
+#include "bin_scenes/sensor/resolve.hpp"
+#include "sensor/models/structured_light.hpp"
+#include "sensor/targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes::bench {
+namespace {
+
+/// Two faces at right angles, 57 mm wide, that meet in a line along y at 0.75 m, seen by a fringe projector.
+Targets groove(const Surface& surface) {
+  Mesh mesh;
+  for (const int side : {-1, 1}) {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const double far : {0.0, 0.057}) {
+      for (const double y : {-0.15, 0.15}) {
+        mesh.vertices.push_back(Vec3(0, y, 0.75) + far / std::sqrt(2.0) * Vec3(side, 0.0, -1.0));
+      }
+    }
+    mesh.triangles.push_back({base, base + 1, base + 2});
+    mesh.triangles.push_back({base + 1, base + 3, base + 2});
+  }
+  Targets targets;
+  targets.add(mesh, Pose(), surface);
+  return targets;
+}
+
+StructuredLight::Setup projector_of(double period, int bounces) {
+  StructuredLight::Setup setup;
+  const Projector usual;
+  setup.projector = lens_of(usual);
+  setup.projector_pose = {Vec3(usual.baseline, 0.0, 0.0),
+                          Quat(Eigen::AngleAxisd(-std::atan(usual.baseline / 0.75), Vec3::UnitY()))};
+  setup.settings.period = period;
+  setup.imager.exposure = 0.4;  // both faces' light stays below saturation
+  setup.noise = false;
+  setup.near = 0.3;
+  setup.far = 1.3;
+  setup.indirect.bounces = bounces;
+  return setup;
+}
+
+/// The pixels of the groove of a camera of 1944 columns and a field of view of 0.997 rad.
+Lens camera() {
+  Lens lens = Lens::from_fov(1944, 1200, 0.997);
+  lens.cx -= 871.0, lens.cy -= 580.0;
+  lens.width = 202, lens.height = 40;
+  return lens;
+}
+
+/// Errors of pixels whose face lies at least so far from the line, across it.
+struct Errors {
+  double rms = 0.0, largest = 0.0;  ///< of the phase, as depth (m): fringes are not told apart
+  double valid = 0.0, other = 0.0;  ///< shares of pixels: valid, and read in another fringe
+  double seen = 0.0;                ///< pixels
+};
+
+Errors errors_of(const View& view, const Measurement& measured, const StructuredLight::Setup& setup, double least) {
+  const Triangulation triangle(setup.projector, setup.projector_pose);
+  const auto width = static_cast<std::size_t>(view.lens.width);
+  Errors out;
+  for (std::size_t i = 0; i < view.depth.size(); ++i) {
+    const Vec3 ray = view.lens.ray(static_cast<double>(i % width), static_cast<double>(i / width));
+    if (!(std::abs(view.depth[i] * ray.x()) >= least)) continue;
+    out.seen += 1.0;
+    if (measured.validity[i] != Validity::valid) continue;
+    out.valid += 1.0;
+    const auto column = [&](double depth) {
+      return setup.projector.project(setup.projector_pose.inverse() * (depth * ray))->x();
+    };
+    const double off = column(measured.depth[i]) - column(view.depth[i]);
+    const double in_period = std::remainder(off, setup.settings.period);
+    if (std::abs(off - in_period) > 0.5 * setup.settings.period) out.other += 1.0;
+    const double error = std::abs(in_period) * triangle.depth_per_column(ray, view.depth[i]);
+    out.rms += error * error;
+    out.largest = std::max(out.largest, error);
+  }
+  out.rms = std::sqrt(out.rms / out.valid);
+  out.valid /= out.seen;
+  out.other /= out.seen;
+  return out;
+}
+
+void groove_row(Run& out, const std::string& name, const Surface& surface, double period, int bounces, bool decoded) {
+  const Row key = Row()
+                      .key("surface", name)
+                      .key("period_px", period)
+                      .key("bounces", bounces)
+                      .key("fidelity", decoded ? "decoded" : "analytic");
+  if (!out.wanted(key)) return;
+  Targets targets = groove(surface);
+  const Scenery scenery = targets.scenery();
+  const StructuredLight::Setup setup = projector_of(period, bounces);
+  const View view = render(scenery, camera(), Pose(), setup.near, setup.far);
+  const StructuredLight model(scenery, view, targets.surfaces(), setup);
+  const Random random(1, 0, Stream::noise);
+  const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
+  const Errors all = errors_of(view, measured, setup, 0.0), apart = errors_of(view, measured, setup, 0.0045);
+  out.row(Row(key)
+              .exact("rms_mm", 1e3 * all.rms)
+              .exact("largest_mm", 1e3 * all.largest)
+              .exact("rms_apart_mm", 1e3 * apart.rms)
+              .exact("largest_apart_mm", 1e3 * apart.largest)
+              .exact("valid_percent", 100.0 * all.valid)
+              .exact("other_fringe_percent", 100.0 * all.other)
+              .info("pixels", all.seen));
+}
+
+void run(Run& out) {
+  const Surface bright{0.9, 0.0, 0.4}, dark{0.45, 0.0, 0.4}, satin{0.8, 0.7, 0.4}, shiny{0.8, 0.9, 0.3};
+  for (const double period : {16.0, 64.0}) {
+    for (const int bounces : {0, 1, 2}) groove_row(out, "matte, albedo 0.9", bright, period, bounces, false);
+    groove_row(out, "matte, albedo 0.9", bright, period, 1, true);
+    groove_row(out, "matte, albedo 0.45", dark, period, 1, false);
+  }
+  groove_row(out, "albedo 0.8, gloss 0.7, roughness 0.4", satin, 16.0, 1, false);
+  groove_row(out, "albedo 0.8, gloss 0.9, roughness 0.3", shiny, 16.0, 1, false);
+}
+
+const Registration registration{
+    "light", "structured light in a V-groove", {"surface", "period_px", "bounces", "fidelity"}, run};
+
+}  // namespace
+}  // namespace bin_scenes::bench
