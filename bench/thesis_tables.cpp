@@ -1,16 +1,14 @@
 /// The tables of J. Edhammer, "Rigid Body Physics for Synthetic Data Generation" (LiTH-ISY-EX--16/4958--SE, 2016),
 /// again: time per step by stage beside the published figures (GTX 960, ms). Quick forms are an eighth of the size and
-/// have nothing to stand beside.
+/// have nothing to stand beside. Its teapots: config/thesis_teapots.yaml.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "runs.hpp"
 
 #include "bin_scenes/core/random.hpp"
-#include "bin_scenes/pour/pour.hpp"
 #include "solver/thesis/scenes.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -19,7 +17,7 @@ namespace {
 
 using thesis::test::WorldBuilder;
 
-constexpr double limit_s = 5400.0;  // 1024 teapots under Bullet need 40 min
+constexpr double limit_s = 1800.0;
 const std::vector<std::string> stages = {"move", "grid", "detect", "impulse", "velocity", "position"};
 
 /// The thesis's stages from the solver's passes.
@@ -43,19 +41,6 @@ Row times(const Profile& profile, double steps, double wall_ms) {
   for (const std::string& stage : stages)
     if (const auto found = sums.find(stage); found != sums.end()) row.measure(stage + "_ms", found->second);
   return row.measure("total_ms", total).measure("wall_ms", wall_ms / steps).exact("steps", steps);
-}
-
-/// What a step asks of the device, and of its memory.
-Row asked_for(const Profile& profile, double steps) {
-  const auto a_step = [&](const char* counter) { return static_cast<double>(profile.counters.at(counter)) / steps; };
-  return Row()
-      .exact("contacts", a_step("contacts"))
-      .exact("grid_cells", a_step("grid_cells"))
-      .exact("dispatches", a_step("gl_dispatches"))
-      .exact("barriers", a_step("gl_barriers"))
-      .exact("bytes_uploaded", a_step("gl_bytes_uploaded"))
-      .exact("bytes_read_back", a_step("gl_bytes_read_back"))
-      .exact("held_mb", 1e-6 * static_cast<double>(profile.counters.at("gl_bytes_held")));
 }
 
 /// Bodies that are no longer above the bin's floor.
@@ -142,16 +127,14 @@ Row timed(const Cubes& cubes, const ThesisSettings& settings, int steps) {
                ThesisSolver solver(settings);
                const WorldId id = solver.add_world(std::move(world));
                for (std::size_t b = 0; b < builder.starts.size(); ++b) solver.insert(id, b, builder.starts[b]);
-               const auto start = std::chrono::steady_clock::now();
+               const Clock clock;
                solver.advance({id}, steps * settings.time_step);
-               const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
                return Row()
                    .exact("spheres",
                           cubes.bodies * static_cast<std::size_t>(cubes.edge * cubes.edge * cubes.edge) + fixed)
                    .exact("static_spheres", fixed)
                    .exact("escaped", outside(solver.states(id), builder.def.bin.inner_size))
-                   .append(asked_for(solver.profile(), steps))
-                   .append(times(solver.profile(), steps, wall.count()));
+                   .append(times(solver.profile(), steps, 1e3 * clock.wall_s()));
              },
              limit_s)
       .row;
@@ -281,87 +264,9 @@ void stability_tables(Run& out) {
     }
 }
 
-/// Of 10 cm, or of a metre in a bin ten times as large: the thesis names no size, and small ones sink through the
-/// floor.
-Request teapots(std::size_t count, double seconds, bool metre) {
-  Request request = bin_of("teapot", count);
-  request.bin.inner_size = (metre ? 10.0 : 1.0) * Vec3(0.70, 0.70, 0.40);
-  if (metre) request.parts[0].unit = Unit::centimetre;
-  request.parts[0].density = 1000.0;
-  request.pour.pattern = Pour::Pattern::grid;
-  request.solver.thesis.voxels = 13;  // 166 spheres a teapot, of the thesis's 171
-  request.seconds = seconds;
-  request.seed = 1;
-  return request;
-}
-
-void teapot_table(Run& out) {
-  struct Case {
-    std::size_t count;
-    int iterations;  ///< of the thesis's solver; 0: Bullet
-    bool sleeping;
-    std::vector<double> ms;
-    bool metre = false;
-  };
-  std::vector<Case> cases;
-  const std::map<std::size_t, std::pair<double, double>> bullet = {
-      {256, {22.3175, 13.298}}, {512, {51.9156, 30.5515}}, {1024, {94.665, 78.317}}};
-  for (const auto& [count, ms] : bullet) {
-    cases.push_back({count, 10, false, {}});
-    cases.push_back({count, 5, false, {}});
-    if (count == 512) {
-      cases[cases.size() - 2].ms = {0.355, 2.426, 4.661, 12.735, 19.000, 0.017, 39.194};
-      cases.back().ms = {0.354, 2.425, 4.681, 6.414, 9.563, 0.012, 23.449};
-    }
-    cases.push_back({count, 0, false, {ms.first}});
-    cases.push_back({count, 0, true, {ms.second}});
-    for (const int iterations : {10, 5})
-      if (count < 1024) cases.push_back({count, iterations, false, {}, true});
-  }
-  const double seconds = out.quick() ? 0.4 : 6.0;
-  for (const Case& c : cases) {
-    if (out.quick() && c.count > 256) continue;
-    const std::size_t count = out.quick() ? c.count / 16 : c.count;
-    const std::string how = c.iterations ? "sphere/thesis, " + std::to_string(c.iterations) + " iterations"
-                                         : std::string("bullet, sleeping ") + (c.sleeping ? "on" : "off");
-    const Row keys = key("teapots", std::to_string(count) + (c.metre ? " of 1 m, " : ", ") + how);
-    if (!out.wanted(keys)) continue;
-    const Isolated one = isolated(
-        [&] {
-          Request request = teapots(count, seconds, c.metre);
-          choose_solver(request, c.iterations ? "sphere/thesis" : "bullet");
-          request.solver.thesis.iterations = std::max(1, c.iterations);
-          request.solver.bullet.time_step = 0.01;
-          request.solver.bullet.sleeping = c.sleeping;
-          LoadOptions load;
-          load.unit = request.parts[0].unit;
-          const std::vector<PartModelPtr> parts = {PartModel::load(request.parts[0].path, load)};
-          std::string reason;
-          const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-          VoxelOptions voxels;
-          voxels.voxels = request.solver.thesis.voxels;
-          const std::size_t spheres = c.iterations ? parts[0]->spheres(voxels).spheres.size() : 0;
-          const auto start = std::chrono::steady_clock::now();
-          const Scene scene = pour({request, parts}, *solver, {0}).at(0);
-          const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-          Row row;
-          if (c.iterations)
-            row.exact("spheres_per_body", spheres)
-                .exact("spheres", spheres * count)
-                .append(asked_for(solver->profile(), seconds / 0.01));
-          return row.exact("escaped", scene.report.escaped.size())
-              .append(times(solver->profile(), seconds / 0.01, wall.count()));
-        },
-        limit_s);
-    out.row(
-        Row(keys).exact("bodies", count).append(one.row).append(published(out.quick() ? std::vector<double>() : c.ms)));
-  }
-}
-
 void run(Run& out) {
   step_tables(out);
   stability_tables(out);
-  teapot_table(out);
 }
 
 const Registration registration{"thesis_tables",
