@@ -3,31 +3,13 @@
 
 #include "bin_scenes/sensor/resolve.hpp"
 #include "sensor/models/structured_light.hpp"
-#include "sensor/targets.hpp"
+#include "sensor/shot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace bin_scenes::bench {
 namespace {
-
-/// Two faces at right angles, 57 mm wide, that meet in a line along y at 0.75 m, seen by a fringe projector.
-Targets groove(const Surface& surface) {
-  Mesh mesh;
-  for (const int side : {-1, 1}) {
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const double far : {0.0, 0.057}) {
-      for (const double y : {-0.15, 0.15}) {
-        mesh.vertices.push_back(Vec3(0, y, 0.75) + far / std::sqrt(2.0) * Vec3(side, 0.0, -1.0));
-      }
-    }
-    mesh.triangles.push_back({base, base + 1, base + 2});
-    mesh.triangles.push_back({base + 1, base + 3, base + 2});
-  }
-  Targets targets;
-  targets.add(mesh, Pose(), surface);
-  return targets;
-}
 
 StructuredLight::Setup projector_of(double period, int bounces) {
   StructuredLight::Setup setup;
@@ -92,13 +74,9 @@ void groove_row(Run& out, const std::string& name, const Surface& surface, doubl
                       .key("bounces", bounces)
                       .key("fidelity", decoded ? "decoded" : "analytic");
   if (!out.wanted(key)) return;
-  Targets targets = groove(surface);
-  const Scenery scenery = targets.scenery();
+  Targets targets = test::groove(surface, 0.75, 0.057, 0.3);
   const StructuredLight::Setup setup = projector_of(period, bounces);
-  const View view = render(scenery, camera(), Pose(), setup.near, setup.far);
-  const StructuredLight model(scenery, view, targets.surfaces(), setup);
-  const Random random(1, 0, Stream::noise);
-  const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
+  const auto [view, measured, sigma] = test::shoot<StructuredLight>(targets, camera(), setup, decoded);
   const Errors all = errors_of(view, measured, setup, 0.0), apart = errors_of(view, measured, setup, 0.0045);
   out.row(Row(key)
               .exact("rms_mm", 1e3 * all.rms)
