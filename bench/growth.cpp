@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 namespace bin_scenes::bench {
@@ -48,113 +47,82 @@ Heap heap_at_rest(std::size_t count, const std::string& path) {
   return heap;
 }
 
-/// A solver with worlds of heaps in it.
-class Heaps {
- public:
-  /// `per_world` heaps side by side in each of `worlds` worlds.
-  Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
-    Request request = heap.request;
-    request.solver = settings.solver;
-    request.parts[0].count = heap.rest.size() * per_world;
-    const std::vector<PartModelPtr> parts = load_parts(request);
-    std::string reason;
-    solver_ = make_solver(request, parts, reason);
-    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
-    const double side = heap.width * static_cast<double>(columns - 1);
-    const WorldDef def = world_of({request, parts});
-    for (std::size_t w = 0; w < worlds; ++w) {
-      const WorldId id = solver_->add_world(def);
-      solver_->set_phase(id, phases::settle);
-      for (std::size_t h = 0, body = 0; h < per_world; ++h) {
-        const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
-                          heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);
-        for (BodyState state : heap.rest) {
-          state.pose.position += middle;
-          solver_->insert(id, body++, state);
-        }
+/// `per_world` heaps side by side in each of `worlds` new worlds of the solver.
+std::vector<WorldId> add_worlds(Solver& solver, const WorldDef& def, const Heap& heap, std::size_t per_world,
+                                std::size_t worlds) {
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
+  const double side = heap.width * static_cast<double>(columns - 1);
+  std::vector<WorldId> ids;
+  for (std::size_t w = 0; w < worlds; ++w) {
+    ids.push_back(solver.add_world(def));
+    solver.set_phase(ids.back(), phases::settle);
+    for (std::size_t h = 0, body = 0; h < per_world; ++h) {
+      const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
+                        heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);
+      for (BodyState state : heap.rest) {
+        state.pose.position += middle;
+        solver.insert(ids.back(), body++, state);
       }
-      worlds_.push_back(id);
     }
-    bodies_ = request.parts[0].count * worlds;
   }
-
-  struct Cost {
-    double wall_ms, cpu_ms;  ///< of a step of every world, mean over the steps
-  };
-  Cost steps(int count) {
-    const Clock clock;
-    solver_->advance(worlds_, count * solver_->step_size());
-    return {1e3 * clock.wall_s() / count, 1e3 * clock.cpu_s() / count};
-  }
-  /// Share of all bodies.
-  double asleep() const {
-    std::size_t count = 0;
-    for (const WorldId id : worlds_)
-      for (const bool sleeps : solver_->asleep(id)) count += sleeps ? 1 : 0;
-    return static_cast<double>(count) / static_cast<double>(bodies_);
-  }
-  /// Counter of the solver, 0 if it has none of that name.
-  double counted(const std::string& name) const {
-    const auto& counters = solver_->profile().counters;
-    const auto found = counters.find(name);
-    return found == counters.end() ? 0.0 : static_cast<double>(found->second);
-  }
-  std::size_t bodies() const { return bodies_; }
-  const Solver& solver() const { return *solver_; }
-
- private:
-  std::unique_ptr<Solver> solver_;
-  std::vector<WorldId> worlds_;
-  std::size_t bodies_ = 0;
-};
+  return ids;
+}
 
 /// A few steps to build contacts, then the samples; parts do not fall asleep that soon.
-Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
-  Heaps heaps(heap, settings, per_world, worlds);
-  const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
-  heaps.steps(steps);
+Row step_row(const Heap& heap, const std::string& solver_name, std::size_t per_world, std::size_t worlds) {
+  Request request = heap.request;
+  choose_solver(request, solver_name);
+  request.parts[0].count = heap.rest.size() * per_world;
+  const std::vector<PartModelPtr> parts = load_parts(request);
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  const std::vector<WorldId> ids = add_worlds(*solver, world_of({request, parts}), heap, per_world, worlds);
+  const auto bodies = static_cast<double>(request.parts[0].count * worlds);
+  const int steps = bodies > 8192 ? 2 : bodies > 512 ? 4 : 8;
+  solver->advance(ids, steps * solver->step_size());
   std::vector<double> wall, cpu, part_us;
-  double dispatches = 0;
-  const Profile profile = heaps.solver().profile();
+  const Profile profile = solver->profile();
   for (int k = 0; k < 3; ++k) {
-    dispatches = heaps.counted("gl_dispatches");
-    const Heaps::Cost cost = heaps.steps(steps);
-    wall.push_back(cost.wall_ms);
-    cpu.push_back(cost.cpu_ms);
-    part_us.push_back(1e3 * cost.cpu_ms / static_cast<double>(heaps.bodies()));
+    const Clock clock;
+    solver->advance(ids, steps * solver->step_size());
+    wall.push_back(1e3 * clock.wall_s() / steps);
+    cpu.push_back(1e3 * clock.cpu_s() / steps);
+    part_us.push_back(1e3 * cpu.back() / bodies);
   }
-  Row row = Row()
-                .measure("step_ms", wall)
-                .measure("step_cpu_ms", cpu)
-                .measure("part_cpu_us", part_us)
-                .exact("asleep_share", heaps.asleep())
-                .info("stages_us", stages_of(heaps.solver().profile().since(profile),
-                                             1e3 / (3.0 * steps * static_cast<double>(heaps.bodies()))))
-                .info("device", heaps.solver().device());
-  if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
-    const double held = heaps.counted("gl_bytes_held") - heaps.counted("gl_bytes_shared");
-    row.exact("dispatches_a_step", (heaps.counted("gl_dispatches") - dispatches) / steps)
-        .exact("bytes_a_part", held / static_cast<double>(heaps.bodies()));
-  }
+  double asleep = 0.0;
+  for (const WorldId id : ids)
+    for (const bool sleeps : solver->asleep(id)) asleep += sleeps / bodies;
+  Row row;
+  row.measure("step_ms", wall)
+      .measure("step_cpu_ms", cpu)
+      .measure("part_cpu_us", part_us)
+      .exact("asleep_share", asleep)
+      .info("stages_us", stages_of(solver->profile().since(profile), 1e3 / (3.0 * steps * bodies)))
+      .info("device", solver->device());
+  const auto& counters = solver->profile().counters;
+  if (const auto shared = counters.find("gl_bytes_shared"); shared != counters.end())
+    row.exact("bytes_a_part", static_cast<double>(counters.at("gl_bytes_held") - shared->second) / bodies);
   return row;
 }
 
 struct Point {
-  std::size_t bodies, worlds;
-  double x;
-  std::function<Row()> work;
+  std::size_t per_world, worlds;
 };
 
 /// The rows of one curve, as far as the limit lets them get, and the exponents of its cost and memory over x: of all
 /// rows of the table, so that one that is measured again counts with those that stay. Of the four largest: small ones
 /// are dominated by what every step costs.
-void curve(Run& out, const std::string& solver, const std::string& over, const std::vector<Point>& points) {
+void curve(Run& out, const std::string& solver, const std::string& over, const Heap& heap,
+           const std::vector<Point>& points) {
   const auto key = [&](const std::string& x) { return Row().key("solver", solver).key("over", over).key("x", x); };
-  for (const Point& point : points) {
-    const Row keys = key(Row::text(point.x));
+  for (const auto& [per_world, worlds] : points) {
+    const std::size_t bodies = heap.rest.size() * per_world * worlds;
+    const Row keys = key(std::to_string(points.back().worlds > 1 ? worlds : bodies));
     if (!out.wanted(keys)) continue;
-    const Isolated one = isolated(point.work, out.quick() ? 10.0 : 150.0);
-    Row row = Row(keys).info("bodies", point.bodies).info("worlds", point.worlds).append(one.row);
+    const Isolated one =
+        isolated([&, per_world = per_world, worlds = worlds] { return step_row(heap, solver, per_world, worlds); },
+                 out.quick() ? 10.0 : 150.0);
+    Row row = Row(keys).info("bodies", bodies).info("worlds", worlds).append(one.row);
     if (one.good) row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
     out.row(row);
     if (!one.good) break;  // larger ones would not fit either
@@ -193,20 +161,13 @@ void run(Run& out) {
   std::vector<std::string> solvers = {"sphere", "sphere/gpu"};
   if (!quick) solvers.insert(solvers.end(), {"bullet", "sphere/thesis"});
   const Heap large = heap_of(quick ? 16 : 64), small = heap_of(16);
+  std::vector<Point> of_parts, of_worlds;
+  for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4)
+    of_parts.push_back({heaps, 1});
+  for (std::size_t worlds = 1; worlds <= (quick ? 4u : 1024u); worlds *= 4) of_worlds.push_back({1, worlds});
   for (const std::string& solver : solvers) {
-    Request settings = large.request;
-    choose_solver(settings, solver);
-    std::vector<Point> of_parts, of_worlds;
-    for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4) {
-      const std::size_t bodies = heaps * large.rest.size();
-      of_parts.push_back(
-          {bodies, 1, static_cast<double>(bodies), [=, &large] { return step_row(large, settings, heaps, 1); }});
-    }
-    for (std::size_t worlds = 1; worlds <= (quick ? 4u : 1024u); worlds *= 4)
-      of_worlds.push_back({worlds * small.rest.size(), worlds, static_cast<double>(worlds),
-                           [=, &small] { return step_row(small, settings, 1, worlds); }});
-    curve(out, solver, "parts of one world", of_parts);
-    curve(out, solver, "worlds of 16 parts", of_worlds);
+    curve(out, solver, "parts of one world", large, of_parts);
+    curve(out, solver, "worlds of 16 parts", small, of_worlds);
   }
 }
 

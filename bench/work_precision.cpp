@@ -2,11 +2,9 @@
 /// convex pieces of a part are known, stock Bullet gets the exact shape and the referee judges all alike.
 #include "framework/benchmark.hpp"
 #include "judged.hpp"
-#include "solver/step_limit.hpp"
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 namespace bin_scenes::bench {
 namespace {
@@ -27,7 +25,7 @@ std::vector<Setting> settings_of_sphere(bool quick) {
   };
   for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed})
     add("finish", name_of(finish), [=](Request& r) { r.pour.finish = finish; });
-  for (const double factor : {4.0, 2.0, 0.5})
+  for (const double factor : {2.0, 0.5})
     add("time_step", Row::text(factor * sphere.time_step),
         [=](Request& r) { r.solver.sphere.time_step = factor * sphere.time_step; });
   if (quick) return all;
@@ -74,12 +72,6 @@ std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool qu
   return all;
 }
 
-/// The step (s) that a solver of this project makes of a setting's time_step for parts of this size: long ones are cut.
-double step_of(const Setting& setting, const Request& request, double diagonal) {
-  const double dt = setting.solver == "bullet" ? request.solver.bullet.time_step : request.solver.sphere.time_step;
-  return dt / step_cuts(dt, request.gravity.norm(), diagonal);
-}
-
 bool dominates(const Row& a, const Row& b, const std::string& error) {
   const double time_a = a.number("cpu_s"), time_b = b.number("cpu_s");
   const double error_a = a.number(error), error_b = b.number(error);
@@ -110,8 +102,6 @@ void curves(Run& out, const std::string& part) {
   for (const Setting& one : settings_of_bullet(out.quick())) settings.push_back(one);
   if (exact)
     for (const Setting& one : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(one);
-  const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
-  std::set<std::pair<std::string, double>> steps;  // a time_step that is cut to that of another setting is the same run
   for (const Setting& setting : settings) {
     Request request = bin_of(part, count);
     Row row;
@@ -124,12 +114,6 @@ void curves(Run& out, const std::string& part) {
     if (setting.change) {
       choose_solver(request, setting.solver);
       setting.change(request);
-    }
-    if (setting.solver == "sphere" || setting.solver == "bullet") {
-      const double step = step_of(setting, request, diagonal);
-      const bool varies = setting.varied == "default" || setting.varied == "time_step";
-      if (varies && !steps.insert({setting.solver, step}).second) continue;
-      row.info("step_s", step);
     }
     if (!out.wanted(row)) continue;
     if (setting.change) warm_up(request);

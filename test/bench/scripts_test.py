@@ -185,10 +185,11 @@ at rest: at_rest of scenes | | all
 
     def test_all_makes_everything_and_names_what_failed(self):
         shutil.copy(ROOT / "bench/all", self.root / "bench")
-        (self.root / "test/stress").mkdir(parents=True)
-        (self.root / "build/bench").mkdir(parents=True)
+        for folder in ("test/stress", "build/bench", "bench/datasets"):
+            (self.root / folder).mkdir(parents=True)
         for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
-                           ("test/stress/inspect_all", 0)):
+                           ("test/stress/inspect_all", 0), ("bench/datasets/measure", 0), ("bench/datasets/audit", 0),
+                           ("build/bin_scenes", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
             script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
@@ -198,7 +199,9 @@ at rest: at_rest of scenes | | all
         self.assertEqual(outcome.stderr, "bench/all: failed: test/stress/soak\n")
         did = [line for line in outcome.stdout.splitlines() if line.startswith("did ") and "inspect_all" not in line]
         self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did test/stress/soak build",
-                               "did bench/publish"])
+                               *("did bench/datasets/measure %s --tool build/bin_scenes" % part
+                                 for part in ("throughput", "masks", "growth")),
+                               "did bench/datasets/audit build/bin_scenes", "did bench/publish"])
         missing = self.run_script("all", "nowhere")
         self.assertEqual(missing.returncode, 2)
         self.assertIn("scripts/build", missing.stderr)
