@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
 #include <sstream>
 
 namespace bin_scenes::bench {
@@ -23,10 +26,12 @@ struct Pile {
 };
 constexpr Pile piles[] = {{"channel_u", 200}, {"bolt_hex", 60}, {"nut_hex", 60}};
 
-/// What one scene says, each a sample of values over its parts (packing: one value).
-struct Looks {
-  std::vector<double> heights, up, packing, contacts;
-};
+constexpr const char* height = "height of centre / diagonal";
+constexpr const char* axis = "|z| of the axis of largest inertia";
+constexpr const char* packing = "packing fraction";
+constexpr const char* contacts = "contacts of a part";
+/// What one scene says, by measure: values over its parts (packing: one value).
+using Sample = std::map<std::string, std::vector<double>>;
 
 std::string text_of(const std::vector<double>& values) {
   std::ostringstream out;
@@ -35,93 +40,81 @@ std::string text_of(const std::vector<double>& values) {
 }
 std::vector<double> values_of(const std::string& text) {
   std::istringstream in(text);
-  std::vector<double> values;
-  for (double v; in >> v;) values.push_back(v);
-  return values;
+  return {std::istream_iterator<double>(in), {}};
 }
 
-std::vector<double> contacts_of(const Scene& scene, const PartModel& part) {
-  std::vector<Pose> poses;
-  for (const ScenePart& p : scene.parts) poses.push_back(p.pose);
-  std::vector<double> contacts(poses.size(), 0.0);
-  for (const auto& [a, b] : touching_pairs(part, poses)) ++contacts[a], ++contacts[b];
-  return contacts;
-}
-
-Row sample(const Poured& poured, const Request& request) {
+Sample sample_of(const Poured& poured, const Request& request) {
   const PartModel& part = *poured.parts.front();
-  Looks looks;
+  Sample sample;
+  std::vector<Pose> poses;
   double mean_height = 0.0;
   for (const ScenePart& p : poured.scene.parts) {
     const Vec3 center = p.pose * part.mass().center;
-    looks.heights.push_back(center.z() / part.diagonal());
-    looks.up.push_back(std::abs((p.pose.orientation * part.mass().principal_axes * Vec3::UnitZ()).z()));
+    poses.push_back(p.pose);
+    sample[height].push_back(center.z() / part.diagonal());
+    sample[axis].push_back(std::abs((p.pose.orientation * part.mass().principal_axes * Vec3::UnitZ()).z()));
     mean_height += center.z() / static_cast<double>(poured.scene.parts.size());
   }
   const double floor = request.bin.inner_size.x() * request.bin.inner_size.y();
-  const double solid = part.mass().volume * static_cast<double>(poured.scene.parts.size());
-  looks.packing = {solid / (floor * 2.0 * mean_height)};  // an even heap is twice as high as its mean
-  looks.contacts = contacts_of(poured.scene, part);
-  return Row()
-      .info("heights", text_of(looks.heights))
-      .info("up", text_of(looks.up))
-      .info("packing", text_of(looks.packing))
-      .info("contacts", text_of(looks.contacts));
+  const double solid = part.mass().volume * static_cast<double>(poses.size());
+  sample[packing] = {solid / (floor * 2.0 * mean_height)};  // an even heap is twice as high as its mean
+  sample[contacts].resize(poses.size(), 0.0);
+  for (const auto& [a, b] : touching_pairs(part, poses)) ++sample[contacts][a], ++sample[contacts][b];
+  return sample;
 }
 
-std::vector<Looks> poured_over(const Request& first, int seeds, double limit_cpu_s, Row& status) {
-  std::vector<Looks> all;
-  warm_up(first);
-  Request request = first;
+std::vector<Sample> poured_over(Request request, int seeds, double limit_cpu_s, Row& status) {
+  std::vector<Sample> all;
+  warm_up(request);
   for (int k = 0; k < seeds; ++k, ++request.seed) {
-    const Isolated one = isolated([&] { return sample(pour_timed(request), request); }, limit_cpu_s);
+    const auto poured = [&] {
+      Row row;
+      for (const auto& [measure, values] : sample_of(pour_timed(request), request)) row.info(measure, text_of(values));
+      return row;
+    };
+    const Isolated one = isolated(poured, limit_cpu_s);
     if (!one.good) {
       status = one.row;
       return {};
     }
-    all.push_back({values_of(one.row.at("heights")), values_of(one.row.at("up")), values_of(one.row.at("packing")),
-                   values_of(one.row.at("contacts"))});
+    all.emplace_back();
+    for (const auto& [column, text] : one.row.cells()) all.back()[column.name] = values_of(text);
   }
   return all;
 }
 
-using Field = std::vector<double> Looks::*;
-
-std::vector<double> pooled(const std::vector<Looks>& scenes, const std::vector<std::size_t>& which, Field field) {
+/// Of the first `count` scenes from the one at `first` on, in that order.
+std::vector<double> pooled(const std::vector<Sample>& scenes, const std::vector<std::size_t>& order, std::size_t first,
+                           std::size_t count, const std::string& measure) {
   std::vector<double> values;
-  for (const std::size_t i : which) values.insert(values.end(), (scenes[i].*field).begin(), (scenes[i].*field).end());
+  for (std::size_t i = first; i < std::min(first + count, order.size()); ++i) {
+    const std::vector<double>& more = scenes[order[i]].at(measure);
+    values.insert(values.end(), more.begin(), more.end());
+  }
   return values;
 }
 
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[i] = i;
+  std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
   return order;
 }
 
 /// Distances from a random half of the reference: of at most as many candidate scenes, or (without candidates) of
 /// `count` scenes of the other half. With equal counts sampling noise is the same in both.
-std::vector<double> distances(const std::vector<Looks>& reference, const std::vector<Looks>& candidates, Field field,
-                              std::size_t count) {
+std::vector<double> distances(const std::vector<Sample>& reference, const std::vector<Sample>& candidates,
+                              const std::string& measure, std::size_t count) {
   constexpr int splits = 40;
   std::vector<double> out;
   Random random(1, 0, Stream::probe);
   for (int k = 0; k < splits; ++k) {
     const std::vector<std::size_t> order = shuffled(reference.size(), random);
     const std::size_t half = reference.size() / 2;
-    const std::vector<std::size_t> a(order.begin(), order.begin() + static_cast<long>(half));
-    std::vector<double> other;
-    if (candidates.empty()) {
-      std::vector<std::size_t> rest(order.begin() + static_cast<long>(half), order.end());
-      rest.resize(std::min(count, rest.size()));
-      other = pooled(reference, rest, field);
-    } else {
-      std::vector<std::size_t> all = shuffled(candidates.size(), random);
-      all.resize(std::min({half, count, all.size()}));
-      other = pooled(candidates, all, field);
-    }
-    out.push_back(wasserstein(pooled(reference, a, field), other));
+    const std::vector<double> other =
+        candidates.empty() ? pooled(reference, order, half, count, measure)
+                           : pooled(candidates, shuffled(candidates.size(), random), 0, std::min(half, count), measure);
+    out.push_back(wasserstein(pooled(reference, order, 0, half, measure), other));
   }
   return out;
 }
@@ -142,15 +135,6 @@ Request request_for(const std::string& name, const std::string& part, std::size_
   return request;
 }
 
-struct Measure {
-  const char* name;
-  Field field;
-};
-constexpr Measure measures[] = {{"height of centre / diagonal", &Looks::heights},
-                                {"|z| of the axis of largest inertia", &Looks::up},
-                                {"packing fraction", &Looks::packing},
-                                {"contacts of a part", &Looks::contacts}};
-
 void tell(Run& out, const std::string& part, int seeds) {
   const std::size_t count = out.quick() ? 8 : 32;
   const double limit_cpu_s = out.quick() ? 30.0 : 120.0;
@@ -161,28 +145,28 @@ void tell(Run& out, const std::string& part, int seeds) {
   Row failed;
   Request reference_request = request_for("sphere fine", part, count, out.quick());
   reference_request.seed = 1001;  // other seeds than the candidates'
-  const std::vector<Looks> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
+  const std::vector<Sample> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
   for (const std::string& name : names) {
     if (!out.wanted(key(name))) continue;
     const int poured = name == "sphere/gpu" ? std::min(seeds, gpu_seeds) : seeds;
     const bool itself = name == "sphere fine";
-    const std::vector<Looks> candidates =
+    const std::vector<Sample> candidates =
         itself || reference.empty()
-            ? std::vector<Looks>{}
+            ? std::vector<Sample>{}
             : poured_over(request_for(name, part, count, out.quick()), poured, limit_cpu_s, failed);
-    for (const Measure& measure : measures) {
+    for (const char* measure : {height, axis, packing, contacts}) {
       Row row;
-      row.key("part", part).key("bodies", count).key("solver", name).key("measure", measure.name);
+      row.key("part", part).key("bodies", count).key("solver", name).key("measure", measure);
       if (reference.empty() || (!itself && candidates.empty())) {
         out.row(row.append(failed));
         continue;
       }
-      const std::vector<Looks>& scenes = itself ? reference : candidates;
+      const std::vector<Sample>& scenes = itself ? reference : candidates;
       std::vector<std::size_t> all(scenes.size());
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-      const std::vector<double> own = distances(reference, {}, measure.field, scenes.size());
-      const std::vector<double> values = pooled(scenes, all, measure.field);
-      const std::vector<double> distance = distances(reference, candidates, measure.field, scenes.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      const std::vector<double> own = distances(reference, {}, measure, scenes.size());
+      const std::vector<double> values = pooled(scenes, all, 0, all.size(), measure);
+      const std::vector<double> distance = distances(reference, candidates, measure, scenes.size());
       double mean = 0.0;
       for (const double v : values) mean += v / static_cast<double>(values.size());
       out.row(row.exact("seeds", scenes.size())

@@ -89,8 +89,9 @@ small=1 bench stability 30 --filter thesis_tables --rows table=stability
 # One scene alone, and accepted scenes a second of 512 in one run.
 bench throughput 120 --filter throughput --rows solver=sphere/gpu
 
-# The thesis's teapots, 256 to 1024, stage by stage, then its other tables.
-bench teapots 90 --filter thesis_tables --rows table=teapots --rows 'setting=*sphere/thesis*'
+# The thesis's 512 teapots, 600 steps stage by stage, then its other tables.
+step teapots 90 "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite \
+  --seconds 6 --set solver.thesis.iterations=5 --verbose ${small:+--set "parts[0].count=16"}
 for table in spheres_per_body static_spheres; do
   bench "$table" 40 --filter thesis_tables --rows "table=$table"
 done

@@ -1,18 +1,17 @@
-/// How the cost of a step grows: with the parts of a world, with the worlds of a batch, with the samples of a part,
-/// with the parts of one heap. Heaps at rest on an endless floor, or joined in one box, every part awake.
+/// How the cost of a step grows: with the parts of a world, and with the worlds of a batch. Heaps at rest on an endless
+/// floor, every part awake. One heap is poured once and set up as often as needed, so that the cost of a step can be
+/// measured without pouring 65,536 parts.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
 #include "runs.hpp"
 
 #include "bin_scenes/output/scene_writer.hpp"
-#include "core/disjoint_sets.hpp"
 #include "pour/settling.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 namespace bin_scenes::bench {
@@ -20,183 +19,110 @@ namespace {
 
 constexpr const char* part = "channel_u";
 
-// Worlds that are piled from the first step on: one heap is poured once and set up as often as needed, so that the cost
-// of a step can be measured without pouring 65,536 parts.
-
-/// `count` parts at rest; kept in `path`, made if missing.
+/// `count` parts at rest on an endless floor; kept in `path`, made if missing.
 struct Heap {
-  Request request;  ///< of one heap
+  Request request;
   std::vector<BodyState> rest;
-  double width = 0.0;  ///< edge of a square that holds the heap (m)
+  double width = 0.0;  ///< edge of a square that holds the heap, with some room around it (m)
 };
 
-/// Poured into the bin of the request, which may be an endless floor; poses of the parts.
-void pour_once(Heap& heap, const std::string& path) {
-  choose_solver(heap.request, "sphere");
-  if (!std::filesystem::exists(path)) {
-    const std::vector<PartModelPtr> parts = load_parts(heap.request);
-    std::string reason;
-    const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
-    write_text(path, scene_json(pour({heap.request, parts}, *solver, {0}).front(), heap.request));
-  }
-  for (const ScenePart& p : read_scene_json(path).parts) heap.rest.push_back({p.pose, {}});
-}
-
-/// On an endless floor, with some room around it.
-Heap heap_at_rest(const std::string& part, std::size_t count, const std::string& path) {
+Heap heap_at_rest(std::size_t count, const std::string& path) {
   Heap heap;
   heap.request = bin_of(part, count);
   heap.request.bin = Bin();
   heap.request.bin.kind = Bin::Kind::floor;
-  pour_once(heap, path);
-  Aabb box;
-  for (const BodyState& state : heap.rest) box.extend(state.pose.position);
-  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * load_parts(heap.request).front()->diagonal();
-  return heap;
-}
-
-/// In a box that wide: set up side by side in one box, without walls between them, they lean on each other.
-Heap boxed_heap(const std::string& part, std::size_t count, double width, const std::string& path) {
-  Heap heap;
-  heap.request = bin_of(part, count);
-  heap.request.bin.inner_size = Vec3(width, width, 0.4);  // all find room below the rim
-  heap.width = width;
-  pour_once(heap, path);
-  return heap;
-}
-
-/// A solver with worlds of heaps in it.
-class Heaps {
- public:
-  /// `per_world` heaps side by side in each of `worlds` worlds.
-  Heaps(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds) {
-    Request request = heap.request;
-    request.solver = settings.solver;
-    request.parts[0].count = heap.rest.size() * per_world;
-    parts_ = load_parts(request);
+  choose_solver(heap.request, "sphere");
+  const std::vector<PartModelPtr> parts = load_parts(heap.request);
+  if (!std::filesystem::exists(path)) {
     std::string reason;
-    solver_ = make_solver(request, parts_, reason);
-    const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
-    const double side = heap.width * static_cast<double>(columns - 1);
-    request.bin.inner_size.head<2>().array() += side;
-    const WorldDef def = world_of({request, parts_});
-    for (std::size_t w = 0; w < worlds; ++w) {
-      const WorldId id = solver_->add_world(def);
-      solver_->set_phase(id, phases::settle);
-      for (std::size_t h = 0, body = 0; h < per_world; ++h) {
-        const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
-                          heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);
-        for (BodyState state : heap.rest) {
-          state.pose.position += middle;
-          solver_->insert(id, body++, state);
-        }
+    const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
+    write_text(path, scene_json(pour({heap.request, parts}, *solver, {0}).front(), heap.request));
+  }
+  Aabb box;
+  for (const ScenePart& p : read_scene_json(path).parts) {
+    heap.rest.push_back({p.pose, {}});
+    box.extend(p.pose.position);
+  }
+  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * parts.front()->diagonal();
+  return heap;
+}
+
+/// `per_world` heaps side by side in each of `worlds` new worlds of the solver.
+std::vector<WorldId> add_worlds(Solver& solver, const WorldDef& def, const Heap& heap, std::size_t per_world,
+                                std::size_t worlds) {
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(per_world))));
+  const double side = heap.width * static_cast<double>(columns - 1);
+  std::vector<WorldId> ids;
+  for (std::size_t w = 0; w < worlds; ++w) {
+    ids.push_back(solver.add_world(def));
+    solver.set_phase(ids.back(), phases::settle);
+    for (std::size_t h = 0, body = 0; h < per_world; ++h) {
+      const Vec3 middle(heap.width * static_cast<double>(h % columns) - 0.5 * side,
+                        heap.width * static_cast<double>(h / columns) - 0.5 * side, 0.0);
+      for (BodyState state : heap.rest) {
+        state.pose.position += middle;
+        solver.insert(ids.back(), body++, state);
       }
-      worlds_.push_back(id);
-    }
-    bodies_ = request.parts[0].count * worlds;
-  }
-
-  struct Cost {
-    double wall_ms, cpu_ms;  ///< of a step of every world, mean over the steps
-  };
-  Cost steps(int count) {
-    const Clock clock;
-    solver_->advance(worlds_, count * solver_->step_size());
-    return {1e3 * clock.wall_s() / count, 1e3 * clock.cpu_s() / count};
-  }
-  /// Puts all bodies where they are, at rest and awake.
-  void wake() {
-    for (const WorldId id : worlds_) {
-      const std::vector<BodyState> states = solver_->states(id);
-      for (std::size_t b = 0; b < states.size(); ++b) solver_->insert(id, b, {states[b].pose, {}});
     }
   }
-  /// Share of all bodies.
-  double asleep() const {
-    std::size_t count = 0;
-    for (const WorldId id : worlds_)
-      for (const bool sleeps : solver_->asleep(id)) count += sleeps ? 1 : 0;
-    return static_cast<double>(count) / static_cast<double>(bodies_);
-  }
-  /// Share of the first world's bodies that are one heap, each touching another of it.
-  double joined() const {
-    std::vector<Pose> poses;
-    for (const BodyState& state : solver_->states(worlds_.front())) poses.push_back(state.pose);
-    DisjointSets heaps(poses.size());
-    for (const auto& [a, b] : touching_pairs(*parts_.front(), poses)) heaps.join(a, b);
-    std::vector<std::size_t> size(poses.size(), 0);
-    for (std::uint32_t i = 0; i < poses.size(); ++i) ++size[heaps.root(i)];
-    return static_cast<double>(*std::max_element(size.begin(), size.end())) / static_cast<double>(poses.size());
-  }
-  /// Counter of the solver, 0 if it has none of that name.
-  double counted(const std::string& name) const {
-    const auto& counters = solver_->profile().counters;
-    const auto found = counters.find(name);
-    return found == counters.end() ? 0.0 : static_cast<double>(found->second);
-  }
-  std::size_t bodies() const { return bodies_; }
-  const Solver& solver() const { return *solver_; }
+  return ids;
+}
 
- private:
-  std::vector<PartModelPtr> parts_;
-  std::unique_ptr<Solver> solver_;
-  std::vector<WorldId> worlds_;
-  std::size_t bodies_ = 0;
-};
-
-/// A few steps to build contacts, then the samples; parts do not fall asleep that soon. `before` steps go ahead of
-/// that, for heaps that are not at rest as they are set up.
-Row step_row(const Heap& heap, const Request& settings, std::size_t per_world, std::size_t worlds, int before = 0) {
-  Heaps heaps(heap, settings, per_world, worlds);
-  const int steps = heaps.bodies() > 8192 ? 2 : heaps.bodies() > 512 ? 4 : 8;
-  if (before > 0) {
-    heaps.steps(before);
-    heaps.wake();
-  }
-  heaps.steps(steps);
+/// A few steps to build contacts, then the samples; parts do not fall asleep that soon.
+Row step_row(const Heap& heap, const std::string& solver_name, std::size_t per_world, std::size_t worlds) {
+  Request request = heap.request;
+  choose_solver(request, solver_name);
+  request.parts[0].count = heap.rest.size() * per_world;
+  const std::vector<PartModelPtr> parts = load_parts(request);
+  std::string reason;
+  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  const std::vector<WorldId> ids = add_worlds(*solver, world_of({request, parts}), heap, per_world, worlds);
+  const auto bodies = static_cast<double>(request.parts[0].count * worlds);
+  const int steps = bodies > 8192 ? 2 : bodies > 512 ? 4 : 8;
+  solver->advance(ids, steps * solver->step_size());
   std::vector<double> wall, cpu, part_us;
-  double dispatches = 0;
-  const Profile profile = heaps.solver().profile();
+  const Profile profile = solver->profile();
   for (int k = 0; k < 3; ++k) {
-    dispatches = heaps.counted("gl_dispatches");
-    const Heaps::Cost cost = heaps.steps(steps);
-    wall.push_back(cost.wall_ms);
-    cpu.push_back(cost.cpu_ms);
-    part_us.push_back(1e3 * cost.cpu_ms / static_cast<double>(heaps.bodies()));
+    const Clock clock;
+    solver->advance(ids, steps * solver->step_size());
+    wall.push_back(1e3 * clock.wall_s() / steps);
+    cpu.push_back(1e3 * clock.cpu_s() / steps);
+    part_us.push_back(1e3 * cpu.back() / bodies);
   }
-  Row row = Row()
-                .measure("step_ms", wall)
-                .measure("step_cpu_ms", cpu)
-                .measure("part_cpu_us", part_us)
-                .exact("asleep_share", heaps.asleep())
-                .info("stages_us", stages_of(heaps.solver().profile().since(profile),
-                                             1e3 / (3.0 * steps * static_cast<double>(heaps.bodies()))))
-                .info("device", heaps.solver().device());
-  if (heap.request.bin.kind == Bin::Kind::box) row.exact("joined_share", heaps.joined());
-  if (settings.solver.sphere.device == SphereSettings::Device::gpu) {
-    const double held = heaps.counted("gl_bytes_held") - heaps.counted("gl_bytes_shared");
-    row.exact("dispatches_a_step", (heaps.counted("gl_dispatches") - dispatches) / steps)
-        .exact("bytes_a_part", held / static_cast<double>(heaps.bodies()));
-  }
+  double asleep = 0.0;
+  for (const WorldId id : ids)
+    for (const bool sleeps : solver->asleep(id)) asleep += sleeps / bodies;
+  Row row;
+  row.measure("step_ms", wall)
+      .measure("step_cpu_ms", cpu)
+      .measure("part_cpu_us", part_us)
+      .exact("asleep_share", asleep)
+      .info("stages_us", stages_of(solver->profile().since(profile), 1e3 / (3.0 * steps * bodies)))
+      .info("device", solver->device());
+  const auto& counters = solver->profile().counters;
+  if (const auto shared = counters.find("gl_bytes_shared"); shared != counters.end())
+    row.exact("bytes_a_part", static_cast<double>(counters.at("gl_bytes_held") - shared->second) / bodies);
   return row;
 }
 
 struct Point {
-  std::size_t bodies, worlds;
-  double x;
-  std::function<Row()> work;
+  std::size_t per_world, worlds;
 };
 
 /// The rows of one curve, as far as the limit lets them get, and the exponents of its cost and memory over x: of all
 /// rows of the table, so that one that is measured again counts with those that stay. Of the four largest: small ones
 /// are dominated by what every step costs.
-void curve(Run& out, const std::string& solver, const std::string& over, const std::vector<Point>& points) {
+void curve(Run& out, const std::string& solver, const std::string& over, const Heap& heap,
+           const std::vector<Point>& points) {
   const auto key = [&](const std::string& x) { return Row().key("solver", solver).key("over", over).key("x", x); };
-  for (const Point& point : points) {
-    const Row keys = key(Row::text(point.x));
+  for (const auto& [per_world, worlds] : points) {
+    const std::size_t bodies = heap.rest.size() * per_world * worlds;
+    const Row keys = key(std::to_string(points.back().worlds > 1 ? worlds : bodies));
     if (!out.wanted(keys)) continue;
-    const Isolated one = isolated(point.work, out.quick() ? 10.0 : 150.0);
-    Row row = Row(keys).info("bodies", point.bodies).info("worlds", point.worlds).append(one.row);
+    const Isolated one =
+        isolated([&, per_world = per_world, worlds = worlds] { return step_row(heap, solver, per_world, worlds); },
+                 out.quick() ? 10.0 : 150.0);
+    Row row = Row(keys).info("bodies", bodies).info("worlds", worlds).append(one.row);
     if (one.good) row.measure("peak_mb", one.peak_mb).measure("added_mb", one.added_mb);
     out.row(row);
     if (!one.good) break;  // larger ones would not fit either
@@ -227,56 +153,26 @@ void curve(Run& out, const std::string& solver, const std::string& over, const s
 
 void run(Run& out) {
   const bool quick = out.quick();
-  const auto made = [&](const std::string& name, const std::function<Heap(const std::string& path)>& make) {
-    const std::string path = out.scratch() + "/heap_" + name + ".json";
-    isolated([&] { return make(path), Row(); });
-    return make(path);
-  };
   const auto heap_of = [&](std::size_t count) {
-    return made(std::to_string(count), [&](const std::string& path) { return heap_at_rest(part, count, path); });
+    const std::string path = out.scratch() + "/heap_" + std::to_string(count) + ".json";
+    isolated([&] { return heap_at_rest(count, path), Row(); });
+    return heap_at_rest(count, path);
   };
   std::vector<std::string> solvers = {"sphere", "sphere/gpu"};
   if (!quick) solvers.insert(solvers.end(), {"bullet", "sphere/thesis"});
   const Heap large = heap_of(quick ? 16 : 64), small = heap_of(16);
+  std::vector<Point> of_parts, of_worlds;
+  for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4)
+    of_parts.push_back({heaps, 1});
+  for (std::size_t worlds = 1; worlds <= (quick ? 4u : 1024u); worlds *= 4) of_worlds.push_back({1, worlds});
   for (const std::string& solver : solvers) {
-    Request settings = large.request;
-    choose_solver(settings, solver);
-    std::vector<Point> of_parts, of_worlds;
-    for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4) {
-      const std::size_t bodies = heaps * large.rest.size();
-      of_parts.push_back(
-          {bodies, 1, static_cast<double>(bodies), [=, &large] { return step_row(large, settings, heaps, 1); }});
-    }
-    for (std::size_t worlds = 1; worlds <= (quick ? 4u : 1024u); worlds *= 4)
-      of_worlds.push_back({worlds * small.rest.size(), worlds, static_cast<double>(worlds),
-                           [=, &small] { return step_row(small, settings, 1, worlds); }});
-    curve(out, solver, "parts of one world", of_parts);
-    curve(out, solver, "worlds of 16 parts", of_worlds);
+    curve(out, solver, "parts of one world", large, of_parts);
+    curve(out, solver, "worlds of 16 parts", small, of_worlds);
   }
-  // Five layers; a second after the walls between them are gone, what they held leans on its neighbours.
-  const Heap boxed = made(
-      "boxed", [&](const std::string& path) { return boxed_heap(part, quick ? 16 : 64, quick ? 0.08 : 0.12, path); });
-  std::vector<Point> of_one_heap, of_samples;
-  for (std::size_t heaps = 4; heaps <= (quick ? 4u : 64u); heaps *= 4) {
-    const std::size_t bodies = heaps * boxed.rest.size();
-    of_one_heap.push_back({bodies, 1, static_cast<double>(bodies),
-                           [=, &boxed] { return step_row(boxed, boxed.request, heaps, 1, 400); }});
-  }
-  for (const int samples : quick ? std::vector<int>{250, 1000} : std::vector<int>{250, 500, 1000, 2000, 4000, 8000}) {
-    Request settings = large.request;
-    settings.solver.sphere.fine_samples = samples;
-    settings.solver.sphere.coarse_samples = std::min(settings.solver.sphere.coarse_samples, samples);
-    of_samples.push_back(
-        {large.rest.size(), 1, static_cast<double>(samples), [=, &large] { return step_row(large, settings, 1, 1); }});
-  }
-  curve(out, "sphere", "one heap", of_one_heap);
-  curve(out, "sphere", "samples of a part", of_samples);
 }
 
-const Registration registration{"growth",
-                                "cost of a step and memory over parts, worlds and samples, with fitted exponents",
-                                {"solver", "over", "x"},
-                                run};
+const Registration registration{
+    "growth", "cost of a step and memory over parts and worlds, with fitted exponents", {"solver", "over", "x"}, run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -2,7 +2,6 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
 #include "framework/benchmark.hpp"
-#include "framework/compare.hpp"
 #include "framework/host.hpp"
 
 #include <CLI/CLI.hpp>
@@ -17,7 +16,7 @@ namespace {
 using namespace bin_scenes;
 using namespace bin_scenes::bench;
 
-constexpr int exit_done = 0, something_to_say = 1;  // rows moved; a benchmark failed
+constexpr int exit_done = 0, benchmark_failed = 1;
 
 int complain(const std::string& message, ErrorKind kind) {
   std::cerr << "bin_scenes_bench: " << message << std::endl;
@@ -42,7 +41,7 @@ int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const st
   if (!any)
     throw input_error("no row is like this", "--rows", "see the table in " + options.out + ", or leave --rows out");
   std::printf("results: %s\n", options.out.c_str());
-  return good ? exit_done : something_to_say;
+  return good ? exit_done : benchmark_failed;
 }
 
 int main_of(int argc, char** argv) {
@@ -61,25 +60,12 @@ int main_of(int argc, char** argv) {
   app.add_option("--out", options.out, "folder of the results, instead of RESULTS/<device>");
   app.add_flag("--quick", options.quick, "small forms of all: minutes instead of hours, figures to look at only");
 
-  std::string before, after;
-  double floor = 0.03;
-  CLI::App* compare_app =
-      app.add_subcommand("compare", "which rows of two results moved beyond noise; exit 1 if any did");
-  compare_app->add_option("BEFORE", before, "CSV file, or folder of them")->required();
-  compare_app->add_option("AFTER", after, "the same of another run")->required();
-  compare_app->add_option("--floor", floor, "changes below this share of a value are noise")->capture_default_str();
-
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     return complain(std::string(error.what()) + " (see bin_scenes_bench --help)", ErrorKind::input);
-  }
-  if (compare_app->parsed()) {
-    const Comparison comparison = compare_paths(before, after, floor);
-    std::fputs(to_text(comparison).c_str(), stdout);
-    return comparison.moved.empty() ? exit_done : something_to_say;
   }
   const Selection chosen = selected(benchmarks(), filter);
   int code = exit_done;

@@ -26,19 +26,23 @@ std::vector<std::string> samples_to_measure(bool quick) {
   return samples;
 }
 
-Row prepare(const std::string& part, const std::string& solver_name) {
-  Request request = bin_of(part, 1);
-  choose_solver(request, solver_name);
-  const Clock clock;
-  const std::vector<PartModelPtr> parts = load_parts(request);
-  std::string reason;
-  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-  solver->add_world(world_of({request, parts}));
-  return Row()
-      .info("seconds", clock.wall_s())
-      .info("cpu_s", clock.cpu_s())
-      .info("triangles", parts[0]->mesh().triangles.size())
-      .info("built", PartModel::work().built);
+/// With the cache in that folder.
+Isolated prepare(const std::string& part, const std::string& solver_name, const std::string& cache) {
+  return isolated([&] {
+    ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    Request request = bin_of(part, 1);
+    choose_solver(request, solver_name);
+    const Clock clock;
+    const std::vector<PartModelPtr> parts = load_parts(request);
+    std::string reason;
+    const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+    solver->add_world(world_of({request, parts}));
+    return Row()
+        .info("seconds", clock.wall_s())
+        .info("cpu_s", clock.cpu_s())
+        .info("triangles", parts[0]->mesh().triangles.size())
+        .info("built", PartModel::work().built);
+  });
 }
 
 double megabytes_in(const std::string& folder) {
@@ -49,43 +53,26 @@ double megabytes_in(const std::string& folder) {
 }
 
 void measure(Run& out, const std::string& part, const std::string& solver, int repeats) {
-  Row row;
-  row.key("part", part).key("solver", solver);
-  if (!out.wanted(row)) return;
-  std::vector<double> cold, cold_cpu, warm, warm_cpu, peak;
-  double cache_mb = 0.0;
-  std::size_t triangles = 0, built_warm = 0;
+  const Row key = Row().key("part", part).key("solver", solver);
+  if (!out.wanted(key)) return;
+  std::vector<Row> rows;
   for (int k = 0; k < repeats; ++k) {
     const std::string cache = out.scratch() + "/" + std::to_string(k);
     fs::create_directories(cache);
-    for (std::vector<double>* times : {&cold, &warm}) {
-      const Isolated one = isolated([&] {
-        ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
-        return prepare(part, solver);
-      });
-      if (!one.good) return out.row(row.append(one.row));
-      times->push_back(one.row.number("seconds"));
-      triangles = static_cast<std::size_t>(one.row.number("triangles"));
-      if (times == &cold) {
-        cold_cpu.push_back(one.row.number("cpu_s"));
-        peak.push_back(one.peak_mb);
-      }
-      if (times == &warm) {
-        warm_cpu.push_back(one.row.number("cpu_s"));
-        built_warm = static_cast<std::size_t>(one.row.number("built"));
-      }
-    }
-    cache_mb = megabytes_in(cache + "/bin_scenes");
+    const Isolated cold = prepare(part, solver, cache), warm = prepare(part, solver, cache);
+    if (!cold.good || !warm.good) return out.row(Row(key).append((cold.good ? warm : cold).row));
+    rows.push_back(Row()
+                       .info("triangles", cold.row.at("triangles"))
+                       .measure("cold_s", cold.row.number("seconds"))
+                       .measure("cold_cpu_s", cold.row.number("cpu_s"))
+                       .measure("warm_s", warm.row.number("seconds"))
+                       .measure("warm_cpu_s", warm.row.number("cpu_s"))
+                       .info("built_warm", warm.row.at("built"))
+                       .measure("peak_mb", cold.peak_mb)
+                       .measure("cache_mb", megabytes_in(cache + "/bin_scenes")));
     fs::remove_all(cache);
   }
-  out.row(row.exact("triangles", triangles)
-              .measure("cold_s", cold)
-              .measure("cold_cpu_s", cold_cpu)
-              .measure("warm_s", warm)
-              .measure("warm_cpu_s", warm_cpu)
-              .exact("built_warm", built_warm)
-              .measure("peak_mb", peak)
-              .measure("cache_mb", {cache_mb, cache_mb}));
+  out.row(Row(key).append(joined(rows)));
 }
 
 void run(Run& out) {

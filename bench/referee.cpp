@@ -77,68 +77,41 @@ std::vector<std::unique_ptr<Shape>> shapes_of(const std::vector<PartModelPtr>& p
   return shapes;
 }
 
-class World {
- public:
-  World(const Request& request, double scale)
-      : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+/// The box of a request, scaled.
+struct World : BulletWorld {
+  World(const Request& request, double scale) : BulletWorld(request.gravity * scale, iterations) {
     gContactBreakingThreshold = breaking_threshold;
-    gCalculateCombinedFrictionCallback = geometric_mean;
-    world_.setGravity(to_bt(Vec3(request.gravity * scale)));
-    btContactSolverInfo& info = world_.getSolverInfo();
-    info.m_numIterations = iterations;
+    btContactSolverInfo& info = world.getSolverInfo();
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;  // one direction alone lets a pile creep
     info.m_splitImpulse = 1;                                // overlap is let out without leaving speed behind
     info.m_splitImpulsePenetrationThreshold = 0.0;
     info.m_erp = info.m_erp2 = push_out;
     const Vec3 half = 0.5 * scale * request.bin.inner_size;
-    const double height = half.z();
-    add_wall(Vec3(half.x() + 2 * wall, half.y() + 2 * wall, wall), Vec3(0, 0, -wall), request.bin.friction);
+    const auto add_wall = [&](const Vec3& size, const Vec3& center) {
+      auto box = std::make_unique<btBoxShape>(to_bt(size));
+      box->setMargin(0.0);
+      box->initializePolyhedralFeatures();
+      add_fixed(std::move(box), center, request.bin.friction, 0.0);
+    };
+    add_wall(Vec3(half.x() + 2 * wall, half.y() + 2 * wall, wall), Vec3(0, 0, -wall));
     for (const double side : {-1.0, 1.0}) {
-      add_wall(Vec3(wall, half.y() + 2 * wall, height), Vec3(side * (half.x() + wall), 0, height),
-               request.bin.friction);
-      add_wall(Vec3(half.x() + 2 * wall, wall, height), Vec3(0, side * (half.y() + wall), height),
-               request.bin.friction);
+      add_wall(Vec3(wall, half.y() + 2 * wall, half.z()), Vec3(side * (half.x() + wall), 0, half.z()));
+      add_wall(Vec3(half.x() + 2 * wall, wall, half.z()), Vec3(0, side * (half.y() + wall), half.z()));
     }
   }
-  ~World() {
-    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
-  }
-
   btRigidBody& add(Shape& shape, const btTransform& pose, double friction) {
     btRigidBody::btRigidBodyConstructionInfo info(1.0, nullptr, &shape.compound, shape.inertia);
     info.m_startWorldTransform = pose;
     info.m_friction = friction;
-    bodies_.push_back(std::make_unique<btRigidBody>(info));
-    bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(bodies_.back().get());
-    return *bodies_.back();
+    bodies.push_back(std::make_unique<btRigidBody>(info));
+    bodies.back()->setActivationState(DISABLE_DEACTIVATION);
+    world.addRigidBody(bodies.back().get());
+    return *bodies.back();
   }
-
   void simulate(double seconds) {
     const int steps = static_cast<int>(std::lround(seconds / time_step));
-    for (int k = 0; k < steps; ++k) world_.stepSimulation(time_step, 0, time_step);
+    for (int k = 0; k < steps; ++k) world.stepSimulation(time_step, 0, time_step);
   }
-
- private:
-  void add_wall(const Vec3& half, const Vec3& center, double friction) {
-    auto box = std::make_unique<btBoxShape>(to_bt(half));
-    box->setMargin(0.0);
-    box->initializePolyhedralFeatures();
-    btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, box.get());
-    info.m_startWorldTransform = btTransform(btQuaternion::getIdentity(), to_bt(center));
-    info.m_friction = friction;
-    bodies_.push_back(std::make_unique<btRigidBody>(info));
-    walls_.push_back(std::move(box));
-    world_.addRigidBody(bodies_.back().get());
-  }
-
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_;
-  std::vector<std::unique_ptr<btBoxShape>> walls_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
 }  // namespace

@@ -1,36 +1,115 @@
-/// The goals of range sensors: error against closed forms and a ray cast of the tests, noise over its formula, and what
-/// a view costs.
-#include "sensors/rows.hpp"
+/// Wall and CPU seconds of a view by each sensor model. What models err by, test/sensor holds to closed forms and to a
+/// ray cast in double precision.
+#include "framework/benchmark.hpp"
+
+#include "bin_scenes/sensor/models.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
+#include "bin_scenes/sensor/sensor_rig.hpp"
+#include "runs.hpp"
+#include "sensor/stage.hpp"
+#include "sensor/targets.hpp"
+
+#include <functional>
 
 namespace bin_scenes::bench {
-
-Row Figure::key() const {
-  return Row()
-      .key("what", what)
-      .key("setting", setting)
-      .key("distance_m", distance_m)
-      .key("incidence_deg", incidence_deg)
-      .key("albedo", albedo);
-}
-
-Row row_of(const Figure& figure, double value, const std::string& unit, const std::string& goal) {
-  return figure.key().exact("value", value).info("unit", unit).info("goal", goal);
-}
-
 namespace {
 
-void run(Run& out) {
-  truth_rows(out);
-  fringe_rows(out);
-  light_rows(out);
-  stereo_rows(out);
-  time_rows(out);
+/// 256 balls of 5,120 triangles above a plate, all in the image.
+void add_balls(test::Stage& stage) {
+  stage.place(stage.model(box_target({4.0, 4.0, 0.02})), test::at(0, 0, 1.06));
+  const std::size_t line = stage.model(ball_target(0.013, 4));
+  stage.request.parts[line].surface = {0.5, 0.1, 0.4};
+  Random random(1, 0, Stream::probe);
+  for (int i = 0; i < 256; ++i) {
+    const Vec3 place(0.025 * (i % 16 - 7.5), 0.02 * (i / 16 - 7.5), random.uniform(0.95, 1.03));
+    stage.place(line, {place, random.orientation()});
+  }
 }
 
-const Registration registration{"sensors",
-                                "range sensors: error without noise, noise over its formula, shadows, time a view",
-                                {"what", "setting", "distance_m", "incidence_deg", "albedo"},
-                                run};
+/// 50 boxes and rings in all poses on a plate.
+void add_heap(test::Stage& stage) {
+  stage.place(stage.model(box_target({4.0, 4.0, 0.02})), test::at(0, 0, 1.06));
+  const std::size_t lines[] = {stage.model(test::box_mesh({0.07, 0.05, 0.03})),
+                               stage.model(test::torus_mesh(0.03, 0.01, 48, 24))};
+  Random random(2, 0, Stream::probe);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 place(random.uniform(-0.17, 0.17), random.uniform(-0.13, 0.13), random.uniform(0.95, 1.03));
+    stage.place(lines[i % 2], {place, random.orientation()});
+  }
+}
+
+/// Several runs after one that makes the search trees of the models. The goal is for two cores that do nothing else.
+void time(Run& out, const std::string& what, double goal_s, const std::function<void()>& work) {
+  const Row key = Row().key("what", what);
+  if (!out.wanted(key)) return;
+  work();
+  std::vector<double> wall, cpu;
+  for (int i = 0; i < (out.quick() ? 1 : 5); ++i) {
+    const Clock clock;
+    work();
+    wall.push_back(clock.wall_s());
+    cpu.push_back(clock.cpu_s());
+  }
+  out.row(Row(key)
+              .measure("wall_s", wall)
+              .measure("cpu_s", cpu)
+              .info("goal", goal_s > 0.0 ? "at most " + Row::text(goal_s) : std::string()));
+}
+
+struct Case {
+  const char* what;
+  double goal_s;  ///< 0: none
+  const char* model;
+  Fidelity fidelity;
+  int bounces;
+  bool heap;  ///< of 50 parts, else 256 balls
+};
+constexpr Fidelity analytic = Fidelity::analytic, decoded = Fidelity::decoded;
+constexpr Case cases[] = {
+    {"ideal 1280 x 1024, all truth", 0.4, "ideal", analytic, 0, false},
+    {"structured light, analytic", 0.6, "structured_light", analytic, 0, false},
+    {"structured light, analytic, 50 parts", 0.15, "structured_light", analytic, 0, true},
+    {"structured light, analytic, 50 parts, bounces 1", 0.0, "structured_light", analytic, 1, true},
+    {"structured light, analytic, 50 parts, bounces 2", 0.0, "structured_light", analytic, 2, true},
+    {"laser line, 1000 profiles, 50 parts, bounces 0", 0.0, "laser_line", analytic, 0, true},
+    {"laser line, 1000 profiles, 50 parts, bounces 1", 0.0, "laser_line", analytic, 1, true},
+    {"structured light, decoded", 3.0, "structured_light", decoded, 0, false},
+    {"laser line, 1000 profiles", 1.0, "laser_line", analytic, 0, false},
+    {"stereo 848 x 480, 128 disparities, matched", 0.5, "stereo", decoded, 0, false},
+    {"stereo 848 x 480, analytic", 0.0, "stereo", analytic, 0, false},
+    {"time of flight", 0.0, "time_of_flight", analytic, 0, false}};
+
+Sensor sensor_of(const Case& c) {
+  Sensor sensor;
+  sensor.model = c.model;
+  sensor.fidelity = c.fidelity;
+  sensor.bounces = c.bounces;
+  sensor.width = 1280, sensor.height = 1024;
+  if (sensor.model == "stereo") sensor.width = 848, sensor.height = 480;
+  sensor.fov = 0.4;
+  sensor.near = 0.5, sensor.far = 2.0;
+  sensor.pose = Pose();
+  return sensor;
+}
+
+void run(Run& out) {
+  test::Stage balls, heap;
+  add_balls(balls);
+  add_heap(heap);
+  SensorRig rig;
+  for (const Case& c : cases) {
+    test::Stage& stage = c.heap ? heap : balls;
+    stage.scene.sensors = {resolved(sensor_of(c), stage.request.bin)};
+    time(out, c.what, c.goal_s, [&] { rig.render(stage.scene, {stage.request, stage.models}); });
+  }
+  const Scenery scenery = balls.scenery();
+  const Sensor& sensor = balls.scene.sensors[0];
+  const View view =
+      render(scenery, lens_of(resolved(sensor_of(cases[0]), balls.request.bin)), Pose(), sensor.near, sensor.far);
+  time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
+}
+
+const Registration registration{"sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -82,49 +82,40 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   return row;
 }
 
+/// CPU and wall seconds of a scene by that preset.
+Isolated own_row(Request request, const std::string& solver, const std::string& prefix) {
+  choose_solver(request, solver);
+  warm_up(request);
+  return isolated([&] {
+    const Row figures = figures_of(pour_timed(request));
+    Row row;
+    for (const char* figure : {"cpu_s", "scene_s", "simulated_s"}) row.measure(prefix + figure, figures.number(figure));
+    return row;
+  });
+}
+
 void part_row(Run& out, const std::string& part, bool has_pieces) {
   const std::size_t count = out.quick() ? 8 : 150;
   const Row key = Row().key("part", part).key("bodies", count);
   if (!out.wanted(key)) return;
   Request request = bin_of(part, count);
   request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
-  warm_up(request);
-  Request fast = request;
-  choose_solver(fast, "sphere/quick");
-  warm_up(fast);
+  const std::string pieces = has_pieces ? Run::pieces(part) : std::string();
   std::vector<Row> scenes;
   double spent = 0.0;
   for (int seed = 1; seed <= (out.quick() ? 1 : spent < enough ? most_seeds : least_seeds); ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
-    fast.seed = request.seed;
-    const Isolated quick = isolated([&] {
-      const Row figures = figures_of(pour_timed(fast));
-      return Row().measure("quick_cpu_s", figures.number("cpu_s")).measure("quick_scene_s", figures.number("scene_s"));
-    });
-    const Isolated ours = isolated([&] {
-      choose_solver(request, "sphere");
-      const Row figures = figures_of(pour_timed(request));
-      return Row()
-          .exact("scenes", 1)
-          .measure("cpu_s", figures.number("cpu_s"))
-          .measure("scene_s", figures.number("scene_s"))
-          .measure("simulated_s", figures.number("simulated_s"));
-    });
+    const Isolated quick = own_row(request, "sphere/quick", "quick_"), ours = own_row(request, "sphere", "");
     if (!ours.good) return out.row(Row(key).append(ours.row));
-    const std::string pieces = has_pieces ? Run::pieces(part) : std::string();
     const Isolated bullet =
         isolated([&] { return bullet_row(request, pieces, ours.row.number("simulated_s")); }, 300.0);
     if (!bullet.good) return out.row(Row(key).append(bullet.row));
-    Row scene = Row(ours.row).append(bullet.row).info("pieces", has_pieces ? "exact" : "hulls");
+    Row scene = Row().exact("scenes", 1).append(ours.row).append(quick.row).append(bullet.row);
+    scene.info("pieces", has_pieces ? "exact" : "hulls");
     for (const std::string until : {"slow", "asleep", "as_long"})
-      for (const std::string of : {"cpu_s", "scene_s"})
-        scene.measure((of == "cpu_s" ? "share_of_" : "scene_share_of_") + until,
-                      scene.number(of) / scene.number("bullet_" + until + "_" + of));
-    if (quick.good)
-      scene.append(quick.row)
-          .measure("quick_share_of_asleep", quick.row.number("quick_cpu_s") / scene.number("bullet_asleep_cpu_s"))
-          .measure("quick_scene_share_of_asleep",
-                   quick.row.number("quick_scene_s") / scene.number("bullet_asleep_scene_s"));
+      for (const std::string own : {"", "quick_"})
+        scene.measure(own + "share_of_" + until,
+                      scene.number(own + "cpu_s") / scene.number("bullet_" + until + "_cpu_s"));
     spent += std::max(scene.number("bullet_asleep_cpu_s"), scene.number("bullet_as_long_cpu_s"));
     scenes.push_back(scene);
   }

@@ -2,86 +2,55 @@
 /// convex pieces of a part are known, stock Bullet gets the exact shape and the referee judges all alike.
 #include "framework/benchmark.hpp"
 #include "judged.hpp"
-#include "solver/step_limit.hpp"
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 namespace bin_scenes::bench {
 namespace {
 
 /// One point of a curve.
 struct Setting {
-  std::string solver, sleeping, varied, value;
-  std::function<void(Request&)> apply;  ///< on the request; none for stock Bullet
-  MakeSolver make;                      ///< stock Bullet, or none
+  std::string solver, varied, value;
+  std::function<void(Request&)> change;  ///< on a request of that solver
+  MakeSolver make;                       ///< stock Bullet, or none
 };
 
-Setting setting_of(const std::string& solver, const std::string& varied, const std::string& value,
-                   const std::function<void(Request&)>& change) {
-  return {solver,
-          "yes",
-          varied,
-          value,
-          [=](Request& request) {
-            choose_solver(request, solver);
-            change(request);
-          },
-          {}};
-}
-Setting setting_of(const std::string& solver, const std::string& varied, double value,
-                   const std::function<void(Request&)>& change) {
-  return setting_of(solver, varied, Row::text(value), change);
-}
-
 std::vector<Setting> settings_of_sphere(bool quick) {
-  std::vector<Setting> all;
   const SphereSettings sphere;
-  for (const char* preset : {"sphere", "sphere/quick"})
-    all.push_back(setting_of(preset, "default", 0, [](Request&) {}));
-  for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed, Pour::Finish::probed}) {
-    if (finish == Pour().finish) continue;  // the default
-    all.push_back(setting_of("sphere", "finish", name_of(finish), [=](Request& r) { r.pour.finish = finish; }));
-    if (quick) break;
-  }
-  for (const double factor : {4.0, 2.0, 0.5}) {
-    if (quick && factor != 2.0) continue;
-    const double dt = factor * sphere.time_step;
-    all.push_back(setting_of("sphere", "time_step", dt, [=](Request& r) { r.solver.sphere.time_step = dt; }));
-  }
+  std::vector<Setting> all = {{"sphere", "default", "0", [](Request&) {}, {}},
+                              {"sphere/quick", "default", "0", [](Request&) {}, {}}};
+  const auto add = [&](const std::string& varied, const std::string& value, const std::function<void(Request&)>& to) {
+    all.push_back({"sphere", varied, value, to, {}});
+  };
+  for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed})
+    add("finish", name_of(finish), [=](Request& r) { r.pour.finish = finish; });
+  for (const double factor : {2.0, 0.5})
+    add("time_step", Row::text(factor * sphere.time_step),
+        [=](Request& r) { r.solver.sphere.time_step = factor * sphere.time_step; });
   if (quick) return all;
   for (const int steps : {1, 4 * sphere.sub_steps})
-    all.push_back(setting_of("sphere", "sub_steps", steps, [=](Request& r) { r.solver.sphere.sub_steps = steps; }));
+    add("sub_steps", Row::text(steps), [=](Request& r) { r.solver.sphere.sub_steps = steps; });
   for (const double factor : {0.25, 3.0}) {
     const int samples = static_cast<int>(std::lround(factor * sphere.fine_samples));
-    all.push_back(setting_of("sphere", "fine_samples", samples, [=](Request& r) {
+    add("fine_samples", Row::text(samples), [=](Request& r) {
       r.solver.sphere.fine_samples = samples;
       r.solver.sphere.coarse_samples = std::min(r.solver.sphere.coarse_samples, samples);
-    }));
+    });
   }
-  for (const double factor : {2.0, 0.5}) {
-    const double cell = factor * sphere.field_cell;
-    all.push_back(setting_of("sphere", "field_cell", cell, [=](Request& r) { r.solver.sphere.field_cell = cell; }));
-  }
-  all.push_back(setting_of("sphere/thesis", "default", 0, [](Request&) {}));
-  all.back().sleeping = "no";
+  for (const double factor : {2.0, 0.5})
+    add("field_cell", Row::text(factor * sphere.field_cell),
+        [=](Request& r) { r.solver.sphere.field_cell = factor * sphere.field_cell; });
+  all.push_back({"sphere/thesis", "default", "0", [](Request&) {}, {}});
   return all;
 }
 
 std::vector<Setting> settings_of_bullet(bool quick) {
   std::vector<Setting> all;
-  const BulletSettings bullet;
-  for (const bool sleeping : {true, false}) {
-    for (const double factor : {1.0, 0.5}) {
-      if (quick && (!sleeping || factor != 1.0)) continue;
-      const double dt = factor * bullet.time_step;
-      all.push_back(setting_of("bullet", "time_step", dt, [=](Request& r) {
-        r.solver.bullet.time_step = dt;
-        r.solver.bullet.sleeping = sleeping;
-      }));
-      all.back().sleeping = sleeping ? "yes" : "no";
-    }
+  for (const double factor : {1.0, 0.5}) {
+    const double dt = factor * BulletSettings().time_step;
+    all.push_back({"bullet", "time_step", Row::text(dt), [=](Request& r) { r.solver.bullet.time_step = dt; }, {}});
+    if (quick) break;
   }
   return all;
 }
@@ -93,24 +62,14 @@ std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool qu
     StockBullet stock;
     stock.time_step = 1.0 / rate;
     stock.iterations = iterations;
-    all.push_back({"bullet_stock",
-                   "yes",
-                   varied,
-                   Row::text(varied == "time_step" ? 1.0 / rate : iterations),
-                   {},
-                   stock_bullet_on(pieces, stock)});
+    const std::string value = varied == "time_step" ? Row::text(stock.time_step) : Row::text(iterations);
+    all.push_back({"bullet_stock", varied, value, {}, stock_bullet_on(pieces, stock)});
   };
   add("time_step", 240, 10);
   if (quick) return all;
   add("time_step", 100, 10);
   add("iterations", 100, 50);
   return all;
-}
-
-/// The step (s) that a solver of this project makes of a setting's time_step for parts of this size: long ones are cut.
-double step_of(const Setting& setting, const Request& request, double diagonal) {
-  const double dt = setting.solver == "bullet" ? request.solver.bullet.time_step : request.solver.sphere.time_step;
-  return dt / step_cuts(dt, request.gravity.norm(), diagonal);
 }
 
 bool dominates(const Row& a, const Row& b, const std::string& error) {
@@ -143,26 +102,21 @@ void curves(Run& out, const std::string& part) {
   for (const Setting& one : settings_of_bullet(out.quick())) settings.push_back(one);
   if (exact)
     for (const Setting& one : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(one);
-  const double diagonal = load_parts(bin_of(part, count)).front()->diagonal();
-  std::set<std::pair<std::string, double>> steps;  // a time_step that is cut to that of another setting is the same run
   for (const Setting& setting : settings) {
     Request request = bin_of(part, count);
     Row row;
     row.key("part", part)
         .key("bodies", count)
         .key("solver", setting.solver)
-        .key("sleeping", setting.sleeping)
+        .key("sleeping", setting.solver == "sphere/thesis" ? "no" : "yes")
         .key("varied", setting.varied)
         .key("value", setting.value);
-    if (setting.apply) setting.apply(request);
-    if (setting.solver == "sphere" || setting.solver == "bullet") {
-      const double step = step_of(setting, request, diagonal);
-      const bool varies = setting.varied == "default" || setting.varied == "time_step";
-      if (varies && !steps.insert({setting.solver + setting.sleeping, step}).second) continue;
-      row.info("step_s", step);
+    if (setting.change) {
+      choose_solver(request, setting.solver);
+      setting.change(request);
     }
     if (!out.wanted(row)) continue;
-    if (setting.apply) warm_up(request);
+    if (setting.change) warm_up(request);
     const int seeds = out.quick() ? 1 : setting.solver == "sphere" && setting.varied == "default" ? 10 : 2;
     const std::vector<Row> scenes = judged_scenes(out.scratch(), request, Run::pieces(part), setting.make,
                                                   {out.quick() ? 20.0 : 30.0, exact ? seeds : 0}, seeds);

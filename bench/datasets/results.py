@@ -44,7 +44,7 @@ def put(name, about, keys, rows):
         rows = kept + list(new.values())
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w") as out:
-        for key, value in (("benchmark", name), ("about", about), ("command", " ".join(("bench/datasets/" + pathlib.Path(sys.argv[0]).name,))),
+        for key, value in (("benchmark", name), ("about", about), ("command", os.path.relpath(os.path.abspath(sys.argv[0]), ROOT)),
                            ("cpu", cpu()), ("cores", os.cpu_count()), ("version", version()), ("commit", commit()),
                            ("date", datetime.date.today()), ("roles", " ".join("key" if f in keys else "info" for f in fields))):
             out.write("# %s: %s\n" % (key, value))

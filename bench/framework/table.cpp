@@ -129,12 +129,6 @@ Row Table::row(std::size_t index) const {
   return out;
 }
 
-std::string Table::header_value(const std::string& key) const {
-  for (const auto& [name, value] : header)
-    if (name == key) return value;
-  return "";
-}
-
 std::string Table::key_of(std::size_t row) const {
   std::string key;
   for (const Column& column : columns) {

@@ -76,7 +76,6 @@ struct Table {
   /// A row with the keys of an earlier one takes its place.
   void add(const Row& row);
   Row row(std::size_t index) const;
-  std::string header_value(const std::string& key) const;
   /// "part=ring_24 solver=sphere": what names a row.
   std::string key_of(std::size_t row) const;
 };

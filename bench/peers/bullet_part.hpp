@@ -1,4 +1,4 @@
-/// What the referee and stock Bullet share: a part as a compound of its exact convex pieces.
+/// What the referee and stock Bullet share: a part as a compound of its exact convex pieces, and a world.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -43,6 +43,40 @@ struct BulletPart {
       hulls.back()->recalcLocalAabb();
       compound.addChildShape(principal.inverse(), hulls.back().get());
     }
+  }
+};
+
+/// With Bullet's sequential impulse solver, fixed bodies, and the project's friction.
+struct BulletWorld {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<std::unique_ptr<btCollisionShape>> fixed_shapes;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+
+  BulletWorld(const Vec3& gravity, int iterations) {
+    gCalculateCombinedFrictionCallback = geometric_mean;
+    world.setGravity(to_bt(gravity));
+    world.getSolverInfo().m_numIterations = iterations;
+  }
+  BulletWorld(const BulletWorld&) = delete;
+  ~BulletWorld() { clear(); }
+  /// Takes all bodies out: who owns their shapes does so before these go.
+  void clear() {
+    for (const auto& body : bodies)
+      if (body) world.removeRigidBody(body.get());
+    bodies.clear();
+  }
+  void add_fixed(std::unique_ptr<btCollisionShape> shape, const Vec3& center, double friction, double restitution) {
+    btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape.get());
+    info.m_startWorldTransform.setOrigin(to_bt(center));
+    info.m_friction = friction;
+    info.m_restitution = restitution;
+    bodies.push_back(std::make_unique<btRigidBody>(info));
+    world.addRigidBody(bodies.back().get());
+    fixed_shapes.push_back(std::move(shape));
   }
 };
 

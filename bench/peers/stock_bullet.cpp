@@ -19,17 +19,11 @@ Vec3 from_bt(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-class World {
+/// Bodies that parts are come behind the fixed ones, which the walls are.
+class World : BulletWorld {
  public:
   World(const WorldDef& def, const StockBullet& settings)
-      : def_(def),
-        damping_(settings.damping),
-        dispatcher_(&configuration_),
-        world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
-        bodies_(def.bodies.size()) {
-    gCalculateCombinedFrictionCallback = geometric_mean;
-    world_.setGravity(to_bt(def.gravity));
-    world_.getSolverInfo().m_numIterations = settings.iterations;
+      : BulletWorld(def.gravity, settings.iterations), def_(def), damping_(settings.damping) {
     for (std::size_t p = 0; p < def.parts.size(); ++p) {
       parts_.push_back(std::make_unique<BulletPart>(*def.parts[p], settings.pieces[p], settings.margin));
       const double radius = settings.balls.empty() ? 0.0 : settings.balls[p];
@@ -37,18 +31,17 @@ class World {
       if (balls_.back()) balls_.back()->calculateLocalInertia(1.0, parts_.back()->inertia);
     }
     add_walls();
+    walls_ = bodies.size();
+    bodies.resize(walls_ + def.bodies.size());
   }
-  ~World() {
-    for (const auto& body : bodies_)
-      if (body) world_.removeRigidBody(body.get());
-    for (const auto& body : walls_) world_.removeRigidBody(body.get());
-  }
+  ~World() { clear(); }
 
   void insert(std::size_t b, const BodyState& state) {
     const BodyDef& def = def_.bodies[b];
     BulletPart& part = *parts_[def.part];
     const btTransform pose = to_bt(state.pose) * part.principal;
-    const bool fresh = !bodies_[b];
+    std::unique_ptr<btRigidBody>& body = bodies[walls_ + b];
+    const bool fresh = !body;
     if (fresh) {
       const double mass = def.fixed ? 0.0 : def.mass;
       btCollisionShape* shape = &part.compound;
@@ -57,25 +50,25 @@ class World {
       info.m_friction = def.friction;
       info.m_restitution = def.restitution;
       info.m_linearDamping = info.m_angularDamping = damping_;
-      bodies_[b] = std::make_unique<btRigidBody>(info);
+      body = std::make_unique<btRigidBody>(info);
     }
-    bodies_[b]->setCenterOfMassTransform(pose);
-    bodies_[b]->setInterpolationWorldTransform(pose);
-    bodies_[b]->setLinearVelocity(to_bt(state.velocity.linear));
-    bodies_[b]->setAngularVelocity(to_bt(state.velocity.angular));
+    body->setCenterOfMassTransform(pose);
+    body->setInterpolationWorldTransform(pose);
+    body->setLinearVelocity(to_bt(state.velocity.linear));
+    body->setAngularVelocity(to_bt(state.velocity.angular));
     if (fresh)
-      world_.addRigidBody(bodies_[b].get());
+      world.addRigidBody(body.get());
     else
-      bodies_[b]->activate();  // its contacts stay: a push each step is no new start
+      body->activate();  // its contacts stay: a push each step is no new start
   }
   void remove(std::size_t b) {
-    world_.removeRigidBody(bodies_[b].get());
-    bodies_[b].reset();
+    world.removeRigidBody(bodies[walls_ + b].get());
+    bodies[walls_ + b].reset();
   }
-  void step(double dt) { world_.stepSimulation(dt, 0, dt); }
-  bool has(std::size_t b) const { return bodies_[b] != nullptr; }
+  void step(double dt) { world.stepSimulation(dt, 0, dt); }
+  bool has(std::size_t b) const { return bodies[walls_ + b] != nullptr; }
   BodyState state(std::size_t b) const {
-    const btRigidBody& body = *bodies_[b];
+    const btRigidBody& body = *bodies[walls_ + b];
     const btTransform pose = body.getWorldTransform() * parts_[def_.bodies[b].part]->principal.inverse();
     const btQuaternion q = pose.getRotation();
     BodyState state;
@@ -87,8 +80,8 @@ class World {
   /// Of the most restless body; one that is not in yet moves.
   BulletRest rest() const {
     BulletRest least = BulletRest::asleep;
-    for (std::size_t b = 0; b < bodies_.size() && least != BulletRest::moves; ++b)
-      least = has(b) ? std::min(least, rest_of(*bodies_[b])) : BulletRest::moves;
+    for (std::size_t b = 0; b < def_.bodies.size() && least != BulletRest::moves; ++b)
+      least = has(b) ? std::min(least, rest_of(*bodies[walls_ + b])) : BulletRest::moves;
     return least;
   }
 
@@ -100,24 +93,16 @@ class World {
                       body.getAngularVelocity().length() < body.getAngularSleepingThreshold();
     return slow ? BulletRest::slow : BulletRest::moves;
   }
-  void add_box(const Vec3& lower, const Vec3& upper) {
-    wall_shapes_.push_back(std::make_unique<btBoxShape>(to_bt(Vec3(0.5 * (upper - lower)))));
-    add_fixed(0.5 * (lower + upper));
+  void add_wall(std::unique_ptr<btCollisionShape> shape, const Vec3& center) {
+    add_fixed(std::move(shape), center, def_.bin.friction, def_.bin.restitution);
   }
-  /// The last shape of the walls.
-  void add_fixed(const Vec3& center) {
-    btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, wall_shapes_.back().get());
-    info.m_startWorldTransform.setOrigin(to_bt(center));
-    info.m_friction = def_.bin.friction;
-    info.m_restitution = def_.bin.restitution;
-    walls_.push_back(std::make_unique<btRigidBody>(info));
-    world_.addRigidBody(walls_.back().get());
+  void add_box(const Vec3& lower, const Vec3& upper) {
+    add_wall(std::make_unique<btBoxShape>(to_bt(Vec3(0.5 * (upper - lower)))), 0.5 * (lower + upper));
   }
   void add_walls() {
     if (def_.bin.kind == Bin::Kind::none) return;
     if (def_.bin.kind == Bin::Kind::floor) {
-      wall_shapes_.push_back(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0.0));
-      add_fixed(Vec3::Zero());
+      add_wall(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0.0), Vec3::Zero());
       return;
     }
     const Vec3 half = 0.5 * def_.bin.inner_size, out = half + Vec3(wall, wall, 0);
@@ -134,13 +119,7 @@ class World {
   double damping_;
   std::vector<std::unique_ptr<BulletPart>> parts_;
   std::vector<std::unique_ptr<btSphereShape>> balls_;  ///< by part; none for what is no ball
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_;
-  std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
-  std::vector<std::unique_ptr<btRigidBody>> walls_, bodies_;
+  std::size_t walls_ = 0;                              ///< bodies that are walls
 };
 
 class StockBulletSolver final : public Solver {

@@ -57,13 +57,13 @@ TEST_F(BenchCommand, SuggestsTheNearestName) {
 }
 
 TEST_F(BenchCommand, ANameThatIsNoneIsToldAndTheRestRuns) {
-  const Outcome outcome = run("--filter preparaton,shape_errors --quick --rows proxy=field");
+  const Outcome outcome = run("--filter preparaton,light --quick --rows bounces=0");
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find("did you mean 'preparation'?"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.out.find("shape_errors:  bolt_hex  field  sphere"), std::string::npos) << outcome.out;
-  const Outcome names = run("--list --filter nosuch,shape_errors");
+  EXPECT_NE(outcome.out.find("light:  matte, albedo 0.9  16  0  analytic"), std::string::npos) << outcome.out;
+  const Outcome names = run("--list --filter nosuch,light");
   EXPECT_EQ(names.code, 2);
-  EXPECT_EQ(names.out.rfind("shape_errors ", 0), 0u) << names.out;
+  EXPECT_EQ(names.out.rfind("light ", 0), 0u) << names.out;
 }
 
 TEST_F(BenchCommand, UnwritableFolderIsOneClearMessage) {
@@ -82,18 +82,18 @@ TEST_F(BenchCommand, RowsByAKeyThatIsNoneAreRefusedBeforeAnythingRuns) {
 }
 
 TEST_F(BenchCommand, RowsOfAnEarlierRunStayUnlessMeasuredAnew) {
-  put("out/shape_errors.csv",
-      "# benchmark: shape_errors\n# roles: key key key exact\npart,proxy,solver,count\n"
-      "bolt_hex,field,sphere,1\nbolt_hex,an older proxy,ode,7\n");
-  const Outcome outcome = run("--filter shape_errors --quick --rows proxy=field --out out");
+  put("out/light.csv",
+      "# benchmark: light\n# roles: key key key key exact\nsurface,period_px,bounces,fidelity,rms_mm\n"
+      "\"matte, albedo 0.9\",16,0,analytic,7\nmirror,16,0,analytic,7\n");
+  const Outcome outcome = run("--filter light --quick --rows bounces=0 --out out");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  const std::string csv = text("out/shape_errors.csv");
-  EXPECT_NE(csv.find("bolt_hex,an older proxy,ode,7"), std::string::npos) << csv;
-  EXPECT_EQ(csv.find("bolt_hex,field,sphere,1,"), std::string::npos) << csv;
+  const std::string csv = text("out/light.csv");
+  EXPECT_NE(csv.find("mirror,16,0,analytic,7"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find("\"matte, albedo 0.9\",16,0,analytic,7,"), std::string::npos) << csv;
 }
 
 TEST_F(BenchCommand, RowsThatNoBenchmarkHasAreAnError) {
-  for (const std::string benchmark : {"goals", "simbenchmark", "shape_errors"}) {
+  for (const std::string benchmark : {"goals", "simbenchmark", "preparation"}) {
     const Outcome outcome = run("--out results --rows solver=nosuch --filter " + benchmark);
     EXPECT_EQ(outcome.code, 2) << benchmark;
     EXPECT_NE(outcome.err.find("no row is like this"), std::string::npos) << outcome.err;
@@ -110,20 +110,6 @@ TEST_F(BenchCommand, StressRefusesWhatItDoesNotKnow) {
   }
   const Outcome outcome = run("--filter stack/ --solver nosuch", BIN_SCENES_STRESS);
   EXPECT_NE(outcome.err.find("nosuch"), std::string::npos) << outcome.err;
-}
-
-TEST_F(BenchCommand, ComparesTwoFolders) {
-  const std::string head = "# benchmark: scenes\n# roles: key measure spread\npart,time_s,time_s_spread\n";
-  put("a/scenes.csv", head + "ring,1,0.1\ntee,2,0.1\n");
-  put("b/scenes.csv", head + "ring,1.05,0.1\ntee,3,0.1\n");
-  const Outcome moved = run("compare a b");
-  EXPECT_EQ(moved.code, 1) << moved.err;
-  EXPECT_NE(moved.out.find("moved: scenes: part=tee: time_s"), std::string::npos) << moved.out;
-  EXPECT_EQ(moved.out.find("part=ring"), std::string::npos) << moved.out;
-  EXPECT_EQ(run("compare a a").code, 0);
-  const Outcome missing = run("compare a c");
-  EXPECT_EQ(missing.code, 2);
-  EXPECT_NE(missing.err.find("neither a file nor a folder"), std::string::npos) << missing.err;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bench/publish and bench/plot on small results of their own."""
+"""bench/publish, bench/plot and bench/compare_results on small results of their own."""
 import os
 import pathlib
 import shutil
@@ -38,11 +38,10 @@ class Scripts(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.root)
         for folder in ("bench/plots", "bench/results/device", "docs/lab"):
             (self.root / folder).mkdir(parents=True)
-        for script in ("publish", "plot"):
+        for script in ("publish", "plot", "compare_results"):
             shutil.copy(ROOT / "bench" / script, self.root / "bench")
         (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
         (self.root / "docs/lab/accuracy.md").write_text(DOC % "")
-        (self.root / "bench/results/README.md").write_text("<!-- builds -->\n<!-- /builds -->\n")
 
     def run_script(self, name, *arguments, **environment):
         return subprocess.run([self.root / "bench" / name, *arguments], env={**os.environ, **environment},
@@ -61,17 +60,6 @@ class Scripts(unittest.TestCase):
         self.assertIn("`bin_scenes_bench --filter scenes` on some CPU, 2 cores", text)
         self.assertIn("[scenes.csv](../../bench/results/device/scenes.csv)", text)
         self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
-
-    def test_publish_says_which_build_made_what(self):
-        lines = TABLE.replace("status\n", "status,commit\n").splitlines()
-        lines[-3:] = ["ring,sphere,1,,,,,0123456789", "tee,sphere,1,,,,,9876543210-dirty", "tee,bullet,1,,,,,0123456789"]
-        older = self.root / "bench/results/amd-epyc-2-cores/finish.csv"  # of those that publish excepts
-        older.parent.mkdir()
-        older.write_text("\n".join(lines))
-        self.run_script("publish")
-        text = (self.root / "bench/results/README.md").read_text()
-        self.assertIn("| device | scenes | bullet: abc 1; sphere: abc 2 |", text)
-        self.assertIn("| amd-epyc-2-cores | finish | bullet: 0123456 1; sphere: 0123456 1, 9876543-dirty 1 |", text)
 
     def refusal(self, *commits):
         """What publish says of a file whose rows are of these commits; it writes nothing."""
@@ -140,6 +128,40 @@ at rest: at_rest of scenes | | all
         self.run_script("publish")
         self.assertEqual(self.run_script("publish", "--check").returncode, 0)
 
+    def comparison(self, before, after, *arguments):
+        """Code and text of bench/compare_results for two folders with the same table of these rows."""
+        for folder, rows in (("before", before), ("after", after)):
+            (self.root / folder).mkdir(exist_ok=True)
+            (self.root / folder / "scenes.csv").write_text(
+                "# benchmark: scenes\n# cpu: some CPU\n# roles: key measure spread exact info\n"
+                "part,time_s,time_s_spread,escaped,note\n" + "\n".join(rows) + "\n")
+        run = self.run_script("compare_results", self.root / "before", self.root / "after", *arguments)
+        return run.returncode, run.stdout
+
+    def test_compare_names_what_moved_beyond_noise(self):
+        for before, after, moved in (
+                ("ring,1.1,0.2,0,", "ring,1.2,0.2,0,", ""),              # within the spread
+                ("ring,1.1,0.2,0,", "ring,1.5,0.2,0,", "time_s 1.1 -> 1.5 (+36.4 %)"),
+                ("ring,1,0,0,", "ring,1.02,0,0,", ""),                   # less than the floor
+                ("ring,1,,0,", "ring,1.2,,0,", ""),                      # one sample may be a quarter off
+                ("ring,1,,0,", "ring,1.4,,0,", "time_s 1 -> 1.4"),
+                ("ring,1,0,0,", "ring,1,0,1,", "escaped 0 -> 1"),
+                ("ring,1,0,0,a", "ring,1,0,0,b", ""),                    # for readers only
+                ("ring,1,0,0,", "ring,,,0,", "time_s 1 -> ")):           # gone
+            with self.subTest(before=before, after=after):
+                code, text = self.comparison([before], [after])
+                self.assertEqual(code, 1 if moved else 0, text)
+                self.assertEqual(text.strip() if not moved else "", "")
+                self.assertIn(moved, text)
+        self.assertEqual(self.comparison(["ring,1,0,0,"], ["ring,1.02,0,0,"], "--floor", "0.01")[0], 1)
+
+    def test_compare_names_rows_of_one_side_and_what_is_missing(self):
+        code, text = self.comparison(["ring,1,0,0,", "bolt,2,0,0,"], ["tee,3,0,0,", "ring,1,0,0,"])
+        self.assertEqual((code, text), (0, "gone: scenes: part=bolt\nnew: scenes: part=tee\n"))
+        missing = self.run_script("compare_results", self.root / "before", self.root / "nowhere")
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("neither a file nor a folder", missing.stderr)
+
     def test_plot_says_when_gnuplot_is_missing(self):
         tools = self.root / "tools"
         tools.mkdir()
@@ -163,10 +185,11 @@ at rest: at_rest of scenes | | all
 
     def test_all_makes_everything_and_names_what_failed(self):
         shutil.copy(ROOT / "bench/all", self.root / "bench")
-        (self.root / "test/stress").mkdir(parents=True)
-        (self.root / "build/bench").mkdir(parents=True)
+        for folder in ("test/stress", "build/bench", "bench/datasets"):
+            (self.root / folder).mkdir(parents=True)
         for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
-                           ("test/stress/inspect_all", 0)):
+                           ("test/stress/inspect_all", 0), ("bench/datasets/measure", 0), ("bench/datasets/audit", 0),
+                           ("build/bin_scenes", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
             script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
@@ -176,7 +199,9 @@ at rest: at_rest of scenes | | all
         self.assertEqual(outcome.stderr, "bench/all: failed: test/stress/soak\n")
         did = [line for line in outcome.stdout.splitlines() if line.startswith("did ") and "inspect_all" not in line]
         self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did test/stress/soak build",
-                               "did bench/publish"])
+                               *("did bench/datasets/measure %s --tool build/bin_scenes" % part
+                                 for part in ("throughput", "masks", "growth")),
+                               "did bench/datasets/audit build/bin_scenes", "did bench/publish"])
         missing = self.run_script("all", "nowhere")
         self.assertEqual(missing.returncode, 2)
         self.assertIn("scripts/build", missing.stderr)

@@ -122,6 +122,16 @@ class DataSetTest(unittest.TestCase):
         self.assertEqual([path for path in a if a[path] != b[path]], [], "files differ")
 
 
+def option(name):
+    """Value of an option that this program has and unittest has not; none if it is not given."""
+    if name not in sys.argv:
+        return None
+    at = sys.argv.index(name)
+    value = sys.argv[at + 1]
+    del sys.argv[at:at + 2]
+    return value
+
+
 def main():
     global TOOL
     TOOL = os.path.abspath(sys.argv.pop(1))

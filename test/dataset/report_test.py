@@ -9,17 +9,12 @@ import re
 import shutil
 import sqlite3
 import subprocess
-import sys
 import unittest
 
 import data_set
-from data_set import DataSetTest
+from data_set import DataSetTest, option
 
-KEEP = None
-if "--keep" in sys.argv:
-    at = sys.argv.index("--keep")
-    KEEP = sys.argv[at + 1]
-    del sys.argv[at:at + 2]
+KEEP = option("--keep")
 CHROMIUM = shutil.which("chromium")
 
 

@@ -21,14 +21,10 @@ import numpy
 from PIL import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "dataset"))
-from data_set import box_stl  # noqa: E402
+from data_set import box_stl, option  # noqa: E402
 
 TOOL = os.path.abspath(sys.argv.pop(1))
-KEEP = None
-if "--keep" in sys.argv:
-    at = sys.argv.index("--keep")
-    KEEP = sys.argv[at + 1]
-    del sys.argv[at:at + 2]
+KEEP = option("--keep")
 CHROMIUM = shutil.which("chromium")
 PANEL = 340  # pixels of the page's right side
 

@@ -2,6 +2,7 @@
 #include "sensor/models/facets.hpp"
 #include "sensor/models/lobe.hpp"
 #include "sensor/models/structured_light.hpp"
+#include "sensor/shot.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -157,22 +158,7 @@ struct Groove {
   }
   /// Along a face, away from the line.
   static Vec3 along(int side) { return Vec3(side, 0.0, -1.0) / std::sqrt(2.0); }
-  Targets targets() const {
-    Mesh mesh;
-    for (const int side : {-1, 1}) {
-      const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-      for (const double far : {0.0, width}) {
-        for (const double y : {-0.5 * length, 0.5 * length}) {
-          mesh.vertices.push_back(Vec3(0, 0, depth) + far * along(side) + y * Vec3::UnitY());
-        }
-      }
-      mesh.triangles.push_back({base, base + 1, base + 2});
-      mesh.triangles.push_back({base + 1, base + 3, base + 2});
-    }
-    Targets targets;
-    targets.add(mesh, Pose(), surface);
-    return targets;
-  }
+  Targets targets() const { return test::groove(surface, depth, width, length); }
   double column(const Vec3& point) const {
     return setup.projector.project(setup.projector_pose.inverse() * point)->x();
   }
@@ -227,11 +213,7 @@ Errors errors_in(const Groove& groove, bool decoded) {
   const bool shiny = groove.surface.gloss > 0.0;
 
   Targets targets = groove.targets();
-  const Scenery scenery = targets.scenery();
-  const View view = render(scenery, groove.camera, Pose(), groove.setup.near, groove.setup.far);
-  const StructuredLight model(scenery, view, targets.surfaces(), groove.setup);
-  const Random random(1, 0, Stream::noise);
-  const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
+  const auto [view, measured, sigma] = test::shoot<StructuredLight>(targets, groove.camera, groove.setup, decoded);
   Errors out;
   int count = 0;
   for (const int row : {5}) {

@@ -1,4 +1,5 @@
 #include "sensor/models/stereo.hpp"
+#include "sensor/shot.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -24,20 +25,9 @@ struct Device {
   }
 };
 
-struct Shot {
-  View view;
-  Measurement measured;
-  std::vector<double> sigma;
-};
-
+using test::Shot;
 Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
-  const Scenery scenery = targets.scenery();
-  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
-  const Stereo model(scenery, shot.view, targets.surfaces(), device.setup);
-  const Random random(seed, 0, Stream::noise);
-  shot.measured = decoded ? model.decoded(random) : model.analytic(random);
-  for (std::size_t i = 0; i < shot.view.depth.size(); ++i) shot.sigma.push_back(model.depth_sigma(i));
-  return shot;
+  return test::shoot<Stereo>(targets, device.camera, device.setup, decoded, seed);
 }
 
 void add_plate(Targets& targets, double z, double tilt = 0.0) {

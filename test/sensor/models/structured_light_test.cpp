@@ -1,5 +1,6 @@
 #include "sensor/models/structured_light.hpp"
 #include "sensor/fit.hpp"
+#include "sensor/shot.hpp"
 #include "sensor/targets.hpp"
 
 #include <gtest/gtest.h>
@@ -34,20 +35,9 @@ Targets plate(double z, double tilt = 0.0, const Surface& surface = {}) {
   return targets;
 }
 
-struct Shot {
-  View view;
-  Measurement measured;
-  std::vector<double> sigma;
-};
-
+using test::Shot;
 Shot shoot(Targets& targets, const Device& device, bool decoded, std::uint64_t seed = 1) {
-  const Scenery scenery = targets.scenery();
-  Shot shot{render(scenery, device.camera, Pose(), device.setup.near, device.setup.far), Measurement(0), {}};
-  const StructuredLight model(scenery, shot.view, targets.surfaces(), device.setup);
-  const Random random(seed, 0, Stream::noise);
-  shot.measured = decoded ? model.decoded(random) : model.analytic(random);
-  for (std::size_t i = 0; i < shot.view.depth.size(); ++i) shot.sigma.push_back(model.depth_sigma(i));
-  return shot;
+  return test::shoot<StructuredLight>(targets, device.camera, device.setup, decoded, seed);
 }
 
 std::vector<double> errors(const Shot& shot) {

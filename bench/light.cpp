@@ -1,34 +1,15 @@
-#include "sensors/rows.hpp"
+/// Depth errors of structured light in a V-groove, whose faces light each other, by albedo, period and bounces.
+#include "framework/benchmark.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"
-#include "runs.hpp"
 #include "sensor/models/structured_light.hpp"
-#include "sensor/stage.hpp"
-#include "sensor/targets.hpp"
+#include "sensor/shot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace bin_scenes::bench {
 namespace {
-
-/// Two faces at right angles, 57 mm wide, that meet in a line along y at 0.75 m, seen by a fringe projector.
-Targets groove(const Surface& surface) {
-  Mesh mesh;
-  for (const int side : {-1, 1}) {
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const double far : {0.0, 0.057}) {
-      for (const double y : {-0.15, 0.15}) {
-        mesh.vertices.push_back(Vec3(0, y, 0.75) + far / std::sqrt(2.0) * Vec3(side, 0.0, -1.0));
-      }
-    }
-    mesh.triangles.push_back({base, base + 1, base + 2});
-    mesh.triangles.push_back({base + 1, base + 3, base + 2});
-  }
-  Targets targets;
-  targets.add(mesh, Pose(), surface);
-  return targets;
-}
 
 StructuredLight::Setup projector_of(double period, int bounces) {
   StructuredLight::Setup setup;
@@ -86,41 +67,40 @@ Errors errors_of(const View& view, const Measurement& measured, const Structured
   return out;
 }
 
-void groove_rows(Run& out, const std::string& name, const Surface& surface, double period, int bounces, bool decoded) {
-  Figure figure{"", 0.75, 45.0, surface.albedo};
-  figure.setting =
-      name + ", period " + Row::text(period) + ", bounces " + std::to_string(bounces) + (decoded ? ", decoded" : "");
-  Targets targets = groove(surface);
-  const Scenery scenery = targets.scenery();
+void groove_row(Run& out, const std::string& name, const Surface& surface, double period, int bounces, bool decoded) {
+  const Row key = Row()
+                      .key("surface", name)
+                      .key("period_px", period)
+                      .key("bounces", bounces)
+                      .key("fidelity", decoded ? "decoded" : "analytic");
+  if (!out.wanted(key)) return;
+  Targets targets = test::groove(surface, 0.75, 0.057, 0.3);
   const StructuredLight::Setup setup = projector_of(period, bounces);
-  const View view = render(scenery, camera(), Pose(), setup.near, setup.far);
-  const StructuredLight model(scenery, view, targets.surfaces(), setup);
-  const Random random(1, 0, Stream::noise);
-  const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
-  const auto add = [&](const std::string& what, double value, const std::string& unit, double seen) {
-    figure.what = "V-groove: " + what;
-    if (out.wanted(figure.key())) out.row(row_of(figure, value, unit).info("samples", seen));
-  };
+  const auto [view, measured, sigma] = test::shoot<StructuredLight>(targets, camera(), setup, decoded);
   const Errors all = errors_of(view, measured, setup, 0.0), apart = errors_of(view, measured, setup, 0.0045);
-  add("phase error as depth, root mean square", 1e3 * all.rms, "mm", all.seen);
-  add("phase error as depth, largest", 1e3 * all.largest, "mm", all.seen);
-  add("phase error as depth, root mean square, 4.5 mm and more from the line", 1e3 * apart.rms, "mm", apart.seen);
-  add("phase error as depth, largest, 4.5 mm and more from the line", 1e3 * apart.largest, "mm", apart.seen);
-  add("valid pixels", 100.0 * all.valid, "%", all.seen);
-  add("pixels read in another fringe", 100.0 * all.other, "%", all.seen);
+  out.row(Row(key)
+              .exact("rms_mm", 1e3 * all.rms)
+              .exact("largest_mm", 1e3 * all.largest)
+              .exact("rms_apart_mm", 1e3 * apart.rms)
+              .exact("largest_apart_mm", 1e3 * apart.largest)
+              .exact("valid_percent", 100.0 * all.valid)
+              .exact("other_fringe_percent", 100.0 * all.other)
+              .info("pixels", all.seen));
 }
 
-}  // namespace
-
-void light_rows(Run& out) {
+void run(Run& out) {
   const Surface bright{0.9, 0.0, 0.4}, dark{0.45, 0.0, 0.4}, satin{0.8, 0.7, 0.4}, shiny{0.8, 0.9, 0.3};
   for (const double period : {16.0, 64.0}) {
-    for (const int bounces : {0, 1, 2}) groove_rows(out, "matte", bright, period, bounces, false);
-    groove_rows(out, "matte", bright, period, 1, true);
-    groove_rows(out, "matte", dark, period, 1, false);
+    for (const int bounces : {0, 1, 2}) groove_row(out, "matte, albedo 0.9", bright, period, bounces, false);
+    groove_row(out, "matte, albedo 0.9", bright, period, 1, true);
+    groove_row(out, "matte, albedo 0.45", dark, period, 1, false);
   }
-  groove_rows(out, "gloss 0.7, roughness 0.4", satin, 16.0, 1, false);
-  groove_rows(out, "gloss 0.9, roughness 0.3", shiny, 16.0, 1, false);
+  groove_row(out, "albedo 0.8, gloss 0.7, roughness 0.4", satin, 16.0, 1, false);
+  groove_row(out, "albedo 0.8, gloss 0.9, roughness 0.3", shiny, 16.0, 1, false);
 }
 
+const Registration registration{
+    "light", "structured light in a V-groove", {"surface", "period_px", "bounces", "fidelity"}, run};
+
+}  // namespace
 }  // namespace bin_scenes::bench
