@@ -20,7 +20,7 @@ uint lowest_free(uvec2 used) {
 
 uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec2(0u, 1u << (color - 32u)); }
 
-void begin_color(uint p, uint solved_contacts) { pairs[p].color = solved_contacts > 0u ? UNCOLORED : NOT_SOLVED; }
+void begin_color(uint p, uint contacts) { pairs[p].color = contacts > 0u ? UNCOLORED : NOT_SOLVED; }
 
 // Makes a manifold's key known to its bodies; false if it has its color.
 bool bid(SphereWorld world, uint p) {

@@ -24,7 +24,7 @@ shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SP
 shared uint members[SPHERE_COLORS * SPHERE_MAX_CONTACTS];  // by color and length: how many, then where the next one goes
 shared uint color_members[SPHERE_COLORS], starts[SPHERE_COLORS];
 shared uint left[2];  // uncolored manifolds, take turns
-shared uint contact_count, solved_count, row_count, row_top;
+shared uint contact_count, row_count, row_top;
 
 #define lowest_of(i) lowest[i]
 #define used_low_of(i) used_low[i]
@@ -34,7 +34,6 @@ shared uint contact_count, solved_count, row_count, row_top;
 #define start_of(c) starts[c]
 #include "sphere/body.h"
 #include "sphere/pair.h"
-#include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 #include "sphere/order.h"
 
@@ -51,7 +50,6 @@ void place_colors(SphereWorld world, uint w, uint list, uint count) {
   progress[w].ordered = sum;
   progress[w].colors += colors;
   progress[w].contacts += contact_count;
-  progress[w].contacts_solved += solved_count;
   progress[w].rows = row_count / SPHERE_ROW_PARTS;
   if (progress[w].rows > world.rows.y) progress[w].overflow = SPHERE_ROW_OVERFLOW;
   put_last_in_order(world, list, count);
@@ -61,22 +59,20 @@ void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
-  time_step = progress[w].time_step;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
   for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) used_low[i] = used_high[i] = 0u;
   for (uint k = thread; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_WORLD_GROUP) members[k] = 0u;
-  if (thread == 0u) contact_count = solved_count = row_count = row_top = 0u;
+  if (thread == 0u) contact_count = row_count = row_top = 0u;
   if (thread < 2u) left[thread] = 0u;
   barrier();
-  uvec2 own_contacts = uvec2(0u);
+  uint own_contacts = 0u;
   for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
-    uvec2 n = contacts_to_solve(world, pairs[list + p]);
-    begin_color(list + p, n.y);
+    uint n = contacts_to_solve(world, list + p);
+    begin_color(list + p, n);
     own_contacts += n;
   }
-  atomicAdd(contact_count, own_contacts.x);
-  atomicAdd(solved_count, own_contacts.y);
+  atomicAdd(contact_count, own_contacts);
 
   uint rounds = 0u;
   for (;; ++rounds) {

@@ -2,15 +2,22 @@
 // rows lie side by side have about as many. Whoever includes this says where lie members_of(k), the number of manifolds
 // of a color and a length (k = kind_of()) and later where the next of them goes; members_in(c), that of a color; start_of(c),
 // where it begins; row_count and row_top, the vec4 that rows take in all and those given out so far. Needs the bindings
-// Pairs, Manifolds, Order, and sphere/color.h.
+// Bodies, States, Pairs, Manifolds, Order, and sphere/color.h.
 
-uint kind_of(uint color, uint solved) { return color * SPHERE_MAX_CONTACTS + SPHERE_MAX_CONTACTS - solved; }
+uint kind_of(uint color, uint count) { return color * SPHERE_MAX_CONTACTS + SPHERE_MAX_CONTACTS - count; }
 
-uint solved_of(SphereWorld world, uint p) { return manifolds[world.pairs.x + pairs[p].slot].solved; }
+uint contacts_of(SphereWorld world, uint p) { return manifolds[world.pairs.x + pairs[p].slot].state.x; }
+
+// Those that this step solves: none where nothing moves.
+uint contacts_to_solve(SphereWorld world, uint p) {
+  SpherePair pair = pairs[p];
+  bool waits = !moves(pair.a) && (pair.b == SPHERE_GROUND || !moves(pair.b));
+  return waits ? 0u : contacts_of(world, p);
+}
 
 // A manifold has its color.
 void count_member(SphereWorld world, uint p, uint color) {
-  atomicAdd(members_of(kind_of(color, solved_of(world, p))), 1u);
+  atomicAdd(members_of(kind_of(color, contacts_of(world, p))), 1u);
 }
 
 // Manifolds without a color of their own are solved one by one, in the order of their pairs.
@@ -34,25 +41,25 @@ void count_colors() {
 
 // Manifold `index` of its color. The first of a block takes the rows of all of it; the others learn later where those
 // are (join_block).
-void put_in_order(SphereWorld world, SpherePair pair, uint solved, uint index) {
+void put_in_order(SphereWorld world, SpherePair pair, uint count, uint index) {
   uint block = block_of(pair.color), lane = index % block, stride = min(block, members_in(pair.color) - (index - lane));
-  uint row = lane == 0u ? atomicAdd(row_top, SPHERE_ROW_PARTS * stride * solved) : 0u;
+  uint row = lane == 0u ? atomicAdd(row_top, SPHERE_ROW_PARTS * stride * count) : 0u;
   order[world.pairs.x + start_of(pair.color) + index] =
-      SphereOrdered(pair.a, pair.b, pair.slot, row, stride, solved, lane, 0.0);
+      SphereOrdered(pair.a, pair.b, pair.slot, row, stride, count, lane, 0.0);
 }
 
 void put_in_order(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   if (pair.color >= LAST_COLOR) return;
-  uint solved = solved_of(world, p);
-  put_in_order(world, pair, solved, atomicAdd(members_of(kind_of(pair.color, solved)), 1u));
+  uint count = contacts_of(world, p);
+  put_in_order(world, pair, count, atomicAdd(members_of(kind_of(pair.color, count)), 1u));
 }
 
 // One invocation: those of the last color are solved one by one, so their order counts.
 void put_last_in_order(SphereWorld world, uint list, uint count) {
   uint index = 0u;
   for (uint p = list; index < members_in(LAST_COLOR) && p < list + count; ++p)
-    if (pairs[p].color == LAST_COLOR) put_in_order(world, pairs[p], solved_of(world, p), index++);
+    if (pairs[p].color == LAST_COLOR) put_in_order(world, pairs[p], contacts_of(world, p), index++);
 }
 
 // When all of the color are in order.

@@ -30,7 +30,6 @@ uniform uint stage, coloring_round;
 #define row_top large.row_top
 #include "sphere/body.h"
 #include "sphere/pair.h"
-#include "sphere/solved_contacts.h"
 #include "sphere/color.h"
 #include "sphere/order.h"
 #include "sphere/large/large_world.h"
@@ -49,12 +48,10 @@ void main() {
   if (stage == COLOR_BID && thread_index() == 0u) atomicAdd(progress[large_world].coloring_rounds, 1u);
   if (thread_index() >= progress[large_world].pairs) return;
   if (stage == COLOR_BEGIN) {
-    time_step = progress[large_world].time_step;
-    uvec2 n = contacts_to_solve(world, pairs[p]);
-    begin_color(p, n.y);
-    if (n.x > 0u) atomicAdd(progress[large_world].contacts, n.x);
-    if (n.y == 0u) return;
-    atomicAdd(progress[large_world].contacts_solved, n.y);
+    uint n = contacts_to_solve(world, p);
+    begin_color(p, n);
+    if (n == 0u) return;
+    atomicAdd(progress[large_world].contacts, n);
     large.round_groups[0] = large.pair_groups;
   } else if (stage == COLOR_BID) {
     bid(world, p);

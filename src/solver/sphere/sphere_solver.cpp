@@ -164,7 +164,6 @@ class SphereSolver final : public Solver {
     p.count("nodes_tested", c.nodes_tested);
     p.count("nodes_possible", c.nodes_possible);
     p.count("contacts", c.contacts);
-    p.count("contacts_solved", c.contacts_solved);
     p.count("contacts_reduced", c.dropped);
   }
   void collect(const World& world) { add(profile_, world); }

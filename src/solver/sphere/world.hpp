@@ -47,9 +47,6 @@ struct Settings {
   /// Larger worlds leave an impact to the next sub-steps: in a heap that is poured there is always one, soon shared
   /// among many, and the sweeps would cost a tenth of its time.
   std::size_t impact_bodies = 48;
-  int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
-  int cold_steps = 50;  ///< number of such steps; with 0, stacks that start at rest sway by up to 2 %
-  int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
   float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
                                  ///< higher = parts deep in a bin never rest: loads travel about one layer a sweep
@@ -70,10 +67,9 @@ struct Settings {
   float patch_radius = 1e-3f;  ///< d: radius of the patch of a point or line contact; resists spin and rolling.
                                ///< 0 = a part held at two points swings forever; higher = wheels stop
   float push_speed = 4.0f;  ///< d per second: largest speed that removes overlap, / refinement; higher = parts pop out
-  float margin = 4e-3f;     ///< d: contacts are kept up to this distance plus the path of one step
-  float press_margin = 2e-3f;    ///< d: contacts without force beyond this distance plus that path are left out of the
-                                 ///< solve; smaller = parts pushed there overlap before the contact acts
-  float recycle = 1e-3f;         ///< d: contacts of a pair are reused until it has moved this far
+  float margin = 4e-3f;     ///< d: contacts are found up to this distance plus the path of one step; with half of it a
+                            ///< spike between others is thrown up by a hundredth of the way it fell
+  float recycle = 1e-3f;    ///< d: contacts of a pair are reused until it has moved this far
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
   float probe_slip =
       2.5e-3f;  ///< s without friction at the start of a probe, while normal forces are found;
@@ -144,8 +140,6 @@ struct Manifold {
   Quatf found_q = Quatf::Identity();
   bool found = false;
   std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold over moves only the vector's handle
-  std::uint32_t solved =
-      0;  ///< number of contacts that are solved, the first ones: the others cannot press in this step
 };
 
 /// Half space that solids may not enter, up to `top` along +z of the bin (walls) or unbounded (floor).
@@ -157,15 +151,14 @@ struct Plane {
 
 struct Counters {
   std::uint64_t steps = 0, free_steps = 0, asleep_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0,
-                pairs_culled = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0,
-                contacts_solved = 0, dropped = 0;
+                pairs_culled = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0, dropped = 0;
 
   Counters& operator+=(const Counters& c) {
     steps += c.steps, free_steps += c.free_steps, asleep_steps += c.asleep_steps, pairs += c.pairs,
         pairs_recycled += c.pairs_recycled;
     pairs_asleep += c.pairs_asleep, pairs_culled += c.pairs_culled, clusters_tested += c.clusters_tested;
     nodes_tested += c.nodes_tested, nodes_possible += c.nodes_possible, contacts += c.contacts;
-    contacts_solved += c.contacts_solved, dropped += c.dropped;
+    dropped += c.dropped;
     return *this;
   }
 };
@@ -189,7 +182,6 @@ struct World {
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float grip = 1;                         ///< share of friction that acts
   bool forgets = false;                   ///< the next step starts without remembered forces
-  int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
   float mass_ratio = 1;                   ///< heaviest part / lightest
   int mass_effort = 1;                    ///< factor on sweeps of soft contacts, for parts of unequal masses
@@ -220,8 +212,7 @@ struct World {
   }
   /// Of the next step.
   StepPlan plan() const {
-    StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(),
-                              sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
+    StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(), sweep_effort() * settings.sweeps,
                               stiffness == Stiffness::rigid, forgets, settings.probe_slip);
     if (!settings.relaxation) plan.relaxing_sweeps = 0;
     if (!settings.half_way_poses) plan.half_way = 0;

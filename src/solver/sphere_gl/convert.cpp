@@ -47,14 +47,12 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
     return {c.hertz_share, c.damping_ratio, c.slop, static_cast<float>(c.refinement)};
   };
   out.sweeps = static_cast<gpu::uint>(s.sweeps);
-  out.cold_sweeps = static_cast<gpu::uint>(s.cold_sweeps);
   for (const Stiffness stiffness : {Stiffness::soft, Stiffness::stiff, Stiffness::rigid})
     out.softness[static_cast<std::size_t>(stiffness)] = softness(s.softness(stiffness));
   out.probe_slip = s.probe_slip;
   out.patch_radius = s.patch_radius;
   out.push_speed = s.push_speed;
   out.margin = s.margin;
-  out.press_margin = s.press_margin;
   out.recycle = s.recycle;
   out.coarse_recycle = s.coarse_recycle;
   out.rest_move = s.rest_move;
@@ -76,7 +74,6 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.refinement = static_cast<gpu::uint>(world.refinement());
   progress.effort = static_cast<gpu::uint>(world.sweep_effort());
   progress.forgets = world.forgets ? 1 : 0;
-  if (world.forgets) progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
 }
 
 gpu::SpherePlane to_gpu(const Plane& plane) {
@@ -101,7 +98,7 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     }
     image.manifolds.push_back({{static_cast<std::uint32_t>(m.contacts.size()), presses, m.found ? 1u : 0u, 0},
                                three(m.found_x),
-                               static_cast<gpu::uint>(m.solved),
+                               0,
                                vec4(m.found_q)});
   }
   return image;
@@ -116,7 +113,6 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     m.color = static_cast<int>(pair.color);
     const gpu::SphereManifold& from = image.manifolds[pair.slot];
     m.contacts.resize(from.state.x);
-    m.solved = from.solved;
     m.found = from.state.z;
     m.found_x = vec3(from.found_position);
     m.found_q = quat(from.found_orientation);

@@ -296,13 +296,12 @@ class GlSphereSolver final : public Solver {
     profile_.count("nodes_tested", p.nodes_tested);
     profile_.count("nodes_possible", p.nodes_possible + (std::uint64_t{p.nodes_possible_high} << 32));
     profile_.count("contacts", p.contacts);
-    profile_.count("contacts_solved", p.contacts_solved);
     profile_.count("contacts_reduced", p.dropped);
     profile_.count("colors", p.colors);
     profile_.count("coloring_rounds", p.coloring_rounds);
     profile_.count("steps", p.steps);
     p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
-        p.nodes_possible = p.nodes_possible_high = p.contacts = p.contacts_solved = p.dropped = p.colors =
+        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors =
             p.coloring_rounds = p.asleep_steps = p.pairs_culled = 0;
   }
 

@@ -203,20 +203,17 @@ TEST_P(TwinTest, FindContactsChoosesThoseOfTheTwin) {
     Batch batch(GetParam().capacity);
     World world = heap().world(40, 2);
     world.fine = fine;
-    world.settings.press_margin = -0.05f;  // bodies of this heap lie in each other: some contacts more, some less
     const Batch::Slot slot = load(batch, world);
     find_all(batch, slot);
-    batch.color_manifolds();  // puts those that are solved first
     find_pairs(world);
     find_contacts(world);
     const World seen = downloaded(batch, slot, world);
     ASSERT_EQ(seen.manifolds.size(), world.manifolds.size());
-    std::size_t same = 0, contacts = 0, solved = 0;
+    std::size_t same = 0, contacts = 0;
     for (std::size_t m = 0; m < world.manifolds.size(); ++m) {
       const Manifold &mine = seen.manifolds[m], &twin = world.manifolds[m];
       contacts += twin.contacts.size();
-      solved += twin.solved;
-      bool alike = mine.contacts.size() == twin.contacts.size() && mine.solved == twin.solved;
+      bool alike = mine.contacts.size() == twin.contacts.size();
       for (std::size_t i = 0; alike && i < twin.contacts.size(); ++i) {
         const Contact &c = mine.contacts[i], &t = twin.contacts[i];
         alike = (c.anchor_a - t.anchor_a).norm() < 2e-7f && (c.anchor_b - t.anchor_b).norm() < 2e-7f &&
@@ -225,8 +222,6 @@ TEST_P(TwinTest, FindContactsChoosesThoseOfTheTwin) {
       same += alike;
     }
     EXPECT_GT(contacts, 300u);
-    EXPECT_GT(solved, contacts / 3);
-    EXPECT_LT(solved, contacts * 9 / 10);
     // Where edges cross, each of both finds the same contact. Ties, samples at the margin and descents across a kink of
     // the field fall to either side by rounding, as does the pose half way through the step.
     EXPECT_GE(same, world.manifolds.size() - world.manifolds.size() / 20) << "of " << world.manifolds.size();
@@ -288,7 +283,7 @@ TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
   for (const std::size_t i : order) {
     const Manifold& m = world.manifolds[i];
     const bool a_moves = world.bodies[m.a].moves(), b_moves = m.b != ground && world.bodies[m.b].moves();
-    if (m.solved == 0 || (!a_moves && !b_moves)) {
+    if (m.contacts.empty() || (!a_moves && !b_moves)) {
       EXPECT_EQ(m.color, -1);
       continue;
     }

@@ -13,7 +13,7 @@ void color_manifolds(World& world) {
   int colors = 0;
   for (Manifold& m : world.manifolds) {
     m.color = -1;
-    if (m.solved == 0) continue;
+    if (m.contacts.empty()) continue;
     Body& a = world.bodies[m.a];
     Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
     const bool a_moves = a.moves(), b_moves = b && b->moves();
@@ -29,7 +29,7 @@ void color_manifolds(World& world) {
   for (std::uint32_t i = 0; i < world.manifolds.size(); ++i)
     if (world.manifolds[i].color >= 0) solved.push_back(i);
   const auto key = [&](std::uint32_t i) {
-    return world.manifolds[i].color * (max_contacts + 1) + max_contacts - static_cast<int>(world.manifolds[i].solved);
+    return world.manifolds[i].color * (max_contacts + 1) + max_contacts - static_cast<int>(world.manifolds[i].contacts.size());
   };
   counting_sort(solved, colors * (max_contacts + 1), key, start, world.order);
 }

@@ -100,7 +100,7 @@ std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t
     for (; bundle.lanes < most && next != order.end() && color(*next) == shade; ++next) {
       const int lane = bundle.lanes++;
       const Manifold& m = world.manifolds[bundle.manifold[lane] = *next];
-      bundle.last = std::max(bundle.last, bundle.first + m.solved);
+      bundle.last = std::max(bundle.last, bundle.first + static_cast<std::uint32_t>(m.contacts.size()));
       bundle.a[lane] = place(m.a);
       bundle.b[lane] = place(m.b);
     }
@@ -136,7 +136,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
     const Ahead ahead_a(half_way, &a), ahead_b(half_way, b);
-    for (std::uint32_t k = 0; k < m.solved; ++k)
+    for (std::uint32_t k = 0; k < m.contacts.size(); ++k)
       set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
   }
   const Velocities velocities = velocities_of(bundle, motions);
@@ -167,7 +167,7 @@ void refresh_levers(const World& world, const std::vector<Motion>& motions, Bund
     const Place b(m.b == ground ? nullptr : &world.bodies[m.b], motions[bundle.b[lane]]);
     bundle.inverse_inertia_a.set(lane, a.inverse_inertia);
     bundle.inverse_inertia_b.set(lane, b.inverse_inertia);
-    for (std::uint32_t k = 0; k < m.solved; ++k) {
+    for (std::uint32_t k = 0; k < m.contacts.size(); ++k) {
       const Contact& c = m.contacts[k];
       ContactRows& row = rows[bundle.first + k];
       Vec3f ra, rb;
@@ -188,7 +188,7 @@ void refresh_levers(const World& world, const std::vector<Motion>& motions, Bund
 void keep_forces(const Bundle& bundle, const std::vector<ContactRows>& rows, float h, World& world) {
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     Manifold& m = world.manifolds[bundle.manifold[lane]];
-    for (std::uint32_t k = 0; k < m.solved; ++k) {
+    for (std::uint32_t k = 0; k < m.contacts.size(); ++k) {
       const ContactRows& c = rows[bundle.first + k];
       const Vec3f t1 = c.tangent.at(lane), t2 = c.normal.at(lane).cross(t1);
       m.contacts[k].normal_force = c.normal_impulse[lane] / h;

@@ -83,18 +83,6 @@ bool recyclable(const World& world, const Manifold& m, const RelativePose& now, 
   return moved < limit && (moved <= fresh || !strikes(world, m, fresh));
 }
 
-/// Contacts that may press in this step come first, else in the order they had: those that do already, and those no
-/// farther apart than `reach` (m).
-void put_solved_first(const Body& a, const Body* b, float reach, Manifold& m) {
-  m.solved = 0;
-  for (std::size_t k = 0; k < m.contacts.size(); ++k) {
-    if (m.contacts[k].normal_force <= 0 && separation(m.contacts[k], a, b) > reach) continue;
-    const auto begin = m.contacts.begin();
-    if (k > m.solved) std::rotate(begin + m.solved, begin + k, begin + k + 1);
-    ++m.solved;
-  }
-}
-
 /// Contacts of one pair, found anew or recycled. Touches nothing but the manifold and the counters.
 void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   static thread_local Candidates candidates;
@@ -136,9 +124,7 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     m.found_x = pose.x;
     m.found_q = pose.q;
   }
-  put_solved_first(a, b, world.settings.press_margin * size + way, m);
   counters.contacts += m.contacts.size();
-  counters.contacts_solved += m.solved;
 }
 
 }  // namespace
