@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 """The Python module: the same bits as the command line, arrays without copies, heaps, bad input."""
 import json
+import os
 import pathlib
 import pickle
+import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
-from python_scenes import CONROD, NUT, ROOT, TOOL, nuts
+from python_scenes import CONROD, NUT, PACKAGES, ROOT, TOOL, nuts
 
 import numpy as np
 
@@ -280,6 +283,28 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "no attribute 'Genrator'"):
             bin_scenes.Genrator
         self.assertIn("VERSION " + bin_scenes.__version__, (ROOT / "CMakeLists.txt").read_text())
+
+    def test_the_example_of_the_docs(self):
+        code = re.search(r"```python\n(.*?)```", (ROOT / "docs/use/python.md").read_text(), re.S)[1]
+        done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env={**os.environ, "PYTHONPATH": PACKAGES},
+                              capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        lines = done.stdout.splitlines()
+        self.assertEqual([line.rsplit(" ", 1)[0] for line in lines[:3]], ["%d True (20, 7)" % i for i in range(3)])
+        self.assertEqual(lines[3:], ["removed"])
+
+    def test_the_example_of_a_training_loop(self):
+        request = ROOT / "config/throughput_plan.yaml"  # a plan: refused with a reason
+        example = [sys.executable, ROOT / "python/examples/live_dataset.py"]
+        told = subprocess.run([*example, request], env={**os.environ, "PYTHONPATH": PACKAGES}, capture_output=True, text=True)
+        self.assertIn("give it to bin_scenes dataset", told.stderr.splitlines()[-1])
+        with tempfile.TemporaryDirectory() as folder:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(nuts(5)))
+            done = subprocess.run([*example, request, "--scenes", "6", "--work", "0"], capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": PACKAGES})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual([line.split(":")[0] for line in done.stdout.splitlines()], ["scene %d" % i for i in range(6)])
 
     def test_the_reader_of_data_sets_is_both_names(self):
         import bin_scenes_data

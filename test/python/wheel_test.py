@@ -40,7 +40,7 @@ class Wheel(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory(prefix="bin_scenes_wheel_")
         cls.folder = pathlib.Path(cls.temporary.name)
-        # With the flags of scripts/test ccache has all objects.
+        # With the flags of scripts/test, and beside its folders, ccache has all objects.
         done = run("cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, "-DBIN_SCENES_ROS=OFF", "-DBIN_SCENES_PCL=OFF",
                    "-DBIN_SCENES_TESTS=OFF", "-DBIN_SCENES_WERROR=ON")
         assert done.returncode == 0, done.stdout
