@@ -306,6 +306,13 @@ class Package(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual([line.split(":")[0] for line in done.stdout.splitlines()], ["scene %d" % i for i in range(6)])
 
+    @unittest.skipUnless(pathlib.Path(PACKAGES, "bin_scenes/msg/__init__.py").exists(), "built without ROS")
+    def test_messages_are_beside_and_load_no_module(self):
+        code = "import sys, bin_scenes.msg, bin_scenes.srv, bin_scenes.cfg; bin_scenes.msg.Scene; print('bin_scenes._core' in sys.modules)"
+        path = os.pathsep.join([PACKAGES, os.environ.get("PYTHONPATH", "")])
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True)
+        self.assertEqual((done.stdout, done.stderr), ("False\n", ""))
+
     def test_the_reader_of_data_sets_is_both_names(self):
         import bin_scenes_data
         self.assertIs(bin_scenes.data.Shards, bin_scenes_data.Shards)
