@@ -1,5 +1,5 @@
-"""How setuptools makes the wheel: CMake compiles the module, with BIN_SCENES_ROS=OFF, in the folder build-wheel of the
-source tree (BIN_SCENES_WHEEL_BUILD names another). Shaders, presets and sample parts go into the wheel, too."""
+"""How setuptools makes the wheel: CMake compiles the module, with BIN_SCENES_ROS=OFF, in a folder build-wheel-* of the
+source tree for each Python (BIN_SCENES_WHEEL_BUILD names another). Shaders, presets and sample parts go into the wheel, too."""
 import os
 import pathlib
 import re
@@ -17,12 +17,12 @@ version = re.search(r"project\(bin_scenes VERSION ([\d.]+)", (ROOT / "CMakeLists
 
 def compiled():
     """The module, made for the Python that runs this."""
-    build = pathlib.Path(os.environ.get("BIN_SCENES_WHEEL_BUILD", ROOT / "build-wheel"))
+    build = pathlib.Path(os.environ.get("BIN_SCENES_WHEEL_BUILD", ROOT / ("build-wheel-" + sys.implementation.cache_tag)))
     for program in ("cmake", "ninja"):
         if not shutil.which(program):
             sys.exit("bin_scenes: %s is missing; scripts/install_deps core installs what the module is built with" % program)
     subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, "-DBIN_SCENES_ROS=OFF", "-DBIN_SCENES_PCL=OFF",
-                    "-DBIN_SCENES_TESTS=OFF", "-DBIN_SCENES_PYTHON=ON", "-DPYTHON_EXECUTABLE=" + sys.executable], check=True)
+                    "-DBIN_SCENES_TESTS=OFF", "-DBIN_SCENES_PYTHON=ON", "-DPYTHON_EXECUTABLE=" + os.path.realpath(sys.executable)], check=True)
     done = subprocess.run(["cmake", "--build", build, "--target", "bin_scenes_python"])
     if done.returncode != 0:
         sys.exit("bin_scenes: the module was not built, for the reason above; without pybind11 (pybind11-dev) there is no target")

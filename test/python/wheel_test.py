@@ -42,7 +42,7 @@ class Wheel(unittest.TestCase):
         cls.folder = pathlib.Path(cls.temporary.name)
         # With the flags of scripts/test, and beside its folders, ccache has all objects.
         done = run("cmake", "-G", "Ninja", "-S", ROOT, "-B", BUILD, "-DBIN_SCENES_ROS=OFF", "-DBIN_SCENES_PCL=OFF",
-                   "-DBIN_SCENES_TESTS=OFF", "-DBIN_SCENES_WERROR=ON")
+                   "-DBIN_SCENES_TESTS=OFF", "-DBIN_SCENES_WERROR=ON", "-DPYTHON_EXECUTABLE=" + os.path.realpath("/usr/bin/python3"))
         assert done.returncode == 0, done.stdout
         done = run("/usr/bin/python3", "-m", "build", "--wheel", "--no-isolation", "--outdir", cls.folder, ROOT)
         assert done.returncode == 0, done.stdout
