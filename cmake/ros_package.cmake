@@ -6,15 +6,6 @@
 # A layer's private headers are named without its folder, tests of another layer name them with it.
 #catkin_lint: ignore ambiguous_include_path
 
-# ROS 1 lives in the system's Python; another python3 first on the PATH knows neither empy nor genmsg.
-if(EXISTS /usr/bin/python3)
-  foreach(variable PYTHON_EXECUTABLE Python3_EXECUTABLE)
-    if(NOT ${variable})
-      set(${variable} /usr/bin/python3 CACHE FILEPATH "Python that has ROS 1")
-    endif()
-  endforeach()
-endif()
-
 find_package(catkin REQUIRED COMPONENTS
   actionlib actionlib_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet
   rosbag_storage roscpp roslib sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
@@ -24,6 +15,11 @@ if(BIN_SCENES_PCL)  # for the example icp_check alone; the rest of src/ros does 
   find_package(tf2_ros REQUIRED)
 endif()
 
+if(BIN_SCENES_PYTHON)
+  # The package of the messages is ours, too (src/python): this is how catkin_python_setup() tells the generators that
+  # its __init__.py is there. That macro itself would install by a setup.py.
+  set(${PROJECT_NAME}_CATKIN_PYTHON_SETUP_HAS_PACKAGE_INIT TRUE)
+endif()
 add_message_files(FILES
   Bin.msg Counter.msg Drift.msg Energy.msg ErrorCode.msg Flag.msg Motion.msg PartLine.msg Penetration.msg Quantiles.msg Scene.msg
   ScenePart.msg SceneReport.msg SceneRequest.msg Sensor.msg StageTime.msg Surface.msg)

@@ -11,7 +11,7 @@ std::string material_directory() {
   if (const char* sensors = std::getenv("BIN_SCENES_SENSORS"); sensors && *sensors)
     places.push_back(std::string(sensors) + "/../materials");
   places.insert(places.end(), {BIN_SCENES_MATERIAL_SOURCE_DIR, BIN_SCENES_MATERIAL_INSTALL_DIR});
-  for (const std::string& place : config::beside_executable("materials")) places.push_back(place);
+  for (const std::string& place : config::moved_presets("materials")) places.push_back(place);
   return config::first_folder(places, "surface", "keep the folder 'config/materials' beside 'config/sensors'");
 }
 

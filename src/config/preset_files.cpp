@@ -1,6 +1,7 @@
 #include "config/preset_files.hpp"
 
 #include "config/suggest.hpp"
+#include "core/share_folders.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -19,13 +20,9 @@ std::string first_folder(const std::vector<std::string>& places, const std::stri
   throw environment_error("no folder of presets; looked for:" + tried, key, remedy);
 }
 
-/// The command line lies in bin, the node in lib/bin_scenes.
-std::vector<std::string> beside_executable(const std::string& kind) {
-  std::error_code failed;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
+std::vector<std::string> moved_presets(const std::string& kind) {
   std::vector<std::string> places;
-  for (const char* up : {"..", "../.."})
-    if (!failed) places.push_back((executable.parent_path() / up / "share/bin_scenes/config" / kind).string());
+  for (const fs::path& share : share_folders()) places.push_back((share / "config" / kind).string());
   return places;
 }
 

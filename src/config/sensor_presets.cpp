@@ -11,7 +11,7 @@ std::string sensor_preset_directory() {
   if (const char* set = std::getenv("BIN_SCENES_SENSORS"); set && *set) {
     places = {set};
   } else {
-    places = config::beside_executable("sensors");
+    places = config::moved_presets("sensors");
     places.insert(places.begin(), {BIN_SCENES_SENSOR_SOURCE_DIR, BIN_SCENES_SENSOR_INSTALL_DIR});
   }
   return config::first_folder(places, "sensors", "set BIN_SCENES_SENSORS to the folder 'config/sensors' of bin_scenes");

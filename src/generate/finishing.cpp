@@ -2,45 +2,70 @@
 
 #include "bin_scenes/core/cancel.hpp"
 
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
 namespace bin_scenes {
+
+std::size_t scenes_waiting(std::size_t at_once) {
+  const auto cores = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return std::clamp<std::size_t>(at_once, 2, 2 * cores);
+}
 
 Finishing::~Finishing() {
   tasks_.wait();
 }
 
-void Finishing::add(std::size_t place, Scene&& scene) {
-  Entry& entry = *(entries_[place] = std::make_unique<Entry>());
-  entry.result.scene = std::move(scene);
+void Finishing::finish(Entry& entry) {
+  if (entry.begun.exchange(true)) return;
   const std::size_t parts = entry.result.scene.parts.size();
-  waiting_ += parts;
-  tasks_.run([this, &entry, parts, flag = cancel_flag()] {
-    const CancelScope scope(flag);
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      freed_.wait(lock, [&] { return free_ > 0; });  // those before it need nothing from it: they come to an end
-      --free_;
-    }
-    try {
-      stop_if_cancelled();
-      finish_(entry.result);
-    } catch (...) {
-      entry.failed = std::current_exception();
-    }
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ++free_;
-    }
-    freed_.notify_one();
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    freed_.wait(lock, [&] { return free_ > 0; });  // those before it need nothing from it: they come to an end
+    --free_;
+  }
+  try {
+    stop_if_cancelled();
+    finish_(entry.result);
+  } catch (...) {
+    entry.failed = std::current_exception();
+  }
+  waiting_ -= parts;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++free_;
     entry.finished = true;
-    waiting_ -= parts;
+  }
+  freed_.notify_all();
+}
+
+void Finishing::wait_for_first() {
+  const std::shared_ptr<Entry> entry = entries_.begin()->second;
+  finish(*entry);
+  std::unique_lock<std::mutex> lock(mutex_);
+  freed_.wait(lock, [&] { return entry->finished.load(); });
+}
+
+void Finishing::add(std::size_t place, Scene&& scene) {
+  const auto entry = entries_[place] = std::make_shared<Entry>();
+  entry->result.scene = std::move(scene);
+  waiting_ += entry->result.scene.parts.size();
+  tasks_.run([this, entry, flag = cancel_flag()] {
+    const CancelScope scope(flag);
+    finish(*entry);
   });
   if (waiting_ > most_parts_waiting) tasks_.wait();
+  while (entries_.size() > most_waiting_ && entries_.begin()->first == next_) {
+    wait_for_first();
+    hand_on_finished();
+  }
 }
 
 void Finishing::hand_on_finished() {
   for (auto first = entries_.begin(); first != entries_.end() && first->first == next_ && first->second->finished;
        first = entries_.begin()) {
-    const std::unique_ptr<Entry> entry = std::move(first->second);
+    const std::shared_ptr<Entry> entry = std::move(first->second);
     entries_.erase(first);
     ++next_;
     if (entry->failed) std::rethrow_exception(entry->failed);
@@ -49,8 +74,10 @@ void Finishing::hand_on_finished() {
 }
 
 void Finishing::wait() {
-  tasks_.wait();
-  hand_on_finished();
+  while (!entries_.empty()) {
+    wait_for_first();
+    hand_on_finished();
+  }
 }
 
 }  // namespace bin_scenes

@@ -20,36 +20,47 @@ namespace bin_scenes {
 /// it itself.
 constexpr std::size_t most_parts_waiting = 100'000;
 
+/// Scenes of which `at_once` have room for their images: enough for all cores, and no more.
+std::size_t scenes_waiting(std::size_t at_once);
+
 class Finishing {
  public:
   using Result = Generator::Result;
   /// `finish` runs in any thread and for up to `at_once` scenes at once: their images have to fit into memory together.
   /// `hand_on` runs in the thread that calls this class.
   Finishing(std::function<void(Result&)> finish, std::function<void(Result&&)> hand_on, std::size_t at_once)
-      : finish_(std::move(finish)), hand_on_(std::move(hand_on)), free_(at_once) {}
+      : finish_(std::move(finish)),
+        hand_on_(std::move(hand_on)),
+        free_(at_once),
+        most_waiting_(scenes_waiting(at_once)) {}
   ~Finishing();  ///< waits for scenes that are being finished; they are lost
   Finishing(const Finishing&) = delete;
   Finishing& operator=(const Finishing&) = delete;
 
-  void add(std::size_t place, Scene&& scene);  ///< places count from 0, each comes once
-  void hand_on_finished();                     ///< those that are ready and whose turn it is; never waits
-  void wait();                                 ///< for all, and hands them on; throws what `finish` threw
+  /// Places count from 0, each comes once. Where pouring is ahead of finishing, or of the caller, waits and hands on:
+  /// images of a few scenes fit into memory, not those of all.
+  void add(std::size_t place, Scene&& scene);
+  void hand_on_finished();  ///< those that are ready and whose turn it is; never waits
+  void wait();              ///< for all, and hands on each as soon as it is finished; throws what `finish` threw
 
  private:
   struct Entry {
     Result result;
     std::exception_ptr failed;
-    std::atomic<bool> finished{false};
+    std::atomic<bool> begun{false}, finished{false};
   };
+  void finish(Entry& entry);  ///< unless another thread does it
+  void wait_for_first();      ///< whatever its turn; finishes it in this thread if no other has begun
 
   std::function<void(Result&)> finish_;
   std::function<void(Result&&)> hand_on_;
-  std::map<std::size_t, std::unique_ptr<Entry>> entries_;  ///< by place
+  std::map<std::size_t, std::shared_ptr<Entry>> entries_;  ///< by place
   std::size_t next_ = 0;                                   ///< place whose turn it is
   std::atomic<std::size_t> waiting_{0};                    ///< parts of scenes not finished yet
   std::mutex mutex_;
   std::condition_variable freed_;
-  std::size_t free_;  ///< scenes that may be begun now
+  std::size_t free_;                ///< scenes that may be begun now
+  const std::size_t most_waiting_;  ///< scenes that wait to be finished or handed on
   tbb::task_group tasks_;
 };
 

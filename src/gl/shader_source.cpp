@@ -1,8 +1,7 @@
 #include "shader_source.hpp"
 
 #include "bin_scenes/core/error.hpp"
-
-#include <dlfcn.h>
+#include "core/share_folders.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,28 +14,12 @@ namespace bin_scenes::gl {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// The shared library that holds this code, or the program.
-fs::path library_file() {
-  Dl_info info{};
-  return dladdr(reinterpret_cast<const void*>(&shader_directory), &info) && info.dli_fname ? info.dli_fname : "";
-}
-
-}  // namespace
-
 std::string shader_directory() {
   std::vector<fs::path> places;
   if (const char* set = std::getenv("BIN_SCENES_SHADERS"); set && *set) places = {set};
   if (places.empty()) {
     places = {BIN_SCENES_SHADER_SOURCE_DIR, BIN_SCENES_SHADER_INSTALL_DIR};
-    // Of an installation that was moved: the command line lies in bin, the library in lib, the node in lib/bin_scenes.
-    for (const fs::path& file : {fs::path("/proc/self/exe"), library_file()}) {
-      std::error_code failed;
-      const fs::path folder = fs::canonical(file, failed).parent_path();
-      for (const char* up : {"..", "../.."})
-        if (!failed) places.push_back(folder / up / "share/bin_scenes/shaders");
-    }
+    for (const fs::path& share : share_folders()) places.push_back(share / "shaders");
   }
   std::string tried;
   for (const fs::path& place : places) {

@@ -4,11 +4,15 @@
 #include "box_mesh.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -317,6 +321,44 @@ TEST_F(GeneratorTest, ScenesArePreparedBesideThePourAndHandedOverInOrder) {
   });
   EXPECT_EQ(prepared.size(), 6u);
   EXPECT_EQ(next, 6u);
+}
+
+/// For Options::prepare: all scenes are poured while the first one is prepared.
+void prepare_first_slowly(const Generator::Result& result) {
+  if (result.scene.index == 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+}
+
+TEST_F(GeneratorTest, ASceneIsHandedOverAsSoonAsItIsFinished) {
+  // All others are prepared only after scene 0 was handed over; a generator that waits for all waits in vain.
+  std::promise<void> handed;
+  const std::shared_future<void> first = handed.get_future().share();
+  std::atomic<bool> in_vain{false};
+  Generator::Options options;
+  options.prepare = [&](Generator::Result& result) {
+    prepare_first_slowly(result);
+    if (result.scene.index > 0 && first.wait_for(std::chrono::seconds(20)) != std::future_status::ready) in_vain = true;
+  };
+  Request request = boxes(2);
+  request.scenes = 3;
+  generator.generate(request, options, [&](Generator::Result&& result) {
+    if (result.scene.index == 0) handed.set_value();
+  });
+  EXPECT_FALSE(in_vain);
+}
+
+TEST_F(GeneratorTest, ScenesDoNotPileUpBeforeASlowOne) {
+  std::atomic<int> prepared{0};
+  int handed = 0, most = 0;
+  Generator::Options options;
+  options.prepare = [&](Generator::Result& result) {
+    prepare_first_slowly(result);
+    ++prepared;
+  };
+  Request request = boxes(1);
+  request.scenes = 60;
+  generator.generate(request, options, [&](Generator::Result&&) { most = std::max(most, prepared.load() - handed++); });
+  EXPECT_EQ(handed, 60);
+  EXPECT_LE(most, 2 * tbb::this_task_arena::max_concurrency() + 1);
 }
 
 TEST_F(GeneratorTest, WhatCannotBePreparedEndsTheRunAndLeavesEarlierScenes) {

@@ -30,6 +30,7 @@ DEBIAN = {
 # Installed for work on this package, not for the package: compilers come with catkin or build-essential.
 OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assimp-testmodels", "libnss-myhostname",
         "clang-format", "clang-tidy", "shellcheck", "pyflakes3",  # for test/project/style_test.py
+        "mypy", "python3-build", "python3-wheel",  # types and wheel of the Python module
         "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
         "glslang-tools", "spirv-tools", "spirv-headers",  # rosdep has no key of them; where one is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
@@ -68,7 +69,8 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "cad", "run", "report", "tests", "dataset_tests", "bench", "fuzz", "readers", "ros",
+                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "fuzz", "readers",
+                          "ros",
                           "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
@@ -76,7 +78,7 @@ class PackageXml(unittest.TestCase):
     def test_what_is_installed_has_a_key(self):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
-        for name in ("build", "libraries", "pcd", "run", "report", "tests", "dataset_tests", "ros",
+        for name in ("build", "libraries", "pcd", "python", "run", "report", "tests", "dataset_tests", "ros",
                      "ros_pcl", "ros_tests"):
             for package in self.arrays[name]:
                 known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
@@ -85,7 +87,7 @@ class PackageXml(unittest.TestCase):
         self.assertEqual(missing, [], "package.xml lacks keys for them")
 
     def test_every_key_is_installed(self):
-        packages = {p for name in ("libraries", "pcd", "run", "tests", "ros", "ros_pcl", "ros_tests") for p in self.arrays[name]}
+        packages = {p for name in ("libraries", "pcd", "python", "run", "tests", "ros", "ros_pcl", "ros_tests") for p in self.arrays[name]}
         ros = {ros_package(p) for p in self.arrays["ros"] + self.arrays["ros_pcl"] + self.arrays["ros_tests"]}
         unknown = [k for k in sorted(self.keys)
                    if k not in ros and not packages.issuperset(DEBIAN.get(k, [k]))]

@@ -1,0 +1,35 @@
+/// A heap of a session. It lies in the session's thread, as its solver does; this is what Python holds.
+#pragma once
+
+#include "scene_data.hpp"
+#include "session.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace bin_scenes::python {
+
+/// The calls are those of Heap. Each waits for its end, and is refused as Session::run().
+class HeapHandle {
+ public:
+  HeapHandle(std::shared_ptr<Session> session, const Request& request, const Poll& poll);
+  ~HeapHandle();
+  HeapHandle(const HeapHandle&) = delete;
+  HeapHandle& operator=(const HeapHandle&) = delete;
+
+  bool settle(const Poll& poll);
+  void remove(const std::vector<int>& ids, const Poll& poll);
+  void lift(const std::vector<int>& ids, const Vec3& direction, double distance, const Poll& poll);
+  std::vector<int> add(const std::vector<PartLine>& lines, const Poll& poll);
+  void set_gravity(const Vec3& gravity, const Poll& poll);
+  std::shared_ptr<SceneData> scene(bool images, const Poll& poll);
+
+ private:
+  /// `job` with the heap, in the session's thread.
+  void run(const char* caller, const std::function<void(Session&, Heap&)>& job, const Poll& poll);
+
+  std::shared_ptr<Session> session_;
+  Heap* heap_ = nullptr;
+};
+
+}  // namespace bin_scenes::python

@@ -1,0 +1,58 @@
+#include "scene_data.hpp"
+
+#include "bin_scenes/output/scene_writer.hpp"
+
+#include <utility>
+
+namespace bin_scenes::python {
+
+std::vector<std::array<float, 3>>& ImageData::points() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (points_.empty()) points_ = points_of(image);
+  return points_;
+}
+
+std::vector<std::array<float, 3>>& ImageData::normals() {
+  std::vector<std::array<float, 3>>& measured = points();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (normals_.empty()) normals_ = normals_of(image, measured);
+  return normals_;
+}
+
+SceneData::SceneData(Generator::Result&& result, std::shared_ptr<const LoadedRequest> request)
+    : scene(std::move(result.scene)), loaded(std::move(request)) {
+  for (RangeImage& image : result.images) images.push_back(std::make_shared<ImageData>(std::move(image)));
+  for (const ScenePart& part : scene.parts) {
+    const Vec3 &at = part.pose.position, &v = part.velocity.linear, &w = part.velocity.angular;
+    const Quat& q = part.pose.orientation;
+    poses.push_back({at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()});
+    velocities.push_back({v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
+    ids.push_back(part.id);
+    lines.push_back(static_cast<std::int32_t>(part.line));
+  }
+}
+
+std::string SceneData::json() const {
+  std::vector<RangeImage> seen;  // of each what the text tells: depth and cloud are not copied
+  for (const auto& data : images) {
+    const RangeImage& image = data->image;
+    RangeImage& copy = seen.emplace_back();
+    copy.sensor = image.sensor;
+    copy.width = image.width;
+    copy.height = image.height;
+    copy.label = image.label;
+    copy.truth_label = image.truth_label;
+    copy.visible = image.visible;
+    copy.total = image.total;
+    copy.silhouettes = image.silhouettes;
+  }
+  return scene_json(scene, loaded->request, seen, loaded->parts);
+}
+
+std::string SceneData::report_json() const {
+  Scene alone;
+  alone.report = scene.report;
+  return scene_json(alone, Request());
+}
+
+}  // namespace bin_scenes::python

@@ -1,0 +1,44 @@
+/// A scene as Python sees it: the memory that its arrays show.
+#pragma once
+
+#include "bin_scenes/generate/generator.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::python {
+
+/// An image with its organised cloud, which is made when it is first asked for.
+class ImageData {
+ public:
+  explicit ImageData(RangeImage made) : image(std::move(made)) {}
+  RangeImage image;
+  std::vector<std::array<float, 3>>& points();
+  std::vector<std::array<float, 3>>& normals();
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::array<float, 3>> points_, normals_;
+};
+
+struct SceneData {
+  SceneData(Generator::Result&& result, std::shared_ptr<const LoadedRequest> request);
+
+  Scene scene;
+  std::shared_ptr<const LoadedRequest> loaded;
+  std::vector<std::shared_ptr<ImageData>> images;
+  std::vector<std::array<double, 7>> poses;       ///< by part: x y z qx qy qz qw
+  std::vector<std::array<double, 6>> velocities;  ///< by part: linear, angular
+  std::vector<std::int32_t> ids, lines;           ///< by part
+
+  /// scene.json as the command line writes it; without images it has no block `truth`.
+  std::string json() const;
+  /// That of the report alone.
+  std::string report_json() const;
+};
+
+}  // namespace bin_scenes::python

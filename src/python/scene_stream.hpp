@@ -1,0 +1,42 @@
+/// The scenes of a request as a sequence that is asked for one by one.
+#pragma once
+
+#include "scene_data.hpp"
+#include "session.hpp"
+
+#include <deque>
+#include <exception>
+#include <memory>
+#include <string>
+
+namespace bin_scenes::python {
+
+/// Scenes come in order of their index, and depend on request, seed and index alone, however many are made ahead.
+class SceneStream {
+ public:
+  /// @param ahead  scenes that wait at most, beside those in the making; 0: work rests while nobody waits in next()
+  SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead, bool images);
+  ~SceneStream() { stop(); }
+  SceneStream(const SceneStream&) = delete;
+  SceneStream& operator=(const SceneStream&) = delete;
+
+  /// The next scene; null behind the last one, and after stop(). Throws what making it threw; then it was the last.
+  std::shared_ptr<SceneData> next(const Poll& poll);
+  /// Cancels what is in the making, and waits for its end. The scenes that wait are dropped.
+  void stop();
+  /// Scenes that wait now.
+  std::size_t ready() const;
+
+ private:
+  struct State {
+    std::deque<std::shared_ptr<SceneData>> ready;
+    std::exception_ptr failed;
+    bool wanted = false;  ///< somebody waits in next()
+  };
+  std::shared_ptr<Session> session_;
+  std::shared_ptr<State> state_;
+  std::size_t job_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace bin_scenes::python
