@@ -162,18 +162,15 @@ inline Names<ImageLamp::Type> names(ImageLamp::Type) {
 
 template <class Visitor>
 void visit(Visitor& v, ImageLamp& lamp) {
-  v.field({"type", "", "area: a rectangle; ring; dome: light from everywhere; projector: white light of the projector"},
-          lamp.type);
-  v.field({"pose", "", "area, ring: middle in the bin frame, light leaves along z; left out: the camera's"}, lamp.pose);
-  v.field({"radiance", "", "beside that of other lamps; projector: of a white surface at 1 m", at_least(0.0, 1e9)},
-          lamp.radiance);
-  v.field({"colour", "", "times radiance, of red, green and blue", at_least(0.0, 1e3)}, lamp.colour);
-  v.field({"width", "m", "area: along x; larger = softer shadows", above(0.0, 100.0)}, lamp.width);
+  v.field({"type", "", "dome: light from everywhere; projector: its white light"}, lamp.type);
+  v.field({"pose", "", "area, ring: light leaves along z; left out: the camera's"}, lamp.pose);
+  v.field({"radiance", "", "projector: of a white surface at 1 m", at_least(0.0, 1e9)}, lamp.radiance);
+  v.field({"colour", "", "RGB, times radiance", at_least(0.0, 1e3)}, lamp.colour);
+  v.field({"width", "m", "area: along x", above(0.0, 100.0)}, lamp.width);
   v.field({"height", "m", "area: along y", above(0.0, 100.0)}, lamp.height);
-  v.field({"outer", "m", "ring: outer radius", above(0.0, 100.0)}, lamp.outer);
-  v.field({"inner", "m", "ring: inner radius; 0 = a disk", at_least(0.0, 100.0)}, lamp.inner);
-  v.field({"horizon", "", "dome: radiance at the horizon and below it / that of the zenith", at_least(0.0, 1e3)},
-          lamp.horizon);
+  v.field({"outer", "m", "ring: radius", above(0.0, 100.0)}, lamp.outer);
+  v.field({"inner", "m", "0 = a disk", at_least(0.0, 100.0)}, lamp.inner);
+  v.field({"horizon", "", "dome: radiance there and below / at the zenith", at_least(0.0, 1e3)}, lamp.horizon);
 }
 
 template <class Visitor>
@@ -215,11 +212,9 @@ void visit(Visitor& v, Sensor& sensor) {
   v.field({"view_of", "", "name of the sensor of which this is a further view; written where views are spelled out",
            anything, !sensor.view_of.empty()},
           sensor.view_of);
-  v.field(
-      {"pose_of", "",
-       "name of another sensor, whose lens, pose, views, projector, near and far it takes: an image beside its depth",
-       anything, !sensor.pose_of.empty()},
-      sensor.pose_of);
+  v.field({"pose_of", "", "name of another sensor, whose lens, place and projector it takes", anything,
+           !sensor.pose_of.empty()},
+          sensor.pose_of);
   v.field({"near", "m", "nothing nearer is seen", above(0.0)}, sensor.near);
   v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
   const std::string fidelity = users_of(&SensorModel::fidelity) +
@@ -243,16 +238,15 @@ void visit(Visitor& v, Sensor& sensor) {
             calibration);
   FilterSettings& filter = sensor.settings.of<FilterSettings>();
   v.section({"filter", "", "of the driver, on what was measured; off unless given", anything, filter.any()}, filter);
-  v.list({"lamps", "", "image: what lights it; no lamp casts a shadow; left out: a dome"},
-         sensor.settings.of<ImageSettings>().lamps);
+  v.list({"lamps", "", "image: what lights it; left out: a dome"}, sensor.settings.of<ImageSettings>().lamps);
   for (const SensorModel* known : sensor_models()) {
     if (!known->visit) continue;
     SettingsOfModel section{*known, sensor.settings};
     v.section({known->name, "", known->text}, section);
   }
   const std::string bounces = users_of(&SensorModel::indirect) +
-                              "other surfaces that light may meet on its way; more = depth errs in corners and on "
-                              "shiny parts as real devices do, slower; left out: 1 for " +
+                              "other surfaces that light may meet; more = depth errs in corners and on "
+                              "shiny parts, slower; left out: 1 for " +
                               with_bounces() + ", else 0";
   v.field({"bounces", "", bounces.c_str(), at_least(0.0, 2.0)}, sensor.bounces);
   v.field(

@@ -10,11 +10,10 @@ namespace {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   ImageSettings& s = settings.of<ImageSettings>();
-  v.field(
-      {"samples", "", "paths of light a pixel, a power of two; more = less grain, linear cost", at_least(1.0, 65536.0)},
-      s.samples);
-  v.field({"colour", "", "true: red, green and blue; false: grey"}, s.colour);
-  v.field({"bits", "", "of a count in files and messages, 8 or 16", at_least(8.0, 16.0)}, s.bits);
+  v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
+          s.samples);
+  v.field({"colour", "", "RGB instead of grey"}, s.colour);
+  v.field({"bits", "", "of a count, 8 or 16", at_least(8.0, 16.0)}, s.bits);
 }
 
 /// Paths of one image, some 3 million of which a core traces a second.
