@@ -153,6 +153,7 @@ void visit(Visitor& v, CalibrationSettings& sigma) {
   v.field({"position", "m", "sigma of the whole device along each axis of its optical frame", at_least(0.0, 10.0)},
           sigma.position);
   v.field({"rotation", "rad", "sigma of the whole device about each axis", at_least(0.0, 1.0)}, sigma.rotation);
+  v.field({"range", "m", "sigma of an offset of all ranges: time_of_flight", at_least(0.0, 1.0)}, sigma.range);
 }
 
 inline Names<ImageLamp::Type> names(ImageLamp::Type) {

@@ -77,7 +77,7 @@ sensors:
     bounces: 0
     indirect_samples: 48
     imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
-    calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4}
+    calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4, range: 3e-3}
     filter: {snr: 8, outlier: {neighbours: 6, window: 7, step: 0.01}}
     lamps: [{type: ring, pose: [0, 0, 1, 1, 0, 0, 0], radiance: 2, colour: [1, 0.9, 0.8], outer: 0.1, inner: 0.08},
             {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7}]
@@ -186,6 +186,7 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(errors.baseline, 1e-4);
   EXPECT_EQ(errors.position, 2e-4);
   EXPECT_EQ(errors.rotation, 5e-4);
+  EXPECT_EQ(errors.range, 3e-3);
   const auto& image = r.sensors[1].settings.of<ImageSettings>();
   EXPECT_EQ(image.samples, 64);
   EXPECT_TRUE(image.colour);
