@@ -1,3 +1,4 @@
+/// Times of views, silhouettes, sensor models and images.
 #include "sensors/rows.hpp"
 #include "sensors/stage.hpp"
 
