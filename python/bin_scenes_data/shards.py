@@ -22,7 +22,7 @@ class Sample:
         self._files, self._data, self._begin = files, data, begin
 
     def raw(self, name):
-        """Bytes of a file: depth.png, gray.tiff, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
+        """Bytes of a file: depth.png, gray.tiff, rgb.png, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
         truth_labels.png or truth_normal.png."""
         offset, size = self._files[name]
         return self._data[offset - self._begin:offset - self._begin + size]
@@ -47,6 +47,11 @@ class Sample:
     def gray(self):
         """Intensity, 8 bits."""
         return read_tiff(self.raw("gray.tiff"))
+
+    @property
+    def rgb(self):
+        """(rows, columns, 3), 8 bits: of a sensor that takes colour images."""
+        return read_png(self.raw("rgb.png"))
 
     @property
     def snr(self):

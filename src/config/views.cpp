@@ -29,6 +29,41 @@ bool in_bin(const Bin& bin, const Vec3& position) {
          (position.head<2>().array().abs() < 0.5 * bin.inner_size.head<2>().array()).all();
 }
 
+using Where = std::function<std::string(const std::string& path)>;
+using Given = std::function<bool(const std::string& path)>;
+
+/// Index of the sensor whose keys say where sensor i stands: itself, or the one that its `pose_of` names.
+std::size_t placed_by(const Request& request, std::size_t i, const Where& where, const Given& given) {
+  const Sensor& sensor = request.sensors[i];
+  if (sensor.pose_of.empty()) return i;
+  const std::string sensor_key = "sensors[" + std::to_string(i) + "].", key = sensor_key + "pose_of";
+  const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+    throw input_error("'" + key + "': " + problem, where(key), remedy);
+  };
+  std::string known;
+  std::size_t other = request.sensors.size();
+  for (std::size_t k = 0; k < request.sensors.size(); ++k) {
+    if (k == i || !request.sensors[k].pose_of.empty()) continue;
+    known += (known.empty() ? "" : ", ") + request.sensors[k].name;
+    if (request.sensors[k].name == sensor.pose_of) other = k;
+  }
+  if (other == request.sensors.size())
+    refuse("'" + sensor.pose_of + "' is no other sensor with a place of its own",
+           known.empty() ? "leave it out, and give a pose" : "one of " + known);
+  for (const char* own : {"width", "height", "fov", "k", "distortion", "pose", "views", "projector", "near", "far"})
+    if (given(sensor_key + own)) refuse(std::string("the sensor has ") + own + " of its own", "keep one of them");
+  return other;
+}
+
+void place_as(const Sensor& other, Sensor& sensor) {
+  sensor.width = other.width, sensor.height = other.height;
+  sensor.fov = other.fov, sensor.k = other.k, sensor.distortion = other.distortion;
+  sensor.pose = other.pose, sensor.views = other.views;
+  sensor.projector = other.projector;
+  sensor.near = other.near, sensor.far = other.far;
+  sensor.pose_of.clear();
+}
+
 }  // namespace
 
 Pose looking_at(const Vec3& target, double distance, double tilt, double turn, double roll) {
@@ -40,12 +75,15 @@ Pose looking_at(const Vec3& target, double distance, double tilt, double turn, d
   return pose;
 }
 
-void spell_out_views(Request& request, const std::function<std::string(const std::string& path)>& where,
-                     const std::function<bool(const std::string& path)>& given) {
+void spell_out_views(Request& request, const Where& where, const Given& given) {
   std::vector<Sensor> sensors;
+  std::vector<std::size_t> placed;
+  for (std::size_t i = 0; i < request.sensors.size(); ++i) placed.push_back(placed_by(request, i, where, given));
+  for (std::size_t i = 0; i < request.sensors.size(); ++i)
+    if (placed[i] != i) place_as(request.sensors[placed[i]], request.sensors[i]);
   for (std::size_t i = 0; i < request.sensors.size(); ++i) {
     const Sensor& sensor = request.sensors[i];
-    const std::string key = "sensors[" + std::to_string(i) + "].views";
+    const std::string key = "sensors[" + std::to_string(placed[i]) + "].views";
     const auto refuse = [&](const std::string& name, const std::string& problem, const std::string& remedy) {
       throw input_error("'" + key + name + "': " + problem, where(key + name), remedy);
     };

@@ -45,8 +45,8 @@ nlohmann::ordered_json bop_coco(const std::vector<const BopImage*>& images, cons
 std::string six_digits(std::size_t number);
 
 /// Samples of BOP's layout by images, to be packed into shards: {scene:06d}_{image:06d}.{depth.png, gray.tiff,
-/// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, and beside BOP's files snr.png, truth_labels.png
-/// and truth_normal.png.
+/// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, of colour images rgb.png, and beside BOP's files
+/// snr.png, truth_labels.png and truth_normal.png.
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images);
 
 /// Run lengths of a mask, column by column from the left, each from the top; the first run is one of zeros (COCO).

@@ -1,5 +1,7 @@
 #include "bin_scenes/output/bop_layout.hpp"
 
+#include "bin_scenes/sensor/image_settings.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes {
@@ -10,10 +12,17 @@ const std::string& sensor_of_view(const Sensor& sensor) {
 
 namespace {
 
-std::vector<BopPlace::File> classic_files(const std::string& split) {
+bool has_colours(const Sensor& sensor) {
+  return sensor.model == "image" && sensor.settings.of<ImageSettings>().colour;
+}
+
+std::vector<BopPlace::File> classic_files(const std::string& split, const Sensor& sensor) {
   std::vector<BopPlace::File> files = {{"depth", "depth", ".png"}, {"gray", "gray", ".tiff"}};
   // bop_toolkit's dataset_params.py: colour images of this split are JPEG, and there are no grey ones.
-  if (split == "train_pbr") files.push_back({"rgb", "rgb", ".jpg"});
+  if (split == "train_pbr")
+    files.push_back({"rgb", "rgb", ".jpg"});
+  else if (has_colours(sensor))
+    files.push_back({"rgb", "rgb", ".png"});
   return files;
 }
 
@@ -28,7 +37,7 @@ std::vector<BopPlace> bop_places(const BopLayout& layout, const std::vector<Sens
     place.sensor = sensor_of_view(sensor);
     if (layout.kind == BopLayout::Kind::classic) {
       place.image = places.size();
-      place.files = classic_files(split);
+      place.files = classic_files(split, sensor);
     } else {
       place.suffix = "_" + place.sensor;
       place.image = views[place.sensor]++;

@@ -21,10 +21,12 @@ void make_directory(const fs::path& path) {
   if (error) throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions");
 }
 
-std::vector<std::uint8_t> three_times(const std::vector<std::uint8_t>& gray) {
+/// Of a grey image three equal channels.
+std::vector<std::uint8_t> rgb_of(const BopImage& image) {
+  if (image.seen->picture.channels == 3) return in_bytes(image.seen->picture);
   std::vector<std::uint8_t> rgb;
-  rgb.reserve(3 * gray.size());
-  for (const std::uint8_t value : gray) rgb.insert(rgb.end(), 3, value);
+  rgb.reserve(3 * image.gray.size());
+  for (const std::uint8_t value : image.gray) rgb.insert(rgb.end(), 3, value);
   return rgb;
 }
 
@@ -32,9 +34,9 @@ Bytes encoded(const BopImage& image, const BopPlace::File& file) {
   const bool tiff = file.extension.rfind(".tif", 0) == 0;
   const int width = image.width, height = image.height;
   if (file.modality == "depth") return tiff ? tiff16(width, height, image.counts) : png16(width, height, image.counts);
-  if (file.extension == ".jpg") return grey_jpeg(width, height, image.gray);
+  if (file.extension == ".jpg") return rgb_jpeg(width, height, rgb_of(image));
   const int channels = file.modality == "rgb" ? 3 : 1;
-  const std::vector<std::uint8_t> samples = channels == 3 ? three_times(image.gray) : image.gray;
+  const std::vector<std::uint8_t> samples = channels == 3 ? rgb_of(image) : image.gray;
   return tiff ? tiff8(width, height, channels, samples) : png8(width, height, channels, samples);
 }
 

@@ -6,6 +6,7 @@
 
 #include <jpeglib.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace bin_scenes {
@@ -20,7 +21,7 @@ namespace {
 
 }  // namespace
 
-Bytes grey_jpeg(int width, int height, const std::vector<std::uint8_t>& samples) {
+Bytes rgb_jpeg(int width, int height, const std::vector<std::uint8_t>& samples) {
   struct Writer {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr errors{};
@@ -46,10 +47,9 @@ Bytes grey_jpeg(int width, int height, const std::vector<std::uint8_t>& samples)
   constexpr int quality = 95;
   jpeg_set_quality(&jpeg, quality, TRUE);
   jpeg_start_compress(&jpeg, TRUE);
-  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(width));
+  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(width));  // libjpeg wants bytes that are not const
   for (int y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
-      row[3 * x] = row[3 * x + 1] = row[3 * x + 2] = samples[static_cast<std::size_t>(y) * row.size() / 3 + x];
+    std::copy_n(&samples[static_cast<std::size_t>(y) * row.size()], row.size(), row.begin());
     JSAMPROW rows[] = {row.data()};
     jpeg_write_scanlines(&jpeg, rows, 1);
   }

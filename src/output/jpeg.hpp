@@ -6,6 +6,6 @@
 namespace bin_scenes {
 
 /// RGB of three equal channels, at a quality (95) that errs by about one grey level.
-Bytes grey_jpeg(int width, int height, const std::vector<std::uint8_t>& samples);
+Bytes rgb_jpeg(int width, int height, const std::vector<std::uint8_t>& samples);
 
 }  // namespace bin_scenes

@@ -66,14 +66,27 @@ Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>&
                 samples.data());
 }
 
-Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples) {
+Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples, int channels) {
   Bytes big_endian(2 * samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     big_endian[2 * i] = static_cast<std::uint8_t>(samples[i] >> 8);
     big_endian[2 * i + 1] = static_cast<std::uint8_t>(samples[i] & 0xff);
   }
-  return encode({width, height, 16, PNG_COLOR_TYPE_GRAY, PNG_FILTER_UP, 2 * static_cast<std::size_t>(width)},
-                big_endian.data());
+  const int colour = channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
+  const std::size_t row = 2 * static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  return encode({width, height, 16, colour, PNG_FILTER_UP, row}, big_endian.data());
+}
+
+std::vector<std::uint8_t> in_bytes(const Picture& picture) {
+  std::vector<std::uint8_t> bytes(picture.counts.size());
+  std::transform(picture.counts.begin(), picture.counts.end(), bytes.begin(),
+                 [&](std::uint16_t count) { return static_cast<std::uint8_t>(count >> (picture.bits - 8)); });
+  return bytes;
+}
+
+Bytes png_of(int width, int height, const Picture& picture) {
+  return picture.bits == 16 ? png16(width, height, picture.counts, picture.channels)
+                            : png8(width, height, picture.channels, in_bytes(picture));
 }
 
 Bytes png_of(const Palette& picture) {
@@ -128,6 +141,7 @@ void write_pngs(const std::string& directory, const RangeImage& image) {
               image.truth_label.empty() ? labels : png16(sensor.width, sensor.height, image.truth_label));
   write_bytes(base + "_snr.png", png16(image.width, image.height, counted_snr(image.snr)));
   write_bytes(base + "_validity.png", png8(image.width, image.height, 1, image.validity));
+  if (image.picture.channels > 0) write_bytes(base + "_image.png", png_of(image.width, image.height, image.picture));
   write_bytes(base + ".png", png8(image.width, image.height, 3, shaded_picture(image)));
   write_bytes(base + "_depth_picture.png", png_of(depth_picture(image)));
   write_bytes(base + "_validity_picture.png", png_of(validity_picture(image)));

@@ -149,6 +149,20 @@ sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Hea
   return plane(image.validity, image, sensor_msgs::image_encodings::MONO8, header);
 }
 
+std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header) {
+  const Picture& picture = image.picture;
+  if (picture.channels == 0) return std::nullopt;
+  const std::string encoding = (picture.channels == 3 ? "rgb" : "mono") + std::to_string(picture.bits);
+  sensor_msgs::Image message;
+  if (picture.bits == 16) {
+    message = plane(picture.counts, image, encoding, header);
+  } else {
+    message = plane(std::vector<std::uint8_t>(picture.counts.begin(), picture.counts.end()), image, encoding, header);
+  }
+  message.step *= static_cast<std::uint32_t>(picture.channels);
+  return message;
+}
+
 std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header) {
   if (!of_camera(image)) return std::nullopt;
   const Sensor& sensor = image.sensor;
@@ -174,8 +188,8 @@ ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, co
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = sensor_frame(image.sensor.name, frame_prefix);
-  return {cloud_message(image, header), depth_message(image, header), camera_info_message(image, header),
-          label_message(image, header), validity_message(image, header)};
+  return {cloud_message(image, header), depth_message(image, header),    camera_info_message(image, header),
+          label_message(image, header), validity_message(image, header), picture_message(image, header)};
 }
 
 }  // namespace bin_scenes

@@ -19,6 +19,7 @@ struct ImageMessages {
   std::optional<sensor_msgs::CameraInfo> camera_info;
   sensor_msgs::Image labels;
   sensor_msgs::Image validity;
+  std::optional<sensor_msgs::Image> picture;
 };
 
 ImageMessages image_messages(const RangeImage& image, const ros::Time& stamp, const std::string& frame_prefix = "");
@@ -36,6 +37,8 @@ sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header);
 /// mono8: codes of sensor/validity.hpp; as taken.
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header);
+/// mono8, mono16, rgb8 or rgb16, as taken; none of a sensor that takes no picture.
+std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header);
 /// REP 104: K and D of the images as taken, R = identity, P = [K | 0] of the rectified one. None of a laser_line, whose
 /// rows are profiles: no camera model describes them. Throws an input Error unless K has 9 values.
 std::optional<sensor_msgs::CameraInfo> camera_info_message(const RangeImage& image, const std_msgs::Header& header);

@@ -23,16 +23,18 @@ struct Publication::SensorTopics {
   std::size_t index = 0;  ///< of the sensor in the scene shown
   LazyTopic<sensor_msgs::PointCloud2> points;
   LazyTopic<sensor_msgs::Image> depth;
-  LazyTopic<sensor_msgs::CameraInfo> camera_info;
-  LazyTopic<sensor_msgs::Image> labels, validity;
+  LazyTopic<sensor_msgs::CameraInfo> camera_info, picture_info;
+  LazyTopic<sensor_msgs::Image> labels, validity, picture;
 
   SensorTopics(Publication& p, const std::string& name_space)
       : space(name_space),
         points(options(p, topic::points), p.from_image<sensor_msgs::PointCloud2>(*this, clouds(p.rgb_))),
         depth(options(p, topic::depth), p.from_image<sensor_msgs::Image>(*this, depth_message)),
         camera_info(options(p, topic::camera_info), p.from_image<sensor_msgs::CameraInfo>(*this, model)),
+        picture_info(options(p, topic::picture_info), p.from_image<sensor_msgs::CameraInfo>(*this, model_of_picture)),
         labels(options(p, topic::labels), p.from_image<sensor_msgs::Image>(*this, label_message)),
-        validity(options(p, topic::validity), p.from_image<sensor_msgs::Image>(*this, validity_message)) {}
+        validity(options(p, topic::validity), p.from_image<sensor_msgs::Image>(*this, validity_message)),
+        picture(options(p, topic::picture), p.from_image<sensor_msgs::Image>(*this, picture_message)) {}
 
   LazyTopicOptions options(Publication& p, const char* name) const {
     return {p.node_, space + name, [&p] { p.show_images(); }, p.in_process_};
@@ -46,6 +48,10 @@ struct Publication::SensorTopics {
           image.sensor.name.c_str());
     return message;
   }
+  static std::optional<sensor_msgs::CameraInfo> model_of_picture(const RangeImage& image,
+                                                                 const std_msgs::Header& header) {
+    return image.picture.channels > 0 ? camera_info_message(image, header) : std::nullopt;
+  }
   static std::function<sensor_msgs::PointCloud2(const RangeImage&, const std_msgs::Header&)> clouds(bool rgb) {
     return [rgb](const RangeImage& image, const std_msgs::Header& header) {
       return rgb ? colored_cloud_message(image, header) : cloud_message(image, header);
@@ -53,7 +59,8 @@ struct Publication::SensorTopics {
   }
 
   bool wanted() const {
-    return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted();
+    return points.wanted() || depth.wanted() || camera_info.wanted() || labels.wanted() || validity.wanted() ||
+           picture.wanted() || picture_info.wanted();
   }
   void renew() {
     points.renew();
@@ -61,6 +68,8 @@ struct Publication::SensorTopics {
     camera_info.renew();
     labels.renew();
     validity.renew();
+    picture.renew();
+    picture_info.renew();
   }
   void show() {
     points.show();
@@ -68,6 +77,8 @@ struct Publication::SensorTopics {
     camera_info.show();
     labels.show();
     validity.show();
+    picture.show();
+    picture_info.show();
   }
 };
 

@@ -123,6 +123,7 @@ Keys bin_keys(const msgs::Bin& bin) {
 
 Keys surface_keys(const msgs::Surface& surface, const std::string& path) {
   Keys keys(path);
+  keys.text("material", surface.material);
   keys.optional("albedo", surface.albedo);
   keys.optional("gloss", surface.gloss);
   keys.optional("roughness", surface.roughness);

@@ -79,6 +79,7 @@ void visit(Visitor& v, Surface& surface) {
            at_least(0.0, 100.0)},
           surface.refraction);
   v.field({"extinction", "", "metals: k of that index", at_least(0.0, 100.0)}, surface.extinction);
+  v.field({"colour", "", "times albedo, of red, green, blue", at_least(0.0, 1.0)}, surface.colour);
 }
 
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.

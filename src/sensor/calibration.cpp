@@ -36,6 +36,7 @@ void err_in_lens_and_baseline(const CalibrationSettings& sigma, Random draw, Sen
   move(device.projector.pose);
   move(device.laser.pose);
   device.settings.of<StereoSettings>().baseline += longer;
+  device.settings.of<CalibrationSettings>().range = sigma.range * draw.normal();
 }
 
 void err_in_pose(const CalibrationSettings& sigma, Random draw, Sensor& device) {
@@ -49,11 +50,12 @@ void err_in_pose(const CalibrationSettings& sigma, Random draw, Sensor& device) 
   for (std::optional<Pose>* pose : {&device.pose, &device.projector.pose, &device.laser.pose}) *pose = moved * **pose;
 }
 
-/// Without triangulation the range along the ray stays.
+/// Without triangulation the range along the ray stays, but for its offset.
 void keep_ranges(RangeImage& image, const Sensor& device, const Sensor& believed) {
   const Lens eye = lens_of(device), read = lens_of(believed);
+  const double offset = device.settings.of<CalibrationSettings>().range;
   report_depths(image, [&](double column, double row, double depth) {
-    return depth * eye.ray(column, row).norm() / read.ray(column, row).norm();
+    return (depth * eye.ray(column, row).norm() + offset) / read.ray(column, row).norm();
   });
 }
 

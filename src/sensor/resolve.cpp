@@ -3,6 +3,7 @@
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <algorithm>
@@ -250,6 +251,8 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
   }
   if (!full.projector.pose) full.projector.pose = beside(*full.pose, full.projector.baseline, target);
   if (!full.laser.pose) full.laser.pose = beside(*full.pose, full.laser.baseline, target);
+  for (ImageLamp& lamp : full.settings.of<ImageSettings>().lamps)
+    if (!lamp.pose) lamp.pose = full.pose;
   const SensorModel& model = sensor_model(sensor.model);
   if (!full.bounces && model.indirect) full.bounces = model.bounces;
   full.depth_scale = scale_for(deepest(full, bin, room_of(bin, bounds)));

@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -95,6 +96,33 @@ void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::s
   }
 }
 
+/// At each corner the mean, by area, of the normals of those faces around it that are nearly in line with its own.
+struct Corners {
+  std::array<Vec3, 3> normals;
+  bool even = true;  ///< all three are the face's own
+};
+std::vector<Corners> smooth_corners(const Mesh& mesh) {
+  const double in_line = std::cos(35.0 * M_PI / 180.0);
+  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
+  std::vector<Vec3> areas;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t vertex : mesh.triangles[t]) around[vertex].push_back(t);
+    areas.push_back(mesh.area_vector(t));
+  }
+  std::vector<Corners> corners(mesh.triangles.size());
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    const Vec3 own = areas[t].normalized();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3 sum = Vec3::Zero();
+      for (const std::uint32_t other : around[mesh.triangles[t][k]])
+        if (areas[other].dot(own) >= in_line * areas[other].norm()) sum += areas[other];
+      corners[t].normals[k] = sum.norm() > 0.0 ? Vec3(sum.normalized()) : own;
+      corners[t].even = corners[t].even && corners[t].normals[k].dot(own) > 1.0 - 1e-9;
+    }
+  }
+  return corners;
+}
+
 /// A mesh and its search tree.
 struct MeshTree {
   PartModelPtr owner;  // none: `own` is the mesh
@@ -106,6 +134,11 @@ struct MeshTree {
     double offset;
   };
   std::vector<Plane> planes;
+  /// Smooth normals of the corners of each triangle; made when they are asked for first.
+  const std::vector<Corners>& corners() const {
+    std::call_once(once_, [this] { corners_ = smooth_corners(mesh()); });
+    return corners_;
+  }
 
   const Mesh& mesh() const { return owner ? owner->mesh() : own; }
 
@@ -140,6 +173,10 @@ struct MeshTree {
   ~MeshTree() { rtcReleaseScene(embree); }
   MeshTree(const MeshTree&) = delete;
   MeshTree& operator=(const MeshTree&) = delete;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::vector<Corners> corners_;
 };
 using MeshTreePtr = std::shared_ptr<const MeshTree>;
 
@@ -182,9 +219,10 @@ struct Scenery::State {
     Mat3 turn = Mat3::Identity();  // of the pose
   };
   RTCScene scene = nullptr;
-  std::vector<Body> bodies;           // by Embree's number of the instance
-  std::vector<std::int64_t> of_part;  // index into bodies by index into Scene::parts; -1: not there
-  bool floor = false;                 // endless, z = 0
+  std::vector<Body> bodies;                           // by Embree's number of the instance
+  std::vector<std::int64_t> of_part;                  // index into bodies by index into Scene::parts; -1: not there
+  bool floor = false;                                 // endless, z = 0
+  static constexpr std::uint32_t of_the_floor = ~0u;  // Hit::body
 
   ~State() {
     if (scene) rtcReleaseScene(scene);
@@ -253,7 +291,27 @@ Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) c
   hit.normal = rise > 0.0 ? Vec3(-normal) : normal;
   hit.label = body.label;
   hit.line = body.line;
+  hit.body = packet.hit.instID[0][lane];
   return hit;
+}
+
+Vec3 Scenery::smooth_normal(const Hit& hit, const Vec3& point) const {
+  const bool of_floor = state_->bodies.empty() || hit.body == State::of_the_floor;
+  if (of_floor) return hit.normal;
+  const State::Body& body = state_->bodies[hit.body];
+  const Corners& corners = body.tree->corners()[hit.triangle];
+  if (corners.even) return hit.normal;
+  const Mesh& mesh = body.tree->mesh();
+  const Triangle& t = mesh.triangles[hit.triangle];
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const Vec3 here = body.turn.transpose() * (point - body.pose.position);
+  const Vec3 twice = (b - a).cross(c - a);
+  const double all = twice.squaredNorm();
+  if (!(all > 0.0)) return hit.normal;
+  const double of_b = twice.dot((here - a).cross(c - a)) / all, of_c = twice.dot((b - a).cross(here - a)) / all;
+  const Vec3 smooth = (1.0 - of_b - of_c) * corners.normals[0] + of_b * corners.normals[1] + of_c * corners.normals[2];
+  const Vec3 normal = (body.turn * smooth).normalized();
+  return normal.dot(hit.normal) < 0.0 ? Vec3(-normal) : normal;
 }
 
 void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind) const {
@@ -270,7 +328,7 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kin
         valid[lane] = 0;
         continue;
       }
-      hits[i] = {nan, Vec3::Constant(nan), 0, -1, 0};
+      hits[i] = {nan, Vec3::Constant(nan), 0, -1, 0, State::of_the_floor};
       if (!state_->hits_floor(rays[i])) continue;
       hits[i].distance = State::floor_distance(rays[i]);
       hits[i].normal = rays[i].direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());

@@ -3,6 +3,7 @@
 
 #include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/filter.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 
 #include <string>
@@ -118,7 +119,8 @@ void visit(Visitor& v, ImagerSettings& s) {
       s.full_well);
   v.field({"read_noise", "electrons", "standard deviation; 0 = none", at_least(0.0, 1e6)}, s.read_noise);
   v.field({"blur", "pixel",
-           "structured_light: standard deviation of the camera's blur; depth errs where bright meets dark; 0 = sharp",
+           "structured_light, image: standard deviation of the camera's blur; depth errs where bright meets dark; 0 = "
+           "sharp",
            at_least(0.0, 3.0)},
           s.blur);
   v.field({"bits", "", "of the analogue-digital converter, 1 to 16; fewer = coarser steps", at_least(1.0, 16.0)},
@@ -151,6 +153,25 @@ void visit(Visitor& v, CalibrationSettings& sigma) {
   v.field({"position", "m", "sigma of the whole device along each axis of its optical frame", at_least(0.0, 10.0)},
           sigma.position);
   v.field({"rotation", "rad", "sigma of the whole device about each axis", at_least(0.0, 1.0)}, sigma.rotation);
+  v.field({"range", "m", "sigma of an offset of all ranges: time_of_flight", at_least(0.0, 1.0)}, sigma.range);
+}
+
+inline Names<ImageLamp::Type> names(ImageLamp::Type) {
+  using Type = ImageLamp::Type;
+  return {{"area", Type::area}, {"ring", Type::ring}, {"dome", Type::dome}, {"projector", Type::projector}};
+}
+
+template <class Visitor>
+void visit(Visitor& v, ImageLamp& lamp) {
+  v.field({"type", "", "dome: light from everywhere; projector: its white light"}, lamp.type);
+  v.field({"pose", "", "area, ring: light leaves along z; left out: the camera's"}, lamp.pose);
+  v.field({"radiance", "", "projector: of a white surface at 1 m", at_least(0.0, 1e9)}, lamp.radiance);
+  v.field({"colour", "", "RGB, times radiance", at_least(0.0, 1e3)}, lamp.colour);
+  v.field({"width", "m", "area: along x", above(0.0, 100.0)}, lamp.width);
+  v.field({"height", "m", "area: along y", above(0.0, 100.0)}, lamp.height);
+  v.field({"outer", "m", "ring: radius", above(0.0, 100.0)}, lamp.outer);
+  v.field({"inner", "m", "0 = a disk", at_least(0.0, 100.0)}, lamp.inner);
+  v.field({"horizon", "", "dome: radiance there and below / at the zenith", at_least(0.0, 1e3)}, lamp.horizon);
 }
 
 template <class Visitor>
@@ -192,6 +213,9 @@ void visit(Visitor& v, Sensor& sensor) {
   v.field({"view_of", "", "name of the sensor of which this is a further view; written where views are spelled out",
            anything, !sensor.view_of.empty()},
           sensor.view_of);
+  v.field({"pose_of", "", "name of another sensor, whose lens, place and projector it takes", anything,
+           !sensor.pose_of.empty()},
+          sensor.pose_of);
   v.field({"near", "m", "nothing nearer is seen", above(0.0)}, sensor.near);
   v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
   const std::string fidelity = users_of(&SensorModel::fidelity) +
@@ -215,14 +239,15 @@ void visit(Visitor& v, Sensor& sensor) {
             calibration);
   FilterSettings& filter = sensor.settings.of<FilterSettings>();
   v.section({"filter", "", "of the driver, on what was measured; off unless given", anything, filter.any()}, filter);
+  v.list({"lamps", "", "image: what lights it; left out: a dome"}, sensor.settings.of<ImageSettings>().lamps);
   for (const SensorModel* known : sensor_models()) {
     if (!known->visit) continue;
     SettingsOfModel section{*known, sensor.settings};
     v.section({known->name, "", known->text}, section);
   }
   const std::string bounces = users_of(&SensorModel::indirect) +
-                              "other surfaces that light may meet on its way; more = depth errs in corners and on "
-                              "shiny parts as real devices do, slower; left out: 1 for " +
+                              "other surfaces that light may meet; more = depth errs in corners and on "
+                              "shiny parts, slower; left out: 1 for " +
                               with_bounces() + ", else 0";
   v.field({"bounces", "", bounces.c_str(), at_least(0.0, 2.0)}, sensor.bounces);
   v.field(

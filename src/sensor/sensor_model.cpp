@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 
 namespace bin_scenes {
 
@@ -45,6 +46,13 @@ std::vector<std::pair<const char*, Pose>> light_of(const Sensor& sensor) {
   std::vector<std::pair<const char*, Pose>> light;
   if (model.projector && sensor.projector.pose) light.emplace_back("projector", *sensor.projector.pose);
   if (model.laser && sensor.laser.pose) light.emplace_back("laser", *sensor.laser.pose);
+  if (sensor.model != "image") return light;
+  for (const ImageLamp& lamp : sensor.settings.of<ImageSettings>().lamps) {
+    const bool flat = lamp.type == ImageLamp::Type::area || lamp.type == ImageLamp::Type::ring;
+    if (flat && lamp.pose) light.emplace_back("lamp", *lamp.pose);
+    if (lamp.type == ImageLamp::Type::projector && sensor.projector.pose)
+      light.emplace_back("projector", *sensor.projector.pose);
+  }
   return light;
 }
 

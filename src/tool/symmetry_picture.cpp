@@ -34,9 +34,9 @@ std::vector<Vec3> axes_of(const std::vector<Pose>& turns) {
   return axes;
 }
 
-class Picture {
+class Drawing {
  public:
-  Picture(const RangeImage& image, const Pose& camera)
+  Drawing(const RangeImage& image, const Pose& camera)
       : lens_(lens_of(image.sensor)), camera_(camera), rgb_(shaded_picture(image)) {}
 
   /// Two pixels wide; over the part, so that axes inside it are seen.
@@ -78,7 +78,7 @@ void write_symmetry_picture(const std::string& path, const PartModelPtr& part, c
   sensor.near = 0.1 * size, sensor.far = 10.0 * size;
   scene.sensors = {resolved(sensor, request.bin, nullptr)};
   SensorRig rig;
-  Picture picture(rig.render(scene, {request, {part}}).at(0), *sensor.pose);
+  Drawing picture(rig.render(scene, {request, {part}}).at(0), *sensor.pose);
   const auto draw = [&](const Vec3& axis, const Colour& colour) {
     picture.line(center - 0.75 * size * axis, center + 0.75 * size * axis, colour);
   };

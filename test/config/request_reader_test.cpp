@@ -5,6 +5,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/filter.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
 #include "config/suggest.hpp"
@@ -76,8 +77,11 @@ sensors:
     bounces: 0
     indirect_samples: 48
     imager: {exposure: 0.6, reference_distance: 1.5, ambient: 0.1, full_well: 20000, read_noise: 3, bits: 10}
-    calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4}
+    calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4, range: 3e-3}
     filter: {snr: 8, outlier: {neighbours: 6, window: 7, step: 0.01}}
+    lamps: [{type: ring, pose: [0, 0, 1, 1, 0, 0, 0], radiance: 2, colour: [1, 0.9, 0.8], outer: 0.1, inner: 0.08},
+            {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7}]
+    image: {samples: 64, colour: true, bits: 16}
     structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
                        mixed: keep, edge_step: 0.002}
     laser_line: {fan: 0.7, power: 0.4, blur: 0.9, speckle: 0.1, min_signal: 0.03, peak: nearest}
@@ -182,6 +186,21 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(errors.baseline, 1e-4);
   EXPECT_EQ(errors.position, 2e-4);
   EXPECT_EQ(errors.rotation, 5e-4);
+  EXPECT_EQ(errors.range, 3e-3);
+  const auto& image = r.sensors[1].settings.of<ImageSettings>();
+  EXPECT_EQ(image.samples, 64);
+  EXPECT_TRUE(image.colour);
+  EXPECT_EQ(image.bits, 16);
+  ASSERT_EQ(image.lamps.size(), 3u);
+  EXPECT_EQ(image.lamps[0].type, ImageLamp::Type::ring);
+  EXPECT_EQ(image.lamps[0].pose->position.z(), 1.0);
+  EXPECT_EQ(image.lamps[0].radiance, 2.0);
+  EXPECT_EQ(image.lamps[0].colour, Vec3(1, 0.9, 0.8));
+  EXPECT_EQ(image.lamps[0].outer, 0.1);
+  EXPECT_EQ(image.lamps[0].inner, 0.08);
+  EXPECT_EQ(image.lamps[1].width, 0.4);
+  EXPECT_EQ(image.lamps[1].height, 0.2);
+  EXPECT_EQ(image.lamps[2].horizon, 0.7);
   const auto& filter = r.sensors[1].settings.of<FilterSettings>();
   EXPECT_EQ(filter.snr, 8.0);
   EXPECT_EQ(filter.outlier.neighbours, 6);
@@ -213,7 +232,8 @@ TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
     const std::string name = entry.path.substr(entry.path.find_last_of('.') + 1);
     const bool excluded = entry.path == "bin.mesh" || entry.path == "bin.unit" || entry.path == "bin.pose" ||
                           entry.path == "bin.floor" || entry.path == "bin.none" || entry.path == "pour.scene" ||
-                          entry.path == "rig" || name == "material" || entry.path.rfind("sensors[].views", 0) == 0;
+                          entry.path == "rig" || name == "material" || name == "pose_of" ||
+                          entry.path.rfind("sensors[].views", 0) == 0;
     EXPECT_TRUE(excluded || written.find(name + ":") != std::string::npos) << entry.path;
   }
 }
@@ -225,6 +245,37 @@ TEST_F(ConfigTest, WhatIsWrittenReadsBackTheSame) {
   EXPECT_EQ(write_request(twice), written);
   EXPECT_EQ(twice.text_sha256, once.text_sha256);
   EXPECT_EQ(twice.parts[0].poses[1].orientation.coeffs(), once.parts[0].poses[1].orientation.coeffs());
+}
+
+/// An image where another sensor stands, of each of its views.
+TEST_F(ConfigTest, PoseOfTakesLensPlaceAndViews) {
+  const std::string camera =
+      bolts +
+      "sensors:\n  - {name: grey, model: image, pose_of: range}\n"
+      "  - {name: range, model: structured_light, width: 320, height: 200, fov: 0.6, near: 0.3, far: 2,\n"
+      "     distortion: [0.1, 0, 0, 0, 0], projector: {baseline: 0.3}, ";
+  const Request one = read(camera + "pose: [0, 0, 1, 1, 0, 0, 0]}\n");
+  ASSERT_EQ(one.sensors.size(), 2u);
+  const Sensor& grey = one.sensors[0];
+  EXPECT_EQ(grey.model, "image");
+  EXPECT_EQ(grey.width, 320);
+  EXPECT_EQ(grey.height, 200);
+  EXPECT_EQ(grey.fov, 0.6);
+  EXPECT_EQ(grey.distortion[0], 0.1);
+  EXPECT_EQ(grey.near, 0.3);
+  EXPECT_EQ(grey.far, 2.0);
+  EXPECT_EQ(grey.projector.baseline, 0.3);
+  EXPECT_EQ(grey.pose->position.z(), 1.0);
+  EXPECT_EQ(write_request(read(write_request(one))), write_request(one));
+  const Request two = read(camera + "views: {count: 2}}\n");
+  ASSERT_EQ(two.sensors.size(), 4u);
+  EXPECT_EQ(two.sensors[1].name, "grey_1");
+  EXPECT_EQ(two.sensors[1].pose->position, two.sensors[3].pose->position);
+  expect_refused(bolts + "sensors: [{name: grey, pose_of: rang}, {name: range}]\n",
+                 {"'rang' is no other sensor", "range"});
+  expect_refused(bolts + "sensors: [{name: grey, pose_of: grey}]\n", {"'grey' is no other sensor", "give a pose"});
+  expect_refused(bolts + "sensors: [{name: grey, pose_of: range, width: 9}, {name: range}]\n",
+                 {"the sensor has width of its own"});
 }
 
 TEST_F(ConfigTest, BinsOfEveryKindReadBackTheSame) {

@@ -1,4 +1,5 @@
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "output/bop_image.hpp"
 #include "output/output_fixture.hpp"
 #include "output/read_png.hpp"
@@ -163,6 +164,22 @@ TEST_F(Bop, PixelsBesideTheImageCountToThePart) {
   EXPECT_EQ(info.at("px_count_all"), 12 + 1 * 2) << info;
   EXPECT_EQ(info.at("px_count_visib"), 12);
   EXPECT_EQ(info.at("px_count_valid"), 12);
+}
+
+/// A colour image lies in rgb/, too; the upper eight of sixteen bits.
+TEST_F(Bop, ColoursAreInRgb) {
+  RangeImage image = small_image();
+  image.sensor.model = "image";
+  image.sensor.settings.of<ImageSettings>().colour = true;
+  image.picture.channels = 3, image.picture.bits = 16;
+  for (int i = 0; i < 3 * image.width * image.height; ++i)
+    image.picture.counts.push_back(static_cast<std::uint16_t>(i * 100));
+  write_bop(dir.string(), small_scene(), {bolt, nut}, {image});
+  const Png rgb = read_png(path("rgb/000000.png"));
+  EXPECT_EQ(rgb.channels, 3);
+  EXPECT_EQ(rgb.depth, 8);
+  for (std::size_t i = 0; i < rgb.samples.size(); ++i) ASSERT_EQ(rgb.samples[i], image.picture.counts[i] >> 8);
+  EXPECT_TRUE(std::filesystem::exists(path("gray/000000.tiff")));
 }
 
 TEST_F(Bop, WhatIsNoPinholeImageIsRefused) {

@@ -38,6 +38,25 @@ TEST_F(Images, SnrIsInTenths) {
   EXPECT_EQ(snr.at(3, 5), 173);
 }
 
+TEST_F(Images, APictureHasItsBitsAndChannels) {
+  RangeImage image = small_image();
+  write_pngs(dir.string(), image);
+  EXPECT_FALSE(std::filesystem::exists(path("left_image.png"))) << "a range sensor takes none";
+  const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  for (const int bits : {8, 16}) {
+    for (const int channels : {1, 3}) {
+      image.picture = {channels, bits, {}};
+      for (std::size_t i = 0; i < pixels * static_cast<std::size_t>(channels); ++i)
+        image.picture.counts.push_back(static_cast<std::uint16_t>(i * 811 % (bits == 16 ? 65536 : 256)));
+      write_pngs(dir.string(), image);
+      const Png read = read_png(path("left_image.png"));
+      EXPECT_EQ(read.depth, bits);
+      EXPECT_EQ(read.channels, channels);
+      EXPECT_EQ(read.samples, image.picture.counts);
+    }
+  }
+}
+
 TEST_F(Images, TruthStandsBesideWhatWasMeasured) {
   RangeImage image = small_image();
   write_pngs(dir.string(), image);

@@ -179,6 +179,25 @@ TEST(ImageMessages, RectifiedDepthLiesOnTheSurface) {
   EXPECT_GT(compared, 15000);
 }
 
+TEST(ImageMessages, APictureKeepsItsCounts) {
+  RangeImage image = some_image();
+  EXPECT_FALSE(image_messages(image, stamp).picture);
+  image.picture.channels = 1, image.picture.bits = 16;
+  for (int i = 0; i < 12; ++i) image.picture.counts.push_back(static_cast<std::uint16_t>(i * 5000));
+  const sensor_msgs::Image grey = *image_messages(image, stamp).picture;
+  EXPECT_EQ(grey.encoding, "mono16");
+  EXPECT_EQ(grey.step, 8u);
+  ASSERT_EQ(grey.data.size(), 24u);
+  EXPECT_EQ(std::memcmp(grey.data.data(), image.picture.counts.data(), 24), 0);
+  image.picture = {3, 8, {}};
+  for (int i = 0; i < 36; ++i) image.picture.counts.push_back(static_cast<std::uint16_t>(7 * i));
+  const sensor_msgs::Image colour = *image_messages(image, stamp).picture;
+  EXPECT_EQ(colour.encoding, "rgb8");
+  EXPECT_EQ(colour.step, 12u);
+  ASSERT_EQ(colour.data.size(), 36u);
+  for (std::size_t i = 0; i < 36; ++i) EXPECT_EQ(colour.data[i], image.picture.counts[i]);
+}
+
 TEST(ImageMessages, OneStampOneFrame) {
   const auto m = image_messages(some_image(), stamp);
   for (const std_msgs::Header* header :

@@ -103,6 +103,7 @@ TEST(RequestMessage, SurfaceAndMotionAreThoseOfAFile) {
   part.fixed = true;
   part.poses.resize(1);
   part.poses[0].position.z = 0.1;
+  part.surface.material = "brass";
   part.surface.albedo = {0.2};
   part.surface.gloss = {0.0};
   part.surface.roughness = {0.7};
@@ -119,7 +120,7 @@ parts:
     unit: mm
     fixed: true
     poses: [[0, 0, 0.1, 0, 0, 0, 1]]
-    surface: {albedo: 0.2, gloss: 0, roughness: 0.7}
+    surface: {material: brass, albedo: 0.2, gloss: 0, roughness: 0.7}
     motion: {times: [0.5, 1], poses: [[0, 0, 0, 0, 0, 0, 1], [0.05, 0, 0, 0, 0, 0, 1]], shake: [0.01, 0, 0],
       tilt: [0, 0, 0.02], frequency: 3, seconds: 2}
 )",

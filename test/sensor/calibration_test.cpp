@@ -129,6 +129,12 @@ TEST(Calibration, BaselineScales) {
   }
 }
 
+TEST(Calibration, AnOffsetLengthensRanges) {
+  for (const Pair& p :
+       pairs(exact("time_of_flight"), [](Sensor& d) { d.settings.of<CalibrationSettings>().range = small; }))
+    ASSERT_LT((p.reported - (p.exact.norm() + small) * p.exact.normalized()).norm(), second);
+}
+
 TEST(Calibration, PoseMovesTheDeviceAndNothingInIt) {
   for (const char* model : {"structured_light", "stereo", "time_of_flight", "laser_line"}) {
     Sensor sensor = resolved(exact(model), no_bin());
@@ -175,23 +181,24 @@ TEST(Calibration, DimensionTruenessIsTheShareOfTheBaseline) {
 
 TEST(Calibration, ErrorsHaveTheirSigmaAndStayOverScenes) {
   Sensor sensor = resolved(exact("structured_light"), no_bin());
-  sensor.settings.of<CalibrationSettings>() = {2.0, 0.5, 3e-4, 1e-3, 2e-3};
+  sensor.settings.of<CalibrationSettings>() = {2.0, 0.5, 3e-4, 1e-3, 2e-3, 4e-3};
   constexpr int draws = 4000;
-  Eigen::Array<double, 10, 1> sum = Eigen::Array<double, 10, 1>::Zero(), square = sum;
+  Eigen::Array<double, 11, 1> sum = Eigen::Array<double, 11, 1>::Zero(), square = sum;
   for (std::uint64_t seed = 0; seed < draws; ++seed) {
     const Sensor d = true_device({sensor}, 0, seed);
     const Pose moved = sensor.pose->inverse() * *d.pose;
     const Eigen::AngleAxisd turn(moved.orientation);
     const Vec3 turned = turn.angle() * turn.axis();
-    Eigen::Array<double, 10, 1> e;
+    Eigen::Array<double, 11, 1> e;
     e << (d.k[0] - sensor.k[0]) / 2.0, (d.k[2] - sensor.k[2]) / 0.5, (d.k[5] - sensor.k[5]) / 0.5,
         ((d.projector.pose->position - d.pose->position).norm() - 0.15) / 3e-4, moved.position.x() / 1e-3,
-        moved.position.y() / 1e-3, moved.position.z() / 1e-3, turned.x() / 2e-3, turned.y() / 2e-3, turned.z() / 2e-3;
+        moved.position.y() / 1e-3, moved.position.z() / 1e-3, turned.x() / 2e-3, turned.y() / 2e-3, turned.z() / 2e-3,
+        d.settings.of<CalibrationSettings>().range / 4e-3;
     EXPECT_NEAR(d.k[4] / sensor.k[4], d.k[0] / sensor.k[0], 1e-12);
     sum += e;
     square += e * e;
   }
-  for (int i = 0; i < 10; ++i) {  // four standard errors
+  for (int i = 0; i < 11; ++i) {  // four standard errors
     EXPECT_LT(std::abs(sum[i] / draws), 4.0 / std::sqrt(draws)) << i;
     EXPECT_NEAR(square[i] / draws, 1.0, 4.0 * std::sqrt(2.0 / draws)) << i;
   }
@@ -261,6 +268,11 @@ TEST(Calibration, MistakesAreTold) {
   sensor.model = "stereo";
   sensor.settings.of<CalibrationSettings>().focal = -1.0;
   EXPECT_THROW(check_sensors({sensor}), Error);
+  sensor.settings.of<CalibrationSettings>() = {};
+  sensor.settings.of<CalibrationSettings>().range = 1e-3;
+  EXPECT_THROW(check_sensors({sensor}), Error);  // it triangulates
+  sensor.model = "time_of_flight";
+  check_sensors({sensor});
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "bin_scenes/sensor/resolve.hpp"
+
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 #include "part/shapes.hpp"
 
@@ -131,6 +133,20 @@ TEST(Resolve, ACameraInTheWallIsToldSo) {
   sensor.pose = Pose{Vec3(0.2025, 0, 0.1), Quat(0, 1, 0, 0)};  // in the middle of a wall of 5 mm
   EXPECT_NE(refusal(sensor).find("camera stands inside the bin's wall"), std::string::npos);
   sensor.pose->position.z() = 0.6;
+  EXPECT_EQ(refusal(sensor), "");
+}
+
+TEST(Resolve, LampsAreChecked) {
+  Sensor sensor;
+  sensor.model = "image";
+  auto& lamps = sensor.settings.of<ImageSettings>().lamps;
+  lamps.emplace_back();
+  EXPECT_EQ(refusal(sensor), "");
+  lamps[0].pose = Pose{Vec3(0.2025, 0, 0.1), Quat(0, 1, 0, 0)};
+  EXPECT_NE(refusal(sensor).find("lamp stands inside the bin's wall"), std::string::npos);
+  lamps[0].pose->position = Vec3(0, 0, -0.5);
+  EXPECT_NE(refusal(sensor).find("lamp stands 0.5"), std::string::npos);
+  lamps[0].type = ImageLamp::Type::dome;  // has no place
   EXPECT_EQ(refusal(sensor), "");
 }
 

@@ -91,7 +91,7 @@ TEST(ToyModel, MistakesAreTold) {
 
 TEST(ToyModel, StandsInTheReference) {
   const std::string page = request_reference();
-  EXPECT_NE(page.find("time_of_flight \\| toy | `ideal` |"), std::string::npos);
+  EXPECT_NE(page.find("image \\| toy | `ideal` |"), std::string::npos);
   EXPECT_NE(page.find("### `sensors[].toy`: a constant error of depth"), std::string::npos);
   EXPECT_NE(page.find("| `offset` | number in [0, 0.5] | `0.01` | m | added to the true depth |"), std::string::npos);
 }

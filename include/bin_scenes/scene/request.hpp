@@ -27,6 +27,8 @@ struct Surface {
   /// Complex index of refraction of a metal, n + i k, both 0 for none: what is mirrored is then, of albedo * gloss, the
   /// share that Fresnel's formulas say.
   double refraction = 0.0, extinction = 0.0;
+  /// Of red, green and blue: shares of albedo, of what is scattered; metals mirror it, too. Seen by colour images.
+  Vec3 colour = Vec3::Ones();
   bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 
@@ -214,6 +216,7 @@ struct Sensor {
   std::string name = "camera";
   std::string view_of;          ///< name of the sensor of whose `views` this is one; empty: a sensor of its own
   std::string model = "ideal";  ///< name of a SensorModel (sensor/sensor_model.hpp)
+  std::string pose_of;          ///< name of the sensor that lens and place come from; read by config/, as preset is
   std::string preset;           ///< name of the preset the values come from; read by config/, has no effect of its own
   int width = 640, height = 480;
   double fov = 0.75;                   ///< horizontal field of view (rad); sets the intrinsics unless K is given
@@ -228,9 +231,9 @@ struct Sensor {
   Scan scan;                   ///< laser_line
   ImagerSettings imager;       ///< structured_light, laser_line, stereo: the camera's chip
   ModelSettings settings;      ///< of the models, by type: settings.of<StereoSettings>()
-  std::optional<int> bounces;  ///< structured_light, laser_line, stereo: other surfaces that light may meet, 0 to 2;
-                               ///< more = depth errs in corners and on shiny parts as real devices do, slower. None: as
-                               ///< the model has it (SensorModel::bounces)
+  std::optional<int> bounces;  ///< structured_light, laser_line, stereo, image: other surfaces that light may meet, 0
+                               ///< to 2; more = depth errs in corners and on shiny parts as real devices do, slower.
+                               ///< None: as the model has it (SensorModel::bounces)
   int indirect_samples = 16;   ///< rays for them at a node, one for some pixels, or 32 rays of a laser's fan; noise
                                ///< of indirect light falls with them
   bool noise = true;           ///< false: every random effect is off; geometry (shadow, field of view) stays

@@ -17,7 +17,11 @@ struct CalibrationSettings {
   double baseline = 0.0;  ///< m, of the distance from the camera to projector, laser or second camera
   double position = 0.0;  ///< m, of the whole device along each axis of its optical frame
   double rotation = 0.0;  ///< rad, of the whole device about each
-  bool any() const { return focal > 0.0 || center > 0.0 || baseline > 0.0 || position > 0.0 || rotation > 0.0; }
+  double range = 0.0;     ///< m, of an offset of all ranges along their rays, where nothing is triangulated; of a
+                          ///< true_device() the offset itself
+  bool any() const {
+    return focal > 0.0 || center > 0.0 || baseline > 0.0 || position > 0.0 || rotation > 0.0 || range > 0.0;
+  }
 };
 
 /// sensors[number] as it truly is; a copy if it has no such errors. Views of one sensor share lens and baseline; each

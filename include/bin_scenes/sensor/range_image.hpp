@@ -11,6 +11,13 @@
 
 namespace bin_scenes {
 
+/// What a camera took: counts, row-major, channels of a pixel beside each other.
+struct Picture {
+  int channels = 0;  ///< 1: grey; 3: red, green, blue; 0: none was taken
+  int bits = 8;      ///< 8 or 16 a count
+  std::vector<std::uint16_t> counts;
+};
+
 /// Row-major images. Optical frame of the sensor's camera; integer coordinates are pixel centres, as in CameraInfo.
 struct RangeImage {
   Sensor sensor;              ///< with poses and K filled in
@@ -22,6 +29,7 @@ struct RangeImage {
   std::vector<float> intensity;              ///< 0..1; of the ideal model the cosine of incidence
   std::vector<float> snr;                    ///< signal / standard deviation of the noise that the model predicts there
   std::vector<std::uint8_t> validity;        ///< of Validity
+  Picture picture;                           ///< of the model `image`
   std::vector<std::array<float, 3>> points;  ///< measured points (m), if they do not lie on the rays of their pixels
 
   /// True normal of what a pixel sees, measured or not, towards the camera; NaN = nothing there.

@@ -24,6 +24,7 @@ struct Hit {
   std::uint16_t label;     ///< 0 of the bin and of nothing, id + 1 of a part
   std::int32_t line;       ///< index into Request::parts; -1 of the bin and of nothing
   std::uint32_t triangle;  ///< of the part's or bin's mesh
+  std::uint32_t body = 0;  ///< of Scenery's own numbers
 };
 
 /// The search trees of models, made once a model and kept while the model lives. Thread-safe.
@@ -53,6 +54,9 @@ class Scenery {
   enum class Rays { side_by_side, scattered };
   /// First hit of each of `count` rays.
   void first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind = Rays::side_by_side) const;
+  /// Normal at a point that was hit, of the surface that the triangles stand for: it turns evenly across edges at which
+  /// faces meet in less than 35 degrees. Towards the side that was hit.
+  Vec3 smooth_normal(const Hit& hit, const Vec3& point) const;
   /// blocked[i] = 1 if anything lies between `near` and `far` of ray i, else 0.
   void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count, Rays kind = Rays::side_by_side) const;
   /// The same with Scene::parts[part] as if it were alone; all 0 if that part is not there.

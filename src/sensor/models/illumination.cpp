@@ -8,21 +8,26 @@
 
 namespace bin_scenes {
 
-double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye) {
+SentBack sent_back(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye) {
   const double in = normal.dot(to_light), out = normal.dot(to_eye);
-  if (!(in > 0.0 && out > 0.0)) return 0.0;
+  if (!(in > 0.0 && out > 0.0)) return {};
   const double matte = diffuse_share(surface) * in;
-  if (surface.gloss <= 0.0) return matte;
+  if (surface.gloss <= 0.0) return {matte, 0.0};
   const double alpha = std::max(surface.roughness * surface.roughness, 1e-3);
   const Vec3 between = (to_light + to_eye).normalized();
   const double half = normal.dot(between);
+  double once = 1.0, often = 1.0;
   if (surface.metal()) {
-    const double once = fresnel(std::min(to_light.dot(between), 1.0), surface.refraction, surface.extinction);
-    return matte + surface.albedo * surface.gloss *
-                       facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half, once,
-                                  mean_fresnel(surface.refraction, surface.extinction));
+    once = fresnel(std::min(to_light.dot(between), 1.0), surface.refraction, surface.extinction);
+    often = mean_fresnel(surface.refraction, surface.extinction);
   }
-  return matte + surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half);
+  return {matte,
+          surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half, once, often)};
+}
+
+double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye) {
+  const SentBack all = sent_back(surface, normal, to_light, to_eye);
+  return all.matte + all.mirrored;
 }
 
 SeenPoint seen_point(const View& view, std::size_t pixel) {

@@ -12,6 +12,11 @@ namespace bin_scenes {
 /// share and a lobe of facets (facets.hpp). Over the hemisphere it sends back its albedo. All directions are unit and
 /// point away from the surface. 0 where one of them lies behind it.
 double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye);
+/// The same, what is scattered and what is mirrored apart: they have colours of their own.
+struct SentBack {
+  double matte = 0.0, mirrored = 0.0;
+};
+SentBack sent_back(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye);
 /// The share of light from everywhere that a surface sends back: what ambient light makes of it.
 inline double diffuse_share(const Surface& surface) {
   return (1.0 - surface.gloss) * surface.albedo;

@@ -41,9 +41,9 @@ Vec3 Lobe::matte(double u, double v) const {
 /// By a facet that the eye sees (Heitz 2018, "Sampling the GGX distribution of visible normals").
 Vec3 Lobe::mirrored(double u, double v) const {
   const Vec3 stretched = Vec3(alpha_ * eye_.x(), alpha_ * eye_.y(), eye_.z()).normalized();
-  const Mat3 axes = frame_about(stretched);
   // The disc of directions seen edge on: its two halves are the projections of the upper hemisphere.
-  const Vec3 along = stretched.z() < 0.9999 ? Vec3(Vec3::UnitZ().cross(stretched).normalized()) : Vec3(axes.col(0));
+  const Vec3 along =
+      stretched.z() < 0.9999 ? Vec3(Vec3::UnitZ().cross(stretched).normalized()) : Vec3(frame_about(stretched).col(0));
   const Vec3 up = stretched.cross(along);
   const double radius = std::sqrt(u), turn = 2.0 * M_PI * v, x = radius * std::cos(turn);
   const double s = 0.5 * (1.0 + stretched.z());
@@ -56,7 +56,9 @@ Vec3 Lobe::mirrored(double u, double v) const {
 double Lobe::density(const Vec3& local) const {
   const double matte = local.z() / M_PI;
   if (share_ <= 0.0) return matte;
-  const double a2 = alpha_ * alpha_, half = (local + eye_).normalized().z(), bend = half * half * (a2 - 1.0) + 1.0;
+  const Vec3 between = local + eye_;
+  const double a2 = alpha_ * alpha_, half = between.z() * between.z() / between.squaredNorm();  // cosine squared
+  const double bend = half * (a2 - 1.0) + 1.0;
   const double facets = a2 / (M_PI * bend * bend), c = eye_.z();
   const double seen = 2.0 * c / (c + std::sqrt(c * c * (1.0 - a2) + a2));
   return (1.0 - share_) * matte + share_ * seen * facets / (4.0 * c);
@@ -66,7 +68,8 @@ Lobe::Sample Lobe::at(double u, double v) const {
   const Vec3 local = u < share_ ? mirrored(u / share_, v) : matte((u - share_) / (1.0 - share_), v);
   if (!(local.z() > 1e-6)) return {frame_ * local, 0.0, 1.0};
   const double density = this->density(local);
-  return {frame_ * local, reflected(surface_, Vec3::UnitZ(), local, eye_) / (M_PI * density), density};
+  const SentBack sent = sent_back(surface_, Vec3::UnitZ(), local, eye_);
+  return {frame_ * local, (sent.matte + sent.mirrored) / (M_PI * density), density, sent.matte / (M_PI * density)};
 }
 
 }  // namespace bin_scenes

@@ -14,9 +14,12 @@ class Lobe {
     Vec3 direction;  ///< unit, away from the surface; below it where factor is 0
     double factor;   ///< light sent to the eye / light that comes from there, for one sample of the whole hemisphere
     double density;  ///< per solid angle (1/sr)
+    double matte = 0.0;  ///< part of factor that is scattered, not mirrored
   };
   /// @param u, v  [0, 1), even in the square
   Sample at(double u, double v) const;
+  /// That with which at() draws a direction (1/sr).
+  double density_of(const Vec3& direction) const { return density(frame_.transpose() * direction); }
 
  private:
   Vec3 matte(double u, double v) const;

@@ -1,0 +1,71 @@
+/// A grey or colour camera as a SensorModel: keys, checks, and the image made from a sensor. Its lamps are in
+/// sensor_keys.hpp.
+#include "bin_scenes/core/error.hpp"
+#include "sensor/models/image.hpp"
+#include "sensor/models/of_sensor.hpp"
+
+namespace bin_scenes {
+
+namespace {
+
+void visit_keys(KeyVisitor& v, ModelSettings& settings) {
+  ImageSettings& s = settings.of<ImageSettings>();
+  v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
+          s.samples);
+  v.field({"colour", "", "RGB instead of grey"}, s.colour);
+  v.field({"bits", "", "of a count, 8 or 16", at_least(8.0, 16.0)}, s.bits);
+}
+
+/// Paths of one image, some 3 million of which a core traces a second.
+constexpr double most_paths = 4e9;
+
+void check(const Sensor& sensor, const std::string& key) {
+  const auto& s = sensor.settings.of<ImageSettings>();
+  if (s.bits != 8 && s.bits != 16)
+    throw input_error("is " + std::to_string(s.bits), key + ".image.bits", "give 8 or 16");
+  if ((s.samples & (s.samples - 1)) != 0)
+    throw input_error(std::to_string(s.samples) + " is no power of two", key + ".image.samples",
+                      "give 4, 8, 16, 32, ...");
+  const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
+  if (sensor.model == "image" && paths > most_paths) {
+    throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +
+                          std::to_string(sensor.height) + " pixels are " +
+                          std::to_string(static_cast<int>(paths / 1e9)) +
+                          " billion paths; 4 billion are the most, some 20 minutes of a core",
+                      key + ".image.samples", "give fewer samples or pixels");
+  }
+  for (std::size_t i = 0; i < s.lamps.size(); ++i) {
+    const ImageLamp& lamp = s.lamps[i];
+    if (lamp.type == ImageLamp::Type::ring && !(lamp.inner < lamp.outer))
+      throw input_error("is not below the outer radius", key + ".lamps[" + std::to_string(i) + "].inner",
+                        "m; 0 = a disk");
+  }
+}
+
+RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
+                    const Draw& draw) {
+  Picture picture;
+  Measurement seen = take_image(scenery, view, sensor, surfaces, rays_of(draw), random_of(draw), picture);
+  RangeImage image = image_of(std::move(view), std::move(seen));
+  image.picture = std::move(picture);
+  return image;
+}
+
+/// Its depth is the truth.
+double sigma(const Sensor&, double, double, double) {
+  return 0.0;
+}
+
+constexpr SensorModel model() {
+  SensorModel m{"image", "a grey or colour image; depth beside it is exact", visit_keys, check, nullptr, measured,
+                sigma};
+  m.imager = m.indirect = true;
+  m.bounces = 1;
+  return m;
+}
+
+}  // namespace
+
+extern const SensorModel image_model = model();
+
+}  // namespace bin_scenes

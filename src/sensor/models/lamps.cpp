@@ -1,0 +1,122 @@
+#include "sensor/models/lamps.hpp"
+
+#include "bin_scenes/sensor/resolve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bin_scenes {
+
+Lamps::Lamps(const Sensor& sensor) {
+  std::vector<ImageLamp> lamps = sensor.settings.of<ImageSettings>().lamps;
+  if (lamps.empty()) {
+    lamps.emplace_back();
+    lamps.back().type = ImageLamp::Type::dome;
+  }
+  for (const ImageLamp& lamp : lamps) {
+    const Rgb radiance = lamp.radiance * lamp.colour.array();
+    if (lamp.type == ImageLamp::Type::dome) domes_.push_back({radiance, lamp.horizon * radiance});
+    if (lamp.type == ImageLamp::Type::projector)
+      beams_.push_back({lens_of(sensor.projector), *sensor.projector.pose, radiance});
+    const bool ring = lamp.type == ImageLamp::Type::ring;
+    if (!ring && lamp.type != ImageLamp::Type::area) continue;
+    const Pose pose = lamp.pose.value_or(*sensor.pose);
+    const Mat3 axes = pose.orientation.toRotationMatrix();
+    Flat flat{pose.position, axes.col(0), axes.col(1), axes.col(2), radiance, ring, lamp.width, lamp.height, 0.0};
+    if (ring) flat.width = lamp.inner, flat.height = lamp.outer;
+    flat.area = ring ? M_PI * (lamp.outer * lamp.outer - lamp.inner * lamp.inner) : lamp.width * lamp.height;
+    flats_.push_back(flat);
+  }
+  for (const Flat& flat : flats_) shares_.push_back(flat.radiance.mean() * flat.area);
+  for (const Beam& beam : beams_) shares_.push_back(beam.radiance.mean() * M_PI);
+  double sum = 0.0;
+  for (const double share : shares_) sum += share;
+  for (double& share : shares_) share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(shares_.size());
+}
+
+void Lamps::add_everywhere(double radiance) {
+  domes_.push_back({Rgb::Constant(radiance), Rgb::Constant(radiance)});
+}
+
+void Lamps::sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const {
+  Vec3 point = flat.middle;
+  if (flat.ring) {
+    const double inner = flat.width * flat.width, outer = flat.height * flat.height;
+    const double radius = std::sqrt(inner + u * (outer - inner)), turn = 2.0 * M_PI * v;
+    point += radius * std::cos(turn) * flat.x + radius * std::sin(turn) * flat.y;
+  } else {
+    point += (u - 0.5) * flat.width * flat.x + (v - 0.5) * flat.height * flat.y;
+  }
+  const Vec3 way = point - from;
+  out.distance = way.norm();
+  out.direction = way / out.distance;
+  const double cosine = -flat.normal.dot(out.direction);
+  if (!(cosine > 0.0)) return;
+  out.density = share * out.distance * out.distance / (flat.area * cosine);
+  out.light = flat.radiance / out.density;
+}
+
+void Lamps::sample_beam(const Beam& beam, double share, const Vec3& from, Sample& out) {
+  const Vec3 way = beam.pose.position - from;
+  out.distance = way.norm();
+  out.direction = way / out.distance;
+  const auto pixel = beam.lens.project(beam.pose.inverse() * from);
+  if (pixel && beam.lens.inside(*pixel)) out.light = M_PI * beam.radiance / (share * out.distance * out.distance);
+}
+
+Lamps::Sample Lamps::sample(const Vec3& from, double choice, double u, double v) const {
+  Sample out;
+  std::size_t lamp = 0;
+  while (lamp + 1 < shares_.size() && choice >= shares_[lamp]) choice -= shares_[lamp++];
+  if (lamp < flats_.size())
+    sample_flat(flats_[lamp], shares_[lamp], from, u, v, out);
+  else
+    sample_beam(beams_[lamp - flats_.size()], shares_[lamp], from, out);
+  return out;
+}
+
+Rgb Lamps::met(const Vec3& origin, const Vec3& direction, double reach, Met weight, double density) const {
+  Rgb sum = Rgb::Zero();
+  for (std::size_t i = 0; weight != Met::unsampled && i < flats_.size(); ++i) {
+    const Flat& flat = flats_[i];
+    const double cosine = -flat.normal.dot(direction);
+    if (!(cosine > 0.0)) continue;
+    const double distance = flat.normal.dot(origin - flat.middle) / cosine;
+    if (!(distance > 0.0 && distance < reach)) continue;
+    const Vec3 place = origin + distance * direction - flat.middle;
+    const double x = place.dot(flat.x), y = place.dot(flat.y), square = x * x + y * y;
+    const bool inside = flat.ring ? square >= flat.width * flat.width && square <= flat.height * flat.height
+                                  : std::abs(x) <= 0.5 * flat.width && std::abs(y) <= 0.5 * flat.height;
+    if (!inside) continue;
+    const double drawn = shares_[i] * distance * distance / (flat.area * cosine);
+    sum += (weight == Met::all ? 1.0 : density / (density + drawn)) * flat.radiance;
+  }
+  if (std::isinf(reach))
+    for (const Dome& dome : domes_) sum += dome.at(direction.z());
+  return sum;
+}
+
+Rgb Lamps::on_plate(const Vec3& point, const Vec3& normal) const {
+  constexpr int side = 64;
+  Rgb sum = Rgb::Zero();
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  for (int i = 0; i < side; ++i) {
+    for (int k = 0; k < side; ++k) {
+      const double u = (i + 0.5) / side, v = (k + 0.5) / side, turn = 2.0 * M_PI * v, radius = std::sqrt(u);
+      const Vec3 way = radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(1.0 - u) * normal;
+      for (const Dome& dome : domes_) sum += dome.at(way.z());
+      for (std::size_t lamp = 0; lamp < shares_.size(); ++lamp) {
+        Sample sample;
+        if (lamp < flats_.size())
+          sample_flat(flats_[lamp], 1.0, point, u, v, sample);
+        else
+          sample_beam(beams_[lamp - flats_.size()], 1.0, point, sample);
+        if (sample.distance > 0.0) sum += sample.light * std::max(0.0, normal.dot(sample.direction)) / M_PI;
+      }
+    }
+  }
+  return sum / (side * side);
+}
+
+}  // namespace bin_scenes

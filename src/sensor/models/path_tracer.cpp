@@ -1,0 +1,240 @@
+/// All paths of a few pixels go from surface to surface together: Embree takes rays in eights.
+#include "sensor/models/path_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr std::size_t block_pixels = 64;
+/// Pairs of numbers: place in the pixel, blur, and for each surface a point of a lamp, a direction, and which lamp.
+enum Pair { place, blurred, first_surface };
+enum PairOfSurface { on_lamp, along_lobe, which_lamp, pairs_of_surface };
+constexpr int all_pairs = first_surface + 3 * pairs_of_surface;
+
+constexpr double soft = 0.5;  ///< roughness
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::vector<std::array<std::uint32_t, 2>> sobol(int count) {
+  std::vector<std::array<std::uint32_t, 2>> points(static_cast<std::size_t>(count));
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    std::uint32_t x = 0, y = 0, a = 1u << 31, b = 1u << 31;
+    for (std::uint32_t bits = i; bits; bits >>= 1, a >>= 1, b ^= b >> 1) {
+      if (bits & 1u) x ^= a, y ^= b;
+    }
+    points[i] = {x, y};
+  }
+  return points;
+}
+
+Rgb in_colour(const Surface& surface, double matte, double mirrored) {
+  const Rgb colour = surface.colour.array();
+  return surface.metal() ? Rgb((matte + mirrored) * colour) : Rgb(matte * colour + mirrored);
+}
+
+Surfaces softened(Surfaces surfaces) {
+  for (Surface& surface : surfaces.lines) surface.roughness = std::max(surface.roughness, soft);
+  surfaces.bin.roughness = std::max(surfaces.bin.roughness, soft);
+  return surfaces;
+}
+
+}  // namespace
+
+struct PathTracer::Block {
+  std::vector<Rgb> radiance;  // by pixel
+  std::vector<std::array<Scramble, all_pairs>> scrambles;
+  std::vector<Vertex> vertices, next;
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  std::vector<std::uint8_t> blocked;
+  struct Asked {
+    std::uint32_t pixel;
+    Rgb light;
+  };
+  std::vector<Asked> asked;
+  struct Followed {
+    const Vertex* from;
+    Lobe::Sample sample;
+    Rgb weight;
+  };
+  std::vector<Followed> followed;
+};
+
+PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces,
+                       const Lamps& lamps, const Setup& setup, const Random& key)
+    : scenery_(scenery),
+      lens_(lens),
+      pose_(pose),
+      turn_(pose.orientation.toRotationMatrix()),
+      rays_(lens),
+      surfaces_(surfaces),
+      soft_(softened(surfaces)),
+      lamps_(lamps),
+      setup_(setup),
+      key_(key),
+      follow_(static_cast<std::uint32_t>(std::max(setup.samples / 2, 1))),
+      onward_(static_cast<std::uint32_t>(std::max(setup.samples / 4, 1))),
+      net_(sobol(setup.samples)) {}
+
+std::vector<Rgb> PathTracer::row(std::size_t row) const {
+  const auto width = static_cast<std::size_t>(lens_.width);
+  thread_local Block block;  // keeps its memory
+  std::vector<Rgb> radiance;
+  radiance.reserve(width);
+  for (std::size_t first = 0; first < width; first += block_pixels) {
+    start(block, row, first, std::min(block_pixels, width - first));
+    trace_first(block, row, first);
+    for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) {
+      ask_lamps(block, bounce);
+      follow_lobes(block, bounce);
+    }
+    for (const Rgb& sum : block.radiance) radiance.push_back(sum / setup_.samples);
+  }
+  return radiance;
+}
+
+void PathTracer::start(Block& block, std::size_t row, std::size_t first, std::size_t count) const {
+  block.radiance.assign(count, Rgb::Zero());
+  block.scrambles.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random = key_.of_piece(row * static_cast<std::size_t>(lens_.width) + first + i);
+    for (Scramble& scramble : block.scrambles[i]) {
+      const std::uint64_t both = random.next();
+      scramble.x = static_cast<std::uint32_t>(both), scramble.y = static_cast<std::uint32_t>(both >> 32);
+      scramble.order = static_cast<std::uint32_t>(random.below(static_cast<std::uint64_t>(setup_.samples)));
+    }
+  }
+}
+
+/// The points of a pixel in an order of its own: the same net, and so are its first quarter and any other.
+Eigen::Vector2d PathTracer::drawn(const Block& block, std::uint32_t pixel, int pair, std::uint32_t sample) const {
+  const Scramble& scramble = block.scrambles[pixel][static_cast<std::size_t>(pair)];
+  const auto& point = net_[sample ^ scramble.order];
+  return {(point[0] ^ scramble.x) * 0x1p-32, (point[1] ^ scramble.y) * 0x1p-32};
+}
+
+void PathTracer::trace_first(Block& block, std::size_t row, std::size_t first) const {
+  const auto samples = static_cast<std::uint32_t>(setup_.samples);
+  const bool plain = !lens_.distorts() && lens_.skew == 0.0;
+  const auto count = static_cast<std::uint32_t>(block.radiance.size());
+  block.rays.clear();
+  for (std::uint32_t pixel = 0; pixel < count; ++pixel) {
+    for (std::uint32_t s = 0; s < samples; ++s) {
+      Eigen::Vector2d at = drawn(block, pixel, place, s) - Eigen::Vector2d(0.5, 0.5);
+      if (setup_.blur > 0.0) {
+        const Eigen::Vector2d normal = drawn(block, pixel, blurred, s);
+        const double radius = setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())),
+                     turn = 2.0 * M_PI * normal.y();
+        at += Eigen::Vector2d(radius * std::cos(turn), radius * std::sin(turn));
+      }
+      const std::size_t column = first + pixel;
+      const Vec3 ray = plain ? Vec3(rays_.at(column, row) + Vec3(at.x() / lens_.fx, at.y() / lens_.fy, 0.0))
+                             : lens_.ray(static_cast<double>(column) + at.x(), static_cast<double>(row) + at.y());
+      block.rays.push_back({pose_.position, turn_ * ray, setup_.near, setup_.far});
+    }
+  }
+  block.hits.resize(block.rays.size());
+  scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size());
+  block.vertices.clear();
+  for (std::uint32_t i = 0; i < block.rays.size(); ++i) {
+    const Ray& ray = block.rays[i];
+    const Hit& hit = block.hits[i];
+    if (!ray.direction.allFinite()) continue;
+    const double length = ray.direction.norm(), reach = std::isnan(hit.distance) ? infinite : hit.distance * length;
+    block.radiance[i / samples] += lamps_.met(ray.origin, ray.direction / length, reach, Lamps::Met::all, 1.0);
+    Vertex vertex;
+    vertex.pixel = i / samples, vertex.sample = i % samples;
+    vertex.to_eye = -ray.direction / length;
+    add_vertex(block.vertices, ray, hit, vertex);
+  }
+}
+
+void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const {
+  if (std::isnan(hit.distance)) return;
+  vertex.position = ray.origin + hit.distance * ray.direction;
+  vertex.face = hit.normal;
+  vertex.normal = scenery_.smooth_normal(hit, vertex.position);
+  // A smooth surface that turns away from where it is seen from is none: its face is.
+  if (vertex.normal.dot(vertex.to_eye) < 0.02) vertex.normal = vertex.face;
+  vertex.line = hit.line;
+  to.push_back(vertex);
+}
+
+const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce) const {
+  return (bounce == 0 ? surfaces_ : soft_).of(vertex.line);
+}
+
+void PathTracer::ask_lamps(Block& block, int bounce) const {
+  if (!lamps_.any_sampled()) return;
+  block.rays.clear();
+  block.asked.clear();
+  const int pairs = first_surface + bounce * pairs_of_surface;
+  const double followed = static_cast<double>(follow_) / setup_.samples;
+  for (const Vertex& v : block.vertices) {
+    const Eigen::Vector2d at = drawn(block, v.pixel, pairs + on_lamp, v.sample);
+    const double choice = drawn(block, v.pixel, pairs + which_lamp, v.sample).x();
+    const Lamps::Sample lamp = lamps_.sample(v.position, choice, at.x(), at.y());
+    if (!(v.face.dot(lamp.direction) > 0.0 && (lamp.light > 0.0).any())) continue;
+    const Surface& surface = surface_of(v, bounce);
+    const SentBack sent = sent_back(surface, v.normal, lamp.direction, v.to_eye);
+    if (!(sent.matte + sent.mirrored > 0.0)) continue;
+    double share = 1.0;
+    if (lamp.density > 0.0 && setup_.by == Setup::By::lobe) continue;
+    if (lamp.density > 0.0 && setup_.by == Setup::By::both && mirrors(surface, bounce))
+      share = lamp.density / (lamp.density + followed * Lobe(surface, v.normal, v.to_eye).density_of(lamp.direction));
+    const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (share / M_PI);
+    block.asked.push_back({v.pixel, light});
+    block.rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
+  }
+  block.blocked.resize(block.rays.size());
+  scenery_.blocked(block.rays.data(), block.blocked.data(), block.rays.size(),
+                   bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
+  for (std::size_t i = 0; i < block.asked.size(); ++i)
+    if (!block.blocked[i]) block.radiance[block.asked[i].pixel] += block.asked[i].light;
+}
+
+void PathTracer::follow_lobes(Block& block, int bounce) const {
+  const bool more = bounce < setup_.bounces;
+  const int pair = first_surface + bounce * pairs_of_surface + along_lobe;
+  block.rays.clear();
+  block.followed.clear();
+  for (const Vertex& v : block.vertices) {
+    if (v.sample >= follow_) continue;
+    const Surface& surface = surface_of(v, bounce);
+    const bool finds_lamps = lamps_.any_dome() || mirrors(surface, bounce) || setup_.by == Setup::By::lobe;
+    if (!finds_lamps && !(more && v.sample < onward_)) continue;
+    const Eigen::Vector2d at = drawn(block, v.pixel, pair, v.sample);
+    const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
+    if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
+    const double times = bounce == 0 ? static_cast<double>(setup_.samples) / follow_ : 1.0;
+    block.followed.push_back(
+        {&v, sample, times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte)});
+    block.rays.push_back({ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9});
+  }
+  block.hits.resize(block.rays.size());
+  scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size(), Scenery::Rays::scattered);
+  block.next.clear();
+  for (std::size_t i = 0; i < block.followed.size(); ++i) {
+    const Block::Followed& path = block.followed[i];
+    const Vertex& v = *path.from;
+    Lamps::Met weight = mirrors(surface_of(v, bounce), bounce) ? Lamps::Met::shared : Lamps::Met::unsampled;
+    if (setup_.by == Setup::By::lamps) weight = Lamps::Met::unsampled;
+    if (setup_.by == Setup::By::lobe) weight = Lamps::Met::all;
+    const double reach = std::isnan(block.hits[i].distance) ? infinite : block.hits[i].distance;
+    const double density = path.sample.density * follow_ / setup_.samples;  // beside one point on a lamp a path
+    block.radiance[v.pixel] +=
+        path.weight * lamps_.met(block.rays[i].origin, path.sample.direction, reach, weight, density);
+    if (!more || v.sample >= onward_) continue;
+    Vertex vertex = v;
+    vertex.to_eye = -path.sample.direction;
+    vertex.weight = path.weight;
+    if (bounce == 0) vertex.weight *= static_cast<double>(follow_) / onward_;
+    add_vertex(block.next, block.rays[i], block.hits[i], vertex);
+  }
+  std::swap(block.vertices, block.next);
+}
+
+}  // namespace bin_scenes

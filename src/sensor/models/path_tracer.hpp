@@ -1,0 +1,78 @@
+/// Radiance that reaches a camera's pixels by way of up to two other surfaces (Kajiya 1986, "The rendering equation").
+/// Where a path meets a surface, a point on a lamp is drawn and asked whether it is seen, and a direction of the
+/// surface's lobe is followed; what both find is weighted by how likely each was to find it. On matte surfaces lamps
+/// are found by their points alone.
+///
+/// From the second surface on, mirrors are at least as rough as `soft`: what a few of the paths see of a lamp by way of
+/// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and robust
+/// light transport").
+///
+/// Points that are drawn fill their squares evenly (Sobol's, each digit flipped by a key of the pixel), so that images
+/// depend on seed, scene, sensor and pixel alone. Half of a pixel's paths follow the lobe of what it sees, and half of
+/// those go on to further surfaces; they count two and four times. Light from there varies slowly.
+#pragma once
+
+#include "bin_scenes/core/random.hpp"
+#include "sensor/models/illumination.hpp"
+#include "sensor/models/lamps.hpp"
+#include "sensor/models/lobe.hpp"
+#include "sensor/pixel_rays.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bin_scenes {
+
+class PathTracer {
+ public:
+  struct Setup {
+    int samples = 16;                                   ///< paths a pixel, a power of two
+    int bounces = 1;                                    ///< other surfaces that light may meet
+    double blur = 0.0;                                  ///< pixel, standard deviation of the lens's blur
+    double near = 0.0, far = 1e9;                       ///< m, depths that are seen
+    enum class By { both, lamps, lobe } by = By::both;  ///< what finds lamps: tests compare them
+  };
+  PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
+             const Setup& setup, const Random& key);
+
+  /// Mean radiance of each pixel of a row.
+  std::vector<Rgb> row(std::size_t row) const;
+
+ private:
+  struct Vertex {
+    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, shades
+    Vec3 to_eye = Vec3::Zero();
+    std::int32_t line = -1;
+    std::uint32_t pixel = 0, sample = 0;  ///< of the block; of the pixel
+    Rgb weight = Rgb::Ones();
+  };
+  struct Scramble {
+    std::uint32_t order, x, y;
+  };
+  struct Block;
+
+  const Surface& surface_of(const Vertex& vertex, int bounce) const;
+  bool mirrors(const Surface& surface, int bounce) const { return bounce == 0 && surface.gloss > 0.0; }
+  Eigen::Vector2d drawn(const Block& block, std::uint32_t pixel, int pair, std::uint32_t sample) const;
+  void start(Block& block, std::size_t row, std::size_t first, std::size_t count) const;
+  void trace_first(Block& block, std::size_t row, std::size_t first) const;
+  void ask_lamps(Block& block, int bounce) const;
+  void follow_lobes(Block& block, int bounce) const;
+  void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;
+
+  const Scenery& scenery_;
+  Lens lens_;
+  Pose pose_;
+  Mat3 turn_;
+  PixelRays rays_;
+  const Surfaces& surfaces_;
+  Surfaces soft_;  ///< those of surfaces that are not seen themselves
+  const Lamps& lamps_;
+  Setup setup_;
+  Random key_;
+  std::uint32_t follow_, onward_;  ///< so many paths of a pixel follow the lobe of what it sees, and go on
+  std::vector<std::array<std::uint32_t, 2>> net_;  ///< points of the unit square, times 2^32
+};
+
+}  // namespace bin_scenes
