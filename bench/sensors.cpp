@@ -106,8 +106,9 @@ void image_time(Run& out, test::Stage& heap) {
   heap.request.parts[0].surface = {0.3, 0.1, 0.4};  // the plate
   heap.scene.sensors = {resolved(sensor, heap.request.bin)};
   SensorRig rig;
-  time(out, "image 1280 x 976, 50 parts, 16 samples, bounces 2", 3.0,
-       [&] { rig.render(heap.scene, {heap.request, heap.models}); });
+  time(out, "image 1280 x 976, 50 parts, 16 samples, bounces 2", 3.0, [&] {
+    rig.render(heap.scene, {heap.request, heap.models});
+  });
 }
 
 void run(Run& out) {
