@@ -71,6 +71,18 @@ void add_audit(CLI::App& app, AuditOptions& o) {
   app.add_flag("--json", o.json, "as JSON");
 }
 
+void add_new(CLI::App& app, NewOptions& o) {
+  app.add_option("PART", o.part, "mesh or CAD file")->required();
+  app.add_option("--count", o.count, "number of parts")->capture_default_str();
+  app.add_option("--sensor", o.sensor, "name of a preset; left out: an ideal camera");
+  app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch; left out: as the file states, or guessed");
+  app.add_option("--solid", o.solid, "of a STEP or IGES file with several");
+  app.add_option("--thickness", o.thickness, "m: makes a shell of an open surface");
+  app.add_option("--out", o.out, "file of the request; its first scene lies beside it")->capture_default_str();
+  app.add_flag("!--no-pour", o.pour, "write the request alone");
+  app.add_flag("--overwrite", o.overwrite, "replace a request that is there");
+}
+
 void add_inspect(CLI::App& app, InspectOptions& o) {
   app.add_option("MODEL", o.model, "mesh or CAD file")->required();
   app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
@@ -168,6 +180,7 @@ int print_reference() {
 }
 
 void add_commands(CLI::App& app, Commands& all) {
+  all.add(app, new_request, "new", "a first request for a part: bin, sensor and comments; pours it once", add_new);
   all.add(app, generate, "generate", "make scenes from a request", add_generate);
   all.add(app, inspect, "inspect", "what a model is, and how well its proxies fit it", add_inspect);
   all.add(app, symmetries, "symmetries", "turns after which a part looks the same, as BOP lists them", add_symmetries);
