@@ -4,6 +4,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
 #include "tool/commands.hpp"
+#include "tool/completion.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -144,6 +145,10 @@ void add_view(CLI::App& app, ViewOptions& o) {
   app.add_option("--out", o.out, "HTML file; left out: SCENE/view.html");
 }
 
+struct CompletionOptions {
+  std::string shell;
+};
+
 struct Command {
   CLI::App* app;
   std::function<int()> run;
@@ -174,6 +179,15 @@ class Commands {
   std::vector<Command> all_;
 };
 
+void add_completion(CLI::App& app, CompletionOptions& o) {
+  app.add_option("SHELL", o.shell, "bash or zsh")->required();
+}
+
+int print_completion(const CompletionOptions& options) {
+  std::cout << completion_script(options.shell);
+  return exit_done;
+}
+
 int print_reference() {
   std::cout << request_reference();
   return exit_done;
@@ -197,6 +211,8 @@ void add_commands(CLI::App& app, Commands& all) {
   all.add(app, audit, "audit",
           "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions", add_audit);
   all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");
+  all.add(app, print_completion, "completion", "script of completion for a shell: source <(bin_scenes completion bash)",
+          add_completion);
   all.add(app, print_reference, "reference", "docs/use/request.md").group("");
 }
 
@@ -206,6 +222,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Commands commands;
   add_commands(app, commands);
+  if (argc > 2 && argv[1] == std::string("complete")) {  // asked by a shell: bin_scenes complete -- WORDS
+    for (const std::string& word : completions(app, {argv + 3, argv + argc})) std::cout << word << "\n";
+    return exit_done;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
