@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS libjs-three)  # the 3-D view of `view` 
 set(CPACK_DEBIAN_TOOL_PACKAGE_SUGGESTS "bin-scenes-ros, python3-bin-scenes")
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_NODE_PACKAGE_DEPENDS
-  "bin-scenes ${exactly}, python3, python3-roslaunch, python3-rospy, python3-rosservice, python3-rostopic, rosout, rosbash, python3-genpy, python3-actionlib-msgs, python3-geometry-msgs, python3-std-msgs")
+  "bin-scenes ${exactly}, python3, python3-genpy, python3-actionlib, python3-actionlib-msgs, python3-geometry-msgs, python3-sensor-msgs, python3-std-msgs, python3-std-srvs, python3-tf2-msgs, python3-visualization-msgs, python3-rosbag, python3-roslaunch, python3-rospy, python3-rosservice, python3-rostopic, rosout, rosbash")
 # roslaunch looks up the machine's own name, which a bare root or container does not know.
 set(CPACK_DEBIAN_NODE_PACKAGE_RECOMMENDS libnss-myhostname)
 set(CPACK_DEBIAN_NODE_PACKAGE_SUGGESTS rviz)

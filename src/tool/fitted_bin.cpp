@@ -25,21 +25,24 @@ constexpr int hull_vertices = 500;
 bool is_guess(double diagonal) {
   return diagonal >= least_guessed && diagonal <= most_guessed;
 }
+bool is_part(double diagonal) {
+  return diagonal >= least_stated && diagonal <= most_stated;
+}
 
 std::string short_number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.4g", value);
   return text;
 }
 std::string in_metres(double value) {
   return short_number(value) + " m";
 }
 
-/// "mm makes it 0.08 m, inch 2 m": the units that make a part of `size` units one that may lie in a bin.
-std::string likely_units(double size, std::optional<Unit> but) {
+/// "mm makes it 0.08 m, inch 2 m": the units that make a part of `size` units one that passes.
+std::string likely_units(double size, bool passes(double diagonal), std::optional<Unit> but = std::nullopt) {
   std::string text;
   for (const Unit unit : {Unit::millimetre, Unit::metre, Unit::inch, Unit::centimetre}) {
-    if (but == unit || !is_guess(size * metres_per(unit))) continue;
+    if (but == unit || !passes(size * metres_per(unit))) continue;
     text += (text.empty() ? "" : ", ") + std::string(name_of(unit)) + (text.empty() ? " makes it " : " ") +
             in_metres(size * metres_per(unit));
   }
@@ -47,8 +50,10 @@ std::string likely_units(double size, std::optional<Unit> but) {
 }
 
 Error unclear(const std::string& what, double size, const std::string& path) {
-  const std::string likely = likely_units(size, std::nullopt);
-  return input_error(what, path, likely.empty() ? "give its unit: --unit mm, cm, m or inch" : "--unit " + likely);
+  std::string likely = likely_units(size, is_guess);
+  if (likely.empty()) likely = likely_units(size, is_part);
+  return input_error(what, path,
+                     likely.empty() ? "no unit makes it one of 1 mm to 2 m: scale the model" : "--unit " + likely);
 }
 
 double rounded_up(double length) {
@@ -67,7 +72,7 @@ ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const 
     chosen.metres = given ? metres_per(*given) : file.report.file_metres_per_unit;
     chosen.reason = given ? "as --unit says" : "as the file states";
     const double diagonal = size * chosen.metres;
-    if (diagonal < least_stated || diagonal > most_stated)
+    if (!is_part(diagonal))
       throw unclear("the part is " + in_metres(diagonal) + " across, " + chosen.reason + ": no part of a bin", size,
                     path);
     return chosen;
@@ -79,7 +84,7 @@ ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const 
   chosen.metres = metres_per(*chosen.unit);
   chosen.reason =
       "guessed: " + std::string(name_of(*chosen.unit)) + " makes it " + in_metres(size * chosen.metres) + " across";
-  const std::string others = likely_units(size, chosen.unit);
+  const std::string others = likely_units(size, is_guess, chosen.unit);
   if (!others.empty()) chosen.reason += "; or else " + others;
   return chosen;
 }

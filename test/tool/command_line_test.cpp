@@ -163,16 +163,18 @@ TEST_F(CommandLine, NewSaysHowTheUnitWasChosenAndRefusesWhatFitsNoBin) {
   };
   EXPECT_EQ(unit_of(0.04, "").substr(0, 8), "unit: m ");
   EXPECT_EQ(unit_of(40, "").substr(0, 8), "unit: mm");
-  EXPECT_NE(unit_of(8, "").find("inch makes it 0.352 m"), std::string::npos);  // 13.9 mm, or 13.9 inch
+  EXPECT_NE(unit_of(8, "").find("inch makes it 0.352"), std::string::npos);  // 13.9 mm, or 13.9 inch
   EXPECT_NE(unit_of(1.5, "--unit inch").find("as --unit says"), std::string::npos);
   fs::remove(dir / "out.yaml");
-  for (const double edge : {1.5, 2000.0, 0.0001}) {
+  const std::vector<std::pair<double, std::string>> unclear = {
+      {1.5, "--unit inch makes it 0.06599 m, cm"}, {500.0, "--unit mm makes it 0.866 m"}, {1e5, "scale the model"}};
+  for (const auto& [edge, remedy] : unclear) {
     put("part.stl", box_stl(edge));
-    expect_failure("new part.stl --out out.yaml", 2, {"part.stl", "--unit"});
+    expect_failure("new part.stl --out out.yaml", 2, {"part.stl", remedy});
     EXPECT_FALSE(fs::exists(dir / "out.yaml"));
   }
   put("part.stl", box_stl(40));
-  expect_failure("new part.stl --out out.yaml --unit m", 2, {"as --unit says", "mm makes it 0.0693 m"});
+  expect_failure("new part.stl --out out.yaml --unit m", 2, {"as --unit says", "mm makes it 0.06928 m"});
 }
 
 TEST_F(CommandLine, NewRefusesBadInputAndOverwritesNothing) {
