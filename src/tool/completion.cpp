@@ -1,3 +1,4 @@
+/// From the words of a command line to what may follow: options, keys of requests level by level, presets, files.
 #include "tool/completion.hpp"
 
 #include "bin_scenes/config/materials.hpp"

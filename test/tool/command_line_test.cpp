@@ -167,7 +167,7 @@ TEST_F(CommandLine, NewSaysHowTheUnitWasChosenAndRefusesWhatFitsNoBin) {
   EXPECT_NE(unit_of(1.5, "--unit inch").find("as --unit says"), std::string::npos);
   fs::remove(dir / "out.yaml");
   const std::vector<std::pair<double, std::string>> unclear = {
-      {1.5, "--unit inch makes it 0.06599 m, cm"}, {500.0, "--unit mm makes it 0.866 m"}, {1e5, "scale the model"}};
+      {1.5, "--unit inch makes it 0.06599 m, cm"}, {500.0, "--unit mm makes it 0.866 m"}, {3000.0, "scale the model"}};
   for (const auto& [edge, remedy] : unclear) {
     put("part.stl", box_stl(edge));
     expect_failure("new part.stl --out out.yaml", 2, {"part.stl", remedy});
