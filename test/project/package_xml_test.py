@@ -35,8 +35,8 @@ OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assim
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
         "libocct-data-exchange-dev",  # without it STEP and IGES are not read
         "libjs-three",  # for reports; without it they have no 3-D view
-        # a browser and a cluster, which tests start; where they are missing these tests are skipped
-        "chromium", "slurmctld", "slurmd", "slurm-client", "munge",
+        # a browser, a cluster and a shell, which tests start; where they are missing these tests are skipped
+        "chromium", "slurmctld", "slurmd", "slurm-client", "munge", "zsh",
         # of the shell: rosrun, rosservice, rostopic and rospack, which come with a ROS that has roslaunch
         "rosbash", "rospack-tools", "python3-rosservice", "python3-rostopic"}
 
@@ -67,7 +67,7 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "cad", "run", "report", "tests", "dataset_tests", "bench", "fuzz", "ros",
+                         {"build", "libraries", "pcd", "cad", "run", "report", "tests", "dataset_tests", "bench", "package", "fuzz", "ros",
                           "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])
