@@ -21,7 +21,7 @@ target_link_options(bin_scenes PRIVATE -Wl,-Bsymbolic-functions)
 set_target_properties(bin_scenes PROPERTIES LINKER_LANGUAGE CXX
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-install(DIRECTORY include/bin_scenes DESTINATION include FILES_MATCHING PATTERN *.hpp)
+install(DIRECTORY include/bin_scenes DESTINATION include COMPONENT tool FILES_MATCHING PATTERN *.hpp)
 if(BIN_SCENES_ROS)
   # find_package() reads the file that catkin writes (bin_scenesConfig.cmake, with its version), and that the targets.
   set(libraries ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -39,6 +39,6 @@ else()
   install(FILES ${development}/bin_scenesConfig.cmake ${development}/bin_scenesConfigVersion.cmake
     DESTINATION ${package})
 endif()
-install(TARGETS bin_scenes EXPORT bin_scenes DESTINATION ${libraries})
+install(TARGETS bin_scenes EXPORT bin_scenes DESTINATION ${libraries} COMPONENT tool)
 install(EXPORT bin_scenes NAMESPACE bin_scenes:: FILE bin_scenesTargets.cmake DESTINATION ${package})
 export(EXPORT bin_scenes NAMESPACE bin_scenes:: FILE ${development}/bin_scenesTargets.cmake)

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace bin_scenes {
@@ -23,10 +24,14 @@ void make_directory(const fs::path& path) {
     throw environment_error("cannot be made: " + error.message(), path.string(), "check permissions and space");
 }
 
+std::vector<std::string> scene_formats() {
+  return {"json", "pcd", "ply", "png", "bop", "bag", "mcap"};
+}
+
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
+  const std::vector<std::string> known = scene_formats();
   for (const std::string& format : formats) {
-    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag", "mcap"};
-    if (known.count(format) == 0)
+    if (std::find(known.begin(), known.end(), format) == known.end())
       throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag or mcap");
   }
   for (const auto& [recording, writable] :

@@ -19,6 +19,8 @@ namespace bin_scenes {
 
 /// Throws an environment Error if a directory cannot be made.
 void make_directory(const std::filesystem::path& path);
+/// All that are known, whether this build has them or not.
+std::vector<std::string> scene_formats();
 /// Throws Error for formats that are unknown, or that this build lacks. `where`: the option that names them.
 void check_formats(const std::set<std::string>& formats, const std::string& where);
 /// Before hours of simulation, not after them: the nearest directory that exists has to take new files.

@@ -5,6 +5,7 @@
 #include "tool/audit_page.hpp"
 #include "tool/audit_state.hpp"
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -116,17 +117,24 @@ int audit(const AuditOptions& options) {
   }
   const fs::path root(options.directory);
   const bool own = fs::exists(root / "dataset.json") && options.bin.empty() && !options.floor;
+  ProgressBar bar;
+  bar.stage(0.0, 0.0, "reading the data set");
   const BopSet set = read_bop_set(own ? (root / "bop").string() : options.directory, read);
   AuditFigures figures;
   std::set<fs::path> scenes;
   Auditor auditor(set);
-  for (const AuditHeap& heap : heaps_of(set, figures)) {
-    if (options.most > 0 && figures.heaps == options.most) break;
+  const std::vector<AuditHeap> heaps = heaps_of(set, figures);
+  const std::size_t most = options.most > 0 ? std::min(options.most, heaps.size()) : heaps.size();
+  for (const AuditHeap& heap : heaps) {
+    if (figures.heaps == most) break;
+    bar.show(static_cast<double>(figures.heaps) / static_cast<double>(most),
+             "heap " + std::to_string(figures.heaps + 1) + " of " + std::to_string(most));
     scenes.insert(heap.views.front()->scene);
     AuditBin of_heap = bin;
     if (own) of_heap.inner_size = own_bin(root, *heap.views.front());
     auditor.audit(heap, of_heap, figures);
   }
+  bar.clear();
   figures.scenes = scenes.size();
   const Json json = json_of(figures, bin_text(bin, own), set.world_told);
   if (!options.out.empty()) write_text(options.out, audit_page(options.directory, json, figures));

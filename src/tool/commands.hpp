@@ -24,6 +24,15 @@ struct GenerateOptions {
 };
 int generate(const GenerateOptions& options);
 
+struct NewOptions {
+  std::string part, unit, solid, sensor;  ///< sensor: name of a preset; empty: an ideal camera
+  std::optional<double> thickness;        ///< m, of an open surface
+  std::size_t count = 80;
+  std::string out = "request.yaml";
+  bool pour = true, overwrite = false;
+};
+int new_request(const NewOptions& options);
+
 struct InspectOptions {
   std::string model, unit, solid;
   std::optional<double> chord, angle;  ///< m, rad

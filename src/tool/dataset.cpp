@@ -8,10 +8,9 @@
 #include "dataset/verify.hpp"
 #include "tool/commands.hpp"
 #include "tool/interrupt.hpp"
+#include "tool/progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -38,58 +37,50 @@ void read_shard(const std::string& text, RunOptions& run) {
     throw input_error("expected i/n with i from 0 to n - 1, found '" + text + "'", "--shard", "for instance 0/8");
 }
 
-std::string duration(double seconds) {
-  char text[64];
-  const auto s = static_cast<long>(seconds);
-  std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-  return text;
-}
-
 /// One line on a terminal, or a line of JSON at most twice a second.
 class Teller {
  public:
-  explicit Teller(bool json) : json_(json), terminal_(isatty(STDERR_FILENO) == 1) {}
-  ~Teller() { clear(); }
+  explicit Teller(bool json) : json_(json) {}
 
   void warn(const std::string& text) {
-    clear();
+    bar_.clear();
     std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str());
   }
 
   void tell(const RunProgress& p, bool last = false) {
+    if (!json_) {
+      if (!last) show(p);
+      return;
+    }
     const auto now = std::chrono::steady_clock::now();
     if (!last && told_ && now - time_ < std::chrono::milliseconds(500)) return;
     time_ = now;
     told_ = true;
-    if (json_) {
-      const nlohmann::ordered_json line = {{"phase", p.phase},
-                                           {"heaps", p.heaps},
-                                           {"heaps_done", p.heaps_done},
-                                           {"accepted", p.accepted},
-                                           {"rejected", p.rejected},
-                                           {"failed", p.failed},
-                                           {"scenes_per_hour", p.scenes_per_hour},
-                                           {"remaining_s", p.remaining_s},
-                                           {"finished", last}};
-      std::printf("%s\n", line.dump().c_str());
-      std::fflush(stdout);
-    } else if (terminal_) {
-      std::fprintf(stderr,
-                   "\r\033[K\033[?7l%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h, %s left\033[?7h",
-                   p.phase.c_str(), p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour,
-                   duration(p.remaining_s).c_str());
-      std::fflush(stderr);
-      shown_ = true;
-    }
+    const nlohmann::ordered_json line = {{"phase", p.phase},
+                                         {"heaps", p.heaps},
+                                         {"heaps_done", p.heaps_done},
+                                         {"accepted", p.accepted},
+                                         {"rejected", p.rejected},
+                                         {"failed", p.failed},
+                                         {"scenes_per_hour", p.scenes_per_hour},
+                                         {"remaining_s", p.remaining_s},
+                                         {"finished", last}};
+    std::printf("%s\n", line.dump().c_str());
+    std::fflush(stdout);
   }
 
  private:
-  void clear() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-    shown_ = false;
+  void show(const RunProgress& p) {
+    char text[200];
+    std::snprintf(text, sizeof text, "%s: %zu of %zu heaps, %zu scenes, %zu rejected, %.0f scenes/h", p.phase.c_str(),
+                  p.heaps_done, p.heaps, p.accepted, p.rejected, p.scenes_per_hour);
+    const bool known = p.remaining_s > 0.0 && p.heaps > 0;
+    bar_.show(p.heaps > 0 ? static_cast<double>(p.heaps_done) / static_cast<double>(p.heaps) : 0.0, text,
+              known ? std::optional<double>(p.remaining_s) : std::nullopt);
   }
 
-  bool json_, terminal_, shown_ = false, told_ = false;
+  bool json_, told_ = false;
+  ProgressBar bar_{false};  // workers are forked
   std::chrono::steady_clock::time_point time_;
 };
 
@@ -132,7 +123,11 @@ int dataset_verify(const VerifyOptions& options) {
     throw input_error("no directory is named", "dataset verify", "name that of a data set");
   constexpr std::size_t most = 100;  // findings that are printed
   Findings findings;
-  verify_dataset({options.directory}, findings);
+  {
+    ProgressBar bar;
+    bar.stage(0.0, 1.0, "reading the data set");
+    verify_dataset({options.directory}, findings);
+  }
   std::size_t tried = 0;
   for (const auto& [name, count] : findings.checked()) tried += count;
   const std::vector<Finding> found = findings.sorted();
@@ -144,7 +139,10 @@ int dataset_verify(const VerifyOptions& options) {
 }
 
 int dataset_merge(const MergeOptions& options) {
+  ProgressBar bar;
+  bar.stage(0.0, 1.0, "joining shares");
   const Merged merged = merge_datasets(options.shares, options.out, &listen());
+  bar.clear();
   std::printf("%zu scenes in %s; %zu attempts set apart\n", merged.scenes, options.out.c_str(), merged.rejected);
   if (merged.missing == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu heaps are in no share; make them, and merge again\n", merged.missing);

@@ -13,9 +13,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <set>
+#include <sstream>
 
 namespace bin_scenes {
 
@@ -52,6 +54,15 @@ std::vector<std::pair<std::size_t, std::size_t>> missing_runs(const Request& req
   const std::size_t end = request.first + request.scenes;
   if (next < end) runs.emplace_back(next, end - next);
   return runs;
+}
+
+std::string text_of(const Progress& progress) {
+  std::ostringstream text;
+  text << "scene " << progress.scene << " " << progress.phase;
+  if (progress.simulated_s > 0)  // other phases know nothing of rest
+    text << std::fixed << std::setprecision(2) << ": " << progress.resting << " of " << progress.parts
+         << " parts at rest, " << progress.simulated_s << " s simulated";
+  return text.str();
 }
 
 void print_details(const Scene& scene) {
@@ -153,7 +164,7 @@ int generate(const GenerateOptions& options) {
   Generator::Options run;
   run.render = store.needs_images();
   run.hooks.cancel = &interrupted;
-  run.hooks.progress = [&](const Progress& progress) { bar.show(progress); };
+  run.hooks.progress = [&](const Progress& progress) { bar.show(progress.fraction, text_of(progress)); };
   if (!options.trace.empty()) {
     trace = open_trace(options.trace, request);
     run.hooks.trace_rate = options.trace_rate;

@@ -5,6 +5,8 @@
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
+#include "tool/unit_option.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -85,7 +87,7 @@ HullOptions default_hulls() {
 }
 
 /// What each solver makes of the part with its default settings. Errors are fractions of the diagonal.
-Json proxies_json(const PartModel& part) {
+Json proxies_json(const PartModel& part, ProgressBar& bar) {
   const SolverSettings defaults;
   VoxelOptions voxels;
   voxels.voxels = defaults.thesis.voxels;
@@ -96,17 +98,24 @@ Json proxies_json(const PartModel& part) {
   samples.count = defaults.sphere.fine_samples;
   const HullOptions hulls = default_hulls();
 
+  bar.stage(0.25, 0.35, "distance field");
   const auto& nodes = part.field(field).nodes;
+  const Json field_error = json_of(part.field_error(field));
+  bar.stage(0.35, 0.45, "spheres");
+  const Json sphere_error = json_of(part.sphere_error(voxels));
+  bar.stage(0.45, 0.85, "convex hulls");
   const ConvexHulls& decomposition = part.hulls(hulls);
-  return {{"spheres", {{"count", part.spheres(voxels).spheres.size()}, {"error", json_of(part.sphere_error(voxels))}}},
+  bar.stage(0.85, 1.0, "errors of the convex hulls");
+  const Json hull_error = json_of(part.hull_error(hulls));
+  return {{"spheres", {{"count", part.spheres(voxels).spheres.size()}, {"error", sphere_error}}},
           {"samples", {{"count", part.samples(samples).samples.size()}}},
-          {"field", {{"nodes", nodes}, {"error", json_of(part.field_error(field))}}},
+          {"field", {{"nodes", nodes}, {"error", field_error}}},
           {"hulls",
            {{"count", decomposition.hulls.size()},
             {"met", decomposition.met},
             {"surface_error", decomposition.surface_error},
             {"volume_error", decomposition.volume_error},
-            {"error", json_of(part.hull_error(hulls))}}}};
+            {"error", hull_error}}}};
 }
 
 /// `bin_scenes symmetries` tells more.
@@ -123,17 +132,14 @@ Json symmetries_json(const PartModel& part) {
 Json inspection(const InspectOptions& options) {
   LoadOptions load;
   load.require_closed = false;
-  if (!options.unit.empty()) {
-    for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch}) {
-      if (options.unit == name_of(unit)) load.unit = unit;
-    }
-    if (!load.unit) throw input_error("unknown unit '" + options.unit + "'", "--unit", "m, cm, mm or inch");
-  }
+  load.unit = unit_given(options.unit);
   load.solid = options.solid;
   load.tessellation.chord = options.chord;
   if (options.angle) load.tessellation.angle = *options.angle;
   const std::string cache = Cache::global().directory();
   const std::size_t before = files_below(cache);
+  ProgressBar bar;
+  bar.stage(0.0, 0.1, "reading " + options.model);
   const PartModelPtr part = PartModel::load(options.model, load);
   const LoadReport& report = part->load_report();
   const Aabb box = part->mesh().bounds();
@@ -148,8 +154,9 @@ Json inspection(const InspectOptions& options) {
   json["open_edges"] = report.open_edges;
   if (report.closed) {  // an open surface has no volume, and nothing can be made of it
     json["mass_properties"] = mass_json(part->mass());
+    bar.stage(0.1, 0.25, "symmetries");
     json["symmetries"] = symmetries_json(*part);
-    json["proxies"] = proxies_json(*part);
+    json["proxies"] = proxies_json(*part, bar);
     if (!options.hulls.empty()) write_hulls_obj(part->hulls(default_hulls()), options.hulls);
   } else if (!options.hulls.empty()) {
     throw input_error("an open surface has no convex hulls", options.model,

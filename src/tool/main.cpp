@@ -4,6 +4,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
 #include "tool/commands.hpp"
+#include "tool/completion.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -72,6 +73,18 @@ void add_audit(CLI::App& app, AuditOptions& o) {
   app.add_flag("--json", o.json, "as JSON");
 }
 
+void add_new(CLI::App& app, NewOptions& o) {
+  app.add_option("PART", o.part, "mesh or CAD file")->required();
+  app.add_option("--count", o.count, "number of parts")->capture_default_str();
+  app.add_option("--sensor", o.sensor, "name of a preset; left out: an ideal camera");
+  app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch; left out: as the file states, or guessed");
+  app.add_option("--solid", o.solid, "of a STEP or IGES file with several");
+  app.add_option("--thickness", o.thickness, "m: makes a shell of an open surface");
+  app.add_option("--out", o.out, "file of the request; its first scene lies beside it")->capture_default_str();
+  app.add_flag("!--no-pour", o.pour, "write the request alone");
+  app.add_flag("--overwrite", o.overwrite, "replace a request that is there");
+}
+
 void add_inspect(CLI::App& app, InspectOptions& o) {
   app.add_option("MODEL", o.model, "mesh or CAD file")->required();
   app.add_option("--unit", o.unit, "unit of the file: m, cm, mm or inch");
@@ -133,6 +146,10 @@ void add_view(CLI::App& app, ViewOptions& o) {
   app.add_option("--out", o.out, "HTML file; left out: SCENE/view.html");
 }
 
+struct CompletionOptions {
+  std::string shell;
+};
+
 struct Command {
   CLI::App* app;
   std::function<int()> run;
@@ -163,12 +180,22 @@ class Commands {
   std::vector<Command> all_;
 };
 
+void add_completion(CLI::App& app, CompletionOptions& o) {
+  app.add_option("SHELL", o.shell, "bash or zsh")->required();
+}
+
+int print_completion(const CompletionOptions& options) {
+  std::cout << completion_script(options.shell);
+  return exit_done;
+}
+
 int print_reference() {
   std::cout << request_reference();
   return exit_done;
 }
 
 void add_commands(CLI::App& app, Commands& all) {
+  all.add(app, new_request, "new", "a first request for a part: bin, sensor and comments; pours it once", add_new);
   all.add(app, generate, "generate", "make scenes from a request", add_generate);
   all.add(app, inspect, "inspect", "what a model is, and how well its proxies fit it", add_inspect);
   all.add(app, symmetries, "symmetries", "turns after which a part looks the same, as BOP lists them", add_symmetries);
@@ -185,6 +212,8 @@ void add_commands(CLI::App& app, Commands& all) {
   all.add(app, audit, "audit",
           "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions", add_audit);
   all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");
+  all.add(app, print_completion, "completion", "script of completion for a shell: source <(bin_scenes completion bash)",
+          add_completion);
   all.add(app, print_reference, "reference", "docs/use/request.md").group("");
 }
 
@@ -194,6 +223,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Commands commands;
   add_commands(app, commands);
+  if (argc > 2 && argv[1] == std::string("complete")) {  // asked by a shell: bin_scenes complete -- WORDS
+    for (const std::string& word : completions(app, {argv + 3, argv + argc})) std::cout << word << "\n";
+    return exit_done;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -1,41 +1,140 @@
 #include "tool/progress_bar.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <string>
+#include <cstdlib>
+#include <cstring>
 
 namespace bin_scenes {
 
 namespace {
-constexpr int bar_width = 20;                    ///< characters; leaves room for the text in 80 columns
-constexpr std::chrono::milliseconds pause(100);  ///< between two updates: a terminal is slow
+
+constexpr std::chrono::milliseconds pause(100);   ///< between two updates: a terminal is slow
+constexpr std::chrono::milliseconds unseen(500);  ///< of a job: what is done by then needs no bar
+constexpr const char* erase_line = "\r\033[K";
+
+bool draws() {
+  const char* kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && kind && *kind && std::strcmp(kind, "dumb") != 0;
+}
+
+std::size_t columns_of_terminal() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+bool wants_colors() {  // no-color.org
+  const char* no = std::getenv("NO_COLOR");
+  return !no || !*no;
+}
+
+/// Without stdio, whose locks a forked child could find taken.
+void put(const std::string& text) {
+  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+}
+
+double seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+std::string clock_text(double seconds) {
+  const long s = std::lround(std::min(seconds, 3.6e8));
+  char text[48];
+  if (s < 3600)
+    std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+  return text;
+}
+
 }  // namespace
 
-ProgressBar::ProgressBar() : terminal_(::isatty(STDERR_FILENO) == 1) {}
+std::string progress_line(double fraction, const std::string& text, double spent, std::optional<double> left,
+                          std::size_t columns, bool colors) {
+  const bool known = fraction >= 0.001;
+  if (!left && known) left = spent * (1.0 - fraction) / fraction;
+  std::string behind = left ? ", " + clock_text(*left) + " left" : ", " + clock_text(spent);
+  std::string bar, percent;
+  if (known) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "%3.0f %% ", 100.0 * std::min(fraction, 1.0));
+    percent = digits;
+  }
+  const std::size_t width = columns >= 60 ? 20 : columns >= 40 ? 10 : 0;
+  if (width > 0) {
+    const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width));
+    const std::string done(full, '#'), rest(width - full, '.');
+    bar = "[" + (colors && full > 0 ? "\033[32m" + done + "\033[0m" : done) + rest + "] ";
+  }
+  const std::size_t before = (width > 0 ? width + 3 : 0) + percent.size();
+  if (before + behind.size() >= columns) behind.clear();
+  const std::size_t room = columns > before + behind.size() ? columns - before - behind.size() : 0;
+  return bar + percent + text.substr(0, room) + behind;
+}
+
+ProgressBar::ProgressBar(bool ticking)
+    : terminal_(draws()), ticking_(ticking && terminal_), start_(Clock::now()), last_(start_) {
+  if (ticking_) thread_ = std::thread([this] { tick(); });
+}
+
 ProgressBar::~ProgressBar() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    over_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
   clear();
 }
 
-void ProgressBar::show(const Progress& progress) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || (shown_ && now - last_ < pause)) return;
+void ProgressBar::show(double fraction, const std::string& text, std::optional<double> left) {
+  set({fraction, fraction, text, left, Clock::now()});
+}
+
+void ProgressBar::stage(double from, double to, const std::string& text) {
+  set({from, to, text, std::nullopt, Clock::now()});
+}
+
+void ProgressBar::set(const State& state) {
+  if (!terminal_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_ = state;
+  if (state.since - last_ >= pause) draw();
+}
+
+void ProgressBar::draw() {
+  const Clock::time_point now = Clock::now();
+  if (!state_ || now - start_ < unseen) return;
   last_ = now;
   shown_ = true;
-  const int full = static_cast<int>(progress.fraction * bar_width);
-  const std::string bar = std::string(full, '#') + std::string(bar_width - full, '.');
-  // Without wrapping (?7l), so that a narrow terminal cuts the line and has but one to clear.
-  std::fprintf(stderr, "\r\033[K\033[?7l[%s] scene %zu %s", bar.c_str(), progress.scene, progress.phase.c_str());
-  if (progress.simulated_s > 0) {  // other phases know nothing of rest
-    std::fprintf(stderr, ": %zu of %zu parts at rest, %.2f s", progress.resting, progress.parts, progress.simulated_s);
+  const double before = seconds(state_->since - start_), in_stage = seconds(now - state_->since);
+  double fraction = state_->from;
+  if (state_->to > state_->from && state_->from > 0.0) {  // nears its end, and never gets there by itself
+    const double expected = std::max(before, 0.1) * (state_->to - state_->from) / state_->from;
+    fraction += (state_->to - state_->from) * (1.0 - std::exp(-in_stage / expected));
   }
-  std::fputs("\033[?7h", stderr);
-  std::fflush(stderr);
+  std::optional<double> left = state_->left;
+  if (!left && state_->to == state_->from && fraction >= 0.001)  // runs down until the caller tells more
+    left = std::max(0.0, before * (1.0 - fraction) / fraction - in_stage);
+  // The last column stays free: a terminal may go to the next line behind it.
+  put(erase_line +
+      progress_line(fraction, state_->text, before + in_stage, left, columns_of_terminal() - 1, wants_colors()));
+}
+
+void ProgressBar::tick() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!wake_.wait_for(lock, pause, [this] { return over_; })) draw();
 }
 
 void ProgressBar::clear() {
-  if (shown_) std::fputs("\r\033[K", stderr);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (shown_) put(erase_line);
   shown_ = false;
+  state_.reset();
 }
 
 }  // namespace bin_scenes

@@ -1,22 +1,53 @@
-/// One line on a terminal that says how far a job is; nothing anywhere else.
+/// One line on a terminal that says how far a job is and how long it still takes; nothing anywhere else.
 #pragma once
 
-#include "bin_scenes/pour/pour.hpp"
-
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
 
 namespace bin_scenes {
 
 class ProgressBar {
  public:
-  ProgressBar();  ///< on standard error, if that is a terminal
+  /// Draws on standard error, if that is a terminal that can, from half a second on: what is done sooner needs no bar.
+  /// @param ticking  a thread redraws while the caller is busy. Not for a process that forks and goes on in the child.
+  explicit ProgressBar(bool ticking = true);
   ~ProgressBar();
-  void show(const Progress& progress);
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// @param left  seconds, where the caller knows better than by the fraction and the time spent
+  void show(double fraction, const std::string& text, std::optional<double> left = std::nullopt);
+  /// A stage that tells nothing until it ends: shares of the whole job at its beginning and its end, by experience.
+  void stage(double from, double to, const std::string& text);
   void clear();  ///< before other text
 
  private:
-  bool terminal_, shown_ = false;
-  std::chrono::steady_clock::time_point last_;
+  using Clock = std::chrono::steady_clock;
+  struct State {
+    double from = 0.0, to = 0.0;  ///< share of the job done, and at the end of the stage
+    std::string text;
+    std::optional<double> left;
+    Clock::time_point since;
+  };
+  void set(const State& state);
+  void draw();
+  void tick();
+
+  bool terminal_, ticking_, shown_ = false, over_ = false;
+  Clock::time_point start_, last_;
+  std::optional<State> state_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::thread thread_;
 };
+
+/// The line itself, at most `columns` wide, colours not counted. `fraction` below 0.001 is not known yet, then the time
+/// spent stands for the time left.
+std::string progress_line(double fraction, const std::string& text, double spent, std::optional<double> left,
+                          std::size_t columns, bool colors);
 
 }  // namespace bin_scenes

@@ -1,6 +1,7 @@
 #include "dataset/report.hpp"
 
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
 
 #include <cstdio>
 
@@ -8,7 +9,10 @@ namespace bin_scenes {
 
 int report(const ReportOptions& options) {
   const std::string path = options.out.empty() ? options.directory + "/report.html" : options.out;
+  ProgressBar bar;
+  bar.stage(0.0, 1.0, "reading the data set");
   const ReportResult result = write_report(options.directory, path);
+  bar.clear();
   std::printf("%s: %zu scenes, %zu pictures, %.1f MB\n", path.c_str(), result.scenes, result.pictures,
               static_cast<double>(result.bytes) / 1e6);
   if (!result.in_3d)

@@ -2,6 +2,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/metrics.hpp"
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
 #include "tool/sensor_plot.hpp"
 
 #include <nlohmann/json.hpp>
@@ -96,7 +97,10 @@ void print_text(const Sensor& sensor, const SensorMetrics& m) {
 int sensor(const SensorOptions& options) {
   const bool file = std::filesystem::is_regular_file(options.sensor);
   const Sensor sensor = file ? read_sensor_file(options.sensor) : sensor_preset(options.sensor);
+  ProgressBar bar;
+  bar.stage(0.0, 1.0, "measuring plates and balls");
   const SensorMetrics metrics = measure_sensor(sensor);
+  bar.clear();
   if (!options.plot.empty()) write_sigma_plot(options.plot, metrics);
   if (options.json) {
     std::cout << json_of(sensor, metrics).dump(1) << "\n";

@@ -2,7 +2,9 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
 #include "tool/symmetry_picture.hpp"
+#include "tool/unit_option.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -22,10 +24,7 @@ LoadOptions options_of(const std::string& unit, const std::string& solid) {
   LoadOptions load;
   load.solid = solid;
   load.require_closed = false;
-  if (unit.empty()) return load;
-  for (const Unit known : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
-    if (unit == name_of(known)) load.unit = known;
-  if (!load.unit) throw input_error("unknown unit '" + unit + "'", "--unit", "m, cm, mm or inch");
+  load.unit = unit_given(unit);
   return load;
 }
 
@@ -72,15 +71,19 @@ void print(const PartModel& part, const SymmetryReport& report) {
 }  // namespace
 
 int symmetries(const SymmetriesOptions& options) {
+  ProgressBar bar;
+  bar.stage(0.0, 0.3, "reading " + options.model);
   const PartModelPtr part = PartModel::load(options.model, options_of(options.unit, options.solid));
   if (options.tolerance_mm && !(*options.tolerance_mm > 0.0 && *options.tolerance_mm < millimetres * part->diagonal()))
     throw input_error(
         "must be above 0 and below the part's size, " + std::to_string(millimetres * part->diagonal()) + " mm",
         "--tolerance", "mm; left out: a hundredth of the size");
+  bar.stage(0.3, 1.0, "symmetries");
   const SymmetryReport report = options.tolerance_mm
                                     ? examine_symmetries(*part, *options.tolerance_mm / millimetres / part->diagonal())
                                     : examine_symmetries(*part);
   if (!options.picture.empty()) write_symmetry_picture(options.picture, part, report.symmetries);
+  bar.clear();
   if (options.json)
     std::printf("%s\n", json_of(*part, report).dump(1).c_str());
   else

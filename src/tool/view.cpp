@@ -4,6 +4,7 @@
 #include "core/read_file.hpp"
 #include "dataset/page.hpp"
 #include "tool/commands.hpp"
+#include "tool/progress_bar.hpp"
 #include "tool/view_cloud.hpp"
 #include "tool/view_models.hpp"
 
@@ -140,6 +141,8 @@ int view(const ViewOptions& options) {
   if (library.empty())
     throw environment_error("three.js, which draws the page, was not found", "view",
                             "install Debian's package libjs-three");
+  ProgressBar bar;
+  bar.stage(0.0, 1.0, "reading models and clouds");
   Json data;
   try {
     data = view_data(Json::parse(read_file(file.string())), folder, options.models);
@@ -151,6 +154,7 @@ int view(const ViewOptions& options) {
   put(page, "/*THREE*/", library);
   put(page, "/*DATA*/null", for_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)));
   write_text(path, page);
+  bar.clear();
   std::printf("%s: %zu parts, %zu clouds, %.1f MB\n", path.c_str(), data["parts"].size(), data["clouds"].size(),
               static_cast<double>(page.size()) / 1e6);
   if (data["clouds"].empty())

@@ -37,8 +37,8 @@ OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assim
         "libfastcdr-dev",  # neither of it: its key is of ROS 2
         "libocct-data-exchange-dev",  # without it STEP and IGES are not read
         "libjs-three",  # for reports; without it they have no 3-D view
-        # node, a browser and a cluster, which tests start; where they are missing these tests are skipped
-        "nodejs", "npm", "chromium", "slurmctld", "slurmd", "slurm-client", "munge",
+        # node, a browser, a cluster and a shell, which tests start; where they are missing these tests are skipped
+        "nodejs", "npm", "chromium", "slurmctld", "slurmd", "slurm-client", "munge", "zsh",
         # of the shell: rosrun, rosservice, rostopic and rospack, which come with a ROS that has roslaunch
         "rosbash", "rospack-tools", "python3-rosservice", "python3-rostopic"}
 
@@ -69,8 +69,8 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "fuzz", "readers",
-                          "ros",
+                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "package", "fuzz",
+                          "readers", "ros",
                           "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
         self.assertIn("rosbash", self.arrays["ros"])

@@ -1,0 +1,43 @@
+/// What a first request needs to know of a part: in which unit its file is, how large a bin its heap wants, and where a
+/// sensor sees that bin.
+#pragma once
+
+#include "bin_scenes/mesh/mesh_loader.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+#include <optional>
+#include <string>
+
+namespace bin_scenes {
+
+struct ChosenUnit {
+  std::optional<Unit> unit;  ///< none: the file's own
+  double metres = 1.0;       ///< per unit of the file
+  std::string reason;        ///< for people
+};
+
+/// The unit that --unit gives, the file states, or its size tells: mm or m, if only one of them makes a part of 5 mm to
+/// 0.6 m. Throws an input Error that names the units that may be meant.
+/// @param file  loaded in metres, or in the unit that it states
+ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const std::string& path);
+
+struct FittedBin {
+  Vec3 inner_size;     ///< m
+  double level = 0.0;  ///< m: mean height of the heap
+  double hull = 0.0;   ///< m3: convex hull of one part
+};
+
+/// A box with sides of 4 : 3 in which `count` parts lie about a fifth of its length high, but wide enough for one part
+/// in any direction; its rim is above the heap's top.
+FittedBin fit_bin(const Mesh& part, std::size_t count);
+
+struct SensorPlace {
+  std::optional<double> height;  ///< m above the floor, looking down; none: where the sensor stands by default
+  double distance = 0.0;         ///< m from the camera to the floor
+  std::string warning;           ///< empty, or what it cannot see
+};
+
+/// Where the sensor stands by default, the whole bin in view, or as far as its range allows.
+SensorPlace place_sensor(const Sensor& sensor, const Bin& bin);
+
+}  // namespace bin_scenes

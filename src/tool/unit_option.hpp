@@ -1,0 +1,21 @@
+/// The option --unit.
+#pragma once
+
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/scene/request.hpp"
+#include "scene/keys.hpp"
+
+#include <optional>
+#include <string>
+
+namespace bin_scenes {
+
+/// None if the option was not given. Throws an input Error.
+inline std::optional<Unit> unit_given(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  for (const auto& [name, unit] : names(Unit{}))
+    if (text == name) return unit;
+  throw input_error("unknown unit '" + text + "'", "--unit", "m, cm, mm or inch");
+}
+
+}  // namespace bin_scenes
