@@ -25,9 +25,9 @@ void make_directory(const fs::path& path) {
 
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
   for (const std::string& format : formats) {
-    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag"};
+    static const std::set<std::string> known = {"json", "pcd", "ply", "png", "bop", "bag", "grasps"};
     if (known.count(format) == 0)
-      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop or bag");
+      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag or grasps");
   }
   if (formats.count("bag") && !bag_writer()) {
     throw environment_error("this build has no ROS and writes no bags", where, "build with -DBIN_SCENES_ROS=ON");
@@ -95,6 +95,8 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
     if (formats.count("png")) write_pngs(folder, image);
   }
   if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
+  if (formats.count("grasps") && result.grasps)
+    write_text((base / "grasps.json").string(), grasps_json(*result.grasps, result.scene, loaded.request));
   write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
 }
 

@@ -34,7 +34,7 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--scenes", o.scenes, "number of scenes");
   app.add_option("--first", o.first, "index of the first scene, to split a job");
   app.add_option("--solver", o.solver, "auto, sphere or bullet");
-  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag; scene.json is always written")
+  app.add_option("--formats", o.formats, "of json, pcd, ply, png, bop, bag, grasps; scene.json is always written")
       ->delimiter(',');
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");

@@ -1,6 +1,6 @@
 /// The directory of a job: one folder a scene, which appears under its name only when it is whole.
 ///
-///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag
+///     DIR/scene_000007/            scene.json, grasps.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it
@@ -31,7 +31,8 @@ class SceneStore {
   SceneStore(const std::string& directory, const std::vector<std::string>& formats, bool verify = false);
 
   bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
-  bool needs_images() const;   ///< some format holds what sensors see, if there are any
+  bool needs_grasps() const;
+  bool needs_images() const;  ///< some format holds what sensors see, if there are any
 
   /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
