@@ -15,8 +15,9 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr std::size_t points_tried = 420;
+constexpr std::size_t points_tried = 700;
 constexpr int turns = 16;                ///< of the gripper about its closing axis
+constexpr double towards_tip = 0.3;      ///< of the pad's length: the pair lies in its middle, or so far from there
 constexpr double same_place = 1e-6;      ///< / diagonal: lengths of rounding
 constexpr double least_contact = 0.005;  ///< share of the pad
 
@@ -100,6 +101,13 @@ bool meets_part(const std::vector<Sweep>& sweeps, const MeshQuery& query, const 
   return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.meets(query, part); });
 }
 
+/// Whether the gripper meets the part itself as it comes or closes. The pads touch it, which is none.
+bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp) {
+  const double shrink = -10.0 * same_place * part.diagonal();
+  return meets_part(approach_sweeps(gripper, grasp.width, part.diagonal(), shrink), part.query(), grasp.pose) ||
+         meets_part(closing_sweeps(gripper, grasp.width, shrink), part.query(), grasp.pose);
+}
+
 /// Contact points of both pads in the gripper's frame, whose middle is between them.
 std::vector<Vec3> pad_contacts_of(const PadContact& right, const PadContact& left, double width) {
   std::vector<Vec3> points;
@@ -163,18 +171,16 @@ std::vector<Grasp> parallel_grasps(const PartModel& part, const Gripper& gripper
   std::vector<Grasp> grasps;
   const Mat3 principal = part.mass().principal_axes.toRotationMatrix();
   const PairFinder finder(part, gripper, friction, counts);
-  const double shrink = -10.0 * same_place * part.diagonal();  // the pads touch the part
   for (const SpreadPoint& start : spread_points(part.mesh(), points_tried)) {
     stop_if_cancelled();
     for (const Pair& pair : finder.from(start)) {
-      counts.tried += turns - 1;
-      for (int turn = 0; turn < turns; ++turn) {
-        const Pose pose = pose_about(pair, principal, 2.0 * M_PI * turn / turns);
+      counts.tried += 2 * turns - 1;
+      for (int turn = 0; turn < 2 * turns; ++turn) {
+        Pose pose = pose_about(pair, principal, 2.0 * M_PI * (turn / 2) / turns);
+        if (turn % 2) pose.position -= towards_tip * gripper.pad_length * (pose.orientation * Vec3::UnitZ());
         const auto grasp = close_fingers(part, gripper, friction, pose, (pair.near - pair.far).norm(), counts);
         if (!grasp) continue;
-        const double back = part.diagonal();
-        if (meets_part(approach_sweeps(gripper, grasp->width, back, shrink), part.query(), grasp->pose) ||
-            meets_part(closing_sweeps(gripper, grasp->width, shrink), part.query(), grasp->pose)) {
+        if (goes_through(part, gripper, *grasp)) {
           ++counts.collision;
           continue;
         }

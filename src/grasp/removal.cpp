@@ -86,16 +86,19 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, d
   if (!swept.overlaps(other.box)) return false;
   const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
   // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
-  // along each other when the overlap is taken out; only what is still in the way then counts.
+  // along each other when the overlap is taken out and a gripper gives way a little; only what is still in the way then
+  // counts.
   for (const double raise : {1e-5, 2e-4, 2e-3}) {
-    Pose pose = nudged(part, way, raise * smaller, smaller);
-    double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
+    const Pose pose = nudged(part, way, raise * smaller, smaller);
+    const double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
     if (free > 0.0) return free < limit;
     const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
     if (overlap.depth > most_overlap * smaller) return true;
-    pose.position -= (overlap.depth + 1e-6 * smaller) * overlap.direction;
-    free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
-    if (free >= limit) return false;
+    for (const double play : {1e-6, 1e-3}) {
+      Pose apart = pose;
+      apart.position -= (overlap.depth + play * smaller) * overlap.direction;
+      if (free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit) >= limit) return false;
+    }
   }
   return true;
 }

@@ -15,7 +15,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr std::size_t cups_tried = 1500;
+constexpr std::size_t cups_tried = 5000;
 constexpr int ring_rays = 24, ring_contacts = 8;
 constexpr double rounding = 1e-5;  ///< / diagonal
 

@@ -65,7 +65,7 @@ void expect_grasps_of_a_cube(const PartGrasps& found, const Quat& turn) {
   }
   EXPECT_TRUE(whole_pad);
   EXPECT_GT(found.coverage, 0.6);
-  EXPECT_GE(found.placed.size(), found.grasps.size());
+  EXPECT_GT(found.placed.size(), 100u);
 }
 
 TEST(ParallelGrasps, CubeIsHeldAtItsWidthByParallelFaces) {
@@ -201,9 +201,12 @@ TEST(ParallelGrasps, RingIsHeldAcrossItsWallOrItsHeight) {
   }
   EXPECT_GT(wall, 0u);
   EXPECT_GT(flat, 0u);
-  // No finger of 8 mm opens in a hole of 8 mm.
-  for (const Grasp& grasp : grasps_of(test::ring(0.02, 0.004, height, 48).mesh, two_fingers()).grasps)
-    EXPECT_TRUE(std::abs(grasp.width - height) < 1e-9 || std::abs(grasp.width - 0.04) < 2e-4) << grasp.width;
+  // No finger of 8 mm opens in a hole of 8 mm: what is left is the height, and the whole ring, also off its middle,
+  // where friction f holds a chord of cos(atan f) of the diameter.
+  for (const Grasp& grasp : grasps_of(test::ring(0.02, 0.004, height, 48).mesh, two_fingers()).grasps) {
+    const bool flat_on = std::abs(closing(grasp.pose).z()) > 0.9;
+    EXPECT_NEAR(grasp.width, flat_on ? height : 0.04 / std::hypot(1.0, grasp.friction), 3e-4);
+  }
 }
 
 TEST(ParallelGrasps, PlateIsReachedAsFarAsFingersAreDeep) {
