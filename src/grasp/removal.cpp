@@ -93,11 +93,14 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, d
     const double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
     if (free > 0.0) return free < limit;
     const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
-    if (overlap.depth > most_overlap * smaller) return true;
+    // The other one, to be moved up out of the part, lies on it.
+    if (overlap.depth > most_overlap * smaller || overlap.direction.dot(way) > supports) return true;
     for (const double play : {1e-6, 1e-3}) {
       Pose apart = pose;
       apart.position -= (overlap.depth + play * smaller) * overlap.direction;
-      if (free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit) >= limit) return false;
+      const double then = free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit);
+      if (then >= limit) return false;
+      if (then > most_overlap * smaller) return true;
     }
   }
   return true;
