@@ -17,6 +17,7 @@ struct PlacedPart {
   int id = -1;           ///< -1: the bin
   std::size_t line = 0;  ///< of parts
   bool movable = false;
+  std::vector<Vec3> tops;  ///< of movable parts: points of the surface that look up, spread evenly; bin frame
 };
 
 class PlacedParts {

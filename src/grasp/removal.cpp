@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/quality/quality.hpp"
+#include "grasp/rays.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,16 @@ Pose nudged(const PlacedPart& part, const Vec3& way, double raise, double size) 
   const Quat turn(Eigen::AngleAxisd(1e-4, way));
   const Vec3 moved = raise * way + 1e-5 * size * way.unitOrthogonal();
   return {center + turn * (part.pose.position - center) + moved, (turn * part.pose.orientation).normalized()};
+}
+
+/// Whether a line from the part's surface along the way enters the other one, farther than `from`. A quick yes.
+bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit, double from) {
+  const Pose into = other.pose.inverse();
+  const Vec3 along = into.orientation * way;
+  for (const Vec3& top : part.tops)
+    for (const Passage& passage : passages(*other.mesh, into * top, along, from))
+      if (passage.distance < limit && other.mesh->mesh().area_vector(passage.triangle).dot(along) < 0.0) return true;
+  return false;
 }
 
 double pair_friction(double a, double b) {
@@ -85,6 +96,7 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, d
   swept.extend(Vec3(part.box.upper + limit * way));
   if (!swept.overlaps(other.box)) return false;
   const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
+  if (stands_over(other, part, way, limit, 2e-3 * smaller)) return true;
   // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
   // along each other when the overlap is taken out and a gripper gives way a little; only what is still in the way then
   // counts.
