@@ -150,14 +150,14 @@ PartGrasps part_grasps(const PartModel& part, const Gripper& gripper, double fri
                             [&] { return find_grasps(part, gripper, friction); });
 }
 
-std::string text_of(const GraspCounts& c) {
+std::string text_of(const GraspCounts& c, Gripper::Type type) {
   std::string text = std::to_string(c.tried) + " poses tried";
   const auto add = [&](std::size_t count, const char* why) {
     if (count > 0) text += ", " + std::to_string(count) + " " + why;
   };
   add(c.width, "wider than the stroke");
   add(c.friction, "that friction does not hold");
-  add(c.contact, "where pads do not meet, or the ring leaves the part");
+  add(c.contact, type == Gripper::Type::parallel ? "where the pads do not meet" : "where the ring leaves the part");
   add(c.seal, "that do not seal");
   add(c.collision, "where the gripper meets the part");
   return text;

@@ -248,9 +248,10 @@ std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request) {
   std::vector<Flag> flags;
   for (const SceneGrasps::Found& found : grasps.found) {
     if (found.grasps > 0) continue;
+    const Gripper& gripper = request.grippers[found.gripper];
     flags.push_back({"no_grasp",
-                     "'" + request.grippers[found.gripper].name + "' has no grasp of '" +
-                         request.parts[found.line].model + "': " + text_of(found.counts),
+                     "'" + gripper.name + "' has no grasp of '" + request.parts[found.line].model +
+                         "': " + text_of(found.counts, gripper.type),
                      "choose a gripper that fits the part"});
   }
   return flags;

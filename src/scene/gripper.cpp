@@ -44,7 +44,7 @@ void check_gripper(const Gripper& gripper, const std::string& key) {
                         "lengths are in m; for mm write " + metres(1e-3 * value));
     if (value < shortest)
       throw input_error("is " + metres(value) + ", shorter than any gripper's", key + "." + name,
-                        "lengths are in m; in mm it was perhaps " + metres(1e3 * value));
+                        "lengths are in m; perhaps " + metres(1e3 * value) + " is meant");
   }
   if (gripper.type == Gripper::Type::parallel) {
     if (gripper.pad_length > gripper.finger_depth)

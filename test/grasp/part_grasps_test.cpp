@@ -119,7 +119,7 @@ TEST(ParallelGrasps, NothingIsWiderThanTheStroke) {
   EXPECT_TRUE(found.grasps.empty());
   EXPECT_GT(found.counts.width, 0u);
   EXPECT_EQ(found.counts.good, 0u);
-  EXPECT_NE(text_of(found.counts).find("wider than the stroke"), std::string::npos);
+  EXPECT_NE(text_of(found.counts, gripper.type).find("wider than the stroke"), std::string::npos);
 }
 
 TEST(ParallelGrasps, CylinderIsHeldAcrossOrAlongItsAxis) {

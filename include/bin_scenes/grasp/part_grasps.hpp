@@ -55,7 +55,7 @@ std::string grasp_key(const PartModel& part, const Gripper& gripper, double fric
 /// The same through the disk cache.
 PartGrasps part_grasps(const PartModel& part, const Gripper& gripper, double friction);
 
-/// "no grasp of 'x.stl' by 'two' ...": how many poses failed and why.
-std::string text_of(const GraspCounts& counts);
+/// "5000 poses tried, 120 that do not seal": how many failed, and why.
+std::string text_of(const GraspCounts& counts, Gripper::Type type);
 
 }  // namespace bin_scenes
