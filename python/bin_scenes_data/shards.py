@@ -23,7 +23,7 @@ class Sample:
 
     def raw(self, name):
         """Bytes of a file: depth.png, gray.tiff, rgb.png, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
-        truth_labels.png or truth_normal.png."""
+        truth_labels.png, truth_normal.png, or of plans with output `grasps` grasps.json."""
         offset, size = self._files[name]
         return self._data[offset - self._begin:offset - self._begin + size]
 
@@ -95,6 +95,11 @@ class Sample:
     def info(self):
         """Boxes, counts of pixels and visible fraction, a dict a part: see BOP's scene_gt_info."""
         return self._json("gt_info.json")
+
+    @property
+    def grasps(self):
+        """Grasps of the scene, a dict as grasps.json tells them; poses in the bin and in each camera."""
+        return self._json("grasps.json")
 
     def masks(self, name="mask_visib"):
         """(parts, rows, columns), boolean: what is visible, or with `mask` the whole silhouettes."""

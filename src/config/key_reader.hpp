@@ -46,6 +46,19 @@ template <class Struct>
 void start_from_preset(const YAML::Node&, const std::string&, const Source&, Struct&) {}
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Sensor& sensor);
 void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Surface& surface);
+void start_from_preset(const YAML::Node& map, const std::string& path, const Source& source, Gripper& gripper);
+
+/// The map that an item of a list stands for: of grippers, the name of a preset.
+template <class Struct>
+YAML::Node map_of(const YAML::Node& item, const Struct&) {
+  return item;
+}
+inline YAML::Node map_of(const YAML::Node& item, const Gripper&) {
+  if (!item.IsScalar()) return item;
+  YAML::Node map;
+  map["preset"] = item;
+  return map;
+}
 
 class KeyReader {
  public:
@@ -88,7 +101,9 @@ class KeyReader {
     values.clear();
     for (std::size_t i = 0; i < node.size(); ++i) {
       values.emplace_back();
-      read_map(node[i], path_of(key.name) + "[" + std::to_string(i) + "]", values.back());
+      const std::string path = path_of(key.name) + "[" + std::to_string(i) + "]";
+      source_.remember(path, node[i]);
+      read_map(map_of(node[i], values.back()), path, values.back());
     }
   }
 

@@ -91,14 +91,14 @@ class PlanFile {
     plan_.formats = {"json"};
     if (!node) return;
     if (!node.IsSequence())
-      return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, mcap, bop, shards");
+      return complain("expected a list", "outputs", "of json, pcd, ply, png, bag, mcap, grasps, bop, shards");
     plan_.formats.clear();
     for (const YAML::Node& item : node) {
       const std::string name = item.IsScalar() ? item.Scalar() : "";
-      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "mcap", "bop", "shards"};
+      const std::vector<std::string> known = {"json", "pcd", "ply", "png", "bag", "mcap", "grasps", "bop", "shards"};
       if (std::find(known.begin(), known.end(), name) == known.end())
         complain("unknown output '" + name + "'", "outputs",
-                 "known are json, pcd, ply, png, bag, mcap, bop and shards");
+                 "known are json, pcd, ply, png, bag, mcap, grasps, bop and shards");
       plan_.formats.push_back(name);
     }
   }
@@ -184,7 +184,9 @@ class PlanFile {
     for (const auto& item : node) {
       const std::string name = item.first.Scalar(), key = "depletion." + name;
       source_.remember(key, item.first);
-      if (name == "take") {
+      if (name == "take" && item.second.IsMap() && item.second["order"]) {
+        read_order(item.second, key);
+      } else if (name == "take") {
         state_->take = config::read_number(item.second, key, source_);
       } else if (name == "steps") {
         try {
@@ -198,6 +200,15 @@ class PlanFile {
     }
     check_bounds(state_->take, "depletion.take", 1, 1e6);  // a step that takes nothing would show a scene twice
     if (plan_.depletion.steps > 100'000) complain("must be at most 100000", "depletion.steps", "take more at a time");
+  }
+
+  /// take: {order: grasp}: one part at a time.
+  void read_order(const YAML::Node& take, const std::string& key) {
+    if (take.size() != 1 || !take["order"].IsScalar() || take["order"].Scalar() != "grasp")
+      return complain("expected {order: grasp}", key,
+                      "or a distribution of how many of the highest parts go at a time");
+    plan_.depletion.by_grasp = true;
+    state_->take = config::read_number(YAML::Load("1"), key, source_);
   }
 
   void remember_bop(const YAML::Node& node) {
@@ -362,6 +373,8 @@ class PlanFile {
     const bool bop = plan_.wants("bop") || plan_.wants("shards");
     if ((bop || plan_.wants("png") || plan_.wants("pcd") || plan_.wants("ply")) && request.sensors.empty())
       return "the outputs show what a sensor sees, but the request has no sensors";
+    if ((plan_.wants("grasps") || plan_.depletion.by_grasp) && request.grippers.empty())
+      return "grasps are asked for, but the request has no grippers";
     if (bop && request.sensors.size() != plan_.reference.sensors.size())
       return "BOP has the same number of images in each scene, one a sensor";
     std::string why;

@@ -28,6 +28,7 @@ class KeyWriter {
   }
   template <class Struct>
   void list(const Key& key, std::vector<Struct>& values) {
+    if (!key.written) return;
     text += start(key) + (values.empty() ? ": []\n" : ":\n");
     indent_ += 4;
     for (Struct& value : values) {

@@ -71,6 +71,16 @@ std::vector<int> highest(const Scene& scene, std::size_t count) {
   return ids;
 }
 
+/// The first part of the order of removal that has a free grasp; else the first of the order, else the highest.
+std::vector<int> next_pick(const Scene& scene, const std::optional<SceneGrasps>& grasps) {
+  if (!grasps || grasps->removal_order.empty()) return highest(scene, 1);
+  for (const int id : grasps->removal_order) {
+    const auto free = [&](const SceneGrasp& grasp) { return grasp.part == id && grasp.free(); };
+    if (std::any_of(grasps->grasps.begin(), grasps->grasps.end(), free)) return {id};
+  }
+  return {grasps->removal_order.front()};
+}
+
 SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const nlohmann::json& json) {
   const fs::path path = folder.scene(scene);
   return {scene, path.lexically_relative(folder.root).string(), sha256_of_file((path / "files.json").string()),
@@ -141,7 +151,8 @@ void HeapMaker::make_scenes(std::size_t heap, std::size_t attempt, Attempt& out,
   for (std::size_t step = 0; step <= plan_.depletion.steps; ++step) {
     before = Clock::now();
     if (step > 0) {
-      const std::vector<int> taken = highest(pile.scene(), plan_.take(heap, attempt, step));
+      const std::vector<int> taken = plan_.depletion.by_grasp ? next_pick(out.result->scene, out.result->grasps)
+                                                              : highest(pile.scene(), plan_.take(heap, attempt, step));
       if (taken.empty()) return;  // the bin is empty since the step before
       pile.remove(taken);
     }
@@ -150,6 +161,7 @@ void HeapMaker::make_scenes(std::size_t heap, std::size_t attempt, Attempt& out,
     before = Clock::now();
     Generator::Options options;
     options.render = plan_.formats != std::vector<std::string>{"json"};
+    options.grasps = plan_.wants("grasps") || plan_.depletion.by_grasp;
     options.index = out.request->first + step;
     out.result = generator_.result(pile, options);
     const Scene& scene = out.result->scene;
@@ -196,7 +208,10 @@ void HeapMaker::write_scene(const Generator::Result& result, const LoadedRequest
       write_bop(hidden, bop, plan_.bop, facts_.split_of_scene(scene), plan_.objects.size());
     });
   if (plan_.wants("shards"))
-    folders.write(folder_.samples(scene), [&](const std::string& hidden) { write_bop_samples(hidden, scene, bop); });
+    folders.write(folder_.samples(scene), [&](const std::string& hidden) {
+      write_bop_samples(hidden, scene, bop);
+      if (plan_.wants("grasps")) write_grasp_samples(hidden, result.scene, scene, *result.grasps, loaded.request);
+    });
   const std::set<std::string> formats(plan_.formats.begin(), plan_.formats.end());
   folders.write(folder_.scene(scene), [&](const std::string& hidden) {
     write_scene_files(hidden, formats, result, loaded, plan_.mcap);

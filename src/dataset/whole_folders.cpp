@@ -25,14 +25,14 @@ void make_directory(const fs::path& path) {
 }
 
 std::vector<std::string> scene_formats() {
-  return {"json", "pcd", "ply", "png", "bop", "bag", "mcap"};
+  return {"json", "pcd", "ply", "png", "bop", "bag", "mcap", "grasps"};
 }
 
 void check_formats(const std::set<std::string>& formats, const std::string& where) {
   const std::vector<std::string> known = scene_formats();
   for (const std::string& format : formats) {
     if (std::find(known.begin(), known.end(), format) == known.end())
-      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag or mcap");
+      throw input_error("unknown format '" + format + "'", where, "json, pcd, ply, png, bop, bag, mcap or grasps");
   }
   for (const auto& [recording, writable] :
        {std::pair("bag", bool(bag_writer())), std::pair("mcap", bool(mcap_writer()))}) {
@@ -104,6 +104,8 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
   }
   if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
   if (formats.count("mcap")) mcap_writer()((base / "scene.mcap").string(), mcap, result.scene, loaded, result.images);
+  if (formats.count("grasps") && result.grasps)
+    write_text((base / "grasps.json").string(), grasps_json(*result.grasps, result.scene, loaded.request));
   write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
 }
 

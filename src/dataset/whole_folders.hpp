@@ -36,7 +36,7 @@ bool has_manifest(const std::string& folder);
 /// A folder without the list of its files is of a run that was killed, or of an earlier version.
 bool whole(const std::filesystem::path& folder, bool digests);
 
-/// The files of one scene in the formats json, pcd, ply, png, bag and mcap.
+/// The files of one scene in the formats json, pcd, ply, png, bag, mcap and grasps.
 void write_scene_files(const std::string& folder, const std::set<std::string>& formats, const Generator::Result& result,
                        const LoadedRequest& loaded, McapProfile mcap = McapProfile::ros1);
 

@@ -82,6 +82,7 @@ Request going_on(const Request& request, const Scene& scene, double seconds, std
 struct Generator::State {
   ModelStore models;
   SensorRig rig;
+  Grasper grasper;
 
   struct Prepared {
     std::shared_ptr<Solver> solver;
@@ -152,6 +153,11 @@ struct Generator::State {
     if (options.render && !sensors.empty()) {
       StageTimer timer(spent, "render");
       result.images = rig.render(scene, loaded);
+    }
+    if (options.grasps) {
+      StageTimer timer(spent, "grasps");
+      result.grasps = grasper.find(scene, loaded, result.images);
+      for (const Flag& flag : flags_of(*result.grasps, loaded.request)) scene.report.flags.push_back(flag);
     }
     scene.report.profile.merge(spent);
     if (options.prepare) options.prepare(result);

@@ -48,6 +48,9 @@ std::string six_digits(std::size_t number);
 /// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, of colour images rgb.png, and beside BOP's files
 /// snr.png, truth_labels.png and truth_normal.png.
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images);
+/// grasps.json beside them, the same for all images of the scene.
+void write_grasp_samples(const std::string& directory, const Scene& scene, std::size_t number,
+                         const SceneGrasps& grasps, const Request& request);
 
 /// Run lengths of a mask, column by column from the left, each from the top; the first run is one of zeros (COCO).
 std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height);

@@ -46,12 +46,28 @@ std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height)
   return counts;
 }
 
+namespace {
+
+/// "DIR/000017_000000.": what the names of an image's files begin with.
+std::string sample_base(const std::string& directory, std::size_t scene, std::size_t image) {
+  char key[48];
+  std::snprintf(key, sizeof key, "%06zu_%06zu.", scene, image);
+  return (std::filesystem::path(directory) / key).string();
+}
+
+}  // namespace
+
+void write_grasp_samples(const std::string& directory, const Scene& scene, std::size_t number,
+                         const SceneGrasps& grasps, const Request& request) {
+  const std::string text = grasps_json(grasps, scene, request);
+  for (std::size_t n = 0; n < scene.sensors.size(); ++n)
+    write_text(sample_base(directory, number, n) + "grasps.json", text);
+}
+
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images) {
   for (std::size_t n = 0; n < images.size(); ++n) {
     const BopImage& image = images[n];
-    char key[48];
-    std::snprintf(key, sizeof key, "%06zu_%06zu.", scene, n);
-    const std::string base = (std::filesystem::path(directory) / key).string();
+    const std::string base = sample_base(directory, scene, n);
     write_bytes(base + "depth.png", png16(image.width, image.height, image.counts));
     write_bytes(base + "gray.tiff", tiff8(image.width, image.height, 1, image.gray));
     if (image.seen->picture.channels == 3)

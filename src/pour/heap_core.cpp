@@ -395,7 +395,9 @@ Scene HeapCore::scene() {
   report.flags = solver_.flags(id_);
   report.energy = audit_->worst();
   for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
-  report.jam = worst_jam(plan_->world, states_, solver_.contact_forces(id_));
+  const std::vector<ContactForce> forces = solver_.contact_forces(id_);
+  for (const ContactForce& f : forces) scene.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});
+  report.jam = worst_jam(plan_->world, states_, forces);
   for (Flag& flag : flags_of(report.jam)) report.flags.push_back(std::move(flag));
   if (!report.not_poured.empty())
     report.flags.push_back({"not_poured",

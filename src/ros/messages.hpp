@@ -11,6 +11,7 @@
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatus.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
 #include <ros/builtin_message_traits.h>
@@ -29,6 +30,7 @@
 #include <bin_scenes/ErrorCode.h>
 #include <bin_scenes/GenerateScene.h>
 #include <bin_scenes/GenerateSceneAction.h>
+#include <bin_scenes/GetGrasps.h>
 #include <bin_scenes/PickPart.h>
 #include <bin_scenes/Scene.h>
 #include <bin_scenes/SceneRequest.h>

@@ -3,6 +3,7 @@
 #include "scene_jobs.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "grasp_message.hpp"
 #include "request_message.hpp"
 
 #include <malloc.h>
@@ -78,6 +79,23 @@ std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& re
     return maker_->add(part_lines_from(request.parts, settings_.paths), hooks);
   };
   return submit("add_parts", make, std::move(answer));
+}
+
+std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request& request,
+                                       std::shared_ptr<GraspAnswer> told, Answer answer) {
+  const auto work = [this, request, told](Job& job) {
+    const SceneMaker::Grasps grasps = maker_->grasps(job.hooks());
+    const std::vector<SceneGrasp> chosen = chosen_grasps(grasps.found, request);
+    job.commit();
+    fill(told->response, chosen, grasps.found, grasps.request, settings_.frames, stamp_);
+    told->markers = grasp_markers(chosen, grasps.request, settings_.frames, stamp_);
+    Outcome outcome;
+    outcome.success = true;
+    return outcome;
+  };
+  const auto job = std::make_shared<Job>("get_grasps", work, std::move(answer));
+  queue_.add(job);
+  return job;
 }
 
 std::shared_ptr<Job> SceneJobs::next(Answer answer) {
@@ -159,6 +177,7 @@ Outcome SceneJobs::show(MadeScene made) {
 
   Outcome outcome;
   outcome.scene = publication_.show(std::move(made));
+  stamp_ = outcome.scene.header.stamp;
   maker_->keep(kept);
   if (ahead_) ahead_->follow(kept.asked, kept.scene.index);
   outcome.success = report.accepted;

@@ -7,6 +7,8 @@
 #include "scene_maker.hpp"
 #include "settings.hpp"
 
+#include <visualization_msgs/MarkerArray.h>
+
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -37,6 +39,13 @@ class SceneJobs {
   std::shared_ptr<Job> generate(const bin_scenes_msgs::SceneRequest& request, Answer answer);
   std::shared_ptr<Job> pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer);
   std::shared_ptr<Job> add(const bin_scenes_msgs::AddParts::Request& request, Answer answer);
+  /// Changes nothing. `response` and `markers` are filled before the answer, if it tells success.
+  struct GraspAnswer {
+    bin_scenes_msgs::GetGrasps::Response response;
+    visualization_msgs::MarkerArray markers;
+  };
+  std::shared_ptr<Job> grasps(const bin_scenes_msgs::GetGrasps::Request& request, std::shared_ptr<GraspAnswer> told,
+                              Answer answer);
   std::shared_ptr<Job> next(Answer answer);
   std::shared_ptr<Job> clear(Answer answer);
 
@@ -70,6 +79,7 @@ class SceneJobs {
   mutable std::mutex mutex_;  ///< of live_ and status_
   LiveSettings live_;
   Status status_;
+  ros::Time stamp_;                    ///< of the scene that is shown; of the thread of the jobs
   std::unique_ptr<SceneMaker> maker_;  ///< of the thread of the jobs
   std::unique_ptr<Ahead> ahead_;
   JobQueue queue_;  ///< last: its thread uses all of the above

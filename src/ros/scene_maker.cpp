@@ -1,5 +1,6 @@
 #include "scene_maker.hpp"
 
+#include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 
 #include <utility>
@@ -59,6 +60,16 @@ MadeScene SceneMaker::add(const std::vector<PartLine>& lines, const RunHooks& ho
 MadeScene SceneMaker::settle(const RunHooks& hooks) {
   heap("settle");
   return settled(heap_, hooks);
+}
+
+SceneMaker::Grasps SceneMaker::grasps(const RunHooks& hooks) {
+  const Heap& heap = this->heap("get_grasps");
+  const CancelScope scope(hooks.cancel);
+  const LoadedRequest loaded = heap.loaded();
+  if (loaded.request.grippers.empty())
+    throw input_error("the request of the scene has no grippers", "get_grasps",
+                      "add for instance `grippers: [robotiq_2f_85]`");
+  return {grasper_.find(heap.scene(), loaded, {}), loaded.request};
 }
 
 MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks) {

@@ -37,6 +37,12 @@ class SceneMaker {
   /// Onto the heap, or into the bin if it was emptied.
   MadeScene add(const std::vector<PartLine>& lines, const RunHooks& hooks);
   MadeScene settle(const RunHooks& hooks);
+  struct Grasps {
+    SceneGrasps found;
+    Request request;
+  };
+  /// Of the scene that is kept; what cameras see of them is left out.
+  Grasps grasps(const RunHooks& hooks);
   /// The empty bin of the scene that is kept.
   MadeScene emptied() const;
 
@@ -49,6 +55,7 @@ class SceneMaker {
   Heap& heap(const char* purpose) const;
 
   Generator generator_;
+  Grasper grasper_;
   std::shared_ptr<Heap> heap_;
   bool has_scene_ = false;
   LoadedRequest loaded_;  ///< of the scene that is kept

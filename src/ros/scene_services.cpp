@@ -50,6 +50,7 @@ SceneServices::SceneServices(const ros::NodeHandle& node, SceneJobs& jobs) : job
       blocking, "pick_part", [this](const auto& request, const auto& answer) { return jobs_.pick(request, answer); });
   offer<bin_scenes_msgs::AddParts>(
       blocking, "add_parts", [this](const auto& request, const auto& answer) { return jobs_.add(request, answer); });
+  offer_grasps(blocking);
   offer_trigger(blocking, "next_scene", &SceneJobs::next);
   offer_trigger(blocking, "clear_scene", &SceneJobs::clear);
 
@@ -74,6 +75,26 @@ void SceneServices::offer(ros::NodeHandle& node, const std::string& name, Ask as
     const auto submit = [&](SceneJobs::Answer give) { return ask(event.getRequest(), give); };
     answer(wait_for(service, event.getConnectionHeader(), submit), event.getResponse());
     return true;  // false would replace our text by a generic one
+  }));
+}
+
+void SceneServices::offer_grasps(ros::NodeHandle& node) {
+  grasps_ = node.advertise<visualization_msgs::MarkerArray>("grasps", 1, true);
+  using Service = bin_scenes_msgs::GetGrasps;
+  const std::string service = node.resolveName("get_grasps");
+  services_.push_back(advertise<Service>(node, "get_grasps", [this, service](Event<Service>& event) {
+    const auto told = std::make_shared<SceneJobs::GraspAnswer>();
+    const auto submit = [&](SceneJobs::Answer give) { return jobs_.grasps(event.getRequest(), told, give); };
+    const Outcome outcome = wait_for(service, event.getConnectionHeader(), submit);
+    Service::Response& response = event.getResponse();
+    if (outcome.success) {
+      response = told->response;
+      grasps_.publish(told->markers);
+    }
+    response.success = outcome.success;
+    response.error_code.value = outcome.error_code;
+    response.message = outcome.message;
+    return true;
   }));
 }
 

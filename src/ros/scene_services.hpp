@@ -26,12 +26,14 @@ class SceneServices {
 
   template <class Service, class Ask>
   void offer(ros::NodeHandle& node, const std::string& name, Ask ask);
+  void offer_grasps(ros::NodeHandle& node);
   void offer_trigger(ros::NodeHandle& node, const std::string& name,
                      std::shared_ptr<Job> (SceneJobs::*ask)(SceneJobs::Answer));
   Outcome wait_for(const std::string& service, const ros::M_string& caller, const Submit& submit);
 
   SceneJobs& jobs_;
   ThreadQueue calls_;
+  ros::Publisher grasps_;  ///< markers of what get_grasps told last
   std::vector<ros::ServiceServer> services_;
 };
 

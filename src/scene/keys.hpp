@@ -10,6 +10,7 @@
 
 #include "bin_scenes/scene/key.hpp"
 #include "bin_scenes/scene/request.hpp"
+#include "scene/gripper_keys.hpp"
 
 namespace bin_scenes {
 
@@ -383,6 +384,9 @@ void visit(Visitor& v, Request& request) {
            "sources); single values are changed by --set or a plan's draw",
            anything, false},
           request.rig);
+  v.list({"grippers", "", "whose grasps the format grasps tells; an item is a map or the name of a preset", anything,
+          !request.grippers.empty()},
+         request.grippers);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
   v.field({"drift_check", "",

@@ -6,6 +6,8 @@
 #include "scene/keys.hpp"
 #include "scene/range_check.hpp"
 
+#include <algorithm>
+#include <set>
 #include <string>
 
 namespace bin_scenes {
@@ -174,6 +176,23 @@ void check_counts(const Request& request) {
   }
 }
 
+void check_grippers(const Request& request) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < request.grippers.size(); ++i) {
+    const Gripper& gripper = request.grippers[i];
+    const std::string key = "grippers[" + std::to_string(i) + "]";
+    if (gripper.name.empty()) refuse(key + ".name", "is missing", "name it, or take a preset");
+    if (!names.insert(gripper.name).second)
+      refuse(key + ".name", "'" + gripper.name + "' is taken", "give each gripper a name of its own");
+    check_gripper(gripper, key);
+    // Closed on nothing, it must still go in.
+    const double least = gripper.type == Gripper::Type::suction ? 2.0 * gripper.radius : 2.0 * gripper.finger_thickness;
+    const Vec3& room = request.bin.inner_size;
+    if (request.bin.kind == Bin::Kind::box && least > std::max(room.x(), room.y()))
+      refuse(key, "'" + gripper.name + "' is wider than the bin", "lengths are in m");
+  }
+}
+
 }  // namespace
 
 void check(const Request& request) {
@@ -186,6 +205,7 @@ void check(const Request& request) {
     check_part("parts[" + std::to_string(i) + "]", request.parts[i], request.pour.pattern);
   }
   check_counts(request);
+  check_grippers(request);
   if (request.pour.rest_window > request.pour.limit)
     refuse("pour.rest_window", "is longer than pour.limit", "shorten it, or raise pour.limit");
   check_solver(request.solver);

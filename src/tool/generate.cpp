@@ -114,11 +114,18 @@ McapProfile mcap_profile(const GenerateOptions& options) {
 
 /// Refuses options that the request cannot serve.
 void check_options(const GenerateOptions& options, const Request& request, bool needs_sensors) {
+  const auto asked = [&](const char* format) {
+    return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
+  };
+  if (asked("grasps") && request.grippers.empty()) {
+    throw input_error("grasps are asked for, but the request has no grippers", options.request,
+                      "add for instance `grippers: [robotiq_2f_85]`");
+  }
   if (needs_sensors && request.sensors.empty()) {
     throw input_error("the formats show what a sensor sees, but the request has no sensors", options.request,
                       "add `sensors: [{name: camera}]`, or ask for --formats json,bag,mcap alone");
   }
-  if (std::find(options.formats.begin(), options.formats.end(), "bop") != options.formats.end()) {
+  if (asked("bop")) {
     for (const Sensor& sensor : request.sensors) {
       const std::string why = bop_misfit(sensor);
       if (!why.empty()) throw input_error(why, "sensors: " + sensor.name, bop_misfit_remedy);
@@ -163,6 +170,7 @@ int generate(const GenerateOptions& options) {
   std::unique_ptr<Trace> trace;
   Generator::Options run;
   run.render = store.needs_images();
+  run.grasps = store.needs_grasps();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress.fraction, text_of(progress)); };
   if (!options.trace.empty()) {

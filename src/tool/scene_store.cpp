@@ -56,8 +56,11 @@ SceneStore::SceneStore(const std::string& directory, const std::vector<std::stri
 bool SceneStore::needs_sensors() const {
   return wants("pcd") || wants("ply") || wants("png") || wants("bop");
 }
+bool SceneStore::needs_grasps() const {
+  return wants("grasps");
+}
 bool SceneStore::needs_images() const {
-  return needs_sensors() || wants("bag") || wants("mcap");
+  return needs_sensors() || wants("bag") || wants("mcap") || wants("grasps");
 }
 
 fs::path SceneStore::root(bool accepted) const {
@@ -81,6 +84,7 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
   if (!whole(base, verify_)) return false;
   if (wants("bag") && !there(base / "scene.bag")) return false;
   if (wants("mcap") && mcap_profile_in((base / "scene.mcap").string()) != name_of(mcap_)) return false;
+  if (wants("grasps") && !there(base / "grasps.json")) return false;
   for (const Sensor& sensor : request.sensors) {
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("ply") && !there(base / (sensor.name + ".ply"))) return false;

@@ -1,7 +1,7 @@
 /// The directory of a job: one folder a scene, which appears under its name only when it is whole.
 ///
 ///     DIR/scene_000007/            scene.json, <sensor>.pcd, <sensor>.ply, <sensor>*.png, scene.bag,
-///                                  scene.mcap
+///                                  scene.mcap, grasps.json
 ///     DIR/bop/train/000007/        the scene in BOP's layout; DIR/bop/models/ its models
 ///     DIR/set_apart/...            the same for scenes that were not accepted
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it
@@ -35,7 +35,8 @@ class SceneStore {
              McapProfile mcap = McapProfile::ros1, bool verify = false);
 
   bool needs_sensors() const;  ///< some format shows nothing but what a sensor sees
-  bool needs_images() const;   ///< some format holds what sensors see, if there are any
+  bool needs_grasps() const;
+  bool needs_images() const;  ///< some format holds what sensors see, if there are any
 
   /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;

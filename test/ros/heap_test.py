@@ -55,6 +55,30 @@ class HeapTest(NodeTestCase):
         self.assertEqual(response.error_code.value, ErrorCode.INPUT)
         self.assertIn("lift", response.message)
 
+    def test_grasps_are_told_and_shown(self):
+        from visualization_msgs.msg import MarkerArray
+        scene = self.doors.scene(set=["grippers=[cup_10mm, {name: two, stroke: 0.06}]"])
+        told = self.doors.grasps(best=5)
+        self.assertEqual((told.success, told.message), (True, ""))
+        self.assertEqual(told.poses.header, scene.header.__class__(0, scene.header.stamp, scene.header.frame_id))
+        self.assertTrue(0 < len(told.poses.poses) <= 5)
+        self.assertTrue(all(told.free))
+        self.assertEqual(sorted(told.scores, reverse=True), list(told.scores))
+        for row in (told.parts, told.grippers, told.widths, told.reasons):
+            self.assertEqual(len(row), len(told.poses.poses))
+        markers = rospy.wait_for_message("grasps", MarkerArray, 20).markers
+        self.assertEqual(len(markers), 1 + 3 * len(told.parts))  # the old ones go, then two fingers or cup, tube; palm
+        every = self.doors.grasps(ids=[told.parts[0]], all=True)
+        self.assertEqual(set(every.parts), {told.parts[0]})
+        self.assertTrue(all(free == (reason == "") for free, reason in zip(every.free, every.reasons)))
+        # What it tells can be done: the part leaves, and its grasps with it.
+        self.picked([told.parts[0]], lift_distance=0.1)
+        refused = self.doors.grasps(ids=[told.parts[0]])
+        self.assertEqual(refused.error_code.value, ErrorCode.INPUT)
+        self.assertIn("there is no part %d" % told.parts[0], refused.message)
+        self.doors.scene()
+        self.assertIn("no grippers", self.doors.grasps().message)
+
     def test_wrong_ids_change_nothing(self):
         before = self.doors.scene()
         for ids in ([99], [-1], [0, 1, 2, 77]):

@@ -13,7 +13,7 @@ import std_srvs.srv
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from bin_scenes.msg import ErrorCode, GenerateSceneAction, GenerateSceneGoal, Scene, SceneRequest  # noqa: E402
-from bin_scenes.srv import AddParts, GenerateScene, PickPart  # noqa: E402
+from bin_scenes.srv import AddParts, GenerateScene, GetGrasps, PickPart  # noqa: E402
 
 SMALL = """
 seed: 7
@@ -37,6 +37,7 @@ class Doors:
         rospy.wait_for_service(space + "generate_scene", 60)
         self.generate = rospy.ServiceProxy(space + "generate_scene", GenerateScene)
         self.pick = rospy.ServiceProxy(space + "pick_part", PickPart)
+        self.grasps = rospy.ServiceProxy(space + "get_grasps", GetGrasps)
         self.add = rospy.ServiceProxy(space + "add_parts", AddParts)
         self.clear = rospy.ServiceProxy(space + "clear_scene", std_srvs.srv.Trigger)
         self.next = rospy.ServiceProxy(space + "next_scene", std_srvs.srv.Trigger)

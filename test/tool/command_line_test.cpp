@@ -582,6 +582,36 @@ TEST_F(CommandLine, WritesEveryFormatOfASeenScene) {
   EXPECT_EQ(json("out/scene_000000/scene.json").at("sensors").at(0).at("K").size(), 9u);
 }
 
+TEST_F(CommandLine, GraspsNameGrippersReasonsAndAnOrder) {
+  const std::string asked =
+      "generate request.yaml --out out --formats grasps --set 'sensors=[{name: top, width: 64, height: 48}]'";
+  expect_failure(asked, 2, {"the request has no grippers", "grippers: [robotiq_2f_85]"});
+  const Outcome outcome = run(asked + " --set 'grippers=[cup_10mm, {name: two, stroke: 0.05}]'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json grasps = json("out/scene_000000/grasps.json"), scene = json("out/scene_000000/scene.json");
+  EXPECT_EQ(grasps.at("format"), "bin_scenes/grasps/1");
+  EXPECT_EQ(grasps.at("removal_order").size(), 3u);
+  std::set<std::string> grippers;
+  std::size_t free = 0;
+  for (const Json& grasp : grasps.at("grasps")) {
+    grippers.insert(grasp.at("gripper").get<std::string>());
+    EXPECT_EQ(grasp.at("free").get<bool>(), grasp.at("reason") == "");
+    EXPECT_EQ(grasp.at("width").get<double>() > 0.0, grasp.at("gripper") == "two");
+    EXPECT_GE(grasp.at("score").get<double>(), 0.0);
+    EXPECT_LE(grasp.at("score").get<double>(), 1.0);
+    // The camera looks down: what is above the floor is nearer than its distance from it.
+    const double height = scene.at("sensors").at(0).at("pose").at("position").at(2);
+    EXPECT_NEAR(grasp.at("pose_in_camera").at("top").at("position").at(2).get<double>(),
+                height - grasp.at("pose").at("position").at(2).get<double>(), 1e-9);
+    const double seen = grasp.at("visible").at("top");
+    EXPECT_TRUE(seen >= 0.0 && seen <= 1.0);
+    free += grasp.at("free").get<bool>();
+  }
+  EXPECT_EQ(grippers.size(), 2u);
+  EXPECT_GT(free, 0u);
+  for (const Json& model : grasps.at("models")) EXPECT_GT(model.at("coverage").get<double>(), 0.5);
+}
+
 TEST_F(CommandLine, BopRefusesWhatIsNoPinholeBeforeAnythingIsPoured) {
   for (const char* kind : {"distortion: [0.1, 0, 0, 0, 0]", "model: laser_line"}) {
     const std::string sensor = " --set 'sensors=[{name: top, width: 64, height: 48, " + std::string(kind) + "}]'";

@@ -100,6 +100,20 @@ class View(unittest.TestCase):
         self.assertEqual([cloud["source"] for cloud in data["clouds"]], ["camera.ply", "side.ply"])
         self.assertEqual(data["report"], json.loads((self.scene / "scene.json").read_text())["report"])
 
+    def test_the_best_free_grasps_of_different_parts(self):
+        sensors = SENSORS + "\ngrippers: [cup_10mm, {name: two, stroke: 0.06}]"
+        self.make("json,grasps", sensors)
+        page = self.view()
+        data, told = self.data(page), json.loads((self.scene / "grasps.json").read_text())
+        free = [grasp for grasp in told["grasps"] if grasp["free"]]
+        self.assertEqual(len(data["grasps"]), min(10, len(free)))
+        self.assertGreater(len(free), 0)
+        self.assertEqual(len({g["part"] for g in data["grasps"]}), min(10, len({g["part"] for g in free})))
+        self.assertEqual(data["grasps"][0]["score"], max(g["score"] for g in free))
+        self.assertEqual([g["name"] for g in data["grippers"]], ["cup_10mm", "two"])
+        if CHROMIUM:
+            self.assertIn('data-grasps="%d"' % len(data["grasps"]), self.browse("--dump-dom"))
+
     def cloud(self, page):
         cloud = self.data(page)["clouds"][0]
         unpacked = {key: numpy.frombuffer(base64.b64decode(cloud[key]), kind) for key, kind in

@@ -44,9 +44,10 @@ struct PlanObject {
 };
 bool is_of(const PlanObject& object, const PartLine& line);
 
-/// A heap is poured, then its highest parts are taken out step by step; each state is a scene.
+/// A heap is poured, then parts are taken out step by step; each state is a scene.
 struct Depletion {
   std::size_t steps = 0;  ///< scenes of a heap beside the first
+  bool by_grasp = false;  ///< one part at a time that the grippers can pick; else the highest, as many as are drawn
 };
 
 class Plan {
@@ -54,7 +55,7 @@ class Plan {
   std::uint64_t seed = 0;
   std::size_t heaps = 1;             ///< to pour; key `scenes`
   std::size_t attempts = 3;          ///< for a heap: one that is not accepted is drawn and poured anew so many times
-  std::vector<std::string> formats;  ///< of json, pcd, ply, png, bag, mcap, bop, shards; key `outputs`
+  std::vector<std::string> formats;  ///< of json, pcd, ply, png, bag, mcap, grasps, bop, shards; key `outputs`
   McapProfile mcap = McapProfile::ros1;
   /// bop: 0: a pixel shows the part that is truly seen there; else m behind the measured surface up to which a part is
   /// visible. Keys bop.visible and bop.tolerance.

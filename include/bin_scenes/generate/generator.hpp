@@ -1,6 +1,7 @@
 /// The main job: from a request to judged scenes and their images. Tool, node and benchmark call this.
 #pragma once
 
+#include "bin_scenes/grasp/scene_grasps.hpp"
 #include "bin_scenes/pour/heap.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
@@ -20,10 +21,12 @@ class Generator {
 
   struct Result {
     Scene scene;
-    std::vector<RangeImage> images;  ///< only if requested
+    std::vector<RangeImage> images;     ///< only if requested
+    std::optional<SceneGrasps> grasps;  ///< likewise
   };
   struct Options {
-    bool render = true;  ///< false: no sensor image is made
+    bool render = true;   ///< false: no sensor image is made
+    bool grasps = false;  ///< of the request's grippers; what cameras see of them only with render
     /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
     /// poured: the place for what takes long, such as writing files. It may take the images away. What it makes for the
     /// one who gets the scene it keeps itself, by index.

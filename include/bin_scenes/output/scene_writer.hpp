@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/temporary.hpp"
+#include "bin_scenes/grasp/scene_grasps.hpp"
 #include "bin_scenes/output/mcap_profile.hpp"
 #include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/part/symmetry.hpp"
@@ -24,6 +25,9 @@ std::string scene_json(const Scene& scene, const Request& request, const std::ve
                        const std::vector<PartModelPtr>& parts = {});
 /// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
 Scene read_scene_json(const std::string& path);
+
+/// grasps.json as text (format "bin_scenes/grasps/1"): docs/use/outputs.md.
+std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request);
 
 void write_text(const std::string& path, const std::string& text);
 

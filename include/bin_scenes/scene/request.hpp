@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/scene/gripper.hpp"
 #include "bin_scenes/scene/model_settings.hpp"
 #include "bin_scenes/scene/motion.hpp"
 #include "bin_scenes/scene/sensor_models.hpp"
@@ -259,6 +260,7 @@ struct Request {
   Pour pour;
   SolverSettings solver;
   std::vector<Sensor> sensors;
+  std::vector<Gripper> grippers;  ///< those whose grasps are asked for
   std::string rig;  ///< name of the rig that the sensors come from; read by config/, has no effect of its own
   Acceptance accept;
   std::optional<double> seconds;  ///< simulate exactly this long instead of until rest

@@ -28,12 +28,21 @@ struct ScenePart {
   std::map<std::string, double> visible_fraction;  ///< by sensor name
 };
 
+/// A contact of the finished scene. A part lies on another one, or on the bin.
+struct SceneContact {
+  int a = -1, b = -1;  ///< ids; b is -1 for the bin
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();  ///< from a to b
+  Vec3 force = Vec3::Zero();    ///< N, on b with friction; on a acts its opposite
+};
+
 struct Scene {
   std::uint64_t seed = 0;
   std::size_t index = 0;
   std::vector<std::string> model_sha256;  ///< by part line: of the model file's bytes; empty: not known
   std::vector<ScenePart> parts;
-  std::vector<Sensor> sensors;  ///< with pose and K filled in
+  std::vector<SceneContact> contacts;  ///< empty if the solver does not tell forces
+  std::vector<Sensor> sensors;         ///< with pose and K filled in
   Report report;
 };
 

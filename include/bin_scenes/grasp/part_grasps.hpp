@@ -1,0 +1,61 @@
+/// Grasps of a part by a gripper, found once a content: where two pads meet the part from opposite sides, or a cup's
+/// ring seals.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/gripper.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Pose and what decides whether it holds. Model frame of the part, m.
+struct Grasp {
+  Pose pose;                   ///< of the gripper's frame (scene/gripper.hpp) in the model frame
+  double width = 0.0;          ///< parallel: distance of the pads that touch (m)
+  double share = 1.0;          ///< parallel: of the pad that is in contact, the smaller of both
+  double friction = 0.0;       ///< smallest coefficient with which it holds without load
+  double radius = 0.0;         ///< m. parallel: largest moment about the closing axis = 2 * friction * force * radius;
+                               ///< suction: of the ring
+  double lever = 0.0;          ///< m of the centre of mass from closing axis, or from the cup's axis
+  double gap = 0.0;            ///< m, suction: largest distance of the ring, pressed on and tilted, from the surface
+  std::vector<Vec3> contacts;  ///< points of the surface that the pads or the ring touch; gripper's frame
+};
+
+/// How many poses were tried, and what became of them.
+struct GraspCounts {
+  std::size_t tried = 0;
+  std::size_t width = 0;      ///< wider than the stroke
+  std::size_t friction = 0;   ///< steeper than friction holds, on one side at least
+  std::size_t contact = 0;    ///< the pads do not meet opposite each other; the ring leaves the part
+  std::size_t seal = 0;       ///< the gap is wider than the lip closes, or the surface too tilted
+  std::size_t collision = 0;  ///< the gripper would go through the part
+  std::size_t good = 0;       ///< the rest
+};
+
+struct PartGrasps {
+  std::vector<Grasp> grasps;  ///< thinned; none is another one turned by a symmetry of the part
+  /// Where scenes try them: each grasp in all places to which symmetries of the part bring it, thinned again.
+  struct Placed {
+    std::size_t of = 0;  ///< index into grasps
+    Pose pose;           ///< of the gripper in the model frame
+  };
+  std::vector<Placed> placed;
+  GraspCounts counts;
+  double coverage = 0.0;     ///< share of good poses that were left out of thinning, with a grasp within the distances
+  double apart = 0.0;        ///< m: distance within which thinning takes poses for one
+  double apart_angle = 0.0;  ///< rad
+};
+
+/// Deterministic. @param friction  coefficient of gripper and part
+PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double friction);
+/// Of mesh, gripper and friction: equal keys, equal grasps.
+std::string grasp_key(const PartModel& part, const Gripper& gripper, double friction);
+/// The same through the disk cache.
+PartGrasps part_grasps(const PartModel& part, const Gripper& gripper, double friction);
+
+/// "5000 poses tried, 120 that do not seal": how many failed, and why.
+std::string text_of(const GraspCounts& counts, Gripper::Type type);
+
+}  // namespace bin_scenes

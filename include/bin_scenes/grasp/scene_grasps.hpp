@@ -1,0 +1,83 @@
+/// What can be picked of a finished scene: free grasps of each part, what hinders its lift, and an order of removal.
+#pragma once
+
+#include "bin_scenes/grasp/part_grasps.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
+#include "bin_scenes/scene/scene.hpp"
+#include "bin_scenes/sensor/range_image.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+struct SceneGrasp {
+  int part = 0;             ///< id
+  std::size_t gripper = 0;  ///< index into Request::grippers
+  std::size_t grasp = 0;    ///< index into PartGrasps::grasps: equal for grasps that symmetries make alike
+  Pose pose;                ///< of the gripper in the bin frame
+  double width = 0.0;       ///< m, parallel
+  double score = 0.0;       ///< 0..1: share of the friction that is spare, times share of the force that is spare
+  double friction = 0.0;    ///< smallest coefficient with which it lifts the part out; infinite: none suffices
+  /// Why it is not free. Sweeps are those of the gripper grown by its clearance; of what it touches, one is named.
+  enum class Obstacle {
+    none,      ///< it is free
+    blocked,   ///< others hinder the part's lift: PartPick::blocked_by
+    slips,     ///< it cannot hold what the part, its load and its neighbours' friction weigh
+    approach,  ///< on its way from outside the bin
+    closing,   ///< as its fingers close
+    lift       ///< as it goes up with the part
+  } obstacle = Obstacle::none;
+  int other = -1;  ///< approach, closing, lift: id of the part that it meets, -1: the bin
+
+  /// By sensor, in the order of the images: shares of the contact that the camera sees, and that it measured.
+  std::vector<double> visible, measured;
+  bool free() const { return obstacle == Obstacle::none; }
+};
+
+/// A part that could be picked.
+struct PartPick {
+  int id = 0;
+  double load = 0.0;            ///< N: what others press down on it; 0 also if the solver does not tell forces
+  double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
+  std::vector<int> blocked_by;  ///< ids that are in the way of its lift or lie on it, ascending; -1: a bin's mesh
+  int depth = -1;  ///< how many rounds of picking precede it; -1: it never comes free (a cycle, or a fixed part)
+  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted too far
+};
+
+struct SceneGrasps {
+  std::vector<SceneGrasp> grasps;  ///< by part, then gripper; those within the grippers' tilt
+  std::vector<PartPick> parts;     ///< in the order of the scene
+  std::vector<int> removal_order;  ///< ids, each after all that block it, the highest first
+  /// Of each part line and gripper.
+  struct Found {
+    std::size_t line = 0, gripper = 0;
+    std::size_t grasps = 0;  ///< that no symmetry makes alike
+    std::size_t placed = 0;  ///< of a part that scenes try
+    double coverage = 0.0;
+    GraspCounts counts;
+  };
+  std::vector<Found> found;
+};
+
+const char* name_of(SceneGrasp::Obstacle obstacle);
+/// "meets part 7 on its approach"; empty: free.
+std::string reason_of(const SceneGrasp& grasp, const PartPick& part);
+/// Remarks on parts for which a gripper has no grasp at all: why, and how many poses each.
+std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request);
+
+/// Keeps the grasps of parts between scenes. Thread-safe.
+class Grasper {
+ public:
+  Grasper();
+  ~Grasper();
+  /// For all grippers of the request and all parts that are there and not fixed. Lifts go against gravity.
+  SceneGrasps find(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bin_scenes

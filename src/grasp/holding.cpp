@@ -1,0 +1,54 @@
+/// Two pads hold a force and a moment about the closing axis together by an ellipsoid (Howe & Cutkosky 1996, "Practical
+/// force-motion models for sliding manipulation"). A cup is torn off when force and tilting moment lift one side of its
+/// ring, and slides when friction of the ring gives way (Mahler et al. 2018, "Dex-Net 3.0", equations of its model).
+#include "grasp/holding.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+Hold hold_between_pads(const Grasp& grasp, const Pose& pose, const Gripper& g, double friction, const Burden& burden) {
+  const Vec3 axis = pose.orientation * Vec3::UnitX();
+  const double moment = std::abs((burden.center - pose.position).cross(burden.weight).dot(axis));
+  // Both pads press with `force`; what they hold along the pads grows with the friction that the slope leaves.
+  const double needed = std::hypot(burden.pull, moment / grasp.radius) / (2.0 * g.force);
+  Hold hold;
+  hold.friction = grasp.friction + needed;
+  hold.score =
+      std::max(0.0, 1.0 - grasp.friction / friction) * std::max(0.0, 1.0 - needed / (friction - grasp.friction));
+  return hold;
+}
+
+Hold hold_by_cup(const Grasp& grasp, const Pose& pose, const Gripper& g, double friction, const Burden& burden) {
+  const Vec3 axis = pose.orientation * Vec3::UnitZ();
+  const Vec3 force = -burden.pull * burden.up;
+  const double along = std::max(0.0, force.dot(axis));  // pulls the part from the cup
+  const double across = (force - force.dot(axis) * axis).norm();
+  const Vec3 moment = (burden.center - pose.position).cross(burden.weight);
+  const double tilting = (moment - moment.dot(axis) * axis).norm();
+  const double vacuum = g.force - g.stiffness * grasp.gap;  // the lip, pressed into its gap, pushes back
+  Hold hold;
+  const double torn = (along + tilting / grasp.radius) / vacuum;
+  if (!(vacuum > 0.0) || torn >= 1.0) {
+    hold.friction = never;
+    return hold;
+  }
+  hold.friction = across / (vacuum - along);
+  hold.score = (1.0 - grasp.gap / g.lip) * (1.0 - torn) * std::max(0.0, 1.0 - hold.friction / friction);
+  return hold;
+}
+
+}  // namespace
+
+Hold hold_of(const Grasp& grasp, const Pose& pose, const Gripper& gripper, double friction, const Burden& burden) {
+  return gripper.type == Gripper::Type::parallel ? hold_between_pads(grasp, pose, gripper, friction, burden)
+                                                 : hold_by_cup(grasp, pose, gripper, friction, burden);
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,195 @@
+/// Pairs of points by lines through the part; around each pair's axis the gripper is turned in steps; the pads are then
+/// pressed on exactly.
+#include "grasp/parallel_grasps.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
+#include "grasp/gripper_shape.hpp"
+#include "grasp/pad.hpp"
+#include "grasp/rays.hpp"
+#include "grasp/surface_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr std::size_t points_tried = 700;
+constexpr int turns = 16;                ///< of the gripper about its closing axis
+constexpr double towards_tip = 0.3;      ///< of the pad's length: the pair lies in its middle, or so far from there
+constexpr double same_place = 1e-6;      ///< / diagonal: lengths of rounding
+constexpr double least_contact = 0.005;  ///< share of the pad
+
+/// Where a line through the part enters and leaves it, and the direction from its far end to its near one.
+struct Pair {
+  Vec3 near, far, axis;
+};
+
+/// The gripper's frame with closing axis x and a turn about it, measured from the part's principal axes.
+Pose pose_about(const Pair& pair, const Mat3& principal, double turn) {
+  int across = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(principal.col(i).dot(pair.axis)) < std::abs(principal.col(across).dot(pair.axis)) - 1e-9) across = i;
+  const Vec3 from = (principal.col(across) - principal.col(across).dot(pair.axis) * pair.axis).normalized();
+  const Vec3 z = Eigen::AngleAxisd(turn, pair.axis) * from;
+  Mat3 frame;
+  frame << pair.axis, z.cross(pair.axis), z;
+  return {0.5 * (pair.near + pair.far), Quat(frame).normalized()};
+}
+
+class PairFinder {
+ public:
+  PairFinder(const PartModel& part, const Gripper& gripper, double friction, GraspCounts& counts)
+      : query_(part.query()),
+        least_(same_place * part.diagonal()),
+        stroke_(gripper.travel()),
+        cosine_(1.0 / std::sqrt(1.0 + friction * friction)),
+        counts_(counts) {}
+
+  /// All pairs of a point with others straight through the part.
+  std::vector<Pair> from(const SpreadPoint& start) const {
+    std::vector<Pair> pairs;
+    for (const Passage& passage : passages(query_, start.point, -start.normal, least_)) {
+      const Vec3 normal = normal_of(passage);
+      if (normal.dot(start.normal) >= 0.0) continue;  // an entrance
+      ++counts_.tried;
+      if (const auto pair = through(start, start.point - passage.distance * start.normal, normal))
+        pairs.push_back(*pair);
+    }
+    return pairs;
+  }
+
+ private:
+  Vec3 normal_of(const Passage& passage) const { return query_.mesh().area_vector(passage.triangle).normalized(); }
+
+  /// Along the mean of both normals, which asks both sides for the same friction.
+  std::optional<Pair> through(const SpreadPoint& start, Vec3 far, Vec3 normal) const {
+    Vec3 axis = start.normal;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 mean = (start.normal - normal).normalized();
+      if ((mean - axis).norm() < 1e-9) break;
+      const auto passed = passages(query_, start.point, -mean, least_);
+      const Passage* best = nullptr;
+      for (const Passage& p : passed)
+        if (normal_of(p).dot(mean) < 0.0 && (!best || (start.point - p.distance * mean - far).norm() <
+                                                          (start.point - best->distance * mean - far).norm()))
+          best = &p;
+      if (!best) break;
+      axis = mean;
+      far = start.point - best->distance * mean;
+      normal = normal_of(*best);
+    }
+    if (axis.dot(start.normal) < cosine_ || -axis.dot(normal) < cosine_) {
+      ++counts_.friction;
+      return std::nullopt;
+    }
+    if ((far - start.point).norm() >= stroke_) {
+      ++counts_.width;
+      return std::nullopt;
+    }
+    return Pair{start.point, far, axis};
+  }
+
+  const MeshQuery& query_;
+  double least_, stroke_, cosine_;
+  GraspCounts& counts_;
+};
+
+bool meets_part(const std::vector<Sweep>& sweeps, const MeshQuery& query, const Pose& pose) {
+  const Pose part = pose.inverse();
+  return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.meets(query, part); });
+}
+
+/// Whether the gripper meets the part itself as it comes or closes. The pads touch it, which is none.
+bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp) {
+  const double shrink = -10.0 * same_place * part.diagonal();
+  return meets_part(approach_sweeps(gripper, grasp.width, part.diagonal(), shrink), part.query(), grasp.pose) ||
+         meets_part(closing_sweeps(gripper, grasp.width, shrink), part.query(), grasp.pose);
+}
+
+/// Contact points of both pads in the gripper's frame, whose middle is between them.
+std::vector<Vec3> pad_contacts_of(const PadContact& right, const PadContact& left, double width) {
+  std::vector<Vec3> points;
+  for (const auto& p : right.points) points.emplace_back(0.5 * width, p.x(), p.y());
+  for (const auto& p : left.points) points.emplace_back(-0.5 * width, -p.x(), p.y());
+  return points;
+}
+
+}  // namespace
+
+std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
+                                   double guess, GraspCounts& counts) {
+  const Mat3 frame = pose.orientation.toRotationMatrix();
+  Pad pad{pose.position + 0.5 * guess * frame.col(0),
+          frame.col(1),
+          frame.col(2),
+          frame.col(0),
+          0.5 * gripper.finger_width,
+          0.5 * gripper.pad_length,
+          0.0,
+          gripper.pad_give,
+          friction};
+  pad.start = std::max(opening_of(gripper, guess), same_place * part.diagonal());
+  const auto right = press(part.query(), pad);
+  pad.middle = pose.position - 0.5 * guess * frame.col(0);
+  pad.u = -pad.u;
+  pad.out = -pad.out;
+  const auto left = right ? press(part.query(), pad) : std::nullopt;
+  if (!left) {
+    ++counts.contact;
+    return std::nullopt;
+  }
+  Grasp grasp;
+  grasp.width = guess + right->height + left->height;
+  grasp.pose = {pose.position + 0.5 * (right->height - left->height) * frame.col(0), pose.orientation};
+  grasp.share = std::min(right->share, left->share);
+  grasp.friction = std::max(right->friction, left->friction);
+  grasp.radius = 0.5 * (right->radius + left->radius);
+  // The left pad's u points the other way. Forces of both pads must lie on one line.
+  const bool opposite = right->lower.x() <= -left->lower.x() && -left->upper.x() <= right->upper.x() &&
+                        right->lower.y() <= left->upper.y() && left->lower.y() <= right->upper.y();
+  if (!opposite || grasp.share < least_contact) {
+    ++counts.contact;
+  } else if (grasp.width >= gripper.travel()) {
+    ++counts.width;
+  } else if (grasp.friction > friction) {
+    ++counts.friction;
+  } else {
+    const Eigen::Vector2d middle = 0.5 * (right->centroid + Eigen::Vector2d(-left->centroid.x(), left->centroid.y()));
+    const Vec3 on_axis = grasp.pose * Vec3(0.0, middle.x(), middle.y());
+    const Vec3 offset = part.mass().center - on_axis;
+    grasp.lever = (offset - offset.dot(frame.col(0)) * frame.col(0)).norm();
+    grasp.contacts = pad_contacts_of(*right, *left, grasp.width);
+    return grasp;
+  }
+  return std::nullopt;
+}
+
+std::vector<Grasp> parallel_grasps(const PartModel& part, const Gripper& gripper, double friction,
+                                   GraspCounts& counts) {
+  std::vector<Grasp> grasps;
+  const Mat3 principal = part.mass().principal_axes.toRotationMatrix();
+  const PairFinder finder(part, gripper, friction, counts);
+  for (const SpreadPoint& start : spread_points(part.mesh(), points_tried)) {
+    stop_if_cancelled();
+    for (const Pair& pair : finder.from(start)) {
+      counts.tried += 2 * turns - 1;
+      for (int turn = 0; turn < 2 * turns; ++turn) {
+        Pose pose = pose_about(pair, principal, 2.0 * M_PI * (turn / 2) / turns);
+        if (turn % 2) pose.position -= towards_tip * gripper.pad_length * (pose.orientation * Vec3::UnitZ());
+        const auto grasp = close_fingers(part, gripper, friction, pose, (pair.near - pair.far).norm(), counts);
+        if (!grasp) continue;
+        if (goes_through(part, gripper, *grasp)) {
+          ++counts.collision;
+          continue;
+        }
+        ++counts.good;
+        grasps.push_back(*grasp);
+      }
+    }
+  }
+  return grasps;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,166 @@
+/// Grasps of a part: tried densely, thinned by distance and by symmetries of the part, measured, cached.
+#include "bin_scenes/grasp/part_grasps.hpp"
+
+#include "grasp/parallel_grasps.hpp"
+#include "grasp/suction_grasps.hpp"
+#include "grasp/thinning.hpp"
+#include "part/part_cache.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr int grasp_format = 3;             ///< raise it whenever the way grasps are found changes
+constexpr double symmetry_limit = 1e-3;     ///< / diagonal: symmetries that a gripper cannot tell from exact ones
+constexpr double first_apart = 0.03;        ///< / diagonal: of thinning
+constexpr double first_angle = 0.3;         ///< rad
+constexpr std::size_t left_out_one_of = 8;  ///< for the measure of coverage
+
+/// Smaller is better: what is needed of the friction there is, or of the lip, and the lever of the weight.
+double badness(const Grasp& grasp, const PartModel& part, const Gripper& gripper, double friction) {
+  const double holding =
+      gripper.type == Gripper::Type::parallel ? grasp.friction / friction - 0.5 * grasp.share : grasp.gap / gripper.lip;
+  return holding + grasp.lever / part.radius();
+}
+
+std::vector<Pose> poses_of(const std::vector<Grasp>& grasps) {
+  std::vector<Pose> poses;
+  for (const Grasp& grasp : grasps) poses.push_back(grasp.pose);
+  return poses;
+}
+
+void place(PartGrasps& found, const PoseMeasure& symmetric, const Gripper& gripper) {
+  std::vector<PartGrasps::Placed> all;
+  PoseMeasure::Limits limits{found.apart, found.apart_angle};
+  for (std::size_t i = 0; i < found.grasps.size(); ++i)
+    for (const Pose& pose : symmetric.images(found.grasps[i].pose, limits)) all.push_back({i, pose});
+  std::vector<Pose> poses;
+  for (const auto& placed : all) poses.push_back(placed.pose);
+  for (const std::size_t i : thin(poses, PoseMeasure({}, gripper.type), limits, gripper.most))
+    found.placed.push_back(all[i]);
+}
+
+}  // namespace
+
+PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double friction) {
+  PartGrasps found;
+  std::vector<Grasp> all = gripper.type == Gripper::Type::parallel
+                               ? parallel_grasps(part, gripper, friction, found.counts)
+                               : suction_grasps(part, gripper, found.counts);
+  std::vector<Pose> left_out;
+  std::vector<Grasp> taken;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.size() > left_out_one_of && i % left_out_one_of == left_out_one_of - 1) {
+      left_out.push_back(all[i].pose);
+    } else {
+      taken.push_back(std::move(all[i]));
+    }
+  }
+  std::stable_sort(taken.begin(), taken.end(), [&](const Grasp& a, const Grasp& b) {
+    return badness(a, part, gripper, friction) < badness(b, part, gripper, friction);
+  });
+  const PoseMeasure symmetric(find_symmetries(part, symmetry_limit), gripper.type);
+  PoseMeasure::Limits limits{first_apart * part.diagonal(), first_angle};
+  for (const std::size_t i : thin(poses_of(taken), symmetric, limits, gripper.most)) found.grasps.push_back(taken[i]);
+  found.apart = limits.apart;
+  found.apart_angle = limits.angle;
+  const std::vector<Pose> kept = poses_of(found.grasps);
+  std::size_t covered = 0;
+  for (const Pose& pose : left_out)
+    covered += std::any_of(kept.begin(), kept.end(), [&](const Pose& k) { return symmetric.near(k, pose, limits); });
+  found.coverage = left_out.empty() ? 0.0 : static_cast<double>(covered) / static_cast<double>(left_out.size());
+  place(found, symmetric, gripper);
+  return found;
+}
+
+namespace {
+
+void put(ByteWriter& out, const Pose& pose) {
+  out.put(pose.position);
+  for (int i = 0; i < 4; ++i) out.put(pose.orientation.coeffs()[i]);
+}
+void get(ByteReader& in, Pose& pose) {
+  in.get(pose.position);
+  for (int i = 0; i < 4; ++i) in.get(pose.orientation.coeffs()[i]);
+}
+
+constexpr std::size_t GraspCounts::*all_counts[] = {&GraspCounts::tried,   &GraspCounts::width, &GraspCounts::friction,
+                                                    &GraspCounts::contact, &GraspCounts::seal,  &GraspCounts::collision,
+                                                    &GraspCounts::good};
+constexpr double Grasp::*all_numbers[] = {&Grasp::width,  &Grasp::share, &Grasp::friction,
+                                          &Grasp::radius, &Grasp::lever, &Grasp::gap};
+constexpr std::size_t grasp_bytes = 13 * sizeof(double) + sizeof(std::uint64_t);
+constexpr std::size_t placed_bytes = 7 * sizeof(double) + sizeof(std::uint64_t);
+
+}  // namespace
+
+void put(ByteWriter& out, const PartGrasps& found) {
+  out.put(static_cast<std::uint64_t>(found.grasps.size()));
+  for (const Grasp& grasp : found.grasps) {
+    put(out, grasp.pose);
+    for (const auto number : all_numbers) out.put(grasp.*number);
+    out.put(static_cast<std::uint64_t>(grasp.contacts.size()));
+    for (const Vec3& point : grasp.contacts) out.put(point);
+  }
+  out.put(static_cast<std::uint64_t>(found.placed.size()));
+  for (const auto& placed : found.placed) {
+    out.put(static_cast<std::uint64_t>(placed.of));
+    put(out, placed.pose);
+  }
+  for (const auto count : all_counts) out.put(static_cast<std::uint64_t>(found.counts.*count));
+  for (const double value : {found.coverage, found.apart, found.apart_angle}) out.put(value);
+}
+
+void get(ByteReader& in, PartGrasps& found) {
+  found.grasps.resize(in.count(grasp_bytes));
+  for (Grasp& grasp : found.grasps) {
+    get(in, grasp.pose);
+    for (const auto number : all_numbers) in.get(grasp.*number);
+    grasp.contacts.resize(in.count(sizeof(Vec3)));
+    for (Vec3& point : grasp.contacts) in.get(point);
+  }
+  found.placed.resize(in.count(placed_bytes));
+  for (auto& placed : found.placed) {
+    std::uint64_t of = 0;
+    in.get(of);
+    placed.of = std::min<std::size_t>(of, found.grasps.empty() ? 0 : found.grasps.size() - 1);
+    get(in, placed.pose);
+  }
+  for (const auto count : all_counts) {
+    std::uint64_t value = 0;
+    in.get(value);
+    found.counts.*count = value;
+  }
+  for (double* value : {&found.coverage, &found.apart, &found.apart_angle}) in.get(*value);
+}
+
+std::string grasp_key(const PartModel& part, const Gripper& g, double friction) {
+  std::string key = part.mesh_key() + " grasps " + std::to_string(grasp_format) + " " +
+                    std::to_string(static_cast<int>(g.type)) + " " + std::to_string(g.most) + " ";
+  for (const double value : {g.travel(), g.opening, g.finger_width, g.finger_depth, g.finger_thickness, g.pad_length,
+                             g.pad_give, g.radius, g.lip, g.palm.x(), g.palm.y(), g.palm.z(), friction})
+    key += key_text(value);
+  return key;
+}
+
+PartGrasps part_grasps(const PartModel& part, const Gripper& gripper, double friction) {
+  return cached<PartGrasps>("grasps", grasp_key(part, gripper, friction),
+                            [&] { return find_grasps(part, gripper, friction); });
+}
+
+std::string text_of(const GraspCounts& c, Gripper::Type type) {
+  std::string text = std::to_string(c.tried) + " poses tried";
+  const auto add = [&](std::size_t count, const char* why) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + why;
+  };
+  add(c.width, "wider than the stroke");
+  add(c.friction, "that friction does not hold");
+  add(c.contact, type == Gripper::Type::parallel ? "where the pads do not meet" : "where the ring leaves the part");
+  add(c.seal, "that do not seal");
+  add(c.collision, "where the gripper meets the part");
+  return text;
+}
+
+}  // namespace bin_scenes

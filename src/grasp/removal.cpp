@@ -1,0 +1,171 @@
+/// A part goes straight up, against gravity, until it is out of the bin. Whom its mesh would meet on the way, or who
+/// presses down on it, has to go first.
+#include "grasp/removal.hpp"
+
+#include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/quality/quality.hpp"
+#include "grasp/rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double lies_on = 0.05;       ///< load / weight of the lighter one, from which a part lies on another
+constexpr double supports = 0.2;       ///< sine of the normal's angle to the horizontal, from which a contact supports
+constexpr double most_overlap = 0.02;  ///< / smaller diagonal: of parts at rest, which is no hold
+
+/// Forces that act on one part.
+struct Acting {
+  double load = 0.0, drag = 0.0;   ///< N
+  std::map<int, double> pressing;  ///< N down, by the other's id
+};
+
+/// Above where it lies by `raise`, and a little beside: of equal parts exactly above each other all edges would only
+/// touch.
+Pose nudged(const PlacedPart& part, const Vec3& way, double raise, double size) {
+  const Vec3 center = part.box.center();
+  const Quat turn(Eigen::AngleAxisd(1e-4, way));
+  const Vec3 moved = raise * way + 1e-5 * size * way.unitOrthogonal();
+  return {center + turn * (part.pose.position - center) + moved, (turn * part.pose.orientation).normalized()};
+}
+
+/// Whether a line from the part's surface along the way enters the other one, farther than `from`. A quick yes.
+bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit, double from) {
+  const Pose into = other.pose.inverse();
+  const Vec3 along = into.orientation * way;
+  for (const Vec3& top : part.tops)
+    for (const Passage& passage : passages(*other.mesh, into * top, along, from))
+      if (passage.distance < limit && other.mesh->mesh().area_vector(passage.triangle).dot(along) < 0.0) return true;
+  return false;
+}
+
+double pair_friction(double a, double b) {
+  return std::sqrt(a * b);
+}
+
+class Forces {
+ public:
+  Forces(const Scene& scene, const LoadedRequest& loaded, const Vec3& up) : request_(loaded.request), up_(up) {
+    for (const ScenePart& part : scene.parts) line_[part.id] = part.line;
+    for (const SceneContact& contact : scene.contacts) {
+      add(contact.b, contact.a, contact.force, contact.normal);
+      add(contact.a, contact.b, -contact.force, -contact.normal);
+    }
+  }
+  const Acting& on(int id) const {
+    static const Acting nothing;
+    const auto found = acting_.find(id);
+    return found == acting_.end() ? nothing : found->second;
+  }
+
+ private:
+  double friction_of(int id) const { return id < 0 ? request_.bin.friction : request_.parts[line_.at(id)].friction; }
+  /// @param normal  towards `id`
+  void add(int id, int other, const Vec3& force, const Vec3& normal) {
+    if (id < 0) return;
+    Acting& acting = acting_[id];
+    const double down = -force.dot(up_);
+    if (other >= 0 && down > 0.0) {
+      acting.load += down;
+      acting.pressing[other] += down;
+    }
+    if (normal.dot(up_) > supports) return;  // it is left as soon as the part goes up
+    acting.drag += pair_friction(friction_of(id), friction_of(other)) * std::abs(force.dot(normal));
+  }
+
+  const Request& request_;
+  Vec3 up_;
+  std::map<int, std::size_t> line_;
+  std::map<int, Acting> acting_;
+};
+
+}  // namespace
+
+double mass_of(const PartLine& line, const PartModel& model) {
+  return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
+}
+
+bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit) {
+  Aabb swept = part.box;
+  swept.extend(Vec3(part.box.lower + limit * way));
+  swept.extend(Vec3(part.box.upper + limit * way));
+  if (!swept.overlaps(other.box)) return false;
+  const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
+  if (stands_over(other, part, way, limit, 2e-3 * smaller)) return true;
+  // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
+  // along each other when the overlap is taken out and a gripper gives way a little; only what is still in the way then
+  // counts.
+  for (const double raise : {1e-5, 2e-4, 2e-3}) {
+    const Pose pose = nudged(part, way, raise * smaller, smaller);
+    const double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
+    if (free > 0.0) return free < limit;
+    const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
+    // The other one, to be moved up out of the part, lies on it.
+    if (overlap.depth > most_overlap * smaller || overlap.direction.dot(way) > supports) return true;
+    for (const double play : {1e-6, 1e-3}) {
+      Pose apart = pose;
+      apart.position -= (overlap.depth + play * smaller) * overlap.direction;
+      const double then = free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit);
+      if (then >= limit) return false;
+      if (then > most_overlap * smaller) return true;
+    }
+  }
+  return true;
+}
+
+std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed) {
+  const Forces forces(scene, loaded, placed.up());
+  const double gravity = loaded.request.gravity.norm();
+  std::map<int, double> weight;
+  for (const PlacedPart& part : placed.all())
+    if (part.id >= 0) weight[part.id] = gravity * mass_of(loaded.request.parts[part.line], *loaded.parts[part.line]);
+  std::vector<PartPick> picks;
+  for (const PlacedPart& part : placed.all()) {
+    if (!part.movable) continue;
+    stop_if_cancelled();
+    const Acting& acting = forces.on(part.id);
+    PartPick pick;
+    pick.id = part.id;
+    pick.load = acting.load;
+    pick.pull = weight[part.id] + acting.load + acting.drag;
+    std::set<int> blocking;
+    for (const auto& [other, force] : acting.pressing)
+      if (force > lies_on * std::min(weight[part.id], weight[other])) blocking.insert(other);
+    const double limit = placed.top() - lowest(part.box, placed.up());
+    for (const PlacedPart& other : placed.all()) {
+      const bool upright_walls = other.id < 0 && loaded.request.bin.kind == Bin::Kind::box;
+      if (other.id == part.id || upright_walls || blocking.count(other.id)) continue;
+      if (hinders(other, part, placed.up(), limit)) blocking.insert(other.id);
+    }
+    pick.blocked_by.assign(blocking.begin(), blocking.end());
+    picks.push_back(std::move(pick));
+  }
+  return picks;
+}
+
+std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed) {
+  std::map<int, double> height;
+  for (const PlacedPart& part : placed.all()) height[part.id] = highest(part.box, placed.up());
+  std::map<int, int> depth;  // of those that are out
+  std::vector<int> order;
+  while (true) {
+    PartPick* next = nullptr;
+    for (PartPick& pick : picks) {
+      const auto out = [&](int id) { return depth.count(id) != 0; };
+      if (out(pick.id) || !std::all_of(pick.blocked_by.begin(), pick.blocked_by.end(), out)) continue;
+      if (!next || height[pick.id] > height[next->id]) next = &pick;
+    }
+    if (!next) return order;
+    next->depth = 0;
+    for (const int id : next->blocked_by) next->depth = std::max(next->depth, depth.at(id) + 1);
+    depth[next->id] = next->depth;
+    order.push_back(next->id);
+  }
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,20 @@
+/// What hinders parts from being lifted straight up, and in which order they come free.
+#pragma once
+
+#include "bin_scenes/grasp/scene_grasps.hpp"
+#include "grasp/placed_parts.hpp"
+
+namespace bin_scenes {
+
+/// Picks of all movable parts, without depth: load, pull and what blocks them.
+std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed);
+
+/// Fills in the depths, and returns the order. A part that nobody can free, and what it blocks, is not in it.
+std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed);
+
+/// Whether `other` is in the way of `part` as it goes along `way` (unit) up to `limit` (m).
+bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit);
+
+double mass_of(const PartLine& line, const PartModel& model);
+
+}  // namespace bin_scenes

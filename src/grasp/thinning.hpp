@@ -1,0 +1,37 @@
+/// Poses that are as good as one: near each other, or made so by a symmetry of the part or of the gripper.
+#pragma once
+
+#include "bin_scenes/grasp/part_grasps.hpp"
+#include "bin_scenes/part/symmetry.hpp"
+
+#include <optional>
+
+namespace bin_scenes {
+
+class PoseMeasure {
+ public:
+  /// @param symmetries  of the part; empty: poses are told apart that symmetries make alike
+  PoseMeasure(const Symmetries& symmetries, Gripper::Type type);
+
+  struct Limits {
+    double apart = 0.0, angle = 0.0;  ///< m, rad
+  };
+  /// Whether b is within the limits of a, for some symmetry.
+  bool near(const Pose& a, const Pose& b, const Limits& limits) const;
+  /// All places to which symmetries bring a pose, the pose itself first; round axes in steps of the limits.
+  std::vector<Pose> images(const Pose& pose, const Limits& limits) const;
+
+ private:
+  double angle_between(const Quat& a, const Quat& b) const;
+  Quat about_axis(const Pose& a, const Pose& b, double arm) const;
+
+  std::vector<Pose> maps_;  ///< the identity first
+  std::vector<Symmetries::Axis> axes_;
+  Gripper::Type type_;
+};
+
+/// Indices of poses, none near another, at most `most`: the limits grow until they are so few. Earlier poses go first.
+std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure, PoseMeasure::Limits& limits,
+                              std::size_t most);
+
+}  // namespace bin_scenes

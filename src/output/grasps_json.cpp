@@ -1,0 +1,101 @@
+/// grasps.json: what can be picked of a scene. One grasp a line.
+#include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bin_scenes {
+
+namespace {
+
+using GraspJson = nlohmann::ordered_json;
+
+constexpr const char* grasps_format = "bin_scenes/grasps/1";
+
+GraspJson pose_json(const Pose& pose) {
+  const Vec3& p = pose.position;
+  const Quat& q = pose.orientation;
+  return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+/// What draws a gripper; keys as in the request.
+GraspJson gripper_json(const Gripper& g) {
+  GraspJson json = {{"name", g.name}};
+  if (g.type == Gripper::Type::parallel) {
+    json.update({{"type", "parallel"},
+                 {"stroke", g.travel()},
+                 {"finger_width", g.finger_width},
+                 {"finger_thickness", g.finger_thickness},
+                 {"pad_length", g.pad_length}});
+  } else {
+    json.update({{"type", "suction"}, {"radius", g.radius}});
+  }
+  json.update({{"finger_depth", g.finger_depth}, {"palm", {g.palm.x(), g.palm.y(), g.palm.z()}}, {"force", g.force}});
+  return json;
+}
+
+GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene& scene, const Request& request) {
+  GraspJson json = {{"part", grasp.part},
+                    {"gripper", request.grippers[grasp.gripper].name},
+                    {"grasp", grasp.grasp},
+                    {"pose", pose_json(grasp.pose)},
+                    {"width", grasp.width},
+                    {"score", grasp.score},
+                    {"friction", std::isfinite(grasp.friction) ? GraspJson(grasp.friction) : GraspJson()},
+                    {"free", grasp.free()},
+                    {"reason", reason_of(grasp, pick)}};
+  json["visible"] = json["measured"] = json["pose_in_camera"] = GraspJson::object();
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    const std::string& name = scene.sensors[i].name;
+    json["pose_in_camera"][name] = pose_json(scene.sensors[i].pose.value_or(Pose()).inverse() * grasp.pose);
+    if (i >= grasp.visible.size()) continue;
+    json["visible"][name] = grasp.visible[i];
+    json["measured"][name] = grasp.measured[i];
+  }
+  return json;
+}
+
+GraspJson found_json(const SceneGrasps::Found& found, const Request& request) {
+  const GraspCounts& c = found.counts;
+  return {{"line", found.line},
+          {"model", request.parts[found.line].model},
+          {"gripper", request.grippers[found.gripper].name},
+          {"grasps", found.grasps},
+          {"placed", found.placed},
+          {"coverage", found.coverage},
+          {"tried", c.tried},
+          {"good", c.good},
+          {"failed",
+           {{"width", c.width},
+            {"friction", c.friction},
+            {"contact", c.contact},
+            {"seal", c.seal},
+            {"collision", c.collision}}}};
+}
+
+}  // namespace
+
+std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request) {
+  GraspJson rest = {{"removal_order", grasps.removal_order}};
+  rest["blocked_by"] = GraspJson::object();
+  rest["parts"] = rest["models"] = rest["grippers"] = GraspJson::array();
+  for (const PartPick& pick : grasps.parts) {
+    if (!pick.blocked_by.empty()) rest["blocked_by"][std::to_string(pick.id)] = pick.blocked_by;
+    rest["parts"].push_back(
+        {{"id", pick.id}, {"load", pick.load}, {"pull", pick.pull}, {"depth", pick.depth}, {"tilted", pick.tilted}});
+  }
+  for (const auto& found : grasps.found) rest["models"].push_back(found_json(found, request));
+  for (const Gripper& gripper : request.grippers) rest["grippers"].push_back(gripper_json(gripper));
+  std::string text = "{\"format\": \"" + std::string(grasps_format) + "\",\n \"grasps\": [";
+  auto pick = grasps.parts.begin();
+  for (std::size_t i = 0; i < grasps.grasps.size(); ++i) {
+    while (pick->id != grasps.grasps[i].part) ++pick;  // grasps are in the order of the parts
+    text += (i ? ",\n  " : "\n  ") + grasp_json(grasps.grasps[i], *pick, scene, request).dump();
+  }
+  return text + "],\n" + rest.dump(1).substr(2) + "\n";
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,24 @@
+/// Grasps as messages.
+#pragma once
+
+#include "bin_scenes/grasp/scene_grasps.hpp"
+#include "frames.hpp"
+#include "messages.hpp"
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Those that were asked for, the best first. Throws an input Error for an id that is not there.
+std::vector<SceneGrasp> chosen_grasps(const SceneGrasps& all, const bin_scenes_msgs::GetGrasps::Request& asked);
+
+void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen, const SceneGrasps& all,
+          const Request& request, const Frames& frames, const ros::Time& stamp);
+
+/// Fingers, cups and palms, green for the best score and red for none. What was shown before goes.
+visualization_msgs::MarkerArray grasp_markers(const std::vector<SceneGrasp>& grasps, const Request& request,
+                                              const Frames& frames, const ros::Time& stamp);
+
+}  // namespace bin_scenes

@@ -1,0 +1,60 @@
+#include "bin_scenes/scene/gripper.hpp"
+
+#include "bin_scenes/core/error.hpp"
+
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+namespace {
+
+// What grippers for bins are built like, with room to spare. Millimetres taken for metres lie far outside.
+constexpr double longest = 2.0, shortest = 1e-4;  // m
+
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g m", value);
+  return text;
+}
+
+/// The lengths that a type uses and that no gripper can do without.
+std::vector<std::pair<const char*, double>> lengths(const Gripper& g) {
+  std::vector<std::pair<const char*, double>> all;
+  if (g.type == Gripper::Type::suction) {
+    all = {{"radius", g.radius}};
+  } else {
+    all = {{"finger_width", g.finger_width}, {"finger_thickness", g.finger_thickness}, {"pad_length", g.pad_length}};
+  }
+  all.insert(all.end(), {{"stroke", g.travel()},
+                         {"finger_depth", g.finger_depth},
+                         {"palm[0]", g.palm.x()},
+                         {"palm[1]", g.palm.y()},
+                         {"palm[2]", g.palm.z()}});
+  return all;
+}
+
+}  // namespace
+
+void check_gripper(const Gripper& gripper, const std::string& key) {
+  for (const auto& [name, value] : lengths(gripper)) {
+    if (value > longest)
+      throw input_error("is " + metres(value) + ", longer than any gripper for bins", key + "." + name,
+                        "lengths are in m; for mm write " + metres(1e-3 * value));
+    if (value < shortest)
+      throw input_error("is " + metres(value) + ", shorter than any gripper's", key + "." + name,
+                        "lengths are in m; perhaps " + metres(1e3 * value) + " is meant");
+  }
+  if (gripper.type == Gripper::Type::parallel) {
+    if (gripper.pad_length > gripper.finger_depth)
+      throw input_error("is longer than finger_depth, " + metres(gripper.finger_depth), key + ".pad_length",
+                        "the pad lies on the finger");
+    return;
+  }
+  if (gripper.lip >= gripper.radius)
+    throw input_error("is no smaller than the radius of the ring, " + metres(gripper.radius), key + ".lip",
+                      "give what the lip can bridge, about a tenth of the radius");
+}
+
+}  // namespace bin_scenes

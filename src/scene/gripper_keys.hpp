@@ -1,0 +1,41 @@
+/// The table of keys of grippers (see scene/keys.hpp).
+#pragma once
+
+#include "bin_scenes/scene/gripper.hpp"
+#include "bin_scenes/scene/key.hpp"
+
+namespace bin_scenes {
+
+inline Names<Gripper::Type> names(Gripper::Type) {
+  return {{"parallel", Gripper::Type::parallel}, {"suction", Gripper::Type::suction}};
+}
+
+template <class Visitor>
+void visit(Visitor& v, Gripper& g) {
+  v.field({"name", "", "name in the outputs; left out: that of the preset"}, g.name);
+  v.field({"preset", "", "name of a file of config/grippers whose values are the defaults here", anything, false},
+          g.preset);
+  v.field({"type", "", "two fingers that close along a line, or a round cup"}, g.type);
+  v.field({"stroke", "m",
+           "parallel: largest distance of the pads, default 0.05; suction: give of the bellows on a tilted surface, "
+           "default radius / 2",
+           above(0.0)},
+          g.stroke);
+  v.field({"opening", "m", "parallel: by which each finger opens beyond the part", at_least(0.0)}, g.opening);
+  v.field({"finger_width", "m", "parallel: of finger and pad", above(0.0)}, g.finger_width);
+  v.field({"finger_depth", "m", "from the palm to finger tips or ring", above(0.0)}, g.finger_depth);
+  v.field({"finger_thickness", "m", "parallel: along closing", above(0.0)}, g.finger_thickness);
+  v.field({"pad_length", "m", "parallel: of the pad, from the tip on", above(0.0)}, g.pad_length);
+  v.field({"pad_give", "m", "parallel: what lies no deeper is in contact", above(0.0)}, g.pad_give);
+  v.field({"radius", "m", "suction: of the ring", above(0.0)}, g.radius);
+  v.field({"lip", "m", "suction: largest gap that the lip closes", above(0.0)}, g.lip);
+  v.field({"stiffness", "N/m", "suction: of the lip in its gap; takes from force", at_least(0.0)}, g.stiffness);
+  v.field({"palm", "m", "box behind the fingers: along closing, across, along approach", above(0.0, 1e4)}, g.palm);
+  v.field({"force", "N", "of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
+  v.field({"friction", "", "of pad or ring; with a part sqrt(a * b)", above(0.0, 10.0)}, g.friction);
+  v.field({"clearance", "m", "to bin and other parts", at_least(0.0)}, g.clearance);
+  v.field({"tilt", "rad", "largest angle of approach and gravity", at_least(0.0, 3.2)}, g.tilt);
+  v.field({"most", "", "grasps of a part that a scene tries", at_least(1.0, 100000.0)}, g.most);
+}
+
+}  // namespace bin_scenes
