@@ -11,7 +11,7 @@ std::string gripper_preset_directory() {
   if (const char* sensors = std::getenv("BIN_SCENES_SENSORS"); sensors && *sensors)
     places.push_back(std::string(sensors) + "/../grippers");
   places.insert(places.end(), {BIN_SCENES_GRIPPER_SOURCE_DIR, BIN_SCENES_GRIPPER_INSTALL_DIR});
-  for (const std::string& place : config::beside_executable("grippers")) places.push_back(place);
+  for (const std::string& place : config::moved_presets("grippers")) places.push_back(place);
   return config::first_folder(places, "grippers", "keep the folder 'config/grippers' beside 'config/sensors'");
 }
 

@@ -1,4 +1,4 @@
-/// Folders of files that each hold the values of a preset: config/sensors, config/materials.
+/// Folders of files that each hold the values of a preset: config/sensors, config/materials, config/grippers.
 #pragma once
 
 #include "config/key_reader.hpp"
