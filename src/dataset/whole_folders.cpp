@@ -1,3 +1,5 @@
+/// Checks formats, writes the files of a scene, and keeps folders hidden until they are whole, each with the list of
+/// its files.
 #include "dataset/whole_folders.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -301,8 +301,8 @@ class GlSphereSolver final : public Solver {
     profile_.count("coloring_rounds", p.coloring_rounds);
     profile_.count("steps", p.steps);
     p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
-        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors =
-            p.coloring_rounds = p.asleep_steps = p.pairs_culled = 0;
+        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds =
+            p.asleep_steps = p.pairs_culled = 0;
   }
 
   void read_states(const Flight& flight) {

@@ -29,7 +29,8 @@ void color_manifolds(World& world) {
   for (std::uint32_t i = 0; i < world.manifolds.size(); ++i)
     if (world.manifolds[i].color >= 0) solved.push_back(i);
   const auto key = [&](std::uint32_t i) {
-    return world.manifolds[i].color * (max_contacts + 1) + max_contacts - static_cast<int>(world.manifolds[i].contacts.size());
+    return world.manifolds[i].color * (max_contacts + 1) + max_contacts -
+           static_cast<int>(world.manifolds[i].contacts.size());
   };
   counting_sort(solved, colors * (max_contacts + 1), key, start, world.order);
 }
