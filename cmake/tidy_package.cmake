@@ -12,11 +12,13 @@ if(EXISTS ${second})
   file(REMOVE ${second})
   file(CREATE_LINK ../../bin/bin_scenes ${second} SYMBOLIC)
 endif()
-# The package `bin_scenes` of Python is one: that of the messages, which catkin makes, has the file of the module.
-set(own ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/python/usr/lib/python3/dist-packages/bin_scenes/__init__.py)
-if(EXISTS ${own})
-  file(REMOVE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/node/usr/lib/python3/dist-packages/bin_scenes/__init__.py)
-endif()
+# The module and the messages are one package of Python, which catkin installs whole: what the module has, it has alone.
+set(folder usr/lib/python3/dist-packages/bin_scenes)
+file(GLOB found RELATIVE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/python/${folder}
+  ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/python/${folder}/*)
+foreach(name ${found})
+  file(REMOVE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/node/${folder}/${name})
+endforeach()
 # The licence is the package's copyright file.
 file(GLOB found ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*/usr/share/bin_scenes/LICENSE)
 if(found)
