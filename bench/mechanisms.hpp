@@ -75,6 +75,8 @@ inline const Mechanism mechanisms[] = {
     // Solving them.
     {"warm start", "a step begins without forces", [](Variant& v) { v.settings.warm_start = false; }},
     {"relaxation", "no sweeps after the move", [](Variant& v) { v.settings.relaxation = false; }},
+    {"cold sweeps", "two sweeps from the first step on",
+     [](Variant& v) { v.settings.cold_steps = v.settings.pressed_cold_steps = 0; }},
     {"soft contacts", "stiff ones while parts move", [](Variant& v) { v.settings.soft = v.settings.stiff; }},
     {"stiff contacts", "soft ones while parts are pressed", [](Variant& v) { v.settings.stiff = v.settings.soft; }},
     {"refinement", "stiff contacts with two sub-steps, not eight", [](Variant& v) { v.settings.stiff.refinement = 1; }},

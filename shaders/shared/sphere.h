@@ -94,6 +94,7 @@ struct SphereSettingsBlock {
   uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and after; SPHERE_RIGID: 1 after
+  uint cold_sweeps;        // the same in the first steps of a world
   float patch_radius;      // d: of what presses at a point or along a line
   uint cut_steps;          // 1: for fast parts
   float probe_slip;        // s of a step that begins without forces, without friction
@@ -117,6 +118,7 @@ struct SphereProgress {
   uint fine, stiffness, ordered, rows;       // samples in use, softness in use, manifolds to solve, rows of the step
   float time_step;                           // s, of this step
   uint cuts_left;                            // of a whole step
+  uint cold_steps;                           // yet to come, with more sweeps
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
@@ -127,7 +129,7 @@ struct SphereProgress {
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
-  uint unused[2];  // read back, states lie behind it: vectors begin at multiples of 16 bytes
+  uint unused;  // read back, states lie behind it: vectors begin at multiples of 16 bytes
 };
 
 struct SphereBody {

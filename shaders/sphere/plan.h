@@ -3,7 +3,7 @@
 #include "shared/sphere/plan.h"
 
 StepPlan plan_of(uint w) {
-  uint sweeps = progress[w].effort * settings.sweeps;
+  uint sweeps = progress[w].effort * (progress[w].cold_steps != 0u ? settings.cold_sweeps : settings.sweeps);
   return plan_step(progress[w].time_step, int(settings.sub_steps * progress[w].refinement), int(sweeps),
                    progress[w].stiffness == SPHERE_RIGID, progress[w].forgets != 0u, settings.probe_slip);
 }

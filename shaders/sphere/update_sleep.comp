@@ -83,6 +83,7 @@ void main() {
     settle(world.bodies.x + i, world.bodies.x + label[i], kept_awake[label[i]] == 1u, w);
   if (thread == 0u) {
     if (--progress[w].cuts_left == 0u) --progress[w].steps_left;
+    if (progress[w].cold_steps != 0u) --progress[w].cold_steps;
     progress[w].forgets = 0u;
     ++progress[w].steps;
   }

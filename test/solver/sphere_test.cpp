@@ -150,19 +150,24 @@ TEST(SphereProbe, WhatHoldsByLessThanATenthSlides) {
   EXPECT_NEAR(slip(Lab(sphere_default.make()), angle, 0.3, phases::probe) / expected, 1.0, 5e-3);
 }
 
-TEST(SpherePhases, AProbeAndWhatFollowsItForgetForces) {
+TEST(SpherePhases, ForgottenForcesAreFoundByMoreSweeps) {
   sphere::World world;
   EXPECT_TRUE(sphere::take_phase(world, phases::press));
   EXPECT_FALSE(sphere::take_phase(world, phases::press)) << "nothing changes";
   EXPECT_FALSE(world.forgets);
+  world.cold_steps = 0;
   for (int k = 0; k < 2; ++k) {
     EXPECT_TRUE(sphere::take_phase(world, phases::probe)) << "forces are forgotten each time";
     EXPECT_TRUE(world.forgets);
+    EXPECT_EQ(world.cold_steps, world.settings.cold_steps);
     EXPECT_EQ(world.grip, static_cast<float>(phases::probe.friction));
     EXPECT_TRUE(sphere::take_phase(world, phases::verify));
     EXPECT_TRUE(world.forgets);
+    EXPECT_EQ(world.cold_steps, world.settings.pressed_cold_steps);
+    world.cold_steps = 0;
     EXPECT_TRUE(sphere::take_phase(world, phases::settle));
     EXPECT_FALSE(world.forgets);
+    EXPECT_EQ(world.cold_steps, 0);
   }
 }
 

@@ -28,6 +28,7 @@ void end_step() {
   large.extent = large.big = large.speed = large.turn = 0u;
   if (idle()) return;
   if (--progress[large_world].cuts_left == 0u) --progress[large_world].steps_left;
+  if (progress[large_world].cold_steps != 0u) --progress[large_world].cold_steps;
   progress[large_world].forgets = 0u;
   ++progress[large_world].steps;
 }

@@ -27,6 +27,7 @@ layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_MOTIONS) SHARED buffer Motions { SphereMotion motions[]; };
 
 uniform uint stage, color, current_sub_step;
+uniform uint only_cold;  // a sweep of the first steps of a world
 
 #define velocity_of(i) states[world.bodies.x + (i)].velocity
 #define spin_of(i) states[world.bodies.x + (i)].spin
@@ -56,6 +57,7 @@ void sweep_rest() {
 void main() {
   world = worlds[large_world];
   if (idle() || stage == SWEEP_BOUNCE && large.bounced == 0u) return;
+  if (only_cold == 1u && progress[large_world].cold_steps == 0u) return;
   take_sub_step_of(large_world, current_sub_step);
 #ifdef REST
   sweep_rest();

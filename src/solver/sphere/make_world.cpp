@@ -69,6 +69,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.smallest_size = w.thinnest = std::numeric_limits<float>::max();
   for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
+  w.cold_steps = w.settings.cold_steps;
   w.cuts =
       w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
@@ -120,6 +121,9 @@ bool take_phase(World& world, const Phase& phase) {
   world.sleep = phase.sleep;
   world.forgets = phase.forgets;
   world.effort = effort_of(world);
+  if (phase.forgets)
+    world.cold_steps =
+        phase.stiffness == Stiffness::rigid ? world.settings.cold_steps : world.settings.pressed_cold_steps;
   return true;
 }
 

@@ -32,6 +32,7 @@ void step(World& world) {
   timed(color_manifolds, world, spent.color_manifolds);
   timed(solve, world, spent.solve);
   timed(update_sleep, world, spent.update_sleep);
+  if (world.cold_steps > 0) --world.cold_steps;
   world.forgets = false;
 }
 

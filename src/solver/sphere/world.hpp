@@ -47,6 +47,9 @@ struct Settings {
   /// Larger worlds leave an impact to the next sub-steps: in a heap that is poured there is always one, soon shared
   /// among many, and the sweeps would cost a tenth of its time.
   std::size_t impact_bodies = 48;
+  int cold_sweeps = 4;  ///< sweeps in the first steps of a world and of a probe, when contacts carry no forces yet
+  int cold_steps = 50;  ///< number of such steps; with 0, a part under one of a thousand times its mass never rests
+  int pressed_cold_steps = 10;  ///< number of such steps in a press after a probe, where forces are found sooner
   // World::effort multiplies the work on contacts. It is the largest of four bounds, each 1 in an ordinary bin.
   float default_layers = 4.5f;   ///< layers of a heap for which the default work suffices; work grows linearly beyond;
                                  ///< higher = parts deep in a bin never rest: loads travel about one layer a sweep
@@ -182,6 +185,7 @@ struct World {
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float grip = 1;                         ///< share of friction that acts
   bool forgets = false;                   ///< the next step starts without remembered forces
+  int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
   float mass_ratio = 1;                   ///< heaviest part / lightest
   int mass_effort = 1;                    ///< factor on sweeps of soft contacts, for parts of unequal masses
@@ -212,7 +216,8 @@ struct World {
   }
   /// Of the next step.
   StepPlan plan() const {
-    StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(), sweep_effort() * settings.sweeps,
+    StepPlan plan = plan_step(settings.time_step, settings.sub_steps * refinement(),
+                              sweep_effort() * (cold_steps > 0 ? settings.cold_sweeps : settings.sweeps),
                               stiffness == Stiffness::rigid, forgets, settings.probe_slip);
     if (!settings.relaxation) plan.relaxing_sweeps = 0;
     if (!settings.half_way_poses) plan.half_way = 0;

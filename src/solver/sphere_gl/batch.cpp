@@ -178,6 +178,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress.free_slots = static_cast<gpu::uint>(free);
   contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
   tell_phase(world, progress);
+  progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
   upload_progress({{slot, progress}});
   return slot;
@@ -226,6 +227,7 @@ void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> wo
     auto& [slot, progress] = worlds[i];
     Region& r = regions_[slot];
     r.stiffness = progress.stiffness;
+    r.cold = progress.cold_steps != 0;
     r.refinement = progress.refinement;
     r.effort = progress.effort;
     const std::size_t wide = std::min<std::size_t>({progress.wide_colors, capacity_.colors, SPHERE_COLORS - 1});

@@ -93,6 +93,7 @@ class Batch {
     std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_row = 0,
                 rows = 0, sharing_sweeps = 0, impact_sweeps = 0, first_plane = 0, planes = 0;
     gpu::uint stiffness = 0;
+    bool cold = false;
     gpu::uint refinement = 1, effort = 1;
     LargeWorld large;  ///< no bodies: one group holds the world
   };

@@ -18,6 +18,7 @@ void Batch::run(const std::vector<Slot>& slots, float share) {
     running_large_.back().sub_steps = sub_steps(r);
     running_large_.back().sweeps = r.effort * settings_block_.sweeps;
     running_large_.back().rigid = r.stiffness == SPHERE_RIGID;
+    running_large_.back().cold_sweeps = r.cold ? r.effort * settings_block_.cold_sweeps : 0;
   }
   running_.upload(0, list.data(), list.size());
   running_count_ = list.size();

@@ -47,6 +47,7 @@ gpu::SphereSettingsBlock to_gpu(const Settings& s) {
     return {c.hertz_share, c.damping_ratio, c.slop, static_cast<float>(c.refinement)};
   };
   out.sweeps = static_cast<gpu::uint>(s.sweeps);
+  out.cold_sweeps = static_cast<gpu::uint>(s.cold_sweeps);
   for (const Stiffness stiffness : {Stiffness::soft, Stiffness::stiff, Stiffness::rigid})
     out.softness[static_cast<std::size_t>(stiffness)] = softness(s.softness(stiffness));
   out.probe_slip = s.probe_slip;
@@ -74,6 +75,7 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.refinement = static_cast<gpu::uint>(world.refinement());
   progress.effort = static_cast<gpu::uint>(world.sweep_effort());
   progress.forgets = world.forgets ? 1 : 0;
+  if (world.forgets) progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
 }
 
 gpu::SpherePlane to_gpu(const Plane& plane) {

@@ -138,8 +138,13 @@ void LargePasses::sweep(unsigned kind, const LargeWorld& world) {
   indirect(solve_rest_, offsetof(gpu::SphereLarge, rest_groups));
 }
 
+/// The device knows in which step a world is no longer cold, the host learns it later.
 void LargePasses::sweeps(unsigned first, unsigned kind, const LargeWorld& world) {
-  for (unsigned i = 0; i < world.sweeps; ++i) sweep(i == 0 ? first : kind, world);
+  for (unsigned i = 0; i < std::max(world.sweeps, world.cold_sweeps); ++i) {
+    for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", i < world.sweeps ? 0u : 1u);
+    sweep(i == 0 ? first : kind, world);
+  }
+  for (const gl::Program* p : {&solve_manifolds_, &solve_rest_}) p->set("only_cold", 0u);
 }
 
 void LargePasses::solve(const LargeWorld& world) {

@@ -31,6 +31,7 @@ struct LargeWorld {
   std::size_t bodies = 0;
   float smallest_cell = 0;             ///< m: the diagonal of the largest part that moves
   unsigned sub_steps = 1, sweeps = 1;  ///< of this step; over all manifolds, before and after bodies move
+  unsigned cold_sweeps = 0;            ///< the same while the world's contacts begin without forces; 0: they do not
   bool rigid = false;                  ///< contacts: one sweep after bodies move
   bool restitution = false;            ///< something in it bounces
   unsigned colors = 0;                 ///< that have dispatches of their own

@@ -282,10 +282,14 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   };
   const auto step = [&] { return asked_for(*solver, {id}, solver->step_size()).dispatches; };
   solver->advance({id}, 2 * solver->step_size());  // lists grow
+  EXPECT_EQ(step(), expected(2, 4 + 4)) << "cold";
+  solver->advance({id}, 50 * solver->step_size());
   EXPECT_EQ(step(), expected(2, 2 + 2));
   solver->set_phase(id, phases::press);
   EXPECT_EQ(step(), expected(8, 2 + 2));
   solver->set_phase(id, phases::probe);
+  EXPECT_EQ(step(), expected(8, 4 + 1)) << "cold";
+  solver->advance({id}, 50 * solver->step_size());
   EXPECT_EQ(step(), expected(8, 2 + 1));
 }
 
