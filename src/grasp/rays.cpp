@@ -1,7 +1,8 @@
 #include "grasp/rays.hpp"
 
+#include "grasp/tree_walk.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace bin_scenes {
@@ -42,28 +43,15 @@ double distance_to(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& orig
 
 std::vector<Passage> passages(const MeshQuery& mesh, const Vec3& origin, const Vec3& direction, double from) {
   std::vector<Passage> found;
-  const std::vector<MeshQuery::Node>& nodes = mesh.nodes();
-  if (nodes.empty()) return found;
-  std::array<std::uint32_t, 128> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const std::uint32_t at = stack[--size];
-    const MeshQuery::Node& node = nodes[at];
-    if (misses(node.box, origin, direction, from)) continue;
-    if (node.count == 0) {
-      stack[size++] = node.first;
-      stack[size++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const std::size_t triangle = mesh.leaf_triangle(node.first + i);
-      const Triangle& t = mesh.mesh().triangles[triangle];
-      const auto& v = mesh.mesh().vertices;
-      const double distance = distance_to(v[t[0]], v[t[1]], v[t[2]], origin, direction);
-      if (distance > from) found.push_back({distance, triangle});
-    }
-  }
+  const auto& v = mesh.mesh().vertices;
+  any_near(
+      mesh, [&](const Aabb& box) { return misses(box, origin, direction, from); },
+      [&](std::size_t triangle) {
+        const Triangle& t = mesh.mesh().triangles[triangle];
+        const double distance = distance_to(v[t[0]], v[t[1]], v[t[2]], origin, direction);
+        if (distance > from) found.push_back({distance, triangle});
+        return false;
+      });
   std::sort(found.begin(), found.end(), [](const Passage& a, const Passage& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
   });

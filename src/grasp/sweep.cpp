@@ -2,6 +2,8 @@
 /// are tried against the axes of faces and coordinates alone, which may keep a node that is apart, but loses none.
 #include "grasp/sweep.hpp"
 
+#include "grasp/tree_walk.hpp"
+
 #include <cmath>
 
 namespace bin_scenes {
@@ -97,8 +99,6 @@ bool Sweep::meets(const Vec3& p, const Vec3& q, const Vec3& r) const {
 }
 
 bool Sweep::meets(const MeshQuery& mesh, const Pose& pose) const {
-  const std::vector<MeshQuery::Node>& nodes = mesh.nodes();
-  if (nodes.empty()) return false;
   const Sweep here = placed(pose.inverse());
   const auto apart = [&](const Aabb& box) {
     if (!here.bounds_.overlaps(box)) return true;
@@ -109,25 +109,11 @@ bool Sweep::meets(const MeshQuery& mesh, const Pose& pose) const {
     }
     return false;
   };
-  std::array<std::uint32_t, 128> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const std::uint32_t at = stack[--size];
-    const MeshQuery::Node& node = nodes[at];
-    if (apart(node.box)) continue;
-    if (node.count == 0) {
-      stack[size++] = node.first;
-      stack[size++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const Triangle& t = mesh.mesh().triangles[mesh.leaf_triangle(node.first + i)];
-      const auto& v = mesh.mesh().vertices;
-      if (here.meets(v[t[0]], v[t[1]], v[t[2]])) return true;
-    }
-  }
-  return false;
+  const auto& v = mesh.mesh().vertices;
+  return any_near(mesh, apart, [&](std::size_t triangle) {
+    const Triangle& t = mesh.mesh().triangles[triangle];
+    return here.meets(v[t[0]], v[t[1]], v[t[2]]);
+  });
 }
 
 }  // namespace bin_scenes
