@@ -56,6 +56,11 @@ class Cluster {
   std::uint32_t known_ = 0;
 };
 
+/// By the distance of one end, before that of the other is asked for, which often lies in another cluster.
+bool edge_is_apart(const View& view, const Edge& edge, float distance) {
+  return distance - edge.length >= view.margin + error_of(view.field);
+}
+
 /// Returns how many nodes it has.
 std::size_t test_cluster(const View& view, std::size_t index) {
   const Samples& samples = view.samples;
@@ -71,7 +76,9 @@ std::size_t test_cluster(const View& view, std::size_t index) {
     }
   for (uint e = samples.first_edge[index]; e < samples.first_edge[index + 1]; ++e) {
     const Edge& edge = samples.edges[e];
-    const float distance_a = cluster.distance(edge.a), distance_b = cluster.distance(edge.b);
+    const float distance_a = cluster.distance(edge.a);
+    if (edge_is_apart(view, edge, distance_a)) continue;
+    const float distance_b = cluster.distance(edge.b);
     if (!edge_may_touch(view, edge, distance_a, distance_b)) continue;
     Touch touch;
     if (touches_with_edge(view, e, cluster.touch(edge.a), cluster.touch(edge.b), touch))
