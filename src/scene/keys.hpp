@@ -294,7 +294,7 @@ void visit(Visitor& v, SphereSettings& s) {
       s.cut_steps);
   v.field(
       {"step_fall", "",
-       "with cut_steps: way that the smallest part falls from rest in one step at most / its diagonal; more = longer "
+       "with cut_steps: distance that the smallest part falls from rest in one step at most / its diagonal; more = longer "
        "steps for small parts, which sink in further",
        above(0.0, 1.0)},
       s.step_fall);
