@@ -1,3 +1,4 @@
+/// The page about the request: a table a section, from the visitor of its keys.
 #include "config/reference.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
