@@ -5,6 +5,7 @@
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
+#include "quality/clearance.hpp"
 #include "runs.hpp"
 
 #include <algorithm>
@@ -43,6 +44,20 @@ std::vector<double> values_of(const std::string& text) {
   return {std::istream_iterator<double>(in), {}};
 }
 
+/// Counts, for each part, the parts whose surface is closer than two thousandths of a diagonal.
+std::vector<double> contacts_of(const PartModel& part, const std::vector<Pose>& poses) {
+  const double limit = 2e-3 * part.diagonal();
+  std::vector<double> counts(poses.size(), 0.0);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Vec3 apart = poses[i] * part.mass().center - poses[k] * part.mass().center;
+      if (apart.norm() <= 2.0 * part.radius() + limit &&
+          test::clearance(part.query(), poses[i], part.query(), poses[k], 2.0 * limit) <= limit)
+        ++counts[i], ++counts[k];
+    }
+  return counts;
+}
+
 Sample sample_of(const Poured& poured, const Request& request) {
   const PartModel& part = *poured.parts.front();
   Sample sample;
@@ -58,8 +73,7 @@ Sample sample_of(const Poured& poured, const Request& request) {
   const double floor = request.bin.inner_size.x() * request.bin.inner_size.y();
   const double solid = part.mass().volume * static_cast<double>(poses.size());
   sample[packing] = {solid / (floor * 2.0 * mean_height)};  // an even heap is twice as high as its mean
-  sample[contacts].resize(poses.size(), 0.0);
-  for (const auto& [a, b] : touching_pairs(part, poses)) ++sample[contacts][a], ++sample[contacts][b];
+  sample[contacts] = contacts_of(part, poses);
   return sample;
 }
 
@@ -135,48 +149,47 @@ Request request_for(const std::string& name, const std::string& part, std::size_
   return request;
 }
 
+/// How far the candidates' values lie from the reference's, beside how far its own halves lie from each other. Without
+/// candidates the reference stands for them.
+Row measure_row(const std::vector<Sample>& reference, const std::vector<Sample>& candidates, const char* measure) {
+  const std::vector<Sample>& scenes = candidates.empty() ? reference : candidates;
+  std::vector<std::size_t> all(scenes.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<double> own = distances(reference, {}, measure, scenes.size());
+  const std::vector<double> values = pooled(scenes, all, 0, all.size(), measure);
+  const std::vector<double> distance = distances(reference, candidates, measure, scenes.size());
+  return Row()
+      .exact("seeds", scenes.size())
+      .info("mean", std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()))
+      .info("p05", quantile(values, 0.05))
+      .info("p95", quantile(values, 0.95))
+      .measure("wasserstein", distance)
+      .info("reference_to_itself_median", median(own))
+      .info("reference_to_itself_p95", quantile(own, 0.95))
+      .info("within_reference_noise", median(distance) <= quantile(own, 0.95));
+}
+
 void tell(Run& out, const std::string& part, int seeds) {
   const std::size_t count = out.quick() ? 8 : 32;
   const double limit_cpu_s = out.quick() ? 30.0 : 120.0;
   const std::string names[] = {"sphere fine", "sphere", "sphere/gpu", "sphere coarse", "sphere coarser", "bullet"};
-  const auto key = [&](const std::string& name) { return Row().key("part", part).key("solver", name); };
-  if (std::none_of(std::begin(names), std::end(names), [&](const std::string& name) { return out.wanted(key(name)); }))
-    return;  // the reference takes longest
+  const auto wanted = [&](const std::string& name) { return out.wanted(Row::keys("part", part, "solver", name)); };
+  if (std::none_of(std::begin(names), std::end(names), wanted)) return;  // the reference takes longest
   Row failed;
   Request reference_request = request_for("sphere fine", part, count, out.quick());
   reference_request.seed = 1001;  // other seeds than the candidates'
   const std::vector<Sample> reference = poured_over(reference_request, 2 * seeds, limit_cpu_s, failed);
   for (const std::string& name : names) {
-    if (!out.wanted(key(name))) continue;
-    const int poured = name == "sphere/gpu" ? std::min(seeds, gpu_seeds) : seeds;
+    if (!wanted(name)) continue;
     const bool itself = name == "sphere fine";
-    const std::vector<Sample> candidates =
-        itself || reference.empty()
-            ? std::vector<Sample>{}
-            : poured_over(request_for(name, part, count, out.quick()), poured, limit_cpu_s, failed);
+    std::vector<Sample> candidates;
+    if (!itself && !reference.empty())
+      candidates = poured_over(request_for(name, part, count, out.quick()),
+                               name == "sphere/gpu" ? std::min(seeds, gpu_seeds) : seeds, limit_cpu_s, failed);
     for (const char* measure : {height, axis, packing, contacts}) {
-      Row row;
-      row.key("part", part).key("bodies", count).key("solver", name).key("measure", measure);
-      if (reference.empty() || (!itself && candidates.empty())) {
-        out.row(row.append(failed));
-        continue;
-      }
-      const std::vector<Sample>& scenes = itself ? reference : candidates;
-      std::vector<std::size_t> all(scenes.size());
-      std::iota(all.begin(), all.end(), std::size_t{0});
-      const std::vector<double> own = distances(reference, {}, measure, scenes.size());
-      const std::vector<double> values = pooled(scenes, all, 0, all.size(), measure);
-      const std::vector<double> distance = distances(reference, candidates, measure, scenes.size());
-      double mean = 0.0;
-      for (const double v : values) mean += v / static_cast<double>(values.size());
-      out.row(row.exact("seeds", scenes.size())
-                  .info("mean", mean)
-                  .info("p05", quantile(values, 0.05))
-                  .info("p95", quantile(values, 0.95))
-                  .measure("wasserstein", distance)
-                  .info("reference_to_itself_median", median(own))
-                  .info("reference_to_itself_p95", quantile(own, 0.95))
-                  .info("within_reference_noise", median(distance) <= quantile(own, 0.95)));
+      const Row key = Row::keys("part", part, "bodies", count, "solver", name, "measure", measure);
+      const bool poured = !reference.empty() && (itself || !candidates.empty());
+      out.row(Row(key).append(poured ? measure_row(reference, candidates, measure) : failed));
     }
   }
 }

@@ -3,11 +3,9 @@
 /// finish of a pour costs and leaves. Where the exact convex pieces of a part are known, the referee has its say. Few
 /// parts in a small bin are the harder test: p95 is that of the second worst.
 #include "framework/benchmark.hpp"
-#include "framework/isolated.hpp"
+#include "framework/host.hpp"
 #include "judged.hpp"
 #include "made_part.hpp"
-
-#include "bin_scenes/gl/device.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -56,11 +54,9 @@ Row over_all(std::vector<Row> scenes) {
   return out;
 }
 
-void heap_row(Run& out, const Row& key, const Request& request, const std::string& pieces, int seeds,
-              const Judged& how) {
-  const Judged quick{20.0, how.judged};
-  out.row(Row(key).append(
-      over_all(judged_scenes(out.scratch(), request, pieces, {}, out.quick() ? quick : how, out.quick() ? 1 : seeds))));
+void heap_row(Run& out, const Row& key, const Request& request, const std::string& pieces, int seeds, Judged how) {
+  if (out.quick()) how.limit_cpu_s = 20.0, seeds = 1;
+  out.row(Row(key).append(over_all(judged_scenes(out.scratch(), request, pieces, {}, how, seeds))));
 }
 
 const Vec3 usual_bin(0.40, 0.30, 0.20), small_bin(0.20, 0.15, 0.20);  // m
@@ -104,16 +100,9 @@ Request request_of(const Run& out, const Pile& pile) {
   return request;
 }
 
-/// Whether there is a GPU; asked in a process of its own, which alone makes a GL context.
-bool has_gpu() {
-  const Isolated one = isolated([] { return Row().exact("software", gl::Device::current().software()); });
-  return one.good && one.row.at("software") == "no";
-}
-
 void pile_row(Run& out, const Pile& pile, const std::string& solver, int seeds, int judged) {
   Request request = request_of(out, pile);
-  const Row key =
-      Row().key("part", pile.part).key("bodies", request.parts[0].count).key("solver", solver).key("sleeping", "yes");
+  const Row key = Row::keys("part", pile.part, "bodies", request.parts[0].count, "solver", solver, "sleeping", "yes");
   if (!out.wanted(key)) return;
   choose_solver(request, "sphere");
   warm_up(request);
@@ -136,7 +125,7 @@ template <class Write>
 void made_part_row(Run& out, const std::string& name, const Write& write, const Vec3& size, int seeds,
                    double limit_cpu_s) {
   Request request = bin_of(name, out.quick() ? 8 : 150);
-  const Row key = Row().key("part", name).key("bodies", request.parts[0].count).key("solver", "sphere");
+  const Row key = Row::keys("part", name, "bodies", request.parts[0].count, "solver", "sphere");
   if (!out.wanted(key)) return;
   const std::string folder = out.scratch() + "/" + name;
   const int pieces = write(folder);
@@ -176,11 +165,8 @@ void finish_rows(Run& out, const Pile& bin) {
                                                        {"bullet", Pour::Finish::settled}};
   for (const auto& [solver, finish] : rows) {
     Request request = request_of(out, bin);
-    const Row key = Row()
-                        .key("part", bin.part)
-                        .key("bodies", request.parts[0].count)
-                        .key("solver", solver)
-                        .key("finish", name_of(finish));
+    const Row key =
+        Row::keys("part", bin.part, "bodies", request.parts[0].count, "solver", solver, "finish", name_of(finish));
     if (!out.wanted(key)) continue;
     choose_solver(request, solver);
     request.pour.finish = finish;

@@ -50,11 +50,12 @@ Row judged_scene(const std::string& scratch, const Request& request, const std::
   const std::string path = scratch + "/scene.json";
   Isolated poured = isolated(
       [&] {
-        const Poured result = make ? pour_timed(request, make) : pour_timed(request);
+        const Poured result = pour_timed(request, make);
         write_text(path, scene_json(result.scene, request));
         return figures_of(result);
       },
       how.limit_cpu_s);
+  if (poured.good) poured.row.measure("peak_mb", poured.peak_mb);
   if (!poured.good || how.judged == 0) return poured.row;
   const Isolated said = isolated([&] { return referee_row(path, request, pieces); }, referee_limit_cpu_s);
   poured.row.append(said.row);

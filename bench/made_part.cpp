@@ -33,32 +33,28 @@ int write_pieces(const std::string& folder, const Prisms& prisms) {
     for (const Vec3& vertex : prisms[k]) vertices << "v " << vertex.transpose() << '\n';
     pieces << "o piece_" << k << '\n' << vertices.str();
     part << vertices.str();
-    const std::size_t sides = prisms[k].size() / 2;
+    const std::size_t sides = prisms[k].size() / 2, top = first + sides;
+    std::ostringstream lower, upper;
     for (std::size_t i = 0; i < sides; ++i) {
       const std::size_t next = (i + 1) % sides;
-      part << "f " << first + i << ' ' << first + next << ' ' << first + sides + next << ' ' << first + sides + i
-           << '\n';
+      part << "f " << first + i << ' ' << first + next << ' ' << top + next << ' ' << top + i << '\n';
+      lower << ' ' << top - 1 - i;
+      upper << ' ' << top + i;
     }
-    part << 'f';
-    for (std::size_t i = sides; i-- > 0;) part << ' ' << first + i;
-    part << "\nf";
-    for (std::size_t i = 0; i < sides; ++i) part << ' ' << first + sides + i;
-    part << '\n';
-    first += prisms[k].size();
+    part << 'f' << lower.str() << "\nf" << upper.str() << '\n';
+    first = top + sides;
   }
   write_text(folder + "/part.obj", part.str());
   write_text(folder + "/pieces.obj", pieces.str());
   return static_cast<int>(prisms.size());
 }
 
-/// A prism or frustum: two rings of as many vertices, the lower first.
 struct Piece {
   Pose pose;
   Vec3 half;  ///< of its box, own axes
-  std::vector<Vec3> vertices;
+  Prism vertices;
 };
 
-/// Its rings in its own axes, then moved.
 Piece piece_of(Random& random, const Pose& pose) {
   Piece piece{pose, Vec3(random.uniform(0.08, 0.6), random.uniform(0.08, 0.6), random.uniform(0.08, 0.6)), {}};
   const int sides = random.uniform() < 0.6 ? 4 : static_cast<int>(5 + random.below(6));
@@ -161,10 +157,9 @@ Prisms frame() {
 }
 
 Prisms tube() {
-  constexpr int sectors = 16;
   Prisms wall;
-  for (int i = 0; i < sectors; ++i) {
-    const double from = static_cast<double>(i) / sectors, to = static_cast<double>(i + 1) / sectors;
+  for (int i = 0; i < 16; ++i) {
+    const double from = i / 16.0, to = (i + 1) / 16.0;
     Prism sector;
     for (const double z : {0.0, 45.0})
       for (const Vec3& corner :
@@ -176,22 +171,15 @@ Prisms tube() {
 }
 
 Prisms wire_ring() {
-  constexpr int pieces = 16;
   Prisms ring;
-  for (int i = 0; i < pieces; ++i)
-    ring.push_back(wire(on_circle(22, i / 16.0, 0), on_circle(22, (i + 1) / 16.0, 0), 1.2));
+  for (int i = 0; i < 16; ++i) ring.push_back(wire(on_circle(22, i / 16.0, 0), on_circle(22, (i + 1) / 16.0, 0), 1.2));
   return ring;
 }
 
 Prisms spring() {
-  constexpr int pieces = 44, of_a_turn = 10;
-  constexpr double pitch = 7.0;
-  const auto at = [](int i) {
-    const double turns = static_cast<double>(i) / of_a_turn;
-    return on_circle(10, turns, pitch * turns);
-  };
+  const auto at = [](int i) { return on_circle(10, 0.1 * i, 0.7 * i); };
   Prisms coil;
-  for (int i = 0; i < pieces; ++i) coil.push_back(wire(at(i), at(i + 1), 1.3));
+  for (int i = 0; i < 44; ++i) coil.push_back(wire(at(i), at(i + 1), 1.3));
   return coil;
 }
 

@@ -45,7 +45,7 @@ int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const st
 }
 
 int main_of(int argc, char** argv) {
-  CLI::App app("Run time against error, measured. Results are CSV files; bench/plot draws them.");
+  CLI::App app("Run time against error, measured. Results are CSV files; bench/publish shows them.");
   bool list_only = false;
   std::vector<std::string> filter;
   std::string results = "bench_results";

@@ -34,14 +34,12 @@ Isolated prepare(const std::string& part, const std::string& solver_name, const 
     choose_solver(request, solver_name);
     const Clock clock;
     const std::vector<PartModelPtr> parts = load_parts(request);
-    std::string reason;
-    const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
-    solver->add_world(world_of({request, parts}));
+    solver_of(request, parts)->add_world(world_of({request, parts}));
     return Row()
-        .info("seconds", clock.wall_s())
-        .info("cpu_s", clock.cpu_s())
         .info("triangles", parts[0]->mesh().triangles.size())
-        .info("built", PartModel::work().built);
+        .info("built_warm", PartModel::work().built)
+        .measure("s", clock.wall_s())
+        .measure("cpu_s", clock.cpu_s());
   });
 }
 
@@ -53,7 +51,7 @@ double megabytes_in(const std::string& folder) {
 }
 
 void measure(Run& out, const std::string& part, const std::string& solver, int repeats) {
-  const Row key = Row().key("part", part).key("solver", solver);
+  const Row key = Row::keys("part", part, "solver", solver);
   if (!out.wanted(key)) return;
   std::vector<Row> rows;
   for (int k = 0; k < repeats; ++k) {
@@ -63,11 +61,11 @@ void measure(Run& out, const std::string& part, const std::string& solver, int r
     if (!cold.good || !warm.good) return out.row(Row(key).append((cold.good ? warm : cold).row));
     rows.push_back(Row()
                        .info("triangles", cold.row.at("triangles"))
-                       .measure("cold_s", cold.row.number("seconds"))
+                       .measure("cold_s", cold.row.number("s"))
                        .measure("cold_cpu_s", cold.row.number("cpu_s"))
-                       .measure("warm_s", warm.row.number("seconds"))
+                       .measure("warm_s", warm.row.number("s"))
                        .measure("warm_cpu_s", warm.row.number("cpu_s"))
-                       .info("built_warm", warm.row.at("built"))
+                       .info("built_warm", warm.row.at("built_warm"))
                        .measure("peak_mb", cold.peak_mb)
                        .measure("cache_mb", megabytes_in(cache + "/bin_scenes")));
     fs::remove_all(cache);

@@ -1,11 +1,10 @@
-/// Builds the usual requests, pours them in processes of their own, and turns reports into rows. Rows of several seeds
-/// are joined into medians and ranges.
+/// Builds the usual requests, pours them, and turns reports into rows. Rows of several seeds are joined into medians
+/// and ranges.
 #include "runs.hpp"
 
 #include "bin_scenes/core/error.hpp"
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "quality/clearance.hpp"
 
 #include <sys/resource.h>
 
@@ -67,24 +66,6 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-Poured pour_timed(const Request& request) {
-  Poured out;
-  Generator generator;
-  Generator::Options options;
-  options.render = false;
-  const Clock clock;
-  bool judging = false;
-  options.hooks.progress = [&](const Progress& progress) {
-    if (judging || progress.phase != "quality") return;  // the first word of the judge: the poses are final
-    judging = true;
-    out.scene_s = clock.wall_s();
-    out.cpu_s = clock.cpu_s();
-  };
-  generator.generate(request, options, [&](Generator::Result&& result) { out.scene = std::move(result.scene); });
-  out.parts = generator.loaded().parts;
-  return out;
-}
-
 std::vector<PartModelPtr> load_parts(const Request& request) {
   std::vector<PartModelPtr> parts;
   for (const PartLine& line : request.parts) {
@@ -95,6 +76,11 @@ std::vector<PartModelPtr> load_parts(const Request& request) {
   return parts;
 }
 
+std::unique_ptr<Solver> solver_of(const Request& request, const std::vector<PartModelPtr>& parts) {
+  std::string reason;
+  return make_solver(request, parts, reason);
+}
+
 namespace {
 
 /// Of a scene of one part line: half a second more, by the request's own solver.
@@ -102,9 +88,7 @@ void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& 
   next.pour.pattern = Pour::Pattern::given;
   next.seconds = 0.5;
   for (const ScenePart& part : scene.parts) next.parts[0].poses.push_back(part.pose);
-  std::string reason;
-  const std::unique_ptr<Solver> solver = make_solver(next, parts, reason);
-  scene.report.drift = drift(scene, pour({next, parts}, *solver, {scene.index}).front(), parts);
+  scene.report.drift = drift(scene, pour({next, parts}, *solver_of(next, parts), {scene.index}).front(), parts);
 }
 
 }  // namespace
@@ -113,7 +97,7 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
   const Clock clock;
   out.parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = make(out.parts);
+  const std::unique_ptr<Solver> solver = make ? make(out.parts) : solver_of(request, out.parts);
   out.scene = std::move(pour({request, out.parts}, *solver, {request.first}).front());
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();
@@ -122,25 +106,10 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   return out;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> touching_pairs(const PartModel& part,
-                                                                    const std::vector<Pose>& poses) {
-  const double limit = 2e-3 * part.diagonal();
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (std::uint32_t i = 0; i < poses.size(); ++i)
-    for (std::uint32_t k = 0; k < i; ++k) {
-      const Vec3 apart = poses[i] * part.mass().center - poses[k] * part.mass().center;
-      if (apart.norm() > 2.0 * part.radius() + limit) continue;
-      if (test::clearance(part.query(), poses[i], part.query(), poses[k], 2.0 * limit) <= limit)
-        pairs.emplace_back(k, i);
-    }
-  return pairs;
-}
-
 void warm_up(const Request& request) {
   isolated([&] {
     const std::vector<PartModelPtr> parts = load_parts(request);
-    std::string reason;
-    make_solver(request, parts, reason)->add_world(world_of({request, parts}));
+    solver_of(request, parts)->add_world(world_of({request, parts}));
     return Row();
   });
 }
@@ -173,6 +142,7 @@ Row figures_of(const Poured& poured) {
 }
 
 Row joined(const std::vector<Row>& samples) {
+  if (const Row& last = samples.back(); last.at("scenes").empty() && !last.at("status").empty()) return last;
   Row out;
   for (const auto& [column, first] : samples.front().cells()) {
     if (column.role == Role::spread) continue;
@@ -190,17 +160,6 @@ Row joined(const std::vector<Row>& samples) {
     }
   }
   return out;
-}
-
-Row over_seeds(Request request, int seeds, double limit_cpu_s) {
-  warm_up(request);
-  std::vector<Row> rows;
-  for (int k = 0; k < seeds; ++k, ++request.seed) {
-    Isolated one = isolated([&] { return figures_of(pour_timed(request)); }, limit_cpu_s);
-    if (!one.good) return one.row;
-    rows.push_back(one.row.measure("peak_mb", one.peak_mb));
-  }
-  return joined(rows);
 }
 
 }  // namespace bin_scenes::bench

@@ -35,23 +35,21 @@ class Clock {
 /// "coloring 1.2; step 812": the stages that take more than a hundredth of the time, in ms times `scale`.
 std::string stages_of(const Profile& profile, double scale = 1.0);
 
-/// One scene, timed from request to final poses: judging and rendering come after.
+/// Models of the request's part lines.
+std::vector<PartModelPtr> load_parts(const Request& request);
+/// The request's solver for them.
+std::unique_ptr<Solver> solver_of(const Request& request, const std::vector<PartModelPtr>& parts);
+/// A solver that no request can name; none: the request's.
+using MakeSolver = std::function<std::unique_ptr<Solver>(const std::vector<PartModelPtr>& parts)>;
+
+/// One judged scene, timed from request to final poses: judging comes after.
 struct Poured {
   Scene scene;
   std::vector<PartModelPtr> parts;
   double scene_s = 0.0;  ///< wall seconds; models are cached on disk after the first time
   double cpu_s = 0.0;    ///< of all threads, in that time: what a busy machine falsifies less
 };
-Poured pour_timed(const Request& request);
-/// The same with a solver that no request can name.
-using MakeSolver = std::function<std::unique_ptr<Solver>(const std::vector<PartModelPtr>& parts)>;
-Poured pour_timed(const Request& request, const MakeSolver& make);
-/// Models of the request's part lines.
-std::vector<PartModelPtr> load_parts(const Request& request);
-
-/// Pairs of equal parts at these poses whose surfaces are closer than two thousandths of a diagonal.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> touching_pairs(const PartModel& part,
-                                                                    const std::vector<Pose>& poses);
+Poured pour_timed(const Request& request, const MakeSolver& make = {});
 
 /// Makes what the request needs of its parts, so that it is in the cache when a scene is timed.
 void warm_up(const Request& request);
@@ -60,11 +58,7 @@ void warm_up(const Request& request);
 Row figures_of(const Poured& poured);
 
 /// One row of several with the same columns: measures keep all samples, exact numbers are added up, the rest is the
-/// first row's.
+/// first row's. The last one alone if it failed, so that it has no figures.
 Row joined(const std::vector<Row>& samples);
-
-/// The row of `seeds` scenes (request.seed, request.seed + 1, ...), each in a process of its own, with its peak memory
-/// as one more measure. The first failure becomes the status.
-Row over_seeds(Request request, int seeds, double limit_cpu_s);
 
 }  // namespace bin_scenes::bench

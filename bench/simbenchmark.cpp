@@ -11,7 +11,6 @@
 #include "solver/lab.hpp"
 
 #include <cmath>
-#include <ctime>
 
 namespace bin_scenes::bench {
 namespace {
@@ -52,17 +51,17 @@ double overlap(const std::vector<BodyState>& balls) {
 Row cube_of_balls(Lab lab, double seconds) {
   place_cube(lab);
   double sum = 0.0, cpu_s = 0.0;
-  std::size_t steps = 0;
+  int steps = 0;
   for (; lab.time() < seconds - 0.5 * lab.solver().step_size(); ++steps) {
     if (steps > 0) sum += overlap(lab.states());  // a world holds nothing before its first step
-    const std::clock_t start = std::clock();
+    const Clock clock;
     lab.simulate(lab.solver().step_size());
-    cpu_s += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    cpu_s += clock.cpu_s();
   }
-  return Row().measure("error", sum / static_cast<double>(steps)).measure("cpu_s", cpu_s).info("unit", "m2");
+  return Row().measure("error", sum / steps).measure("cpu_s", cpu_s).info("unit", "m2");
 }
 
-std::unique_ptr<Solver> solver_of(const std::string& name, double time_step) {
+std::unique_ptr<Solver> made(const std::string& name, double time_step) {
   if (name == "bullet_stock") {
     StockBullet stock;
     stock.time_step = time_step;
@@ -74,8 +73,7 @@ std::unique_ptr<Solver> solver_of(const std::string& name, double time_step) {
   choose_solver(request, name);
   request.solver.sphere.time_step = request.solver.bullet.time_step = time_step;
   request.solver.bullet.sleeping = false;
-  std::string reason;
-  return make_solver(request, {}, reason);
+  return solver_of(request, {});
 }
 
 void run(Run& out) {
@@ -83,10 +81,9 @@ void run(Run& out) {
   const double seconds = out.quick() ? 2.0 : 10.0;
   for (const std::string solver : {"sphere", "bullet", "bullet_stock"})
     for (const double time_step : {0.001, 0.004, 0.01}) {
-      const Row key = Row().key("scene", "666").key("solver", solver).key("time_step_s", time_step);
+      const Row key = Row::keys("scene", "666", "solver", solver, "time_step_s", time_step);
       if (!out.wanted(key)) continue;
-      const auto measured = [&] { return cube_of_balls(Lab(solver_of(solver, time_step)), seconds); };
-      out.row(Row(key).append(isolated(measured).row));
+      out.row(Row(key).append(isolated([&] { return cube_of_balls(Lab(made(solver, time_step)), seconds); }).row));
     }
 }
 

@@ -9,6 +9,7 @@
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
 #include "peers/stock_bullet.hpp"
+#include "runs.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -35,26 +36,20 @@ void make(const std::string& file, const std::string& out, std::size_t scenes) {
   Request request = read_request(file);
   request.pour.pattern = Pour::Pattern::grid;
   request.seconds = 10.0;
-  std::vector<PartModelPtr> parts;
-  for (PartLine& line : request.parts) {
-    line.friction = 100.0;
-    LoadOptions options;
-    options.unit = line.unit;
-    parts.push_back(PartModel::load(line.path, options));
-  }
-  const LoadedRequest loaded{request, parts};
+  for (PartLine& line : request.parts) line.friction = 100.0;
+  const LoadedRequest loaded{request, load_parts(request)};
   SensorRig rig;
   for (std::size_t i = 0; i < scenes; ++i) {
-    Heap heap(loaded, make_stock_bullet(as_published(parts)), i);
+    Heap heap(loaded, make_stock_bullet(as_published(loaded.parts)), i);
     heap.settle();
     Scene scene = heap.scene();
     scene.sensors = resolved_sensors(loaded);
     const std::vector<RangeImage> images = rig.render(scene, loaded);
     char name[32];
     std::snprintf(name, sizeof name, "/train/%06zu", i);
-    write_bop(out + name, scene, parts, images);
+    write_bop(out + name, scene, loaded.parts, images);
   }
-  write_bop_models(out + "/models", parts);
+  write_bop_models(out + "/models", loaded.parts);
 }
 
 }  // namespace

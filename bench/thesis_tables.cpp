@@ -51,7 +51,7 @@ std::size_t outside(const std::vector<BodyState>& states, const Vec3& inner_size
   }));
 }
 
-/// Published figures: stages in their order, then the total; fewer numbers are the total alone.
+/// Published figures: stages in their order, then the total, or the total alone.
 Row published(const std::vector<double>& ms) {
   Row row;
   for (std::size_t i = 0; i + 1 < ms.size(); ++i) row.info("published_" + stages[i] + "_ms", ms[i]);
@@ -117,47 +117,33 @@ WorldBuilder cubes_in_bin(const Cubes& cubes, const std::vector<Sphere>& spheres
 }
 
 /// `steps` steps of the cubes, from their fall on.
-Row timed(const Cubes& cubes, const ThesisSettings& settings, int steps) {
-  return isolated(
-             [&] {
-               const WorldBuilder builder = cubes_in_bin(cubes, full_cube(cubes.edge, cubes.radius));
-               thesis::World world = thesis::make_world(builder.def, builder.shapes, settings);
-               if (cubes.stored) world.bin_spheres = stored_bin(cubes.width, cubes.height, cubes.radius);
-               const std::size_t fixed = world.bin_spheres.size();
-               ThesisSolver solver(settings);
-               const WorldId id = solver.add_world(std::move(world));
-               for (std::size_t b = 0; b < builder.starts.size(); ++b) solver.insert(id, b, builder.starts[b]);
-               const Clock clock;
-               solver.advance({id}, steps * settings.time_step);
-               return Row()
-                   .exact("spheres",
-                          cubes.bodies * static_cast<std::size_t>(cubes.edge * cubes.edge * cubes.edge) + fixed)
-                   .exact("static_spheres", fixed)
-                   .exact("escaped", outside(solver.states(id), builder.def.bin.inner_size))
-                   .append(times(solver.profile(), steps, 1e3 * clock.wall_s()));
-             },
-             limit_s)
-      .row;
-}
-
-Row key(const std::string& table, const std::string& setting) {
-  return Row().key("table", table).key("setting", setting);
+Row timed(const Cubes& cubes, int steps) {
+  const ThesisSettings settings;
+  const WorldBuilder builder = cubes_in_bin(cubes, full_cube(cubes.edge, cubes.radius));
+  thesis::World world = thesis::make_world(builder.def, builder.shapes, settings);
+  if (cubes.stored) world.bin_spheres = stored_bin(cubes.width, cubes.height, cubes.radius);
+  const std::size_t fixed = world.bin_spheres.size();
+  ThesisSolver solver(settings);
+  const WorldId id = solver.add_world(std::move(world));
+  for (std::size_t b = 0; b < builder.starts.size(); ++b) solver.insert(id, b, builder.starts[b]);
+  const Clock clock;
+  solver.advance({id}, steps * settings.time_step);
+  return Row()
+      .exact("spheres", cubes.bodies * static_cast<std::size_t>(cubes.edge * cubes.edge * cubes.edge) + fixed)
+      .exact("static_spheres", fixed)
+      .exact("escaped", outside(solver.states(id), builder.def.bin.inner_size))
+      .append(times(solver.profile(), steps, 1e3 * clock.wall_s()));
 }
 
 void step_tables(Run& out) {
   const bool quick = out.quick();
   const auto row = [&](const std::string& table, const std::string& setting, Cubes cubes,
                        const std::vector<double>& ms) {
-    if (!out.wanted(key(table, setting))) return;
-    if (quick) {
-      cubes.bodies /= 8;
-      cubes.width /= 2;
-      cubes.height /= 2;
-    }
-    out.row(key(table, setting)
-                .exact("bodies", cubes.bodies)
-                .append(timed(cubes, {}, quick ? 24 : 200))
-                .append(published(quick ? std::vector<double>() : ms)));
+    Row row = Row::keys("table", table, "setting", setting);
+    if (!out.wanted(row)) return;
+    if (quick) cubes.bodies /= 8, cubes.width /= 2, cubes.height /= 2;
+    row.exact("bodies", cubes.bodies).append(isolated([&] { return timed(cubes, quick ? 24 : 200); }, limit_s).row);
+    out.row(quick ? row : row.append(published(ms)));
   };
   row("spheres_per_body", "1024 x 27", {1024, 3}, {0.174, 1.307, 1.869, 4.187, 7.413, 0.023, 14.973});
   row("spheres_per_body", "222 x 125", {222, 5}, {0.162, 1.307, 1.815, 3.749, 7.947, 0.020, 15.000});
@@ -191,40 +177,46 @@ std::size_t tunnelled(const ThesisSettings& settings, std::size_t bodies, double
   }));
 }
 
+/// Cubes of the stability table, and what the thesis says of them.
+struct Variant {
+  const char* name;
+  bool normals;
+  double tightness;
+  const char* published;
+};
+constexpr Variant variants[] = {{"plain", false, 1.0, "above 6"},
+                                {"modified normals", true, 1.0, "4"},
+                                {"tighter voxels", false, 0.75, "3"},
+                                {"both", true, 0.75, ""}};
+
+/// The fewest iterations at which, and at all more that are tried, no cube sinks into another one.
+std::string least_iterations(const Variant& variant, std::size_t bodies, double size, const std::vector<int>& tried) {
+  int least = 0;
+  for (const int iterations : tried) {
+    ThesisSettings settings;
+    settings.iterations = iterations;
+    settings.modified_normals = variant.normals;
+    settings.tightness = variant.tightness;
+    const Isolated one = isolated([&] { return Row().exact("tunnelled", tunnelled(settings, bodies, size)); }, limit_s);
+    const bool stable = one.good && one.row.number("tunnelled") == 0.0;
+    least = !stable ? 0 : least ? least : iterations;
+  }
+  return least ? Row::text(least) : "none tried";
+}
+
 /// The thesis counted iterations until its cubes no longer sank into each other. It gives no size. Gravity takes small
 /// cubes further in a step, against their size, so size decides as much.
 void stability_table(Run& out) {
-  const struct {
-    const char* name;
-    bool normals;
-    double tightness;
-    const char* published;
-  } cases[] = {{"plain", false, 1.0, "above 6"},
-               {"modified normals", true, 1.0, "4"},
-               {"tighter voxels", false, 0.75, "3"},
-               {"both", true, 0.75, ""}};
-  const std::vector<int> tried =
-      out.quick() ? std::vector<int>{1, 3, 6, 10} : std::vector<int>{1, 2, 3, 4, 5, 6, 8, 10, 20, 40};
+  const std::vector<int> all = {1, 2, 3, 4, 5, 6, 8, 10, 20, 40}, few = {1, 3, 6, 10};
   const std::size_t bodies = out.quick() ? 12 : 64;
   for (const double size : {1.0, 0.05}) {  // m
-    for (const auto& c : cases) {
-      const Row keys = key("stability", c.name).key("cube_m", size);
-      if (!out.wanted(keys)) continue;
-      int least = 0;  // and stable with all more
-      for (const int iterations : tried) {
-        ThesisSettings settings;
-        settings.iterations = iterations;
-        settings.modified_normals = c.normals;
-        settings.tightness = c.tightness;
-        const Isolated one =
-            isolated([&] { return Row().exact("tunnelled", tunnelled(settings, bodies, size)); }, limit_s);
-        const bool stable = one.good && one.row.number("tunnelled") == 0.0;
-        least = !stable ? 0 : least ? least : iterations;
-      }
-      out.row(Row(keys)
+    for (const Variant& variant : variants) {
+      const Row key = Row::keys("table", "stability", "setting", variant.name, "cube_m", size);
+      if (!out.wanted(key)) continue;
+      out.row(Row(key)
                   .exact("bodies", bodies)
-                  .exact("least_iterations", least ? Row::text(least) : "none tried")
-                  .info("published_least", c.published));
+                  .exact("least_iterations", least_iterations(variant, bodies, size, out.quick() ? few : all))
+                  .info("published_least", variant.published));
     }
     if (out.quick()) return;
   }

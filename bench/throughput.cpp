@@ -13,10 +13,9 @@ Row timed(Request request, std::size_t scenes) {
   const std::vector<PartModelPtr> parts = load_parts(request);
   std::vector<std::size_t> indices(scenes);
   std::iota(indices.begin(), indices.end(), std::size_t{0});
-  std::string reason;
   double simulation_s = 0.0;
   {
-    const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+    const std::unique_ptr<Solver> solver = solver_of(request, parts);
     pour({request, parts}, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
     const Clock clock;
     pour({request, parts}, *solver, indices);
@@ -47,10 +46,10 @@ Row timed(Request request, std::size_t scenes) {
 
 void run(Run& out) {
   const std::size_t parts = out.quick() ? 12 : 256;
+  const std::vector<std::size_t> counts = {1, 16, 512}, few = {1, 4};
   for (const char* solver : {"sphere/gpu", "sphere"})
-    for (const std::size_t scenes :
-         out.quick() ? std::vector<std::size_t>{1, 4} : std::vector<std::size_t>{1, 16, 512}) {
-      const Row key = Row().key("solver", solver).key("bodies", parts).key("scenes", scenes);
+    for (const std::size_t scenes : out.quick() ? few : counts) {
+      const Row key = Row::keys("solver", solver, "bodies", parts, "scenes", scenes);
       if (!out.wanted(key)) continue;
       Request request = bin_of("conrod", parts);
       choose_solver(request, "sphere");

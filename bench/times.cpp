@@ -67,8 +67,7 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   } catch (const Error& stopped) {
     if (stopped.kind() != ErrorKind::cancelled) throw;
   }
-  Row row;
-  row.info("shapes", shapes);
+  Row row = Row().info("shapes", shapes);
   const auto add = [&](const std::string& name, const std::optional<Mark>& mark) {
     const Mark reached = mark.value_or(now);  // never, or not after: a pour that rests takes no more time
     row.exact("bullet_" + name, static_cast<int>(mark.has_value()))
@@ -83,20 +82,18 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
 }
 
 /// CPU and wall seconds of a scene by that preset.
-Isolated own_row(Request request, const std::string& solver, const std::string& prefix) {
+Row own_row(Request request, const std::string& solver, const std::string& prefix) {
   choose_solver(request, solver);
   warm_up(request);
-  return isolated([&] {
-    const Row figures = figures_of(pour_timed(request));
-    Row row;
-    for (const char* figure : {"cpu_s", "scene_s", "simulated_s"}) row.measure(prefix + figure, figures.number(figure));
-    return row;
-  });
+  const Row figures = isolated([&] { return figures_of(pour_timed(request)); }).row;
+  Row row = Row().status(figures.at("status"));
+  for (const char* figure : {"cpu_s", "scene_s", "simulated_s"}) row.measure(prefix + figure, figures.number(figure));
+  return row;
 }
 
 void part_row(Run& out, const std::string& part, bool has_pieces) {
   const std::size_t count = out.quick() ? 8 : 150;
-  const Row key = Row().key("part", part).key("bodies", count);
+  const Row key = Row::keys("part", part, "bodies", count);
   if (!out.wanted(key)) return;
   Request request = bin_of(part, count);
   request.bin.inner_size = Vec3(0.40, 0.30, 0.20);
@@ -105,12 +102,11 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
   double spent = 0.0;
   for (int seed = 1; seed <= (out.quick() ? 1 : spent < enough ? most_seeds : least_seeds); ++seed) {
     request.seed = static_cast<std::uint64_t>(seed);
-    const Isolated quick = own_row(request, "sphere/quick", "quick_"), ours = own_row(request, "sphere", "");
-    if (!ours.good) return out.row(Row(key).append(ours.row));
-    const Isolated bullet =
-        isolated([&] { return bullet_row(request, pieces, ours.row.number("simulated_s")); }, 300.0);
+    const Row quick = own_row(request, "sphere/quick", "quick_"), ours = own_row(request, "sphere", "");
+    if (!ours.at("status").empty()) return out.row(Row(key).append(ours));
+    const Isolated bullet = isolated([&] { return bullet_row(request, pieces, ours.number("simulated_s")); }, 300.0);
     if (!bullet.good) return out.row(Row(key).append(bullet.row));
-    Row scene = Row().exact("scenes", 1).append(ours.row).append(quick.row).append(bullet.row);
+    Row scene = Row().exact("scenes", 1).append(ours).append(quick).append(bullet.row);
     scene.info("pieces", has_pieces ? "exact" : "hulls");
     for (const std::string until : {"slow", "asleep", "as_long"})
       for (const std::string own : {"", "quick_"})

@@ -9,68 +9,34 @@
 namespace bin_scenes::bench {
 namespace {
 
-/// One point of a curve.
+/// One point of a curve: what it changes in a request of that solver, or stock Bullet's settings.
 struct Setting {
   std::string solver, varied, value;
-  std::function<void(Request&)> change;  ///< on a request of that solver
-  MakeSolver make;                       ///< stock Bullet, or none
+  void (*change)(Request&) = [](Request&) {};
+  double step = 0.0;  ///< s, of stock Bullet, as are the iterations
+  int iterations = 10;
 };
 
-std::vector<Setting> settings_of_sphere(bool quick) {
-  const SphereSettings sphere;
-  std::vector<Setting> all = {{"sphere", "default", "0", [](Request&) {}, {}},
-                              {"sphere/quick", "default", "0", [](Request&) {}, {}}};
-  const auto add = [&](const std::string& varied, const std::string& value, const std::function<void(Request&)>& to) {
-    all.push_back({"sphere", varied, value, to, {}});
-  };
-  for (const Pour::Finish finish : {Pour::Finish::settled, Pour::Finish::pressed})
-    add("finish", name_of(finish), [=](Request& r) { r.pour.finish = finish; });
-  for (const double factor : {2.0, 0.5})
-    add("time_step", Row::text(factor * sphere.time_step),
-        [=](Request& r) { r.solver.sphere.time_step = factor * sphere.time_step; });
-  if (quick) return all;
-  for (const int steps : {1, 4 * sphere.sub_steps})
-    add("sub_steps", Row::text(steps), [=](Request& r) { r.solver.sphere.sub_steps = steps; });
-  for (const double factor : {0.25, 3.0}) {
-    const int samples = static_cast<int>(std::lround(factor * sphere.fine_samples));
-    add("fine_samples", Row::text(samples), [=](Request& r) {
-      r.solver.sphere.fine_samples = samples;
-      r.solver.sphere.coarse_samples = std::min(r.solver.sphere.coarse_samples, samples);
-    });
-  }
-  for (const double factor : {2.0, 0.5})
-    add("field_cell", Row::text(factor * sphere.field_cell),
-        [=](Request& r) { r.solver.sphere.field_cell = factor * sphere.field_cell; });
-  all.push_back({"sphere/thesis", "default", "0", [](Request&) {}, {}});
-  return all;
-}
-
-std::vector<Setting> settings_of_bullet(bool quick) {
-  std::vector<Setting> all;
-  for (const double factor : {1.0, 0.5}) {
-    const double dt = factor * BulletSettings().time_step;
-    all.push_back({"bullet", "time_step", Row::text(dt), [=](Request& r) { r.solver.bullet.time_step = dt; }, {}});
-    if (quick) break;
-  }
-  return all;
-}
-
-/// Stock Bullet on the exact pieces of a file.
-std::vector<Setting> settings_of_stock_bullet(const std::string& pieces, bool quick) {
-  std::vector<Setting> all;
-  const auto add = [&](const std::string& varied, double rate, int iterations) {
-    StockBullet stock;
-    stock.time_step = 1.0 / rate;
-    stock.iterations = iterations;
-    const std::string value = varied == "time_step" ? Row::text(stock.time_step) : Row::text(iterations);
-    all.push_back({"bullet_stock", varied, value, {}, stock_bullet_on(pieces, stock)});
-  };
-  add("time_step", 240, 10);
-  if (quick) return all;
-  add("time_step", 100, 10);
-  add("iterations", 100, 50);
-  return all;
-}
+constexpr std::size_t of_quick = 4;  ///< so many, the first ones, in a quick run
+const Setting settings[] = {
+    {"sphere", "default", "0"},
+    {"sphere/quick", "default", "0"},
+    {"bullet", "time_step", "0.004166667"},
+    {"bullet_stock", "time_step", "0.004166667", {}, 1.0 / 240.0},
+    {"bullet_stock", "time_step", "0.01", {}, 0.01},
+    {"bullet_stock", "iterations", "50", {}, 0.01, 50},
+    {"bullet", "time_step", "0.002083333", [](Request& r) { r.solver.bullet.time_step *= 0.5; }},
+    {"sphere", "finish", "settled", [](Request& r) { r.pour.finish = Pour::Finish::settled; }},
+    {"sphere", "finish", "pressed", [](Request& r) { r.pour.finish = Pour::Finish::pressed; }},
+    {"sphere", "time_step", "0.005", [](Request& r) { r.solver.sphere.time_step *= 2.0; }},
+    {"sphere", "time_step", "0.00125", [](Request& r) { r.solver.sphere.time_step *= 0.5; }},
+    {"sphere", "sub_steps", "1", [](Request& r) { r.solver.sphere.sub_steps = 1; }},
+    {"sphere", "sub_steps", "8", [](Request& r) { r.solver.sphere.sub_steps = 8; }},
+    {"sphere", "fine_samples", "250", [](Request& r) { r.solver.sphere.fine_samples = 250; }},
+    {"sphere", "fine_samples", "3000", [](Request& r) { r.solver.sphere.fine_samples = 3000; }},
+    {"sphere", "field_cell", "0.008", [](Request& r) { r.solver.sphere.field_cell *= 2.0; }},
+    {"sphere", "field_cell", "0.002", [](Request& r) { r.solver.sphere.field_cell *= 0.5; }},
+    {"sphere/thesis", "default", "0"}};
 
 bool dominates(const Row& a, const Row& b, const std::string& error) {
   const double time_a = a.number("cpu_s"), time_b = b.number("cpu_s");
@@ -95,32 +61,34 @@ void mark_front(std::vector<Row>& rows, const std::string& error, const std::str
 constexpr const char* parts[] = {"channel_u", "ring_24", "bolt_hex",   "nut_hex",  "clip_spring", "washer", "bracket_l",
                                  "gear_spur", "conrod",  "pipe_elbow", "pipe_tee", "mug",         "teapot"};
 
+MakeSolver stock_bullet(const Setting& setting, const std::string& pieces) {
+  StockBullet stock;
+  stock.time_step = setting.step;
+  stock.iterations = setting.iterations;
+  return stock_bullet_on(pieces, stock);
+}
+
 void curves(Run& out, const std::string& part) {
   const std::size_t count = out.quick() ? 8 : 32;
-  const bool exact = std::filesystem::exists(Run::pieces(part));
-  std::vector<Setting> settings = settings_of_sphere(out.quick());
-  for (const Setting& one : settings_of_bullet(out.quick())) settings.push_back(one);
-  if (exact)
-    for (const Setting& one : settings_of_stock_bullet(Run::pieces(part), out.quick())) settings.push_back(one);
-  for (const Setting& setting : settings) {
+  const std::string pieces = Run::pieces(part);
+  const bool exact = std::filesystem::exists(pieces);
+  for (std::size_t s = 0; s < (out.quick() ? of_quick : std::size(settings)); ++s) {
+    const Setting& setting = settings[s];
+    const bool stock = setting.step > 0.0;
+    const Row key =
+        Row::keys("part", part, "bodies", count, "solver", setting.solver, "sleeping",
+                  setting.solver == "sphere/thesis" ? "no" : "yes", "varied", setting.varied, "value", setting.value);
+    if ((stock && !exact) || !out.wanted(key)) continue;
     Request request = bin_of(part, count);
-    Row row;
-    row.key("part", part)
-        .key("bodies", count)
-        .key("solver", setting.solver)
-        .key("sleeping", setting.solver == "sphere/thesis" ? "no" : "yes")
-        .key("varied", setting.varied)
-        .key("value", setting.value);
-    if (setting.change) {
+    if (!stock) {
       choose_solver(request, setting.solver);
       setting.change(request);
+      warm_up(request);
     }
-    if (!out.wanted(row)) continue;
-    if (setting.change) warm_up(request);
-    const int seeds = out.quick() ? 1 : setting.solver == "sphere" && setting.varied == "default" ? 10 : 2;
-    const std::vector<Row> scenes = judged_scenes(out.scratch(), request, Run::pieces(part), setting.make,
-                                                  {out.quick() ? 20.0 : 30.0, exact ? seeds : 0}, seeds);
-    out.row(row.append(scenes.back().at("scenes").empty() ? scenes.back() : joined(scenes)));
+    const int seeds = out.quick() ? 1 : s == 0 ? 10 : 2;
+    const Judged how{out.quick() ? 20.0 : 30.0, exact ? seeds : 0};
+    const MakeSolver make = stock ? stock_bullet(setting, pieces) : MakeSolver();
+    out.row(Row(key).append(joined(judged_scenes(out.scratch(), request, pieces, make, how, seeds))));
   }
   std::vector<Row> rows;
   for (std::size_t r = 0; r < out.table().rows.size(); ++r)

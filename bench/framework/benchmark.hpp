@@ -12,7 +12,7 @@
 ///     }  // namespace
 ///     }  // namespace bin_scenes::bench
 ///
-/// The file goes into bench/CMakeLists.txt, its plot (if any) into bench/plots/<name>.gp.
+/// The file goes into bench/CMakeLists.txt, its plot (if any) into bench/plots/<name>.gp (see bench/publish).
 #pragma once
 
 #include "bin_scenes/core/error.hpp"

@@ -21,16 +21,11 @@ struct Gl {
 /// Asked in a process of its own: a benchmark may fork later, and contexts do not survive that.
 const Gl& gl() {
   static const Gl known = [] {
-    const Row row = isolated(
-                        [] {
-                          const gl::Device device;
-                          return Row()
-                              .info("renderer", device.renderer())
-                              .info("driver", device.version())
-                              .info("software", device.software());
-                        },
-                        60.0)
-                        .row;
+    const auto ask = [] {
+      const gl::Device device;
+      return Row::keys("renderer", device.renderer(), "driver", device.version(), "software", device.software());
+    };
+    const Row row = isolated(ask, 60.0).row;
     Gl found{row.at("renderer"), row.at("driver"), row.at("software") != "no"};
     if (found.renderer.empty()) found.renderer = "none (" + row.at("status") + ")";
     return found;
@@ -71,10 +66,13 @@ std::string commit() {
   return BIN_SCENES_BENCH_COMMIT;
 }
 
+bool has_gpu() {
+  return !gl().software;
+}
+
 std::string device_slug() {
-  const std::string name = gl().software
-                               ? short_cpu() + " " + std::to_string(std::thread::hardware_concurrency()) + " cores"
-                               : gl().renderer;
+  const std::string cores = std::to_string(std::thread::hardware_concurrency()) + " cores";
+  const std::string name = has_gpu() ? gl().renderer : short_cpu() + " " + cores;
   std::string slug;
   for (const char c : name) {
     if (c == '/' || c == '(') break;  // "NVIDIA H200/PCIe/SSE2": bus and instruction set are not the device

@@ -13,6 +13,9 @@ std::vector<std::pair<std::string, std::string>> host();
 /// Of the sources this was built from; "-dirty" with changes that are not committed.
 std::string commit();
 
+/// Whether GL has hardware of its own.
+bool has_gpu();
+
 /// Name for the folder of results: GL device if it is hardware, else the CPU, in letters, digits and '-'.
 std::string device_slug();
 

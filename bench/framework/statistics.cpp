@@ -8,30 +8,6 @@ namespace bin_scenes::bench {
 
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Sums of squares and products of log x and log y about their means.
-struct LogSums {
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-};
-LogSums log_sums(const std::vector<double>& x, const std::vector<double>& y) {
-  const double n = static_cast<double>(x.size());
-  double mean_x = 0.0, mean_y = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += std::log(x[i]) / n;
-    mean_y += std::log(y[i]) / n;
-  }
-  LogSums sums;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]) - mean_x, v = std::log(y[i]) - mean_y;
-    sums.xx += u * u;
-    sums.xy += u * v;
-    sums.yy += v * v;
-  }
-  return sums;
-}
-
-constexpr double same = 1e-12;  ///< variance of logarithms that are equal but for rounding
-
 }  // namespace
 
 double quantile(std::vector<double> samples, double q) {
@@ -71,13 +47,19 @@ double wasserstein(std::vector<double> a, std::vector<double> b) {
 }
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
-  const LogSums s = log_sums(x, y);
-  return s.xx > same ? s.xy / s.xx : nan;
-}
-
-double explained_by_exponent(const std::vector<double>& x, const std::vector<double>& y) {
-  const LogSums s = log_sums(x, y);
-  return s.xx > same && s.yy > same ? s.xy * s.xy / (s.xx * s.yy) : 0.0;
+  const double n = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += std::log(x[i]) / n;
+    mean_y += std::log(y[i]) / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::log(x[i]) - mean_x;
+    xx += u * u;
+    xy += u * (std::log(y[i]) - mean_y);
+  }
+  constexpr double same = 1e-12;  // variance of logarithms that are equal but for rounding
+  return xx > same ? xy / xx : nan;
 }
 
 }  // namespace bin_scenes::bench

@@ -18,7 +18,5 @@ double wasserstein(std::vector<double> a, std::vector<double> b);
 
 /// Least-squares slope of log y over log x: the exponent p of y ~ x^p. NaN below two different x; all values > 0.
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
-/// Share of the variance of log y that the fit explains, 0 .. 1; 0 where y does not vary or there is no fit.
-double explained_by_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace bin_scenes::bench

@@ -29,6 +29,14 @@ struct Column {
 /// an empty value is "not measured".
 class Row {
  public:
+  /// Name, value, name, value, ...: the keys of a row.
+  template <class Value, class... More>
+  static Row keys(const std::string& name, const Value& value, const More&... more) {
+    if constexpr (sizeof...(more) == 0)
+      return Row().key(name, value);
+    else
+      return Row().key(name, value).append(keys(more...));
+  }
   template <class Value>
   Row& key(const std::string& name, const Value& value) {
     return add({name, Role::key}, text(value));

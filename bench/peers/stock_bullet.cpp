@@ -77,7 +77,7 @@ class World : BulletWorld {
     state.velocity = {from_bt(body.getLinearVelocity()), from_bt(body.getAngularVelocity())};
     return state;
   }
-  /// Of the most restless body; one that is not in yet moves.
+  /// Of the body that moves most; one that is not in yet moves.
   BulletRest rest() const {
     BulletRest least = BulletRest::asleep;
     for (std::size_t b = 0; b < def_.bodies.size() && least != BulletRest::moves; ++b)

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "config/bop_plan.hpp"
+#include "config/plan_objects.hpp"
 #include "config/plan_state.hpp"
 #include "config/read_document.hpp"
 #include "config/rigs.hpp"
@@ -52,6 +53,7 @@ class PlanFile {
     if (errors_.empty()) try_ends();
     if (errors_.empty()) check_outputs();
     if (!errors_.empty()) throw PlanErrors(errors_);
+    plan_.objects = objects_.all;
     plan_.sha256 = digest();
     plan_.state = state;
     return plan_;
@@ -216,7 +218,7 @@ class PlanFile {
     bop_.emplace(node);
     if (!node.IsMap()) return;
     for (const auto& item : node) source_.remember("bop." + item.first.Scalar(), item.first);
-    if (const YAML::Node symmetries = node["symmetries"]) symmetries_.reset(symmetries);
+    if (const YAML::Node symmetries = node["symmetries"]) objects_.symmetries.reset(symmetries);
   }
 
   /// Behind the request, whose sensors name the folders of BOP's layout.
@@ -331,41 +333,8 @@ class PlanFile {
   }
 
   void note_objects(const Request& request) {
-    digests_ += request.bin.mesh_sha256;
-    for (const PartLine& line : request.parts) {
-      const auto same = [&](const PlanObject& object) { return is_of(object, line); };
-      if (std::any_of(plan_.objects.begin(), plan_.objects.end(), same)) continue;
-      PlanObject object{line.model,     line.path,         line.sha256, line.unit, line.scale,
-                        line.thickness, line.tessellation, line.solid,  {},        {}};
-      read_symmetries(object);
-      plan_.objects.push_back(object);
-      digests_ += line.sha256;
-    }
-  }
-
-  void read_symmetries(PlanObject& object) {
-    if (!symmetries_ || !symmetries_.IsMap()) return;
-    const YAML::Node given = symmetries_[object.model];
-    if (!given) return;
-    object.continuous.emplace();
-    object.discrete.emplace();
-    try {
-      for (const auto& item : given) {
-        const std::string name = item.first.Scalar();
-        for (const YAML::Node& value : item.second) {
-          std::vector<double> v;
-          config::read_value(value, v);
-          if (name == "continuous" && v.size() == 3)
-            object.continuous->push_back(Vec3(v[0], v[1], v[2]).normalized());
-          else if (name == "discrete" && v.size() == 4)
-            object.discrete->push_back(Quat(v[3], v[0], v[1], v[2]).normalized());
-          else
-            throw config::Mismatch{"continuous: [[x, y, z], ...] and discrete: [[qx, qy, qz, qw], ...]"};
-        }
-      }
-    } catch (const config::Mismatch& mismatch) {
-      complain("of '" + object.model + "': expected " + mismatch.expected, "bop.symmetries", "in the model's frame");
-    }
+    objects_.add(request,
+                 [&](const std::string& problem) { complain(problem, "bop.symmetries", "in the model's frame"); });
   }
 
   /// Why the outputs cannot hold what a request's sensors see; empty: they can.
@@ -398,13 +367,15 @@ class PlanFile {
     }
   }
 
-  std::string digest() const { return sha256_hex(deciding_ + "\n" + write_request(plan_.reference) + "\n" + digests_); }
+  std::string digest() const {
+    return sha256_hex(deciding_ + "\n" + write_request(plan_.reference) + "\n" + objects_.digests);
+  }
 
-  std::string path_, digests_;
+  std::string path_;
   std::string deciding_;  ///< the plan without what a data set may change: how many heaps it has
   config::Source source_;
   std::vector<Error> errors_;
-  YAML::Node symmetries_;
+  config::PlanObjects objects_;
   std::optional<YAML::Node> bop_, rig_bop_;  ///< key `bop`, and what the request's rig says of it
   Plan plan_;
   Plan::State* state_ = nullptr;

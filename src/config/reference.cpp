@@ -1,3 +1,4 @@
+/// The page about the request: a table a section, from the visitor of its keys.
 #include "config/reference.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
@@ -5,6 +6,7 @@
 #include "config/values.hpp"
 
 #include <cmath>
+#include <map>
 #include <type_traits>
 
 namespace bin_scenes {
@@ -71,13 +73,17 @@ std::string escaped(std::string text) {
   return text;
 }
 
-/// Rows of the keys directly below `prefix`, then a chapter for each section among them.
-void chapter(const std::string& prefix, const std::string& level, std::string& text) {
+/// Chapters so far: what one has below its heading, and its path.
+using Chapters = std::map<std::string, std::string>;
+
+/// Rows of the keys directly below `prefix`, then a chapter for each section among them. One with the same keys and
+/// defaults as an earlier one names that.
+std::string chapter(const std::string& prefix, const std::string& level, Chapters& known) {
   const auto directly_below = [&](const std::string& path) {
     return path.size() > prefix.size() && path.compare(0, prefix.size(), prefix) == 0 &&
            path.find('.', prefix.size()) == std::string::npos;
   };
-  text += "| key | value | default | unit | meaning |\n|---|---|---|---|---|\n";
+  std::string text = "| key | value | default | unit | meaning |\n|---|---|---|---|---|\n";
   for (const Entry& e : reference()) {
     if (!directly_below(e.path)) continue;
     const std::string name = e.path.substr(prefix.size());
@@ -87,9 +93,12 @@ void chapter(const std::string& prefix, const std::string& level, std::string& t
   }
   for (const Entry& e : reference()) {
     if (!directly_below(e.path) || !heading(e)) continue;
-    text += "\n" + level + " `" + e.path + "`: " + e.text + "\n\n";
-    chapter(e.path + (e.kind == "list" ? "[]." : "."), level + "#", text);
+    const std::string below = chapter(e.path + (e.kind == "list" ? "[]." : "."), level + "#", known);
+    const auto [same, fresh] = known.emplace(below, e.path);
+    text += "\n" + level + " `" + e.path + "`: " + e.text + "\n\n" +
+            (fresh ? below : "The keys of `" + same->second + "`.\n");
   }
+  return text;
 }
 
 }  // namespace
@@ -139,8 +148,8 @@ std::string request_reference() {
       "\n"
       "## Keys\n"
       "\n";
-  config::chapter("", "##", text);
-  return text;
+  config::Chapters chapters;
+  return text + config::chapter("", "##", chapters);
 }
 
 }  // namespace bin_scenes

@@ -1,5 +1,6 @@
 /// Reads STEP and IGES files, heals and triangulates their solids. The only user of OpenCASCADE.
 #include "cad.hpp"
+#include "mesh_words.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -65,10 +66,6 @@ struct Named {
   std::string name;
   TopoDS_Shape shape;
 };
-
-std::string count(std::size_t n, const char* thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
-}
 
 /// The readers take names of files. In memory, so that nothing is left behind when they crash.
 class FileInMemory {

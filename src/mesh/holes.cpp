@@ -29,10 +29,10 @@ std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh) {
       std::vector<std::uint32_t> walk{seed};
       place = {{seed, 0}};
       while (!walk.empty()) {
-        std::vector<std::uint32_t>& ways = next[walk.back()];
-        if (ways.empty()) break;
-        const std::uint32_t v = ways.back();
-        ways.pop_back();
+        std::vector<std::uint32_t>& onward = next[walk.back()];
+        if (onward.empty()) break;
+        const std::uint32_t v = onward.back();
+        onward.pop_back();
         const auto [seen, is_new] = place.try_emplace(v, walk.size());
         if (is_new) {
           walk.push_back(v);

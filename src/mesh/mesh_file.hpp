@@ -1,6 +1,5 @@
 /// A model file as it is: all triangles of all its meshes with node transforms applied, in the file's own unit and
-/// axes, nothing welded or repaired. The only place that sees
-/// assimp.
+/// axes, nothing welded or repaired.
 #pragma once
 
 #include "bin_scenes/mesh/mesh_loader.hpp"

@@ -48,14 +48,14 @@ std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
       for (; looks > 0 && candidate != rim.end() && mesh.vertices[*candidate].x() <= upper; ++candidate, --looks) {
         if (*candidate == a || *candidate == b || *candidate == c) continue;
         const Vec3 to = mesh.vertices[*candidate] - start;
-        const double way = to.dot(along) / length;
-        if (way <= tolerance || way >= length - tolerance) continue;
-        if ((to - way / length * along).norm() <= tolerance) on_edge.push_back({way, *candidate});
+        const double place = to.dot(along) / length;
+        if (place <= tolerance || place >= length - tolerance) continue;
+        if ((to - place / length * along).norm() <= tolerance) on_edge.push_back({place, *candidate});
       }
       if (on_edge.empty()) continue;
       std::sort(on_edge.begin(), on_edge.end());
       std::uint32_t previous = a;
-      for (const auto& [way, v] : on_edge) {
+      for (const auto& [place, v] : on_edge) {
         mesh.triangles.push_back({previous, v, c});
         previous = v;
       }

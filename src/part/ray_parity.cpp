@@ -29,10 +29,10 @@ std::optional<int> crossing(const Vec3& a, const Vec3& ab, const Vec3& ac, const
   const double least = std::min({u, v, w}), most = std::max({u, v, w});
   if (least < -rounding && most > rounding) return 0;
   if (least <= rounding && most >= -rounding) return std::nullopt;
-  const double way = ac.dot(along) / det;  // m, times the length of d
+  const double distance = ac.dot(along) / det;  // m, times the length of d
   const double height = rounding / std::abs(det) * longest;
-  if (std::abs(way) <= height) return std::nullopt;
-  if (way < 0.0) return 0;
+  if (std::abs(distance) <= height) return std::nullopt;
+  if (distance < 0.0) return 0;
   return det < 0.0 ? 1 : -1;
 }
 

@@ -85,10 +85,10 @@ class DistanceWalk {
   }
 
   double go_to(const Vec3& p) {
-    const double way = (p - place_).norm();
-    known_ = known_ && way < distance_;
-    // Distances are off by the rounding of places: where one vertex is come to twice, by more than all of the way.
-    distance_ = query_.nearest(p, distance_ + way + rounding_).distance;
+    const double moved = (p - place_).norm();
+    known_ = known_ && moved < distance_;
+    // Distances are off by the rounding of places: where one vertex is come to twice, by more than the whole move.
+    distance_ = query_.nearest(p, distance_ + moved + rounding_).distance;
     place_ = p;
     return distance_;
   }

@@ -8,9 +8,9 @@ namespace bin_scenes {
 
 namespace {
 
-/// How far s can move along `way` before it meets t; infinite if it never does. Both are open at their rims, so that
-/// parts sliding along each other do not hold each other.
-double triangle_way(const TrianglePoints& s, const TrianglePoints& t, const Vec3& way) {
+/// How far s can move along `direction` before it meets t; infinite if it never does. Both are open at their rims, so
+/// that parts sliding along each other do not hold each other.
+double triangle_distance(const TrianglePoints& s, const TrianglePoints& t, const Vec3& direction) {
   // Heights of s over t at the corners of their common shadow; where they change sign, the two cut each other.
   double best = std::numeric_limits<double>::infinity();
   bool beyond = false;
@@ -33,16 +33,16 @@ double triangle_way(const TrianglePoints& s, const TrianglePoints& t, const Vec3
       if (over) add(distance);
     }
   };
-  corners(s, t, way);
-  corners(t, s, -way);
+  corners(s, t, direction);
+  corners(t, s, -direction);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      // s_i + k u + d way = t_j + l v
+      // s_i + k u + d direction = t_j + l v
       const Vec3 u = s[(i + 1) % 3] - s[i], v = t[(j + 1) % 3] - t[j], r = t[j] - s[i];
       const Vec3 side = u.cross(v);
-      const double det = side.dot(way);
+      const double det = side.dot(direction);
       if (std::abs(det) <= 1e-12 * u.norm() * v.norm()) continue;
-      const double k = r.cross(v).dot(way) / det, l = r.cross(u).dot(way) / det;
+      const double k = r.cross(v).dot(direction) / det, l = r.cross(u).dot(direction) / det;
       if (k > 0.0 && k < 1.0 && l > 0.0 && l < 1.0) add(side.dot(r) / det);
     }
   }
@@ -70,7 +70,7 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
       a, stand_a, b, stand_b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
       [&] { return best; },
       [&](const Facet& s, const Facet& t) {
-        if (bound(s.box, t.box) < best) best = std::min(best, triangle_way(s.points, t.points, down));
+        if (bound(s.box, t.box) < best) best = std::min(best, triangle_distance(s.points, t.points, down));
       });
   return best;
 }

@@ -63,7 +63,7 @@ class Falls {
     });
   }
 
-  double way(std::size_t i) const {
+  double of(std::size_t i) const {
     for (const Neighbour& other : overlaps_[i]) {
       if (leads_up(other.out)) return 0.0;
     }
@@ -153,14 +153,14 @@ class Falls {
 
 }  // namespace
 
-std::vector<double> free_ways(const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
-                              const Request& request, const MeshQuery* bin_mesh, const Vec3& down) {
+std::vector<double> free_falls(const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
+                               const Request& request, const MeshQuery* bin_mesh, const Vec3& down) {
   const Falls falls(placed, overlaps, request, bin_mesh, down);
-  std::vector<double> ways(placed.size(), infinity);
+  std::vector<double> distances(placed.size(), infinity);
   in_parallel(placed.size(), [&](std::size_t i) {
-    if (placed[i].part->state == PartState::resting) ways[i] = falls.way(i);
+    if (placed[i].part->state == PartState::resting) distances[i] = falls.of(i);
   });
-  return ways;
+  return distances;
 }
 
 }  // namespace bin_scenes

@@ -161,12 +161,12 @@ Worst<int> measure_gaps(Report& report, const std::vector<Placed>& placed, const
                         const Request& request, const MeshQuery* bin_mesh) {
   Worst<int> worst;
   if (!(request.gravity.norm() > 0.0)) return worst;
-  const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+  const std::vector<double> falls = free_falls(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
   std::vector<double> finite;
   for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (!std::isfinite(ways[i])) continue;
-    finite.push_back(ways[i]);
-    worst.add(ways[i] / placed[i].diagonal, placed[i].part->id);
+    if (!std::isfinite(falls[i])) continue;
+    finite.push_back(falls[i]);
+    worst.add(falls[i] / placed[i].diagonal, placed[i].part->id);
   }
   report.gap = quantiles(finite);
   return worst;
@@ -245,9 +245,9 @@ std::vector<PartQuality> part_quality(const Scene& scene, const LoadedRequest& l
   const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
   const MeshQuery* bin_mesh = loaded.bin_model ? &loaded.bin_model->query() : nullptr;
   const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
-  const std::vector<double> ways = free_ways(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+  const std::vector<double> falls = free_falls(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
   std::vector<PartQuality> all;
-  for (std::size_t i = 0; i < placed.size(); ++i) all.push_back({placed[i].part->id, 0.0, 0.0, into_bin[i], ways[i]});
+  for (std::size_t i = 0; i < placed.size(); ++i) all.push_back({placed[i].part->id, 0.0, 0.0, into_bin[i], falls[i]});
   for (const Overlapping& pair : overlaps) {
     const double depth = pair.found.depth, unit = std::min(placed[pair.a].diagonal, placed[pair.b].diagonal);
     if (depth <= noise * unit) continue;

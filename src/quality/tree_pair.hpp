@@ -153,9 +153,9 @@ class NodePair {
 
   bool apart(std::uint32_t i, std::uint32_t j) const {
     const MeshQuery::NodeBox &a = a_[i], &b = b_[j];
-    const Eigen::Array4f way = sum(turn_, b.center) + shift_ - a.center;
-    if ((way.abs() - a.half - sum(turn_size_, b.half)).maxCoeff() > margin_) return true;
-    return (sum(back_, way).abs() - b.half - sum(back_size_, a.half)).maxCoeff() > margin_;
+    const Eigen::Array4f offset = sum(turn_, b.center) + shift_ - a.center;
+    if ((offset.abs() - a.half - sum(turn_size_, b.half)).maxCoeff() > margin_) return true;
+    return (sum(back_, offset).abs() - b.half - sum(back_size_, a.half)).maxCoeff() > margin_;
   }
   /// Whether node i of a is larger than node j of b.
   bool larger(std::uint32_t i, std::uint32_t j) const {

@@ -292,12 +292,11 @@ void visit(Visitor& v, SphereSettings& s) {
        "true: steps too long for small or fast parts are shortened; false: such parts may pass through others; only "
        "for measuring long steps"},
       s.cut_steps);
-  v.field(
-      {"step_fall", "",
-       "with cut_steps: way that the smallest part falls from rest in one step at most / its diagonal; more = longer "
-       "steps for small parts, which sink in further",
-       above(0.0, 1.0)},
-      s.step_fall);
+  v.field({"step_fall", "",
+           "with cut_steps: distance that the smallest part falls from rest in one step at most / its diagonal; more = "
+           "longer steps for small parts, which sink in further",
+           above(0.0, 1.0)},
+          s.step_fall);
   v.field({"sub_steps", "", "contact solves per time step; more = stiffer and less drift, linear cost",
            at_least(1.0, 1000.0)},
           s.sub_steps);

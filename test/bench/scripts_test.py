@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""bench/publish, bench/plot and bench/compare_results on small results of their own."""
+"""bench/publish, bench/all and bench/compare_results on small results of their own."""
 import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -38,7 +39,7 @@ class Scripts(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.root)
         for folder in ("bench/plots", "bench/results/device", "docs/lab"):
             (self.root / folder).mkdir(parents=True)
-        for script in ("publish", "plot", "compare_results"):
+        for script in ("publish", "compare_results"):
             shutil.copy(ROOT / "bench" / script, self.root / "bench")
         (self.root / "bench/results/device/scenes.csv").write_text(TABLE)
         (self.root / "docs/lab/accuracy.md").write_text(DOC % "")
@@ -162,26 +163,28 @@ at rest: at_rest of scenes | | all
         self.assertEqual(missing.returncode, 2)
         self.assertIn("neither a file nor a folder", missing.stderr)
 
-    def test_plot_says_when_gnuplot_is_missing(self):
+    def figure(self, **environment):
+        """Publishes a page that shows a figure."""
+        (self.root / "docs/lab/images").mkdir()
+        (self.root / "docs/lab/accuracy.md").write_text("![A figure](images/scenes.svg) ![A photo](images/photo.svg)\n")
+        (self.root / "bench/plots/style.gp").write_text("set datafile separator ','\n")
+        (self.root / "bench/plots/scenes.gp").write_text(
+            "# needs: scenes.csv\n# size: 900,560\nplot results.'/scenes.csv' using (column('time_s')) with points\n")
+        return self.run_script("publish", **environment)
+
+    def test_publish_says_when_gnuplot_is_missing(self):
         tools = self.root / "tools"
         tools.mkdir()
-        for tool in ("bash", "dirname", "basename", "sed", "mkdir"):
-            (tools / tool).symlink_to(shutil.which(tool))
-        outcome = self.run_script("plot", self.root / "bench/results/device", PATH=str(tools))
-        self.assertEqual(outcome.returncode, 3)
+        (tools / "python3").symlink_to(sys.executable)
+        outcome = self.figure(PATH=str(tools))
+        self.assertEqual(outcome.returncode, 1)
         self.assertIn("gnuplot-nox", outcome.stderr)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot here")
-    def test_plot_draws_what_has_a_table_and_names_what_has_none(self):
-        (self.root / "bench/plots/style.gp").write_text("set datafile separator ','\n")
-        plot = "plot results.'/scenes.csv' using (column('time_s')) with points\n"
-        (self.root / "bench/plots/scenes.gp").write_text("# needs: scenes.csv\n" + plot)
-        (self.root / "bench/plots/growth.gp").write_text("# needs: growth.csv\nplot x\n")
-        outcome = self.run_script("plot", self.root / "bench/results/device", self.root / "out")
+    def test_publish_draws_the_figures_that_pages_show(self):
+        outcome = self.figure()
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
-        self.assertIn("growth: left out, no growth.csv", outcome.stdout)
-        self.assertTrue((self.root / "out/scenes.svg").read_text().rstrip().endswith("</svg>"))
-        self.assertTrue((self.root / "out/scenes.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertTrue((self.root / "docs/lab/images/scenes.svg").read_text().rstrip().endswith("</svg>"))
 
     def test_all_makes_everything_and_names_what_failed(self):
         shutil.copy(ROOT / "bench/all", self.root / "bench")

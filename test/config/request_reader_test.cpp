@@ -1,17 +1,12 @@
-#include "bin_scenes/config/materials.hpp"
-#include "bin_scenes/config/sensor_presets.hpp"
-#include "bin_scenes/core/sha256.hpp"
+/// Keys of a request: read into their fields, refused with words, written back, documented.
 #include "bin_scenes/mesh/mesh_loader.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
-#include "config/suggest.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 
@@ -248,37 +243,6 @@ TEST_F(ConfigTest, WhatIsWrittenReadsBackTheSame) {
   EXPECT_EQ(twice.parts[0].poses[1].orientation.coeffs(), once.parts[0].poses[1].orientation.coeffs());
 }
 
-/// An image where another sensor stands, of each of its views.
-TEST_F(ConfigTest, PoseOfTakesLensPlaceAndViews) {
-  const std::string camera =
-      bolts +
-      "sensors:\n  - {name: grey, model: image, pose_of: range}\n"
-      "  - {name: range, model: structured_light, width: 320, height: 200, fov: 0.6, near: 0.3, far: 2,\n"
-      "     distortion: [0.1, 0, 0, 0, 0], projector: {baseline: 0.3}, ";
-  const Request one = read(camera + "pose: [0, 0, 1, 1, 0, 0, 0]}\n");
-  ASSERT_EQ(one.sensors.size(), 2u);
-  const Sensor& grey = one.sensors[0];
-  EXPECT_EQ(grey.model, "image");
-  EXPECT_EQ(grey.width, 320);
-  EXPECT_EQ(grey.height, 200);
-  EXPECT_EQ(grey.fov, 0.6);
-  EXPECT_EQ(grey.distortion[0], 0.1);
-  EXPECT_EQ(grey.near, 0.3);
-  EXPECT_EQ(grey.far, 2.0);
-  EXPECT_EQ(grey.projector.baseline, 0.3);
-  EXPECT_EQ(grey.pose->position.z(), 1.0);
-  EXPECT_EQ(write_request(read(write_request(one))), write_request(one));
-  const Request two = read(camera + "views: {count: 2}}\n");
-  ASSERT_EQ(two.sensors.size(), 4u);
-  EXPECT_EQ(two.sensors[1].name, "grey_1");
-  EXPECT_EQ(two.sensors[1].pose->position, two.sensors[3].pose->position);
-  expect_refused(bolts + "sensors: [{name: grey, pose_of: rang}, {name: range}]\n",
-                 {"'rang' is no other sensor", "range"});
-  expect_refused(bolts + "sensors: [{name: grey, pose_of: grey}]\n", {"'grey' is no other sensor", "give a pose"});
-  expect_refused(bolts + "sensors: [{name: grey, pose_of: range, width: 9}, {name: range}]\n",
-                 {"the sensor has width of its own"});
-}
-
 TEST_F(ConfigTest, BinsOfEveryKindReadBackTheSame) {
   put("crate.stl", "solid crate");
   const struct {
@@ -375,116 +339,6 @@ TEST_F(ConfigTest, KindsOfBinExcludeEachOther) {
   expect_refused("bin: {unit: mm}\n" + bolts, {"'bin.unit'", "bin.mesh"});
 }
 
-TEST_F(ConfigTest, ModelsAreFoundByRelativeAbsoluteAndPackagePaths) {
-  put("space/deep/my_parts/package.xml", "<package><name>my_parts</name></package>");
-  put("space/deep/my_parts/meshes/ring.stl", "solid ring");
-  ::setenv("ROS_PACKAGE_PATH", ("/nonexistent:" + (dir / "space").string()).c_str(), 1);
-  EXPECT_EQ(read("parts: [{model: package://my_parts/meshes/ring.stl}]").parts[0].path,
-            (dir / "space/deep/my_parts/meshes/ring.stl").string());
-  EXPECT_EQ(read("parts: [{model: " + (dir / "nut.stl").string() + "}]").parts[0].path, (dir / "nut.stl").string());
-  PathRules rules;
-  rules.find_package = [&](const std::string& name) { return name == "mine" ? dir.string() : std::string(); };
-  EXPECT_EQ(read("parts: [{model: package://mine/nut.stl}]", {}, rules).parts[0].path, (dir / "nut.stl").string());
-  expect_refused("parts: [{model: package://absent/ring.stl}]", {"no package 'absent'", "ROS_PACKAGE_PATH"});
-  expect_refused("parts: [{model: package://my_parts}]", {"names no file"});
-  ::unsetenv("ROS_PACKAGE_PATH");
-}
-
-TEST_F(ConfigTest, MissingModelsAreNamedWithALikelyFile) {
-  expect_refused("parts:\n  - model: blot.stl\n", {"request.yaml:2", "blot.stl", "did you mean 'bolt.stl'"});
-  expect_refused("parts: [{model: .}]", {"not a file"});
-  expect_refused("bin: {mesh: crate.stl}\n" + bolts, {"request.yaml:1", "crate.stl"});
-}
-
-TEST_F(ConfigTest, ModelsOutsideTheRootsAreRefusedThroughLinksToo) {
-  put("inside/part.stl", "solid");
-  put("inside-not/part.stl", "solid");
-  std::filesystem::create_symlink(dir / "nut.stl", dir / "inside/link.stl");
-  PathRules rules;
-  rules.roots = {(dir / "inside").string() + "/"};
-  rules.roots_name = "~model_roots";
-  EXPECT_NO_THROW(read("parts: [{model: inside/part.stl}]", {}, rules));
-  for (const char* model : {"nut.stl", "inside/../nut.stl", "inside/link.stl", "inside-not/part.stl", "absent.stl"}) {
-    const std::string message = refusal("parts: [{model: " + std::string(model) + "}]", {}, rules);
-    EXPECT_NE(message.find("outside of ~model_roots"), std::string::npos) << message;
-  }
-}
-
-TEST_F(ConfigTest, RelativeModelsAreSearchedInEachRootAfterTheRequestsFolder) {
-  put("first/other.stl", "solid");
-  put("second/part.stl", "solid");
-  put("second/bolt.stl", "solid");
-  PathRules rules;
-  rules.roots = {(dir / "first").string(), (dir / "second").string(), dir.string()};
-  EXPECT_EQ(read("parts: [{model: part.stl}]", {}, rules).parts[0].path, (dir / "second/part.stl").string());
-  EXPECT_EQ(read("parts: [{model: bolt.stl}]", {}, rules).parts[0].path, (dir / "bolt.stl").string());
-  rules.roots_name = "~model_roots";
-  EXPECT_NE(refusal("parts: [{model: absent.stl}]", {}, rules).find("~model_roots"), std::string::npos);
-}
-
-TEST_F(ConfigTest, GoesOnFromAnEarlierScene) {
-  const auto part = [](int id, const char* model, int line, const char* state, double z) {
-    return std::string(R"({"id": )") + std::to_string(id) + R"(, "line": )" + std::to_string(line) + R"(, "model": ")" +
-           model + R"(", "pose": {"position": [0, 0, )" + std::to_string(z) +
-           R"(], "orientation_xyzw": [0, 0, 0, 1]}, "state": ")" + state + R"("})";
-  };
-  put("scene.json", R"({"format": "bin_scenes/1", "seed": 1, "index": 0, "parts": [)" +
-                        part(0, "bolt.stl", 0, "resting", 0.01) + "," + part(1, "bolt.stl", 0, "escaped", -1) + "," +
-                        part(2, "nut.stl", 1, "moving", 0.03) + "]}");
-  const std::string given = "pour: {pattern: given, scene: scene.json}\n";
-  const Request r = read(given + "parts: [{model: bolt.stl}, {model: nut.stl}]");
-  ASSERT_EQ(r.parts[0].poses.size(), 1u);
-  EXPECT_EQ(r.parts[0].count, 1u);
-  EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.01);
-  EXPECT_EQ(r.parts[1].poses[0].position.z(), 0.03);
-  EXPECT_EQ(read(write_request(r)).text_sha256, r.text_sha256) << "written back, it stands on its own";
-  expect_refused(given + "parts: [{model: bolt.stl, count: 2}, {model: nut.stl}]", {"is 2", "has 1"});
-  expect_refused(given + "parts: [{model: nut.stl}, {model: bolt.stl}]", {"'bolt.stl' of part line 0"});
-  expect_refused("pour: {scene: scene.json}\n" + bolts, {"pattern: given"});
-  put("scene.json", "{}");
-  expect_refused(given + bolts, {"scene.json", "format"});
-}
-
-TEST_F(ConfigTest, APartOfAnEarlierSceneIsKnownByItsBytesWhereverItLies) {
-  Scene scene;
-  scene.model_sha256 = {sha256_hex("solid bolt")};
-  scene.parts.emplace_back();
-  scene.parts[0].model = "bolt.stl";
-  scene.parts[0].state = PartState::resting;
-  Request made;
-  made.parts.emplace_back();
-  made.parts[0].model = "bolt.stl";
-  put("scene.json", scene_json(scene, made));
-  const std::string given = "pour: {pattern: given, scene: " + (dir / "scene.json").string() + "}\n";
-  put("deeper/twin.stl", "solid bolt");
-  EXPECT_EQ(read(given + "parts: [{model: deeper/twin.stl}]").parts[0].poses.size(), 1u);
-  std::ofstream(dir / "deeper/request.yaml") << given << "parts: [{model: ../bolt.stl}]";
-  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
-  put("bolt.stl", "solid other");
-  expect_refused(given + "parts: [{model: bolt.stl}]", {"'bolt.stl' of part line 0"});
-
-  // A scene of somebody else tells no bytes: its names have to do.
-  scene.model_sha256.clear();
-  put("scene.json", scene_json(scene, made));
-  EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
-}
-
-TEST_F(ConfigTest, PartsThatWereNeverPouredHaveNothingToGoOnFrom) {
-  Scene scene;
-  for (int id = 0; id < 2; ++id) {
-    scene.parts.emplace_back();
-    scene.parts[id].id = id;
-    scene.parts[id].model = "bolt.stl";
-    scene.parts[id].state = id == 0 ? PartState::not_poured : PartState::resting;
-  }
-  scene.parts[0].pose = Pose::none();
-  scene.parts[1].pose.position.z() = 0.5;
-  put("scene.json", scene_json(scene, {}));
-  const Request r = read("pour: {pattern: given, scene: scene.json}\nparts: [{model: bolt.stl}]");
-  ASSERT_EQ(r.parts[0].poses.size(), 1u);
-  EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.5);
-}
-
 TEST_F(ConfigTest, MessagesNameWhatTheUserWrote) {
   expect_refused(bolts, {"--seconds", "above 0", "-1"}, {{"seconds=-1", "--seconds"}});
   expect_refused(bolts, {"--seed", "whole number", "1.5"}, {{"seed=1.5", "--seed"}});
@@ -499,25 +353,6 @@ TEST_F(ConfigTest, ABadItemOfAListIsNamed) {
                  {"'parts[0].poses[1]'", "length 1", "[0, 0, 2, 0, 0, 0, 0]"});
   expect_refused("parts: [{model: bolt.stl, poses: [[0, 0, 1]], velocities: [[1, 2]]}]\n",
                  {"'parts[0].velocities[0]'", "[1, 2]"});
-}
-
-TEST_F(ConfigTest, ModelsAreNotTakenForDirectories) {
-  std::filesystem::create_directories(dir / "out");
-  std::filesystem::create_directories(dir / "bolt.st");
-  const std::string number = refusal("parts: [{model: 5}]\n");
-  EXPECT_EQ(number.find("did you mean"), std::string::npos) << number;
-  expect_refused("parts: [{model: bolt.sl}]\n", {"did you mean 'bolt.stl'"});
-}
-
-TEST_F(ConfigTest, APresetSetsWhatIsNotGiven) {
-  const Request quick = read("solver: {preset: quick, sphere: {sub_steps: 3}}\n" + bolts);
-  Request meant = read(bolts);
-  apply(SolverSettings::Preset::quick, meant);
-  EXPECT_NE(write_request(meant), write_request(read(bolts)));
-  meant.solver.sphere.sub_steps = 3;
-  EXPECT_EQ(write_request(quick), write_request(meant)) << "what is given stays";
-  EXPECT_EQ(read(bolts, {"solver.preset=quick", "pour.finish=probed"}).pour.finish, Pour::Finish::probed);
-  EXPECT_EQ(write_request(read(write_request(quick))), write_request(quick)) << "written back, it stands on its own";
 }
 
 TEST_F(ConfigTest, RadiiOfSpheresFall) {
@@ -552,83 +387,6 @@ TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
 TEST_F(ConfigTest, ARefusedValueIsToldWithItsLine) {
   expect_refused(bolts + "    friction: -0.5\n", {"request.yaml:3", "'parts[0].friction'", "at least 0", "is -0.5"});
   expect_refused(bolts, {"--set parts[0].friction", "is -1"}, {"parts[0].friction=-1"});
-}
-
-class SensorPresets : public ConfigTest {
- protected:
-  SensorPresets() {
-    put("presets/close_fringes.yaml",
-        "model: structured_light\nwidth: 800\nfov: 0.5\nprojector: {pose: [0.2, 0, 1], fov: 0.6}\n");
-    put("presets/calibrated.yaml", "k: [900, 0, 400, 0, 900, 300, 0, 0, 1]\n");
-    put("presets/wrong.yaml", "model: ideal\nwidht: 3\n");
-    ::setenv("BIN_SCENES_SENSORS", (dir / "presets").c_str(), 1);
-  }
-  ~SensorPresets() override { ::unsetenv("BIN_SCENES_SENSORS"); }
-
-  Sensor sensor(const std::string& keys) {
-    return read("parts: [{model: bolt.stl}]\nsensors: [{" + keys + "}]\n").sensors.at(0);
-  }
-};
-
-TEST_F(SensorPresets, ValuesOfThePresetYieldToThoseOfTheRequest) {
-  const Sensor s = sensor("name: left, preset: close_fringes, width: 640, projector: {width: 912}");
-  EXPECT_EQ(s.name, "left");
-  EXPECT_EQ(s.model, "structured_light");
-  EXPECT_EQ(s.preset, "close_fringes");
-  EXPECT_EQ(s.width, 640);
-  EXPECT_EQ(s.height, 480);
-  EXPECT_EQ(s.fov, 0.5);
-  EXPECT_EQ(s.projector.width, 912);
-  EXPECT_EQ(s.projector.fov, 0.6);
-  EXPECT_TRUE(s.projector.pose);
-}
-
-TEST_F(SensorPresets, KeysThatSayTheSameInOtherWordsReplaceEachOther) {
-  EXPECT_FALSE(sensor("preset: calibrated").k.empty());
-  EXPECT_TRUE(sensor("preset: calibrated, fov: 0.4").k.empty());
-  EXPECT_FALSE(sensor("preset: close_fringes, projector: {baseline: 0.1}").projector.pose);
-}
-
-TEST_F(SensorPresets, MistakesAreNamedWhereTheyStand) {
-  const std::string bolts = "parts: [{model: bolt.stl}]\n";
-  expect_refused(bolts + "sensors: [{preset: close_fringe}]\n", {"close_fringes", "request.yaml:2"});
-  expect_refused(bolts + "sensors: [{preset: ../request}]\n", {"no sensor preset"});
-  expect_refused(bolts + "sensors: [{preset: wrong}]\n", {"widht", "width", "wrong.yaml:2"});
-  expect_refused(bolts + "sensors: [{model: laser_lin}]\n", {"did you mean 'laser_line'?"});
-}
-
-TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
-  ::unsetenv("BIN_SCENES_SENSORS");
-  EXPECT_FALSE(sensor_presets().empty());
-  for (const std::string& name : sensor_presets()) {
-    SCOPED_TRACE(name);
-    const Sensor s = sensor("preset: " + name);
-    EXPECT_EQ(s.preset, name);
-  }
-}
-
-TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
-  const std::string bolts = "parts: [{model: bolt.stl, surface: ";
-  const Surface brass = material("brass");
-  EXPECT_TRUE(brass.metal());
-  const Surface s = read(bolts + "{material: brass, roughness: 0.7}}]\n").parts[0].surface;
-  EXPECT_EQ(s.refraction, brass.refraction);
-  EXPECT_EQ(s.extinction, brass.extinction);
-  EXPECT_EQ(s.albedo, brass.albedo);
-  EXPECT_EQ(s.gloss, brass.gloss);
-  EXPECT_EQ(s.roughness, 0.7);
-  EXPECT_EQ(read("bin: {surface: {material: cardboard}}\nparts: [{model: bolt.stl}]\n").bin.surface.gloss, 0.0);
-  EXPECT_EQ(read(bolts + "{albedo: 0.5}}]\n", {"parts[0].surface.material=rubber_black"}).parts[0].surface.gloss,
-            material("rubber_black").gloss);
-  expect_refused(bolts + "{material: steel_brushd}}]\n", {"did you mean 'steel_brushed'?", "request.yaml:1"});
-  EXPECT_EQ(materials().size(), 12u);
-  for (const std::string& name : materials()) {
-    SCOPED_TRACE(name);
-    const Surface known = material(name);
-    EXPECT_GT(known.albedo, 0.0);
-    EXPECT_LE(known.albedo, 1.0);
-    EXPECT_LE(known.gloss, 1.0);
-  }
 }
 
 }  // namespace

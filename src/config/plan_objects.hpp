@@ -1,0 +1,24 @@
+/// The models that a plan's heaps may hold, each once, with the symmetries that its key `bop.symmetries` gives them.
+#pragma once
+
+#include "bin_scenes/config/plan.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bin_scenes::config {
+
+struct PlanObjects {
+  YAML::Node symmetries;        ///< by model; may be undefined
+  std::vector<PlanObject> all;  ///< in order of their first appearance
+  std::string digests;          ///< of their files, and of the bins'
+
+  using Complain = std::function<void(const std::string& problem)>;
+  /// Notes what a request names. Symmetries that are none are complained of.
+  void add(const Request& request, const Complain& complain);
+};
+
+}  // namespace bin_scenes::config

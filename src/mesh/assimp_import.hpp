@@ -1,0 +1,21 @@
+/// The only place that sees assimp.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace bin_scenes {
+
+/// What assimp makes of a file, or its complaint.
+struct Import {
+  std::string complaint;  ///< empty if it was read
+  Mesh mesh;
+  std::uint64_t meshes = 0, points = 0, lines = 0;
+};
+
+/// assimp in a process of its own; the result comes back through a pipe.
+Import import_contained(const std::string& bytes, const std::string& format);
+
+}  // namespace bin_scenes

@@ -1,0 +1,21 @@
+/// Figures in messages about meshes.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace bin_scenes {
+
+/// Three digits.
+inline std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+/// "1 hole", "2 holes".
+inline std::string count(std::size_t n, const char* thing) {
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+}  // namespace bin_scenes

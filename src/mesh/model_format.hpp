@@ -1,0 +1,18 @@
+/// What a model file is, told from its name and bytes before any reader sees it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace bin_scenes {
+
+/// "STL", "OBJ", "PLY", "DAE", "OFF", "STEP", "IGES", or empty.
+std::string format_of_name(const std::string& path);
+/// The same by content, or empty; OBJ has no mark of its own.
+std::string format_of_content(const std::string& bytes);
+/// Texts in UTF-16 (with byte order mark), which assimp's readers take for noise, as UTF-8.
+std::optional<std::string> utf8_from_utf16(const std::string& bytes);
+/// Refuses a header that promises more than the file can hold: assimp would believe it and ask for the memory.
+void check_promised_counts(const std::string& bytes, const std::string& format, const std::string& path);
+
+}  // namespace bin_scenes
