@@ -101,8 +101,8 @@ void visit(Visitor& v, ImagerSettings& s) {
        above(0.0, 1000.0)},
       s.exposure);
   v.field({"exposures", "",
-           "structured_light: several of them, ascending, merged: a pixel takes the longest that does not saturate; "
-           "exposure is that of the grey image; []: exposure alone",
+           "several, ascending, merged: a pixel takes the longest that does not saturate; structured_light, stereo, "
+           "laser_line (of power); []: exposure alone",
            above(0.0, 1000.0)},
           s.exposures);
   v.field(

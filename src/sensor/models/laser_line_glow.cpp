@@ -44,7 +44,7 @@ void LaserLine::add_second_lines(const Carriage& at, const SheetGlow& glow, std:
       const int middle = static_cast<int>(std::lround(line->across)), reach = reach_of(sigma_at(line->depth));
       taken.emplace_back(middle - reach, middle + reach);
     }
-    const int place = glow.brightest(s, setup_.settings.min_signal, taken);
+    const int place = glow.brightest(s, setup_.settings.min_signal / scales_.front(), taken);
     if (place >= 0) places.emplace_back(s, place);
   }
   std::vector<Ray> rays;
