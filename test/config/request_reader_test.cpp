@@ -42,6 +42,7 @@ parts:
     thickness: 0.001
     tessellation: {chord: 0.0001, angle: 0.3}
     solid: "pin#2"
+    surface: {anisotropy: 0.6, along: [0, 1, 0], texture: {scratches: 0.1, oil: 0.2, rust: 0.3}}
     poses:
       - [0.1, 0.2, 0.3, 0, 0, 0, 1]
       - {position: [0, 0, 0.1], orientation_xyzw: [0.6, 0, 0, 0.8]}
@@ -202,6 +203,12 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(image.lamps[1].width, 0.4);
   EXPECT_EQ(image.lamps[1].height, 0.2);
   EXPECT_EQ(image.lamps[2].horizon, 0.7);
+  const Surface& surface = r.parts[0].surface;
+  EXPECT_EQ(surface.anisotropy, 0.6);
+  EXPECT_EQ(surface.along, Vec3(0, 1, 0));
+  EXPECT_EQ(surface.texture.scratches, 0.1);
+  EXPECT_EQ(surface.texture.oil, 0.2);
+  EXPECT_EQ(surface.texture.rust, 0.3);
   const auto& filter = r.sensors[1].settings.of<FilterSettings>();
   EXPECT_EQ(filter.snr, 8.0);
   EXPECT_EQ(filter.outlier.neighbours, 6);
@@ -622,6 +629,8 @@ TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
             material("rubber_black").gloss);
   expect_refused(bolts + "{material: steel_brushd}}]\n", {"did you mean 'steel_brushed'?", "request.yaml:1"});
   EXPECT_EQ(materials().size(), 12u);
+  EXPECT_GT(material("steel_brushed").anisotropy, 0.0);
+  EXPECT_GT(material("aluminium_milled").anisotropy, 0.0);
   for (const std::string& name : materials()) {
     SCOPED_TRACE(name);
     const Surface known = material(name);

@@ -137,8 +137,9 @@ std::optional<LaserLine::Line> LaserLine::line_at(const Carriage& at, int sample
   if (across(*pixel) < -0.5 || across(*pixel) > limit) return std::nullopt;
   // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
   const double distance = (at.laser - point).norm();
-  const double light =
-      reflected(surfaces_.of(hit.line), hit.normal, (at.laser - point) / distance, (at.eye - point).normalized());
+  Surface worn_there;
+  const double light = reflected(surfaces_.at(hit.line, hit.label, point, worn_there), hit.normal,
+                                 (at.laser - point) / distance, (at.eye - point).normalized());
   return Line{sample,
               across(*pixel),
               (to_camera_ * (point - at.eye)).z(),

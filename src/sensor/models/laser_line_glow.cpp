@@ -22,7 +22,7 @@ void LaserLine::follow(const Carriage& at, const std::vector<Hit>& hits, const R
     const double depth = std::clamp((to_camera_ * (point - at.eye)).z(), setup_.near, setup_.far);
     const double angle = std::atan2(way.cross(directions_[i + 1]).norm(), way.dot(directions_[i + 1]));
     const double line = std::sqrt(2.0 * M_PI) * sigma_at(depth) * depth / focal;  // m: as wide as one of even light
-    sources.push_back({{point, hit.normal, hit.line, true},
+    sources.push_back({{point, hit.normal, hit.line, true, hit.label},
                        setup_.settings.power * reference_ * line * angle,
                        hit.distance * way.norm() * angle});
   }
