@@ -172,6 +172,8 @@ void visit(Visitor& v, ImageLamp& lamp) {
   v.field({"outer", "m", "ring: radius", above(0.0, 100.0)}, lamp.outer);
   v.field({"inner", "m", "0 = a disk", at_least(0.0, 100.0)}, lamp.inner);
   v.field({"horizon", "", "dome: radiance there and below / at the zenith", at_least(0.0, 1e3)}, lamp.horizon);
+  v.field({"picture", "", "dome: equirectangular, Radiance .hdr"}, lamp.picture);
+  v.field({"turn", "rad", "of the picture about the vertical", at_least(-100.0, 100.0)}, lamp.turn);
 }
 
 template <class Visitor>

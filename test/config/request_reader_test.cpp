@@ -81,7 +81,7 @@ sensors:
     calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4, range: 3e-3}
     filter: {snr: 8, outlier: {neighbours: 6, window: 7, step: 0.01}}
     lamps: [{type: ring, pose: [0, 0, 1, 1, 0, 0, 0], radiance: 2, colour: [1, 0.9, 0.8], outer: 0.1, inner: 0.08},
-            {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7}]
+            {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7, picture: sky.hdr, turn: 0.8}]
     image: {samples: 64, colour: true, bits: 16}
     structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
                        mixed: keep, edge_step: 0.002}
@@ -203,6 +203,8 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(image.lamps[1].width, 0.4);
   EXPECT_EQ(image.lamps[1].height, 0.2);
   EXPECT_EQ(image.lamps[2].horizon, 0.7);
+  EXPECT_EQ(image.lamps[2].picture, (dir / "sky.hdr").string());
+  EXPECT_EQ(image.lamps[2].turn, 0.8);
   const Surface& surface = r.parts[0].surface;
   EXPECT_EQ(surface.anisotropy, 0.6);
   EXPECT_EQ(surface.along, Vec3(0, 1, 0));
@@ -612,6 +614,15 @@ TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
     const Sensor s = sensor("preset: " + name);
     EXPECT_EQ(s.preset, name);
   }
+}
+
+TEST_F(ConfigTest, PicturesOfDomesAreFilesBesideTheRequest) {
+  const auto with = [](const std::string& lamp) {
+    return "parts: [{model: bolt.stl}]\nsensors: [{model: image, lamps: [" + lamp + "]}]\n";
+  };
+  expect_refused(with("{type: dome, picture: sk.hdr}"), {"sk.hdr", "did you mean 'sky.hdr'?", "request.yaml:2"});
+  expect_refused(with("{type: dome, picture: bolt.stl}"), {"bolt.stl", "no Radiance picture", "request.yaml:2"});
+  expect_refused(with("{type: area, picture: sky.hdr}"), {"no dome"});
 }
 
 TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
