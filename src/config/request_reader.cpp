@@ -5,6 +5,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"
 #include "config/read_document.hpp"
@@ -141,6 +142,16 @@ void go_on_from_scene(Request& request, const Where& where, const std::function<
   }
 }
 
+void find_pictures(std::vector<Sensor>& sensors, const std::string& base, const PathRules& rules, const Where& where) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    std::vector<ImageLamp>& lamps = sensors[i].settings.of<ImageSettings>().lamps;
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+      const std::string key = "sensors[" + std::to_string(i) + "].lamps[" + std::to_string(k) + "].picture";
+      if (!lamps[k].picture.empty()) lamps[k].picture = resolve_file(lamps[k].picture, base, rules, where(key));
+    }
+  }
+}
+
 void complete(Request& request, const std::string& base, const PathRules& rules, const Where& where,
               const std::function<bool(const std::string&)>& given) {
   const auto judge = [&] {
@@ -171,6 +182,7 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
     request.bin.mesh = resolve_file(request.bin.mesh, base, rules, where("bin.mesh"));
     request.bin.mesh_sha256 = sha256_of_file(request.bin.mesh);
   }
+  find_pictures(request.sensors, base, rules, where);
   if (!request.pour.scene.empty()) {
     if (request.pour.pattern != Pour::Pattern::given) {
       throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");

@@ -60,6 +60,13 @@ void visit(Visitor& v, Motion& motion) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, Texture& texture) {
+  v.field({"scratches", "", "mean share, rough; albedo x 0.8", at_least(0.0, 1.0)}, texture.scratches);
+  v.field({"oil", "", "mean share, smoother; albedo x 0.85", at_least(0.0, 1.0)}, texture.oil);
+  v.field({"rust", "", "mean share, matte; albedo x 0.4", at_least(0.0, 1.0)}, texture.rust);
+}
+
+template <class Visitor>
 void visit(Visitor& v, Surface& surface) {
   std::string material;  // its values have been read, and are what is written
   v.field({"material", "",
@@ -81,6 +88,9 @@ void visit(Visitor& v, Surface& surface) {
           surface.refraction);
   v.field({"extinction", "", "metals: k of that index", at_least(0.0, 100.0)}, surface.extinction);
   v.field({"colour", "", "times albedo, of red, green, blue", at_least(0.0, 1.0)}, surface.colour);
+  v.field({"anisotropy", "", "of brushing: narrower lobe along its lines", at_least(0.0, 1.0)}, surface.anisotropy);
+  v.field({"along", "", "of the lines; [0, 0, 0]: the longest axis"}, surface.along);
+  v.section({"texture", "", "wear", anything, surface.texture.any()}, surface.texture);
 }
 
 /// The kind of bin is not a key of its own: it follows from which of inner_size, mesh, floor and none is there.

@@ -101,8 +101,8 @@ void visit(Visitor& v, ImagerSettings& s) {
        above(0.0, 1000.0)},
       s.exposure);
   v.field({"exposures", "",
-           "structured_light: several of them, ascending, merged: a pixel takes the longest that does not saturate; "
-           "exposure is that of the grey image; []: exposure alone",
+           "several, ascending, merged: a pixel takes the longest that does not saturate; structured_light, stereo, "
+           "laser_line (of power); []: exposure alone",
            above(0.0, 1000.0)},
           s.exposures);
   v.field(
@@ -172,6 +172,8 @@ void visit(Visitor& v, ImageLamp& lamp) {
   v.field({"outer", "m", "ring: radius", above(0.0, 100.0)}, lamp.outer);
   v.field({"inner", "m", "0 = a disk", at_least(0.0, 100.0)}, lamp.inner);
   v.field({"horizon", "", "dome: radiance there and below / at the zenith", at_least(0.0, 1e3)}, lamp.horizon);
+  v.field({"picture", "", "dome: equirectangular, Radiance .hdr"}, lamp.picture);
+  v.field({"turn", "rad", "of the picture about the vertical", at_least(-100.0, 100.0)}, lamp.turn);
 }
 
 template <class Visitor>

@@ -70,7 +70,7 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
   if (to_make.empty()) return;
 
   const Scenery scenery(scene, loaded, *cache_);
-  const Surfaces surfaces = surfaces_of(loaded.request);
+  const Surfaces surfaces = surfaces_of(scene, loaded);
   for (const std::size_t s : to_make) {
     const Sensor& sensor = scene.sensors[s];
     flag_what_stands_inside(sensor, scene, loaded.parts);

@@ -23,6 +23,7 @@ class ConfigTest : public ::testing::Test {
     std::filesystem::create_directories(dir);
     put("bolt.stl", "solid bolt");
     put("nut.stl", "solid nut");
+    put("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x90\x90\x90\x80\x90\x90\x90\x80");
   }
   ~ConfigTest() override { std::filesystem::remove_all(dir); }
 

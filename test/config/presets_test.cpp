@@ -103,6 +103,15 @@ TEST_F(SensorPresets, ThoseThatAreInstalledCanBeRead) {
   }
 }
 
+TEST_F(ConfigTest, PicturesOfDomesAreFilesBesideTheRequest) {
+  const auto with = [](const std::string& lamp) {
+    return "parts: [{model: bolt.stl}]\nsensors: [{model: image, lamps: [" + lamp + "]}]\n";
+  };
+  expect_refused(with("{type: dome, picture: sk.hdr}"), {"sk.hdr", "did you mean 'sky.hdr'?", "request.yaml:2"});
+  expect_refused(with("{type: dome, picture: bolt.stl}"), {"bolt.stl", "no Radiance picture", "request.yaml:2"});
+  expect_refused(with("{type: area, picture: sky.hdr}"), {"no dome"});
+}
+
 TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
   const std::string bolts = "parts: [{model: bolt.stl, surface: ";
   const Surface brass = material("brass");
@@ -118,6 +127,8 @@ TEST_F(ConfigTest, MaterialsAreSurfacesByName) {
             material("rubber_black").gloss);
   expect_refused(bolts + "{material: steel_brushd}}]\n", {"did you mean 'steel_brushed'?", "request.yaml:1"});
   EXPECT_EQ(materials().size(), 12u);
+  EXPECT_GT(material("steel_brushed").anisotropy, 0.0);
+  EXPECT_GT(material("aluminium_milled").anisotropy, 0.0);
   for (const std::string& name : materials()) {
     SCOPED_TRACE(name);
     const Surface known = material(name);

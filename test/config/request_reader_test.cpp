@@ -37,6 +37,7 @@ parts:
     thickness: 0.001
     tessellation: {chord: 0.0001, angle: 0.3}
     solid: "pin#2"
+    surface: {anisotropy: 0.6, along: [0, 1, 0], texture: {scratches: 0.1, oil: 0.2, rust: 0.3}}
     poses:
       - [0.1, 0.2, 0.3, 0, 0, 0, 1]
       - {position: [0, 0, 0.1], orientation_xyzw: [0.6, 0, 0, 0.8]}
@@ -75,7 +76,7 @@ sensors:
     calibration: {focal: 0.4, center: 0.3, baseline: 1e-4, position: 2e-4, rotation: 5e-4, range: 3e-3}
     filter: {snr: 8, outlier: {neighbours: 6, window: 7, step: 0.01}}
     lamps: [{type: ring, pose: [0, 0, 1, 1, 0, 0, 0], radiance: 2, colour: [1, 0.9, 0.8], outer: 0.1, inner: 0.08},
-            {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7}]
+            {type: area, width: 0.4, height: 0.2}, {type: dome, horizon: 0.7, picture: sky.hdr, turn: 0.8}]
     image: {samples: 64, colour: true, bits: 16}
     structured_light: {steps: 5, period: 20, gray_bits: 9, contrast: 0.8, defocus: 1, gamma: 1.1, min_modulation: 0.01,
                        mixed: keep, edge_step: 0.002}
@@ -197,6 +198,14 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(image.lamps[1].width, 0.4);
   EXPECT_EQ(image.lamps[1].height, 0.2);
   EXPECT_EQ(image.lamps[2].horizon, 0.7);
+  EXPECT_EQ(image.lamps[2].picture, (dir / "sky.hdr").string());
+  EXPECT_EQ(image.lamps[2].turn, 0.8);
+  const Surface& surface = r.parts[0].surface;
+  EXPECT_EQ(surface.anisotropy, 0.6);
+  EXPECT_EQ(surface.along, Vec3(0, 1, 0));
+  EXPECT_EQ(surface.texture.scratches, 0.1);
+  EXPECT_EQ(surface.texture.oil, 0.2);
+  EXPECT_EQ(surface.texture.rust, 0.3);
   const auto& filter = r.sensors[1].settings.of<FilterSettings>();
   EXPECT_EQ(filter.snr, 8.0);
   EXPECT_EQ(filter.outlier.neighbours, 6);

@@ -256,6 +256,26 @@ TEST(Calibration, IsReadAndWrittenBackIfGiven) {
   EXPECT_EQ(written("").find("calibration"), std::string::npos);
 }
 
+TEST(Calibration, PresetsErrAsTheirMakersState) {
+  const auto preset = [](const std::string& name) {
+    return read_request_text("parts: [{model: bolt_hex.stl, unit: mm}]\nsensors: [{preset: " + name + "}]",
+                             std::getenv("BIN_SCENES_MODELS"))
+        .sensors[0];
+  };
+  const auto sigma = [&](const std::string& name) { return preset(name).settings.of<CalibrationSettings>(); };
+  // A longer baseline shortens all lengths by its share. Two sigmas where a limit is stated.
+  const auto stated = [&](const std::string& name, double baseline, double share) {
+    EXPECT_NEAR(sigma(name).baseline / baseline, share, 0.02 * share) << name;
+  };
+  stated("structured_light_0.7m_750mm", 0.1112, 0.5 * 0.002);
+  stated("structured_light_0.65m_590mm", 0.35, 0.2 / (0.5 * (870.0 + 2150.0)));
+  stated("stereo_0.7m_1200mm", 0.05, 0.5 * 0.02);
+  stated("stereo_1m_750mm", 0.16, 0.001);
+  EXPECT_TRUE(sigma("laser_line_0.5m_350mm").any());
+  EXPECT_NEAR(2.0 * sigma("time_of_flight_1m_1500mm").range, 0.011 + 0.001 * 1.0, 1e-12);
+  EXPECT_FALSE(sigma("ideal").any());
+}
+
 TEST(Calibration, MistakesAreTold) {
   Sensor sensor = exact("ideal");
   sensor.settings.of<CalibrationSettings>().focal = 1.0;

@@ -20,6 +20,13 @@ enum class Unit { metre, centimetre, millimetre, inch };
 double metres_per(Unit unit);
 const char* name_of(Unit unit);  ///< "m", "cm", "mm", "inch"
 
+/// What wears a surface, in places that differ from part to part: shares of it, 0..1. A part's own share is drawn
+/// evenly around the one given, as far as 0 or 1 allow.
+struct Texture {
+  double scratches = 0.0, oil = 0.0, rust = 0.0;
+  bool any() const { return scratches > 0.0 || oil > 0.0 || rust > 0.0; }
+};
+
 /// Optical surface of a part or the bin. Affects intensity, noise, drop-out and saturation of sensors, not physics.
 struct Surface {
   double albedo = 0.5;  ///< share of the light sent back, 0..1; dark parts are noisier and drop out
@@ -30,6 +37,9 @@ struct Surface {
   double refraction = 0.0, extinction = 0.0;
   /// Of red, green and blue: shares of albedo, of what is scattered; metals mirror it, too. Seen by colour images.
   Vec3 colour = Vec3::Ones();
+  double anisotropy = 0.0;    ///< 0..1: lines of brushing or milling, along which the mirrored lobe is narrower
+  Vec3 along = Vec3::Zero();  ///< of these lines, in the part's frame; zero: its longest axis
+  Texture texture = {};
   bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 

@@ -24,8 +24,8 @@ struct ImagerSettings {
   double read_noise = 5.0;          ///< electrons, standard deviation; 0 = none
   double blur = 0.0;              ///< structured_light: camera pixels, standard deviation of the lens's blur; 0 = sharp
   int bits = 12;                  ///< of the analogue-digital converter, 1 to 16; fewer = coarser steps
-  std::vector<double> exposures;  ///< structured_light: several instead of `exposure`, ascending; of each pixel the
-                                  ///< longest counts that does not saturate
+  std::vector<double> exposures;  ///< structured_light, stereo: several instead of `exposure`, laser_line: of `power`,
+                                  ///< ascending; of each pixel the longest counts that does not saturate
 };
 
 /// Fringe projection: a phase shift of `steps` images, periods told apart by a Gray code.

@@ -4,6 +4,7 @@
 #include "bin_scenes/core/types.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace bin_scenes {
@@ -24,6 +25,8 @@ struct ImageLamp {
   double outer = 0.06;         ///< ring: radius (m)
   double inner = 0.045;        ///< ring: radius (m)
   double horizon = 0.5;        ///< dome: radiance at the horizon and below it / that of the zenith
+  std::string picture;         ///< dome: file of an equirectangular picture; none: even from horizon to zenith
+  double turn = 0.0;           ///< dome: rad, of the picture about the vertical
 };
 
 /// Kept in Sensor::settings.

@@ -12,9 +12,31 @@ namespace bin_scenes {
 struct Surfaces {
   std::vector<Surface> lines;  ///< by part line
   Surface bin;
+  /// What makes a part's surface its own.
+  struct Place {
+    Pose to_part;       ///< from the bin frame to the part's
+    Vec3 longest;       ///< unit, axis in the part's frame
+    std::uint64_t key;  ///< of its texture
+  };
+  std::vector<Place> places = {};  ///< by label; none: no texture, and Surface::along is in the bin frame
+
   const Surface& of(std::int32_t line) const { return line < 0 ? bin : lines[static_cast<std::size_t>(line)]; }
+  /// The surface at a point, its `along` in the bin frame.
+  /// @param own  room for it where it differs from of(line)
+  const Surface& at(std::int32_t line, std::uint16_t label, const Vec3& point, Surface& own) const {
+    const Surface& even = of(line);
+    if ((!even.texture.any() && even.anisotropy <= 0.0) || label >= places.size()) return even;
+    own = own_surface(even, places[label], point);
+    return own;
+  }
+
+ private:
+  static Surface own_surface(const Surface& even, const Place& place, const Vec3& point);
 };
+/// Even ones, without places.
 Surfaces surfaces_of(const Request& request);
+/// Textures are those of a part in its scene, the same for all sensors.
+Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded);
 
 /// The key of all random numbers of a sensor in a scene.
 struct Draw {

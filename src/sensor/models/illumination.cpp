@@ -21,8 +21,12 @@ SentBack sent_back(const Surface& surface, const Vec3& normal, const Vec3& to_li
     once = fresnel(std::min(to_light.dot(between), 1.0), surface.refraction, surface.extinction);
     often = mean_fresnel(surface.refraction, surface.extinction);
   }
-  return {matte,
-          surface.albedo * surface.gloss * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half, once, often)};
+  const double share = surface.albedo * surface.gloss;
+  if (const auto frame = frame_along(surface, normal)) {
+    const Mat3 local = frame->transpose();
+    return {matte, share * brushed_lobe(surface, local * to_light, local * to_eye, once, often)};
+  }
+  return {matte, share * facet_lobe(alpha, std::min(in, 1.0), std::min(out, 1.0), half, once, often)};
 }
 
 double reflected(const Surface& surface, const Vec3& normal, const Vec3& to_light, const Vec3& to_eye) {
@@ -36,7 +40,8 @@ SeenPoint seen_point(const View& view, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(view.lens.width);
   const Vec3 ray = view.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
   const auto& n = view.normal[pixel];
-  return {view.pose * (z * ray), view.pose.orientation * Vec3(n[0], n[1], n[2]), view.line[pixel], true};
+  return {view.pose * (z * ray), view.pose.orientation * Vec3(n[0], n[1], n[2]), view.line[pixel], true,
+          view.label[pixel]};
 }
 
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
@@ -86,8 +91,9 @@ void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& 
     const SeenPoint& p = points[asked[k]];
     Lit& l = lit[asked[k]];
     l.code = Validity::valid;
-    l.reflected = reflected(surfaces.of(p.line), p.normal, (pose.position - p.position) / l.distance,
-                            (eye_of(asked[k]) - p.position).normalized());
+    Surface own;
+    l.reflected = reflected(surfaces.at(p.line, p.label, p.position, own), p.normal,
+                            (pose.position - p.position) / l.distance, (eye_of(asked[k]) - p.position).normalized());
   }
 }
 

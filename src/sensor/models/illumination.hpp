@@ -27,6 +27,7 @@ struct SeenPoint {
   Vec3 position, normal;  ///< the normal turned towards the eye
   std::int32_t line = -1;
   bool hit = false;
+  std::uint16_t label = 0;  ///< of the part whose texture it has
 };
 
 SeenPoint seen_point(const View& view, std::size_t pixel);

@@ -19,6 +19,17 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 /// Paths of one image, some 3 million of which a core traces a second.
 constexpr double most_paths = 4e9;
 
+void check_picture(const ImageLamp& lamp, const std::string& key) {
+  if (lamp.type != ImageLamp::Type::dome)
+    throw input_error("is of a lamp that is no dome", key, "give type: dome, or leave it out");
+  try {
+    if (!(Sky(read_panorama(lamp.picture), Rgb::Ones(), 0.0).flux() > 0.0))
+      throw input_error("is black", lamp.picture, "give a picture that shines");
+  } catch (const Error& error) {
+    throw input_error("'" + lamp.picture + "' " + error.problem(), key, error.remedy());
+  }
+}
+
 void check(const Sensor& sensor, const std::string& key) {
   const auto& s = sensor.settings.of<ImageSettings>();
   if (s.bits != 8 && s.bits != 16)
@@ -39,6 +50,7 @@ void check(const Sensor& sensor, const std::string& key) {
     if (lamp.type == ImageLamp::Type::ring && !(lamp.inner < lamp.outer))
       throw input_error("is not below the outer radius", key + ".lamps[" + std::to_string(i) + "].inner",
                         "m; 0 = a disk");
+    if (!lamp.picture.empty()) check_picture(lamp, key + ".lamps[" + std::to_string(i) + "].picture");
   }
 }
 

@@ -159,7 +159,7 @@ void IndirectField::divide(Nodes& out, int left, int top, int spacing, std::vect
     const double too_near = spacing <= finest ? std::numeric_limits<double>::infinity() : 1.0 / (dense * size);
     const Face at = face(middle);
     const SeenPoint point{view_.pose * at.point.cast<double>(), view_.pose.orientation * at.normal.cast<double>(),
-                          at.line, true};
+                          at.line, true, at.label};
     if (gather(scenery_, lamp_, surfaces_, point, view_.pose.position, samples_at(spacing), setup_.bounces,
                random_.of_piece(middle), too_near, light)) {
       add_node(out, middle, spacing, light);

@@ -45,7 +45,7 @@ Ray ray_from(const SeenPoint& point, const Vec3& direction) {
 }
 
 SeenPoint point_of(const Ray& ray, const Hit& hit) {
-  return {ray.origin + hit.distance * ray.direction, hit.normal, hit.line, !std::isnan(hit.distance)};
+  return {ray.origin + hit.distance * ray.direction, hit.normal, hit.line, !std::isnan(hit.distance), hit.label};
 }
 
 /// Rays, what they meet and how it is lit.
@@ -71,7 +71,9 @@ struct Batch {
   }
   /// Rays that fill the lobe of what an eye sees of a point.
   void spread(const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye, int count, Random key) {
-    const Lobe lobe(surfaces.of(point.line), point.normal, (eye - point.position).normalized());
+    Surface own;
+    const Lobe lobe(surfaces.at(point.line, point.label, point.position, own), point.normal,
+                    (eye - point.position).normalized());
     const Net net(count, key);
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector2d at = net.at(i);
@@ -172,7 +174,9 @@ bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, 
     const Lobe::Sample& before = first.samples[i];
     if (!met.hit) continue;
     const Eigen::Vector2d at = onward.at(order[i]);
-    second.samples.push_back(Lobe(surfaces.of(met.line), met.normal, -before.direction).at(at.x(), at.y()));
+    Surface own;
+    const Surface& surface = surfaces.at(met.line, met.label, met.position, own);
+    second.samples.push_back(Lobe(surface, met.normal, -before.direction).at(at.x(), at.y()));
     second.angles.push_back(1.0 / std::sqrt(std::sqrt(samples) * second.samples.back().density));
     second.samples.back().factor *= before.factor;
     second.from.push_back(met);

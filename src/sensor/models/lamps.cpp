@@ -8,6 +8,12 @@
 
 namespace bin_scenes {
 
+namespace {
+
+constexpr double beyond_all = 1e4;  ///< m
+
+}  // namespace
+
 Lamps::Lamps(const Sensor& sensor) {
   std::vector<ImageLamp> lamps = sensor.settings.of<ImageSettings>().lamps;
   if (lamps.empty()) {
@@ -16,7 +22,10 @@ Lamps::Lamps(const Sensor& sensor) {
   }
   for (const ImageLamp& lamp : lamps) {
     const Rgb radiance = lamp.radiance * lamp.colour.array();
-    if (lamp.type == ImageLamp::Type::dome) domes_.push_back({radiance, lamp.horizon * radiance});
+    if (lamp.type == ImageLamp::Type::dome && lamp.picture.empty())
+      domes_.push_back({radiance, lamp.horizon * radiance});
+    if (lamp.type == ImageLamp::Type::dome && !lamp.picture.empty())
+      skies_.emplace_back(read_panorama(lamp.picture), radiance, lamp.turn);
     if (lamp.type == ImageLamp::Type::projector)
       beams_.push_back({lens_of(sensor.projector), *sensor.projector.pose, radiance});
     const bool ring = lamp.type == ImageLamp::Type::ring;
@@ -30,6 +39,7 @@ Lamps::Lamps(const Sensor& sensor) {
   }
   for (const Flat& flat : flats_) shares_.push_back(flat.radiance.mean() * flat.area);
   for (const Beam& beam : beams_) shares_.push_back(beam.radiance.mean() * M_PI);
+  for (const Sky& sky : skies_) shares_.push_back(sky.flux());
   double sum = 0.0;
   for (const double share : shares_) sum += share;
   for (double& share : shares_) share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(shares_.size());
@@ -69,11 +79,20 @@ Lamps::Sample Lamps::sample(const Vec3& from, double choice, double u, double v)
   Sample out;
   std::size_t lamp = 0;
   while (lamp + 1 < shares_.size() && choice >= shares_[lamp]) choice -= shares_[lamp++];
-  if (lamp < flats_.size())
-    sample_flat(flats_[lamp], shares_[lamp], from, u, v, out);
-  else
-    sample_beam(beams_[lamp - flats_.size()], shares_[lamp], from, out);
+  sample_one(lamp, shares_[lamp], from, u, v, out);
   return out;
+}
+
+void Lamps::sample_one(std::size_t lamp, double share, const Vec3& from, double u, double v, Sample& out) const {
+  if (lamp < flats_.size()) return sample_flat(flats_[lamp], share, from, u, v, out);
+  lamp -= flats_.size();
+  if (lamp < beams_.size()) return sample_beam(beams_[lamp], share, from, out);
+  const Sky& sky = skies_[lamp - beams_.size()];
+  const Sky::Sample drawn = sky.sample(u, v);
+  out.direction = drawn.direction;
+  out.distance = beyond_all;
+  out.density = share * drawn.density;
+  if (out.density > 0.0) out.light = sky.at(out.direction) / out.density;
 }
 
 Rgb Lamps::met(const Vec3& origin, const Vec3& direction, double reach, Met weight, double density) const {
@@ -92,8 +111,12 @@ Rgb Lamps::met(const Vec3& origin, const Vec3& direction, double reach, Met weig
     const double drawn = shares_[i] * distance * distance / (flat.area * cosine);
     sum += (weight == Met::all ? 1.0 : density / (density + drawn)) * flat.radiance;
   }
-  if (std::isinf(reach))
-    for (const Dome& dome : domes_) sum += dome.at(direction.z());
+  if (!std::isinf(reach)) return sum;
+  for (const Dome& dome : domes_) sum += dome.at(direction.z());
+  for (std::size_t i = 0; weight != Met::unsampled && i < skies_.size(); ++i) {
+    const double drawn = shares_[flats_.size() + beams_.size() + i] * skies_[i].density(direction);
+    sum += (weight == Met::all ? 1.0 : density / (density + drawn)) * skies_[i].at(direction);
+  }
   return sum;
 }
 
@@ -108,10 +131,7 @@ Rgb Lamps::on_plate(const Vec3& point, const Vec3& normal) const {
       for (const Dome& dome : domes_) sum += dome.at(way.z());
       for (std::size_t lamp = 0; lamp < shares_.size(); ++lamp) {
         Sample sample;
-        if (lamp < flats_.size())
-          sample_flat(flats_[lamp], 1.0, point, u, v, sample);
-        else
-          sample_beam(beams_[lamp - flats_.size()], 1.0, point, sample);
+        sample_one(lamp, 1.0, point, u, v, sample);
         if (sample.distance > 0.0) sum += sample.light * std::max(0.0, normal.dot(sample.direction)) / M_PI;
       }
     }

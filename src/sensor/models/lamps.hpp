@@ -4,6 +4,7 @@
 #include "bin_scenes/scene/request.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/lens.hpp"
+#include "sensor/models/sky.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -62,13 +63,16 @@ class Lamps {
     Pose pose;
     Rgb radiance;
   };
+  /// With the share of samples that choose it.
+  void sample_one(std::size_t lamp, double share, const Vec3& from, double u, double v, Sample& out) const;
   void sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const;
   static void sample_beam(const Beam& beam, double share, const Vec3& from, Sample& out);
 
   std::vector<Flat> flats_;
   std::vector<Beam> beams_;
   std::vector<Dome> domes_;
-  std::vector<double> shares_;  ///< of the samples: flats, then beams; the sum is 1
+  std::vector<Sky> skies_;
+  std::vector<double> shares_;  ///< of the samples: flats, beams, skies; the sum is 1
 };
 
 }  // namespace bin_scenes

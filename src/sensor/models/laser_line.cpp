@@ -3,7 +3,6 @@
 #include "sensor/models/laser_line.hpp"
 
 #include "core/in_parallel.hpp"
-#include "sensor/models/line_peak.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +51,9 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
     directions_.push_back(setup_.laser_pose.orientation * Vec3(0.0, half * (2.0 * i / (rays - 1) - 1.0), 1.0));
   }
   keep_what_the_camera_can_see();
+  for (const double exposure : setup_.imager.exposures)
+    scales_.insert(scales_.begin(), exposure / setup_.settings.power);
+  if (scales_.empty()) scales_ = {1.0};
   reference_ = setup_.imager.reference_distance;
   if (!(reference_ > 0.0)) {
     std::vector<double> distances{1.0};
@@ -135,8 +137,9 @@ std::optional<LaserLine::Line> LaserLine::line_at(const Carriage& at, int sample
   if (across(*pixel) < -0.5 || across(*pixel) > limit) return std::nullopt;
   // The fan's normal is turned towards the laser; what the camera sees from behind, it does not see lit.
   const double distance = (at.laser - point).norm();
-  const double light =
-      reflected(surfaces_.of(hit.line), hit.normal, (at.laser - point) / distance, (at.eye - point).normalized());
+  Surface worn_there;
+  const double light = reflected(surfaces_.at(hit.line, hit.label, point, worn_there), hit.normal,
+                                 (at.laser - point) / distance, (at.eye - point).normalized());
   return Line{sample,
               across(*pixel),
               (to_camera_ * (point - at.eye)).z(),
@@ -259,6 +262,21 @@ void LaserLine::hide(const Carriage& at, std::vector<Line>& lines) const {
   }
 }
 
+std::optional<LaserLine::Reading> LaserLine::read(std::vector<float>& window, double sigma, Random& draw) const {
+  if (setup_.noise && setup_.settings.speckle > 0.0) add_speckle(setup_.settings.speckle, draw, window);
+  std::optional<Reading> longest;
+  for (const double scale : scales_) {
+    std::vector<float> exposed = window;
+    for (float& signal : exposed) signal *= static_cast<float>(scale);
+    imager_.expose(exposed.data(), exposed.size(), draw);
+    const auto peak = find_line(exposed.data(), exposed.size(), sigma, setup_.settings.min_signal);
+    if (!peak) break;  // a shorter one shows less
+    longest = Reading{*peak, scale};
+    if (!imager_.saturated(peak->height)) break;
+  }
+  return longest;
+}
+
 void LaserLine::read_lines(const Carriage& at, const Lines& seen, const SheetGlow* glow, Random draw, Profiles& out,
                            std::size_t profile) const {
   const Pose back = setup_.camera_pose.inverse();
@@ -290,26 +308,25 @@ void LaserLine::read_lines(const Carriage& at, const Lines& seen, const SheetGlo
       for (std::size_t i = 0; glow && i < window.size(); ++i) {
         window[i] += static_cast<float>(glow->at(line->sample, begin + static_cast<int>(i)));
       }
-      if (setup_.noise && setup_.settings.speckle > 0.0) add_speckle(setup_.settings.speckle, draw, window);
-      imager_.expose(window.data(), window.size(), draw);
-      const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
-      if (!peak) {
+      const auto reading = read(window, sigma, draw);
+      if (!reading) {
         if (best < 0.0 && line->signal > 0.0) out.validity[pixel] = Validity::dark;
         continue;
       }
-      const double b = begin + peak->row;
+      const LinePeak& peak = reading->peak;
+      const double b = begin + peak.row, height = peak.height / reading->scale;
       const Vec3 ray = upright_ ? setup_.camera.ray(b, line->sample) : setup_.camera.ray(line->sample, b);
       const Vec3 direction = setup_.camera_pose.orientation * ray;
       const double z = sheet_.dot(at.laser - at.eye) / sheet_.dot(direction);
-      const double rank = setup_.settings.peak == LaserLineSettings::Peak::strongest ? peak->height : 1.0 / z;
+      const double rank = setup_.settings.peak == LaserLineSettings::Peak::strongest ? height : 1.0 / z;
       if (rank <= best) continue;
       best = rank;
-      out.intensity[pixel] = static_cast<float>(peak->height);
-      out.snr[pixel] = static_cast<float>(peak->height / noise_of(peak->height));
+      out.intensity[pixel] = static_cast<float>(std::min(height, 1.0));
+      out.snr[pixel] = static_cast<float>(peak.height / noise_of(peak.height));
       out.label[pixel] = line->label;
       out.normals[pixel] = as_floats(back.orientation * line->normal);
       out.points[pixel] = as_floats(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
-      if (imager_.saturated(peak->height)) {
+      if (imager_.saturated(peak.height)) {
         out.validity[pixel] = Validity::saturated;
       } else if (!(z >= setup_.near && z <= setup_.far)) {
         out.validity[pixel] = Validity::decoding;
@@ -329,7 +346,8 @@ double LaserLine::depth_sigma() const {
   const Carriage at = carriage(Vec3::Zero());
   find_lines(at, fan(at.laser), lines);
   for (const Line& line : lines.lines) {
-    if (line.sample != samples_ / 2 || !line.visible || line.signal < setup_.settings.min_signal) continue;
+    if (line.sample != samples_ / 2 || !line.visible || line.signal * scales_.front() < setup_.settings.min_signal)
+      continue;
     const double sigma = sigma_at(line.depth);
     const int reach = reach_of(sigma);
     Random draw(0, 0, Stream::probe);
@@ -342,11 +360,9 @@ double LaserLine::depth_sigma() const {
         const double x = (static_cast<double>(i) - across) / sigma;
         window[i] = static_cast<float>(line.signal * std::exp(-0.5 * x * x));
       }
-      if (setup_.noise) add_speckle(setup_.settings.speckle, draw, window);
-      imager_.expose(window.data(), window.size(), draw);
-      const auto peak = find_line(window.data(), window.size(), sigma, setup_.settings.min_signal);
-      if (!peak) continue;
-      square += (peak->row - across) * (peak->row - across);
+      const auto reading = read(window, sigma, draw);
+      if (!reading) continue;
+      square += (reading->peak.row - across) * (reading->peak.row - across);
       ++found;
     }
     if (found < draws / 2) return nan;

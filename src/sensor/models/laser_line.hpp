@@ -12,6 +12,7 @@
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
 #include "sensor/models/indirect_field.hpp"
+#include "sensor/models/line_peak.hpp"
 #include "sensor/models/sheet_glow.hpp"
 
 #include <array>
@@ -95,6 +96,12 @@ class LaserLine {
   Carriage carriage(const Vec3& offset) const {
     return {setup_.laser_pose.position + offset, setup_.camera_pose.position + offset};
   }
+  /// A line as the device reads it, by the longest exposure that does not saturate.
+  struct Reading {
+    LinePeak peak;
+    double scale;  ///< exposure / LaserLineSettings::power
+  };
+  std::optional<Reading> read(std::vector<float>& window, double sigma, Random& draw) const;
   double sigma_at(double depth) const;
   double noise_of(double signal) const;
   int reach_of(double sigma) const { return static_cast<int>(std::ceil(4.0 * sigma)) + 2; }  ///< of a window, pixel
@@ -110,6 +117,7 @@ class LaserLine {
   Mat3 to_camera_;                ///< from the bin frame
   Vec3 sheet_;                    ///< normal, bin frame
   double reference_ = 1.0;        ///< m from the laser
+  std::vector<double> scales_;    ///< exposures / LaserLineSettings::power, the longest first
 };
 
 }  // namespace bin_scenes

@@ -22,7 +22,7 @@ void LaserLine::follow(const Carriage& at, const std::vector<Hit>& hits, const R
     const double depth = std::clamp((to_camera_ * (point - at.eye)).z(), setup_.near, setup_.far);
     const double angle = std::atan2(way.cross(directions_[i + 1]).norm(), way.dot(directions_[i + 1]));
     const double line = std::sqrt(2.0 * M_PI) * sigma_at(depth) * depth / focal;  // m: as wide as one of even light
-    sources.push_back({{point, hit.normal, hit.line, true},
+    sources.push_back({{point, hit.normal, hit.line, true, hit.label},
                        setup_.settings.power * reference_ * line * angle,
                        hit.distance * way.norm() * angle});
   }
@@ -44,7 +44,7 @@ void LaserLine::add_second_lines(const Carriage& at, const SheetGlow& glow, std:
       const int middle = static_cast<int>(std::lround(line->across)), reach = reach_of(sigma_at(line->depth));
       taken.emplace_back(middle - reach, middle + reach);
     }
-    const int place = glow.brightest(s, setup_.settings.min_signal, taken);
+    const int place = glow.brightest(s, setup_.settings.min_signal / scales_.front(), taken);
     if (place >= 0) places.emplace_back(s, place);
   }
   std::vector<Ray> rays;

@@ -24,13 +24,15 @@ Mat3 frame_about(const Vec3& z) {
 
 Lobe::Lobe(const Surface& surface, const Vec3& normal, const Vec3& to_eye)
     : surface_(surface),
-      frame_(frame_about(normal)),
+      frame_(frame_along(surface, normal).value_or(frame_about(normal))),
       eye_(frame_.transpose() * to_eye),
-      alpha_(std::max(surface.roughness * surface.roughness, 1e-3)),
+      widths_(widths_of(surface)),
       // What facets send on to each other leaves in all directions: some samples are always drawn as of a matte
       // surface.
       share_(0.75 * surface.gloss) {
   eye_.z() = std::max(eye_.z(), 1e-6);
+  surface_.along = frame_.transpose() * surface.along;
+  if (!frame_along(surface_, Vec3::UnitZ())) surface_.anisotropy = 0.0, widths_ = widths_of(surface_);
 }
 
 Vec3 Lobe::matte(double u, double v) const {
@@ -40,7 +42,7 @@ Vec3 Lobe::matte(double u, double v) const {
 
 /// By a facet that the eye sees (Heitz 2018, "Sampling the GGX distribution of visible normals").
 Vec3 Lobe::mirrored(double u, double v) const {
-  const Vec3 stretched = Vec3(alpha_ * eye_.x(), alpha_ * eye_.y(), eye_.z()).normalized();
+  const Vec3 stretched = Vec3(widths_.along * eye_.x(), widths_.across * eye_.y(), eye_.z()).normalized();
   // The disc of directions seen edge on: its two halves are the projections of the upper hemisphere.
   const Vec3 along =
       stretched.z() < 0.9999 ? Vec3(Vec3::UnitZ().cross(stretched).normalized()) : Vec3(frame_about(stretched).col(0));
@@ -49,18 +51,18 @@ Vec3 Lobe::mirrored(double u, double v) const {
   const double s = 0.5 * (1.0 + stretched.z());
   const double y = (1.0 - s) * std::sqrt(std::max(0.0, 1.0 - x * x)) + s * radius * std::sin(turn);
   const Vec3 seen = x * along + y * up + std::sqrt(std::max(0.0, 1.0 - x * x - y * y)) * stretched;
-  const Vec3 facet = Vec3(alpha_ * seen.x(), alpha_ * seen.y(), std::max(1e-9, seen.z())).normalized();
+  const Vec3 facet = Vec3(widths_.along * seen.x(), widths_.across * seen.y(), std::max(1e-9, seen.z())).normalized();
   return 2.0 * eye_.dot(facet) * facet - eye_;
 }
 
 double Lobe::density(const Vec3& local) const {
   const double matte = local.z() / M_PI;
   if (share_ <= 0.0) return matte;
-  const Vec3 between = local + eye_;
-  const double a2 = alpha_ * alpha_, half = between.z() * between.z() / between.squaredNorm();  // cosine squared
-  const double bend = half * (a2 - 1.0) + 1.0;
-  const double facets = a2 / (M_PI * bend * bend), c = eye_.z();
-  const double seen = 2.0 * c / (c + std::sqrt(c * c * (1.0 - a2) + a2));
+  const Vec3 half = (local + eye_).normalized();
+  const double bend = Vec3(half.x() / widths_.along, half.y() / widths_.across, half.z()).squaredNorm();
+  const double facets = 1.0 / (M_PI * widths_.along * widths_.across * bend * bend), c = eye_.z();
+  const double slant = Vec3(widths_.along * eye_.x(), widths_.across * eye_.y(), c).norm();
+  const double seen = 2.0 * c / (c + slant);
   return (1.0 - share_) * matte + share_ * seen * facets / (4.0 * c);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
+#include "sensor/models/facets.hpp"
 
 namespace bin_scenes {
 
@@ -29,7 +30,7 @@ class Lobe {
   Surface surface_;
   Mat3 frame_;  ///< local to world, z is the normal
   Vec3 eye_;    ///< local
-  double alpha_;
+  Widths widths_;
   double share_;  ///< of samples that are drawn from the mirrored lobe
 };
 

@@ -5,13 +5,6 @@
 
 namespace bin_scenes {
 
-Surfaces surfaces_of(const Request& request) {
-  Surfaces surfaces;
-  for (const PartLine& line : request.parts) surfaces.lines.push_back(line.surface);
-  surfaces.bin = request.bin.surface;
-  return surfaces;
-}
-
 RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw) {
   RangeImage image = sensor_model(sensor.model).measure(scenery, std::move(view), sensor, surfaces, draw);

@@ -36,8 +36,12 @@ Rgb in_colour(const Surface& surface, double matte, double mirrored) {
 }
 
 Surfaces softened(Surfaces surfaces) {
-  for (Surface& surface : surfaces.lines) surface.roughness = std::max(surface.roughness, soft);
-  surfaces.bin.roughness = std::max(surfaces.bin.roughness, soft);
+  const auto soften = [](Surface& surface) {
+    surface.roughness = std::max(surface.roughness, soft);
+    surface.anisotropy = surface.texture.oil = 0.0;
+  };
+  std::for_each(surfaces.lines.begin(), surfaces.lines.end(), soften);
+  soften(surfaces.bin);
   return surfaces;
 }
 
@@ -57,6 +61,7 @@ struct PathTracer::Block {
   std::vector<Asked> asked;
   struct Followed {
     const Vertex* from;
+    bool mirrors;
     Lobe::Sample sample;
     Rgb weight;
   };
@@ -159,12 +164,12 @@ void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& 
   vertex.normal = scenery_.smooth_normal(hit, vertex.position);
   // A smooth surface that turns away from where it is seen from is none: its face is.
   if (vertex.normal.dot(vertex.to_eye) < 0.02) vertex.normal = vertex.face;
-  vertex.line = hit.line;
+  vertex.line = hit.line, vertex.label = hit.label;
   to.push_back(vertex);
 }
 
-const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce) const {
-  return (bounce == 0 ? surfaces_ : soft_).of(vertex.line);
+const Surface& PathTracer::surface_of(const Vertex& vertex, int bounce, Surface& own) const {
+  return (bounce == 0 ? surfaces_ : soft_).at(vertex.line, vertex.label, vertex.position, own);
 }
 
 void PathTracer::ask_lamps(Block& block, int bounce) const {
@@ -178,7 +183,8 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
     const double choice = drawn(block, v.pixel, pairs + which_lamp, v.sample).x();
     const Lamps::Sample lamp = lamps_.sample(v.position, choice, at.x(), at.y());
     if (!(v.face.dot(lamp.direction) > 0.0 && (lamp.light > 0.0).any())) continue;
-    const Surface& surface = surface_of(v, bounce);
+    Surface own;
+    const Surface& surface = surface_of(v, bounce, own);
     const SentBack sent = sent_back(surface, v.normal, lamp.direction, v.to_eye);
     if (!(sent.matte + sent.mirrored > 0.0)) continue;
     double share = 1.0;
@@ -203,15 +209,16 @@ void PathTracer::follow_lobes(Block& block, int bounce) const {
   block.followed.clear();
   for (const Vertex& v : block.vertices) {
     if (v.sample >= follow_) continue;
-    const Surface& surface = surface_of(v, bounce);
+    Surface own;
+    const Surface& surface = surface_of(v, bounce, own);
     const bool finds_lamps = lamps_.any_dome() || mirrors(surface, bounce) || setup_.by == Setup::By::lobe;
     if (!finds_lamps && !(more && v.sample < onward_)) continue;
     const Eigen::Vector2d at = drawn(block, v.pixel, pair, v.sample);
     const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
     if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
     const double times = bounce == 0 ? static_cast<double>(setup_.samples) / follow_ : 1.0;
-    block.followed.push_back(
-        {&v, sample, times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte)});
+    const Rgb weight = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
+    block.followed.push_back({&v, mirrors(surface, bounce), sample, weight});
     block.rays.push_back({ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9});
   }
   block.hits.resize(block.rays.size());
@@ -220,7 +227,7 @@ void PathTracer::follow_lobes(Block& block, int bounce) const {
   for (std::size_t i = 0; i < block.followed.size(); ++i) {
     const Block::Followed& path = block.followed[i];
     const Vertex& v = *path.from;
-    Lamps::Met weight = mirrors(surface_of(v, bounce), bounce) ? Lamps::Met::shared : Lamps::Met::unsampled;
+    Lamps::Met weight = path.mirrors ? Lamps::Met::shared : Lamps::Met::unsampled;
     if (setup_.by == Setup::By::lamps) weight = Lamps::Met::unsampled;
     if (setup_.by == Setup::By::lobe) weight = Lamps::Met::all;
     const double reach = std::isnan(block.hits[i].distance) ? infinite : block.hits[i].distance;

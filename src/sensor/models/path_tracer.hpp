@@ -44,6 +44,7 @@ class PathTracer {
     Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, shades
     Vec3 to_eye = Vec3::Zero();
     std::int32_t line = -1;
+    std::uint16_t label = 0;
     std::uint32_t pixel = 0, sample = 0;  ///< of the block; of the pixel
     Rgb weight = Rgb::Ones();
   };
@@ -52,7 +53,7 @@ class PathTracer {
   };
   struct Block;
 
-  const Surface& surface_of(const Vertex& vertex, int bounce) const;
+  const Surface& surface_of(const Vertex& vertex, int bounce, Surface& own) const;
   bool mirrors(const Surface& surface, int bounce) const { return bounce == 0 && surface.gloss > 0.0; }
   Eigen::Vector2d drawn(const Block& block, std::uint32_t pixel, int pair, std::uint32_t sample) const;
   void start(Block& block, std::size_t row, std::size_t first, std::size_t count) const;

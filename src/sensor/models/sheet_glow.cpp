@@ -115,7 +115,8 @@ void SheetGlow::follow(const Scenery& scenery, const Surfaces& surfaces, const P
     const unsigned base = bounce == 0 ? 2 : 5;
     for (std::size_t i = 0; i < flights.size(); ++i) {
       Flight& f = flights[i];
-      const Lobe lobe(surfaces.of(f.from.line), f.from.normal, f.to_light);
+      Surface own;
+      const Lobe lobe(surfaces.at(f.from.line, f.from.label, f.from.position, own), f.from.normal, f.to_light);
       const Lobe::Sample sample =
           lobe.at(wrapped(u + reversed_digits(i, base)), wrapped(v + reversed_digits(i, bounce == 0 ? 3 : 7)));
       f.flux *= sample.factor;
@@ -130,7 +131,7 @@ void SheetGlow::follow(const Scenery& scenery, const Surfaces& surfaces, const P
       if (std::isnan(hits[i].distance) || !(flights[i].flux > 0.0)) continue;
       Flight f = flights[i];
       f.spread += hits[i].distance * f.angle;
-      f.from = {rays[i].origin + hits[i].distance * f.direction, hits[i].normal, hits[i].line, true};
+      f.from = {rays[i].origin + hits[i].distance * f.direction, hits[i].normal, hits[i].line, true, hits[i].label};
       f.to_light = -f.direction;
       arrived.push_back(f);
     }
@@ -155,7 +156,9 @@ void SheetGlow::show(const Scenery& scenery, const Surfaces& surfaces, const Pos
     if (!pixel || !camera_.lens.inside(*pixel)) continue;
     const Vec3 to_eye = (view.position - f.from.position).normalized();
     const double in = f.from.normal.dot(f.to_light);
-    const double sent = reflected(surfaces.of(f.from.line), f.from.normal, f.to_light, to_eye);
+    Surface own;
+    const Surface& surface = surfaces.at(f.from.line, f.from.label, f.from.position, own);
+    const double sent = reflected(surface, f.from.normal, f.to_light, to_eye);
     if (!(sent > 0.0)) continue;
     const double focal = camera_.upright ? camera_.lens.fx : camera_.lens.fy, size = point.z() / focal;
     const double facing = (view.orientation.conjugate() * f.from.normal).dot(point) / point.z();

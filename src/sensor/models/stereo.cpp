@@ -71,6 +71,9 @@ Stereo::Stereo(const Scenery& scenery, const View& view, const Surfaces& surface
       pattern_(pattern()),
       rays_(random) {
   gain_ = gain_of(setup_.imager, lit_, view_.depth, (view_.pose.inverse() * setup_.projector_pose.position).z());
+  for (const double exposure : setup.imager.exposures)
+    scales_.insert(scales_.begin(), exposure / setup.imager.exposure);
+  if (scales_.empty()) scales_ = {1.0};
   for (const float p : pattern_) brightness_ += (p - 1.0) / static_cast<double>(pattern_.size());
   haze_ = haze(view, rays_.of_piece(1));
 }
@@ -135,8 +138,9 @@ std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit
 }
 
 std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
-                                        const Random& random) const {
+                                        const Random& random, double scale) const {
   std::vector<float> values = signals(view, lit, haze);
+  for (float& value : values) value *= static_cast<float>(scale);
   std::vector<std::uint8_t> bytes(values.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
@@ -149,31 +153,42 @@ std::vector<std::uint8_t> Stereo::image(const View& view, const std::vector<Lit>
   return bytes;
 }
 
-Stereo::Pair Stereo::images(const Random& random) const {
+Stereo::Pair Stereo::images(const Random& random, double scale) const {
   const View second = render(scenery_, view_.lens, second_, setup_.near, setup_.far);
-  return {image(view_, lit_, haze_, random.of_piece(1)),
-          image(second, lit(second), haze(second, rays_.of_piece(2)), random.of_piece(2))};
+  return {image(view_, lit_, haze_, random.of_piece(1), scale),
+          image(second, lit(second), haze(second, rays_.of_piece(2)), random.of_piece(2), scale)};
 }
 
+/// Each exposure is matched by itself; a pixel takes the longest that finds it and does not saturate there.
 Measurement Stereo::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
-  const Pair pair = images(random);
   const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
-  const std::vector<float> disparity =
-      match(pair, view_.lens.width, view_.lens.height, setup_.settings, imager_, least);
-  for (std::size_t i = 0; i < disparity.size(); ++i) {
-    constexpr double grey = 1.0 / 255.0;  // a level, whose rounding is noise as well
-    const double signal = grey * pair.first[i];
-    out.intensity[i] = static_cast<float>(signal);
-    out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal) + grey * grey / 12.0));
-    const double z = of_disparity(disparity[i]);
-    const bool good = z >= setup_.near && z <= setup_.far;
-    out.validity[i] = good                                ? Validity::valid
-                      : lit_[i].code == Validity::nothing ? Validity::nothing
-                                                          : Validity::unmatched;
-    if (good) out.depth[i] = z;
+  for (std::size_t k = 0; k < scales_.size(); ++k) {
+    const Pair pair = images(k == 0 ? random : random.of_piece(2 + k), scales_[k]);
+    const std::vector<float> disparity =
+        match(pair, view_.lens.width, view_.lens.height, setup_.settings, imager_, least);
+    for (std::size_t i = 0; i < disparity.size(); ++i) {
+      if (out.validity[i] == Validity::valid) continue;
+      constexpr double grey = 1.0 / 255.0;  // a level, whose rounding is noise as well
+      const double signal = grey * pair.first[i], z = of_disparity(disparity[i]);
+      const bool last = k + 1 == scales_.size(), good = z >= setup_.near && z <= setup_.far && (last || signal < 1.0);
+      if (!good && !last) continue;
+      out.intensity[i] = static_cast<float>(std::min(signal / scales_[k], 1.0));
+      out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal) + grey * grey / 12.0));
+      out.validity[i] = good                                ? Validity::valid
+                        : lit_[i].code == Validity::nothing ? Validity::nothing
+                                                            : Validity::unmatched;
+      if (good) out.depth[i] = z;
+    }
   }
   return out;
+}
+
+double Stereo::scale_of(double signal) const {
+  for (const double scale : scales_) {
+    if (!imager_.saturated(scale * signal)) return scale;
+  }
+  return scales_.back();
 }
 
 /// The matcher errs with the ratio of noise to texture.
@@ -184,8 +199,8 @@ double Stereo::disparity_sigma(double signal, double haze) const {
 double Stereo::depth_sigma(std::size_t pixel) const {
   if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const double z = view_.depth[pixel], step = 1.0 / 16.0;
-  const double sigma =
-      std::hypot(disparity_sigma(white(lit_[pixel]), haze_.empty() ? 0.0 : haze_[pixel]), step / std::sqrt(12.0));
+  const double signal = white(lit_[pixel]), haze = haze_.empty() ? 0.0 : haze_[pixel], scale = scale_of(signal + haze);
+  const double sigma = std::hypot(disparity_sigma(scale * signal, scale * haze), step / std::sqrt(12.0));
   return sigma * z * z / of_disparity(1.0);
 }
 
@@ -220,9 +235,11 @@ Measurement Stereo::analytic(const Random& random) const {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = row * width + x;
       out.validity[i] = lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
-      const double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
-      const double haze = haze_.empty() ? 0.0 : haze_[i];
+      double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
+      double haze = haze_.empty() ? 0.0 : haze_[i];
       out.intensity[i] = static_cast<float>(std::min(signal + haze, 1.0));
+      const double scale = scale_of(signal + haze);
+      signal *= scale, haze *= scale;
       out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal + haze)));
       const double truth = of_disparity(view_.depth[i]);
       const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;

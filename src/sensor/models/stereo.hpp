@@ -42,7 +42,8 @@ class Stereo {
   struct Pair {
     std::vector<std::uint8_t> first, second;
   };
-  Pair images(const Random& random) const;
+  /// @param scale  exposure / ImagerSettings::exposure
+  Pair images(const Random& random, double scale = 1.0) const;
 
  private:
   std::vector<Lit> lit(const View& view) const;
@@ -50,7 +51,9 @@ class Stereo {
   std::vector<float> haze(const View& view, const Random& random) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
   std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
-                                  const Random& random) const;
+                                  const Random& random, double scale) const;
+  /// The longest exposure of a signal that does not saturate, else the shortest.
+  double scale_of(double signal) const;
   std::vector<char> surface_texture() const;
   double disparity_sigma(double signal, double haze) const;
   double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
@@ -63,6 +66,7 @@ class Stereo {
   Pose second_;  ///< camera, optical frame in the bin frame
   std::vector<Lit> lit_;
   double gain_ = 0.0;
+  std::vector<double> scales_;  ///< exposures / ImagerSettings::exposure, the longest first
   std::vector<float> pattern_;  ///< of dots; empty: even light
   double brightness_ = 1.0;     ///< mean of the pattern
   Random rays_;                 ///< of indirect light

@@ -98,7 +98,8 @@ void StructuredLight::light_row(std::size_t row) {
     const Pixel p = pixel(x, row);
     planes_[i] = view_.depth[i] * p.normal.dot(p.ray);
     if (std::isnan(view_.depth[i])) continue;
-    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * p.ray), turn_ * p.normal, view_.line[i], true};
+    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * p.ray), turn_ * p.normal, view_.line[i], true,
+                 view_.label[i]};
   }
   light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
         width);

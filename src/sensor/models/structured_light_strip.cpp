@@ -128,7 +128,8 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   std::vector<Lit> lit(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Hit& hit = hits[i];
-    points[i] = {rays[i].origin + hit.distance * rays[i].direction, hit.normal, hit.line, !std::isnan(hit.distance)};
+    points[i] = {rays[i].origin + hit.distance * rays[i].direction, hit.normal, hit.line, !std::isnan(hit.distance),
+                 hit.label};
   }
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());

@@ -105,7 +105,9 @@ class Row {
     const std::size_t i = row_ * static_cast<std::size_t>(view_.lens.width) + x;
     const double depth = on_face(x, ray, hit) ? view_.depth[i] : hit.distance;
     const Vec3 back = -ray.direction.normalized();
-    const double signal = reflected(surfaces_.of(hit.line), hit.normal, back, back) / (depth * depth);
+    Surface own;
+    const Surface& surface = surfaces_.at(hit.line, hit.label, ray.origin + hit.distance * ray.direction, own);
+    const double signal = reflected(surface, hit.normal, back, back) / (depth * depth);
     sum.depth += signal * depth;
     sum.signal += signal;
     sum.nearest = std::min(sum.nearest, depth);

@@ -1,10 +1,8 @@
 #include "sensor/models/image.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
-#include "sensor/models/path_tracer.hpp"
-#include "sensor/targets.hpp"
+#include "sensor/models/image_stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,67 +12,7 @@
 namespace bin_scenes {
 namespace {
 
-using By = PathTracer::Setup::By;
-
-/// A camera at the origin that looks along z at what lies around there.
-Sensor camera(const std::vector<ImageLamp>& lamps, int width = 9, int height = 9, double fov = 0.02) {
-  Sensor sensor;
-  sensor.model = "image";
-  sensor.width = width, sensor.height = height;
-  sensor.fov = fov;
-  sensor.pose = Pose();
-  sensor.near = 0.01;
-  sensor.settings.of<ImageSettings>().lamps = lamps;
-  sensor.imager.ambient = 0.0;
-  Bin bin;
-  bin.kind = Bin::Kind::none;
-  return resolved(sensor, bin);
-}
-
-ImageLamp dome(double radiance) {
-  ImageLamp lamp;
-  lamp.type = ImageLamp::Type::dome;
-  lamp.radiance = radiance;
-  lamp.horizon = 1.0;
-  return lamp;
-}
-
-ImageLamp flat(ImageLamp::Type type, const Vec3& middle, const Quat& turn = Quat::Identity()) {
-  ImageLamp lamp;
-  lamp.type = type;
-  lamp.pose = Pose{middle, turn};
-  return lamp;
-}
-
-/// A plate that faces the camera a metre away.
-Targets plate(const Surface& surface, double size = 20.0) {
-  Targets targets;
-  targets.add(box_target({size, size, 0.1}), {Vec3(0.0, 0.0, 1.05), Quat::Identity()}, surface);
-  return targets;
-}
-
-struct Mean {
-  double value = 0.0, error = 0.0;  ///< and its standard error
-};
-
-/// Over all pixels, which see the same but for a hair.
-Mean radiance(Targets& targets, const Sensor& sensor, int samples, int bounces, By by = By::both) {
-  const Scenery scenery = targets.scenery();
-  const Lamps lamps(sensor);
-  PathTracer::Setup setup;
-  setup.samples = samples, setup.bounces = bounces, setup.by = by;
-  const PathTracer tracer(scenery, lens_of(sensor), *sensor.pose, targets.surfaces(), lamps, setup,
-                          Random(3, 0, Stream::sensor));
-  double sum = 0.0, square = 0.0, count = 0.0;
-  for (int row = 0; row < sensor.height; ++row) {
-    for (const Rgb& rgb : tracer.row(static_cast<std::size_t>(row))) {
-      EXPECT_EQ(rgb.minCoeff(), rgb.maxCoeff());
-      sum += rgb.mean(), square += rgb.mean() * rgb.mean(), count += 1.0;
-    }
-  }
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(square / count - mean * mean, 0.0) / (count - 1.0))};
-}
+using namespace test;
 
 /// A closed box in which lamps shine from all six walls: L after n bounces is the sum of a^k, k = 0 .. n + 1, with the
 /// lamps' own light, which a camera inside sees.

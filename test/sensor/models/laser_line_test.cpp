@@ -308,5 +308,47 @@ TEST(LaserLine, SameSeedSameBits) {
   EXPECT_NE(intensity(2), intensity(3));
 }
 
+/// Beside each other a bright and a dark half: one exposure loses one of them, both together none. Each sample is that
+/// of the exposure which serves it, bit for bit.
+TEST(LaserLine, ExposuresAreMerged) {
+  Targets targets;
+  targets.add(box_target({4.0, 2.0, 0.02}), {Vec3(0, 1.0, 1.01), Quat::Identity()}, {0.9, 0.0, 0.4});
+  targets.add(box_target({4.0, 2.0, 0.02}), {Vec3(0, -1.0, 1.01), Quat::Identity()}, {0.02, 0.0, 0.4});
+  LaserLine::Setup setup = device();
+  setup.noise = false;
+  const auto with_power = [&](double power) {
+    LaserLine::Setup one = setup;
+    one.settings.power = power;
+    return scan(targets, one);
+  };
+  const Profiles brief = with_power(0.5), lasting = with_power(8.0);
+  setup.imager.exposures = {0.5, 8.0};
+  setup.settings.power = 2.0;  // of the intensity alone
+  const Profiles merged = scan(targets, setup);
+  std::size_t as_brief = 0, as_lasting = 0;
+  for (std::size_t i = 0; i < merged.points.size(); ++i) {
+    const bool dark = lasting.validity[i] != Validity::saturated;
+    const Profiles& own = dark ? lasting : brief;
+    ASSERT_EQ(merged.validity[i], own.validity[i]);
+    ASSERT_EQ(merged.snr[i], own.snr[i]);
+    if (merged.validity[i] != Validity::valid) continue;
+    ASSERT_EQ(merged.points[i], own.points[i]);
+    ASSERT_NEAR(merged.intensity[i], std::min(own.intensity[i] * 2.0 / (dark ? 8.0 : 0.5), 1.0), 1e-5);
+    ++(dark ? as_lasting : as_brief);
+  }
+  EXPECT_GT(as_brief, 3000u);
+  EXPECT_GT(as_lasting, 3000u);
+  EXPECT_GT(count(brief, Validity::dark), 3000u);
+  EXPECT_GT(count(lasting, Validity::saturated), 3000u);
+  setup.imager.exposures = {0.5};
+  const Profiles one = scan(targets, setup);
+  EXPECT_EQ(one.validity, brief.validity);
+  for (std::size_t i = 0; i < one.points.size(); ++i) {
+    if (one.validity[i] == Validity::valid) {
+      ASSERT_EQ(one.points[i], brief.points[i]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -235,5 +235,46 @@ TEST(Stereo, LightOfAnotherFaceIsHazeOverTheDots) {
   }
 }
 
+/// A bright and a dark half, of which one exposure loses one. A pixel is that of the longer exposure, bit for bit,
+/// where that one finds it and does not saturate, else that of the shorter.
+TEST(Stereo, ExposuresAreMerged) {
+  Targets targets;
+  targets.add(box_target({6.0, 3.0, 0.02}), {Vec3(0, 1.5, 1.01), Quat::Identity()}, {0.9, 0.0, 0.4});
+  targets.add(box_target({6.0, 3.0, 0.02}), {Vec3(0, -1.5, 1.01), Quat::Identity()}, {0.01, 0.0, 0.4});
+  Device device;
+  device.setup.noise = false;
+  device.setup.imager.reference_distance = 1.0;
+  const auto with = [&](const std::vector<double>& exposures, bool decoded) {
+    device.setup.imager.exposures = exposures;
+    return shoot(targets, device, decoded).measured;
+  };
+  constexpr double ratio = 50.0;  // to the exposure 0.8 of grey values
+  for (const bool decoded : {false, true}) {
+    const Measurement brief = with({0.8}, decoded), lasting = with({0.8 * ratio}, decoded);
+    const Measurement merged = with({0.8, 0.8 * ratio}, decoded);
+    std::size_t as_brief = 0, as_lasting = 0;
+    for (std::size_t i = 0; i < merged.depth.size(); ++i) {
+      const bool white = decoded && lasting.intensity[i] > (1.0 - 1e-6) / ratio;
+      const bool longer = lasting.validity[i] == Validity::valid && !white;
+      const Measurement& own = longer ? lasting : brief;
+      ASSERT_EQ(merged.validity[i], own.validity[i]);
+      if (merged.validity[i] != Validity::valid) continue;
+      ASSERT_EQ(merged.depth[i], own.depth[i]);
+      ASSERT_EQ(merged.snr[i], own.snr[i]);
+      ++(longer ? as_lasting : as_brief);
+    }
+    EXPECT_GT(as_brief, 20000u) << decoded;
+    EXPECT_GT(as_lasting, 20000u) << decoded;
+    const auto count = [](const Measurement& m) {
+      return std::count(m.validity.begin(), m.validity.end(), Validity::valid);
+    };
+    EXPECT_GT(count(merged), count(brief) + 20000) << decoded;
+    EXPECT_GT(count(merged), count(lasting) + 5000) << decoded;
+    const Measurement none = with({}, decoded);
+    EXPECT_EQ(none.validity, brief.validity);
+    EXPECT_EQ(none.snr, brief.snr);
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

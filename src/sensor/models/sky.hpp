@@ -1,0 +1,50 @@
+/// The sky as an equirectangular picture, drawn from as densely as it shines (Pharr, Jakob, Humphreys, "Physically
+/// based rendering", 4th edition, 12.5): a pixel by rows and columns, a direction in its solid angle evenly. A pixel
+/// shines evenly, so that what is drawn is exact.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bin_scenes {
+
+/// A picture of all directions: the first row is the zenith's.
+struct Panorama {
+  int width = 0, height = 0;
+  std::vector<Eigen::Array3f> radiance;  ///< row-major
+};
+/// Of a Radiance file (.hdr). Kept while somebody uses it. Throws an input Error that names the file.
+std::shared_ptr<const Panorama> read_panorama(const std::string& path);
+
+class Sky {
+ public:
+  /// @param turn  rad about the vertical; at 0 the picture's middle lies in the direction of x
+  Sky(std::shared_ptr<const Panorama> picture, const Eigen::Array3d& scale, double turn);
+  Eigen::Array3d at(const Vec3& direction) const;
+
+  struct Sample {
+    Vec3 direction;
+    double density;  ///< per solid angle (1/sr)
+  };
+  /// @param u, v  [0, 1)
+  Sample sample(double u, double v) const;
+  /// That with which sample() draws a direction; 0: never.
+  double density(const Vec3& direction) const;
+  /// Of all directions, mean of the colours: radiance times solid angle.
+  double flux() const { return rows_.back(); }
+
+ private:
+  std::size_t pixel_of(const Vec3& direction) const;
+  double solid_angle(std::size_t row) const;
+  double flux_of(std::size_t pixel) const;
+
+  std::shared_ptr<const Panorama> picture_;
+  Eigen::Array3d scale_;
+  double turn_;
+  std::vector<double> rows_, columns_;  ///< flux up to the end of each row; of each pixel in its row
+};
+
+}  // namespace bin_scenes
