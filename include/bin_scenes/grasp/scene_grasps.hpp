@@ -21,8 +21,9 @@ struct SceneGrasp {
   Pose pose;                ///< of the gripper in the bin frame
   double width = 0.0;       ///< m, parallel
   double force = 0.0;       ///< N: of each finger; of the vacuum, less what the lip takes in its gap
-  double score = 0.0;       ///< 0..1: share of the friction that is spare, times share of the force that is spare
-  double friction = 0.0;    ///< smallest coefficient with which it lifts the part out; infinite: none suffices
+  double score =
+      0.0;  ///< 0..1: shares of friction, of force and of moment across the closing axis that are spare, multiplied
+  double friction = 0.0;  ///< smallest coefficient with which it lifts the part out; infinite: none suffices
   /// Why it is not free. Sweeps are those of the gripper grown by its clearance; of what it touches, one is named.
   enum class Obstacle {
     none,      ///< it is free

@@ -111,6 +111,32 @@ TEST_P(Held, TheWeightAlongTheAxisIsSharedByBoth) {
   EXPECT_NEAR(first - second, mass * g * std::sin(angle), 0.01 * mass * g);
 }
 
+// A block with an arm at its foot, so that its weight acts beside the pads. They hold the moment by pressing at
+// opposite ends, 2 h F, and by what friction spares, w (mu F - m g / 2).
+TEST_P(Held, HoldsAMomentAcrossItsAxis) {
+  const double width = 0.008, half = 0.003;
+  for (const double share : {0.98, 1.02}) {
+    Lab lab = this->lab();
+    const PartModelPtr part = PartModel::from_mesh(
+        merged(box_mesh(Vec3(width, 0.02, 0.02)), box_mesh(Vec3(0.04, 0.02, 0.004), Vec3(0.016, 0, -0.012))), "arm");
+    const Vec3 center = part->mass().center;
+    const double force = share * mass * g * (center.x() + 0.5 * width) / (2.0 * half + friction * width);
+    const auto arm = lab.place(part, center, Quat::Identity(), material(friction, 0.0, mass));
+    const PartModelPtr pad = box(Vec3(0.01, 2.0 * half, 2.0 * half));
+    const double x = 0.5 * width + 0.005;
+    const auto first = lab.place(pad, Vec3(-x, 0, 0), Quat::Identity(), fixed_of(friction));
+    const auto second = lab.place(pad, Vec3(x, 0, 0), Quat::Identity(), fixed_of(friction));
+    lab.begin(phases::press);
+    lab.solver().set_jaws(lab.world(), {first, second, Vec3::UnitX(), force, 0.04, 4.0 * mass, Vec3::Zero()});
+    lab.simulate(0.3);
+    const double turned = 2.0 * lab.state(arm).pose.orientation.vec().norm();
+    if (share < 1.0)
+      EXPECT_GT(turned, 0.02);
+    else
+      EXPECT_LT(turned, 0.005);
+  }
+}
+
 /// The block hangs under a ring that is carried.
 struct Cup {
   static constexpr double radius = 0.008;
