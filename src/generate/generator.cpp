@@ -7,6 +7,7 @@
 #include "bin_scenes/sensor/sensor_rig.hpp"
 #include "generate/finishing.hpp"
 #include "generate/model_store.hpp"
+#include "generate/proving.hpp"
 
 #include <algorithm>
 
@@ -83,6 +84,7 @@ struct Generator::State {
   ModelStore models;
   SensorRig rig;
   Grasper grasper;
+  HeapProver heap_prover;
 
   struct Prepared {
     std::shared_ptr<Solver> solver;
@@ -141,8 +143,11 @@ struct Generator::State {
     scene.report.drift = drift(before, moved, loaded.parts);
   }
 
-  /// What is done for a scene once it has been poured; in any thread. `sensors`: resolved.
-  void finish(Result& result, const LoadedRequest& loaded, const std::vector<Sensor>& sensors, const Options& options) {
+  static bool proves(const Request& request, const Options& options) { return options.grasps && request.prove > 0; }
+
+  /// What is done for a scene once it has been poured; in any thread. `sensors`: resolved. `prover`: if proves().
+  void finish(Result& result, const LoadedRequest& loaded, const std::vector<Sensor>& sensors, const Options& options,
+              Prover* prover) {
     Scene& scene = result.scene;
     Profile spent;
     {
@@ -158,6 +163,10 @@ struct Generator::State {
       StageTimer timer(spent, "grasps");
       result.grasps = grasper.find(scene, loaded, result.images);
       for (const Flag& flag : flags_of(*result.grasps, loaded.request)) scene.report.flags.push_back(flag);
+    }
+    if (prover) {
+      StageTimer timer(spent, "prove");
+      prove_grasps(*result.grasps, scene, loaded, *prover);
     }
     scene.report.profile.merge(spent);
     if (options.prepare) options.prepare(result);
@@ -179,7 +188,9 @@ void Generator::generate(const Request& request, const Options& options, const s
   const LoadedRequest& loaded = state_->models.loaded();
   const std::vector<Sensor> sensors = resolved_sensors(loaded);
 
-  Finishing finishing([&](Result& result) { state_->finish(result, loaded, sensors, options); },
+  const auto prover = State::proves(request, options) ? std::make_unique<Prover>(loaded) : nullptr;
+
+  Finishing finishing([&](Result& result) { state_->finish(result, loaded, sensors, options, prover.get()); },
                       [&](Result&& result) {
                         reporter.handed_on();
                         done(std::move(result));
@@ -246,7 +257,8 @@ Generator::Result Generator::result(const Heap& heap, const Options& options) {
   result.scene.index = options.index.value_or(result.scene.index);
   reporter.phase("quality", result.scene.index, result.scene.parts.size());
   State::measure_drift(result.scene, loaded, heap.solver(), options.hooks);
-  state_->finish(result, loaded, resolved_sensors(loaded), options);
+  Prover* prover = State::proves(loaded.request, options) ? &state_->heap_prover.of(loaded, heap.solver()) : nullptr;
+  state_->finish(result, loaded, resolved_sensors(loaded), options, prover);
   return result;
 }
 

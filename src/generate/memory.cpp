@@ -43,10 +43,14 @@ double field_bytes(const PartModel& part, double relative_cell, std::size_t most
 
 double model_bytes(const Request& request, const PartModel& part, std::size_t field_nodes) {
   const SolverSettings& solver = request.solver;
-  const double bytes = per_triangle * static_cast<double>(part.mesh().triangles.size());
+  const double shape =
+      field_bytes(part, solver.sphere.field_cell, field_nodes) + per_sample * solver.sphere.fine_samples;
+  // Proofs have a solver of their own.
+  const double bytes =
+      per_triangle * static_cast<double>(part.mesh().triangles.size()) + (request.prove > 0 ? shape : 0.0);
   if (solver.type == SolverType::bullet) return bytes + per_triangle * 128.0 * solver.bullet.max_hulls;
   if (solver.preset == SolverSettings::Preset::thesis) return bytes;
-  return bytes + field_bytes(part, solver.sphere.field_cell, field_nodes) + per_sample * solver.sphere.fine_samples;
+  return bytes + shape;
 }
 
 double hulls_of(const Request& request, const PartModel& part) {

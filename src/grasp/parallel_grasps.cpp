@@ -161,6 +161,10 @@ std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper
     const Vec3 offset = part.mass().center - on_axis;
     grasp.lever = (offset - offset.dot(frame.col(0)) * frame.col(0)).norm();
     grasp.contacts = pad_contacts_of(*right, *left, grasp.width);
+    grasp.second = {Vec3(0.5 * grasp.width, right->lower.x(), right->lower.y()),
+                    Vec3(0.5 * grasp.width, right->upper.x(), right->upper.y())};
+    grasp.first = {Vec3(-0.5 * grasp.width, -left->upper.x(), left->lower.y()),
+                   Vec3(-0.5 * grasp.width, -left->lower.x(), left->upper.y())};
     return grasp;
   }
   return std::nullopt;

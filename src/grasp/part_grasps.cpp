@@ -12,7 +12,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 3;             ///< raise it whenever the way grasps are found changes
+constexpr int grasp_format = 4;             ///< raise it whenever the way grasps are found changes
 constexpr double symmetry_limit = 1e-3;     ///< / diagonal: symmetries that a gripper cannot tell from exact ones
 constexpr double first_apart = 0.03;        ///< / diagonal: of thinning
 constexpr double first_angle = 0.3;         ///< rad
@@ -91,7 +91,7 @@ constexpr std::size_t GraspCounts::*all_counts[] = {&GraspCounts::tried,   &Gras
                                                     &GraspCounts::good};
 constexpr double Grasp::*all_numbers[] = {&Grasp::width,  &Grasp::share, &Grasp::friction,
                                           &Grasp::radius, &Grasp::lever, &Grasp::gap};
-constexpr std::size_t grasp_bytes = 13 * sizeof(double) + sizeof(std::uint64_t);
+constexpr std::size_t grasp_bytes = 25 * sizeof(double) + sizeof(std::uint64_t);
 constexpr std::size_t placed_bytes = 7 * sizeof(double) + sizeof(std::uint64_t);
 
 }  // namespace
@@ -101,6 +101,10 @@ void put(ByteWriter& out, const PartGrasps& found) {
   for (const Grasp& grasp : found.grasps) {
     put(out, grasp.pose);
     for (const auto number : all_numbers) out.put(grasp.*number);
+    for (const Aabb* box : {&grasp.first, &grasp.second}) {
+      out.put(box->lower);
+      out.put(box->upper);
+    }
     out.put(static_cast<std::uint64_t>(grasp.contacts.size()));
     for (const Vec3& point : grasp.contacts) out.put(point);
   }
@@ -118,6 +122,10 @@ void get(ByteReader& in, PartGrasps& found) {
   for (Grasp& grasp : found.grasps) {
     get(in, grasp.pose);
     for (const auto number : all_numbers) in.get(grasp.*number);
+    for (Aabb* box : {&grasp.first, &grasp.second}) {
+      in.get(box->lower);
+      in.get(box->upper);
+    }
     grasp.contacts.resize(in.count(sizeof(Vec3)));
     for (Vec3& point : grasp.contacts) in.get(point);
   }

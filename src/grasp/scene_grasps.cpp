@@ -162,6 +162,7 @@ struct Search {
       grasp.gripper = gripper;
       grasp.grasp = one.of;
       grasp.width = known.width;
+      grasp.force = g.type == Gripper::Type::parallel ? g.force : g.force - g.stiffness * known.gap;
       const Hold hold = hold_of(known, grasp.pose, g, friction, burden);
       grasp.score = hold.score;
       grasp.friction = hold.friction;

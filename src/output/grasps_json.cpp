@@ -37,6 +37,15 @@ GraspJson gripper_json(const Gripper& g) {
   return json;
 }
 
+GraspJson proof_json(const LiftProof& proof) {
+  return {{"success", proof.outcome == LiftProof::Outcome::lifted},
+          {"outcome", name_of(proof.outcome)},
+          {"slip", proof.slip},
+          {"turn", proof.turn},
+          {"dragged", proof.dragged},
+          {"moved", proof.moved}};
+}
+
 GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene& scene, const Request& request) {
   GraspJson json = {{"part", grasp.part},
                     {"gripper", request.grippers[grasp.gripper].name},
@@ -47,6 +56,7 @@ GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene&
                     {"friction", std::isfinite(grasp.friction) ? GraspJson(grasp.friction) : GraspJson()},
                     {"free", grasp.free()},
                     {"reason", reason_of(grasp, pick)}};
+  if (grasp.proof) json["proof"] = proof_json(*grasp.proof);
   json["visible"] = json["measured"] = json["pose_in_camera"] = GraspJson::object();
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
     const std::string& name = scene.sensors[i].name;

@@ -177,6 +177,8 @@ void check_counts(const Request& request) {
 }
 
 void check_grippers(const Request& request) {
+  if (request.prove > 0 && request.grippers.empty())
+    refuse("prove", "asks for lifts, but the request has no grippers", "add for instance `grippers: [robotiq_2f_85]`");
   std::set<std::string> names;
   for (std::size_t i = 0; i < request.grippers.size(); ++i) {
     const Gripper& gripper = request.grippers[i];

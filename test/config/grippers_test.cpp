@@ -42,6 +42,12 @@ TEST_F(Grippers, KeysGoBeforeThePresetAndReadBack) {
   EXPECT_EQ(again.text_sha256, request.text_sha256);
 }
 
+TEST_F(Grippers, ProofsNeedThem) {
+  EXPECT_EQ(read(with("[cup_20mm]\nprove: 5")).prove, 5u);
+  EXPECT_EQ(write_request(read(with("[cup_20mm]"))).find("prove"), std::string::npos);
+  expect_refused(bolts + "prove: 5\n", {"prove", "the request has no grippers", "grippers: [robotiq_2f_85]"});
+}
+
 TEST_F(Grippers, WithoutThemNothingIsWritten) {
   const Request request = read(bolts);
   EXPECT_EQ(write_request(request).find("gripper"), std::string::npos);

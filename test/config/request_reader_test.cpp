@@ -86,6 +86,7 @@ sensors:
     time_of_flight: {axial: 0.002, axial_growth: 0.003, axial_distance: 0.5, axial_angle: 0.0002, lateral: 0.7,
                      lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03}
 grippers: [{name: two, stroke: 0.07}]
+prove: 5
 accept: {penetration: 0.03, gap: 0.04, escaped: true}
 seconds: 1.5
 drift_check: true

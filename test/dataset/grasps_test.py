@@ -30,6 +30,22 @@ class Grasps(DataSetTest):
             self.assertIn("camera", shards[key].grasps["grasps"][0]["pose_in_camera"])
         self.run_tool("dataset", "verify", "out")
 
+    def test_as_many_grasps_are_proved_as_the_plan_asks_for(self):
+        from bin_scenes_data import Shards
+        self.make(self.plan(GRIPPERS.replace("  sensors:", "  prove: 3\n  sensors:"), scenes=1, outputs="json, shards, grasps",
+                            more="depletion: {steps: 1, take: {order: grasp}}"), "out")
+        for scene in range(2):
+            told = self.grasps("out", scene)["grasps"]
+            proofs = [grasp["proof"] for grasp in told if "proof" in grasp]
+            self.assertEqual(len(proofs), min(3, sum(grasp["free"] for grasp in told)))
+            self.assertGreater(len(proofs), 0)
+            best = max(grasp["score"] for grasp in told if grasp["free"])
+            self.assertIn(best, [grasp["score"] for grasp in told if "proof" in grasp])
+            for proof in proofs:
+                self.assertEqual(proof["success"], proof["outcome"] == "lifted")
+                self.assertLess(proof["slip"], 0.1)
+        self.assertIn("proof", json.dumps(Shards(self.folder / "out")[0].grasps))
+
     def test_a_bin_is_emptied_by_its_own_grasps(self):
         more = "depletion: {steps: 3, take: {order: grasp}}"
         self.make(self.plan(scenes=1, outputs="json, grasps", more=more), "out")

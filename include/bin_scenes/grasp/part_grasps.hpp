@@ -19,6 +19,7 @@ struct Grasp {
   double radius = 0.0;         ///< m. parallel: largest moment about the closing axis = 2 * friction * force * radius;
                                ///< suction: of the ring
   double lever = 0.0;          ///< m of the centre of mass from closing axis, or from the cup's axis
+  Aabb first, second;          ///< parallel: of the contact on the pad at -x and at x (m, gripper's frame)
   double gap = 0.0;            ///< m, suction: largest distance of the ring, pressed on and tilted, from the surface
   std::vector<Vec3> contacts;  ///< points of the surface that the pads or the ring touch; gripper's frame
 };

@@ -3,10 +3,12 @@
 
 #include "bin_scenes/grasp/part_grasps.hpp"
 #include "bin_scenes/part/loaded_request.hpp"
+#include "bin_scenes/scene/lift_proof.hpp"
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,10 @@ struct SceneGrasp {
   std::size_t grasp = 0;    ///< index into PartGrasps::grasps: equal for grasps that symmetries make alike
   Pose pose;                ///< of the gripper in the bin frame
   double width = 0.0;       ///< m, parallel
-  double score = 0.0;       ///< 0..1: share of the friction that is spare, times share of the force that is spare
-  double friction = 0.0;    ///< smallest coefficient with which it lifts the part out; infinite: none suffices
+  double force = 0.0;       ///< N: of each finger; of the vacuum, less what the lip takes in its gap
+  double score =
+      0.0;  ///< 0..1: shares of friction, of force and of moment across the closing axis that are spare, multiplied
+  double friction = 0.0;  ///< smallest coefficient with which it lifts the part out; infinite: none suffices
   /// Why it is not free. Sweeps are those of the gripper grown by its clearance; of what it touches, one is named.
   enum class Obstacle {
     none,      ///< it is free
@@ -33,6 +37,7 @@ struct SceneGrasp {
 
   /// By sensor, in the order of the images: shares of the contact that the camera sees, and that it measured.
   std::vector<double> visible, measured;
+  std::optional<LiftProof> proof;  ///< of those that Request::prove chose
   bool free() const { return obstacle == Obstacle::none; }
 };
 

@@ -271,6 +271,7 @@ struct Request {
   SolverSettings solver;
   std::vector<Sensor> sensors;
   std::vector<Gripper> grippers;  ///< those whose grasps are asked for
+  std::size_t prove = 0;          ///< free grasps of a scene that are simulated
   std::string rig;  ///< name of the rig that the sensors come from; read by config/, has no effect of its own
   Acceptance accept;
   std::optional<double> seconds;  ///< simulate exactly this long instead of until rest

@@ -62,6 +62,18 @@ struct Frame {
   }
 };
 
+/// Two fixed bodies that close on what lies between them, carried by a hand (bin frame, SI). They move along `axis`
+/// towards each other, always equally fast for the hand, do not turn, and meet neither each other nor what is fixed.
+/// Each presses with `force` on what stops them, as its mass is slow to.
+struct Jaws {
+  std::size_t first = 0, second = 0;  ///< bodies with BodyDef::fixed
+  Vec3 axis = Vec3::UnitX();          ///< unit, from the first to the second
+  double force = 0.0;                 ///< N, of each
+  double speed = 0.0;                 ///< m/s, of each: at most, while they close
+  double mass = 0.1;                  ///< kg, of each; about that of what they hold, or some times more
+  Vec3 velocity = Vec3::Zero();       ///< of the hand
+};
+
 /// With what two bodies press on each other at one point (bin frame, SI).
 struct ContactForce {
   int a = 0, b = -1;   ///< bodies; b is -1 for the bin
@@ -107,6 +119,14 @@ class Solver {
     throw input_error("motion is not simulated by " + name(), "solver",
                       "use type bullet, or sphere on the CPU without preset thesis");
   }
+  /// Jaws close from now on, from where they are and with the speed at which they close already; told again, they go on
+  /// as told. What they touch wakes. Solvers that cannot do it throw an input Error, as set_force().
+  virtual void set_jaws(WorldId /*world*/, const Jaws& /*jaws*/) { cannot_hold(); }
+  /// A force on a body from now on, beside gravity, at a point that stays where it is on the body: the pull of a vacuum
+  /// (bin frame, N, m). One a body: told again, it replaces the last one. What it acts on stays awake.
+  virtual void set_force(WorldId /*world*/, std::size_t /*body*/, const Vec3& /*force*/, const Vec3& /*point*/) {
+    cannot_hold();
+  }
   /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
   /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.
@@ -143,6 +163,12 @@ class Solver {
   virtual std::vector<Flag> flags(WorldId world) const = 0;
   virtual std::string name() const = 0;    ///< "sphere", "sphere/thesis", "bullet"
   virtual std::string device() const = 0;  ///< GL_RENDERER or "cpu"
+
+ private:
+  [[noreturn]] void cannot_hold() const {
+    throw input_error("grippers are not simulated by " + name(), "solver",
+                      "use type sphere on the CPU without preset thesis");
+  }
 };
 
 /// Most nodes of a distance field: those of all models together may take half of memory_budget. It depends on nothing

@@ -110,6 +110,32 @@ void place(World& world, std::size_t body, const BodyState& state) {
   b.still_q = b.q;
 }
 
+void set_jaws(World& world, const Jaws& jaws) {
+  JawPair pair;
+  pair.first = static_cast<std::uint32_t>(jaws.first);
+  pair.second = static_cast<std::uint32_t>(jaws.second);
+  pair.axis = jaws.axis.cast<float>().normalized();
+  pair.velocity = jaws.velocity.cast<float>();
+  pair.force = static_cast<float>(jaws.force);
+  pair.speed = static_cast<float>(jaws.speed);
+  pair.mass = static_cast<float>(jaws.mass);
+  world.jaws = pair;
+  for (const std::uint32_t jaw : {pair.first, pair.second}) world.bodies[jaw].driven = true;
+}
+
+void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& point) {
+  Body& b = world.bodies[body];
+  const Pull pull{static_cast<std::uint32_t>(body), force.cast<float>(),
+                  b.q.conjugate() * Vec3f(point.cast<float>() - b.x)};
+  const auto known =
+      std::find_if(world.pulls.begin(), world.pulls.end(), [&](const Pull& other) { return other.body == pull.body; });
+  if (known == world.pulls.end())
+    world.pulls.push_back(pull);
+  else
+    *known = pull;
+  wake(b);
+}
+
 bool take_phase(World& world, const Phase& phase) {
   const float grip = world.settings.friction_reserve ? static_cast<float>(phase.friction) : 1.0f;
   if (phase.fine_samples == world.fine && phase.stiffness == world.stiffness && grip == world.grip &&

@@ -26,6 +26,9 @@ std::vector<Flag> flags_of(const World& world);
 /// Puts a body where the state says, awake.
 void place(World& world, std::size_t body, const BodyState& state);
 
+void set_jaws(World& world, const Jaws& jaws);
+void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& point);
+
 /// Samples, contacts and sleep of a phase. Says whether that is a change, or contacts forget their forces, or bodies
 /// are to sleep; bodies and contacts are left to the caller.
 bool take_phase(World& world, const Phase& phase);

@@ -88,6 +88,10 @@ class SphereSolver final : public Solver {
     for (Body& b : world.bodies) sphere::wake(b);
   }
 
+  void set_jaws(WorldId id, const Jaws& jaws) override { sphere::set_jaws(slots_[id]->world, jaws); }
+  void set_force(WorldId id, std::size_t body, const Vec3& force, const Vec3& point) override {
+    sphere::set_force(slots_[id]->world, body, force, point);
+  }
   void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slots_[id]->world, body, state); }
 
   void wake(WorldId id, std::size_t body) override {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes::sphere {
@@ -152,6 +153,21 @@ struct Plane {
   bool wall = false;
 };
 
+/// Jaws as the passes use them: bodies that are driven, and whose closing speed contacts slow as if each had this mass.
+struct JawPair {
+  std::uint32_t first = 0, second = 0;
+  Vec3f axis = Vec3f::UnitX(), velocity = Vec3f::Zero();
+  float force = 0, speed = 0, mass = 0;
+
+  bool has(std::uint32_t body) const { return body == first || body == second; }
+};
+
+/// A force that acts on a body beside gravity.
+struct Pull {
+  std::uint32_t body = 0;
+  Vec3f force = Vec3f::Zero(), arm = Vec3f::Zero();  ///< N, world frame; m from the centre of mass, body frame
+};
+
 struct Counters {
   std::uint64_t steps = 0, free_steps = 0, asleep_steps = 0, pairs = 0, pairs_recycled = 0, pairs_asleep = 0,
                 pairs_culled = 0, clusters_tested = 0, nodes_tested = 0, nodes_possible = 0, contacts = 0, dropped = 0;
@@ -185,6 +201,8 @@ struct World {
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
   float grip = 1;                         ///< share of friction that acts
   bool forgets = false;                   ///< the next step starts without remembered forces
+  std::optional<JawPair> jaws;            ///< Solver::set_jaws()
+  std::vector<Pull> pulls;                ///< Solver::set_force()
   int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
   float mass_ratio = 1;                   ///< heaviest part / lightest

@@ -11,6 +11,7 @@ void Blocks::join(const World& world) {
     if (m.b == ground || !world.bodies[m.a].moves() || !world.bodies[m.b].moves()) continue;
     groups_.join(m.a, m.b);
   }
+  if (world.jaws) groups_.join(world.jaws->first, world.jaws->second);
 }
 
 /// Fills block_ with whole groups of joined bodies, in the order of their lowest; returns how many blocks there are.

@@ -5,6 +5,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
+#include "solver/sphere/passes/held.hpp"
 #include "solver/sphere/passes/team.hpp"
 #include "solver/sphere/passes/turning_bin.hpp"
 #include "solver/sphere/world.hpp"
@@ -77,7 +78,8 @@ class ContactSolver {
         speeds_(scratch.speeds),
         bundles_(scratch.bundles),
         colors_(scratch.colors),
-        rows_(scratch.rows) {}
+        rows_(scratch.rows),
+        jaws_(world, blocks, block) {}
 
   void prepare();  ///< rows from contacts, with the forces of the last step
   std::uint64_t falling() const { return static_cast<std::uint64_t>(std::count(free_.begin(), free_.end(), 1)); }
@@ -106,6 +108,7 @@ class ContactSolver {
       const std::uint32_t count = c.last - c.first;
       team_.share(count, c.in_turn ? count : bundles_per_piece,
                   [&](std::uint32_t first, std::uint32_t last) { work(c.first + first, c.first + last); });
+      jaws_.keep_to_axis(motions_);
     }
   }
   /// Of all colors at once.
@@ -164,6 +167,7 @@ class ContactSolver {
   std::vector<Bundle>& bundles_;
   std::vector<Color>& colors_;
   std::vector<ContactRows>& rows_;
+  const HeldJaws jaws_;
 };
 
 void ContactSolver::prepare_motions(std::size_t unmoved) {
@@ -176,6 +180,7 @@ void ContactSolver::prepare_motions(std::size_t unmoved) {
     motions_[i].v = padded(b.v, b.inverse_mass);
     motions_[i].w = padded(b.w);
   }
+  jaws_.begin(motions_);
 }
 
 void ContactSolver::prepare() {
@@ -196,7 +201,7 @@ void ContactSolver::accelerate() {
   if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
   for_each_body([&](std::size_t i) {
     Motion& motion = motions_[i];
-    if (motion.inverse_mass() == 0) return;  // on a path
+    if (motion.inverse_mass() == 0 || jaws_.has(i)) return;  // on a path
     speeds_[i] = speed(i);
     Body& b = world_.bodies[bodies_[i]];
     Vec3f v = vector_of(motion.v);
@@ -215,6 +220,8 @@ void ContactSolver::accelerate() {
     }
     motion.w += padded(r * change);
   });
+  pull(world_, blocks_, block_, h_, motions_);
+  jaws_.press(h_, motions_);
 }
 
 void ContactSolver::warm_start() {
@@ -374,7 +381,8 @@ void ContactSolver::move() {
     Motion& motion = motions_[i];
     const float h = slides_[i] ? h_ * mean_share(speeds_[i], speed(i)) : h_;
     motion.moved += h * motion.v;
-    if (free_[i] && motion.inverse_mass() > 0) motion.moved -= parabola;  // nothing touches it: exactly the parabola
+    if (free_[i] && motion.inverse_mass() > 0 && !jaws_.has(i))
+      motion.moved -= parabola;  // nothing touches it: exactly the parabola
     motion.turned += h * motion.w;
     Quatf& q = world_.bodies[bodies_[i]].q;
     q = integrated(q, vector_of(motion.w), h);
@@ -417,7 +425,10 @@ void ContactSolver::restitute() {
     if (any(bundle.strikes))
       if (const LaneMask lanes = bouncing(bundle); any(lanes)) hits.push_back({&bundle, lanes});
   for (int k = 0; k < int(SPHERE_BOUNCE_SWEEPS); ++k)
-    for (const Bounce& b : hits) bounce(*b.bundle, b.lanes);
+    for (const Bounce& b : hits) {
+      bounce(*b.bundle, b.lanes);
+      jaws_.keep_to_axis(motions_);
+    }
   for (const Bounce& b : hits)  // an impact is over: it must not warm-start the next step
     for (std::uint32_t i = b.bundle->first; i < b.bundle->last; ++i) {
       ContactRows& c = rows_[i];

@@ -70,6 +70,15 @@ std::vector<char> kept_awake(const World& world) {
   return awake;
 }
 
+/// A gripper wakes what it touches, and keeps it awake.
+void keep_held_awake(const World& world, std::vector<char>& awake) {
+  if (!world.jaws && world.pulls.empty()) return;
+  for (const Manifold& m : world.manifolds)
+    if (m.b != ground && !m.contacts.empty() && (world.bodies[m.a].driven || world.bodies[m.b].driven))
+      awake[m.a] = awake[m.b] = 1;
+  for (const Pull& pull : world.pulls) awake[pull.body] = 1;
+}
+
 }  // namespace
 
 /// By island: an island of bodies that press on each other sleeps once all of them have stayed where they are for the
@@ -81,7 +90,8 @@ std::vector<char> kept_awake(const World& world) {
 void update_sleep(World& world) {
   for (Body& b : world.bodies)
     if (b.moves()) note_motion(world, b);
-  const std::vector<char> awake = kept_awake(world);
+  std::vector<char> awake = kept_awake(world);
+  keep_held_awake(world, awake);
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
     Body& b = world.bodies[i];
     if (!b.present || b.inverse_mass == 0) continue;

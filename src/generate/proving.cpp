@@ -1,0 +1,39 @@
+#include "generate/proving.hpp"
+
+#include <algorithm>
+
+namespace bin_scenes {
+
+std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count) {
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < grasps.size(); ++i)
+    if (grasps[i].free()) free.push_back(i);
+  std::stable_sort(free.begin(), free.end(),
+                   [&](std::size_t a, std::size_t b) { return grasps[a].score > grasps[b].score; });
+  if (free.size() <= count) return free;
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) chosen.push_back(free[count == 1 ? 0 : k * (free.size() - 1) / (count - 1)]);
+  return chosen;
+}
+
+void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& loaded, Prover& prover) {
+  const std::vector<std::size_t> chosen = spread_over_scores(grasps.grasps, loaded.request.prove);
+  std::vector<Trial> trials;
+  for (const std::size_t i : chosen) {
+    const SceneGrasp& grasp = grasps.grasps[i];
+    trials.push_back({grasp.part, grasp.gripper, grasp.pose, grasp.width, grasp.force});
+  }
+  const std::vector<LiftProof> proofs = prover.prove(scene, loaded, trials);
+  for (std::size_t k = 0; k < chosen.size(); ++k) grasps.grasps[chosen[k]].proof = proofs[k];
+}
+
+Prover& HeapProver::of(const LoadedRequest& loaded, const std::shared_ptr<Solver>& solver) {
+  if (!prover_ || solver_.lock() != solver || parts_ != loaded.parts) {
+    prover_ = std::make_unique<Prover>(loaded);
+    solver_ = solver;
+    parts_ = loaded.parts;
+  }
+  return *prover_;
+}
+
+}  // namespace bin_scenes

@@ -1,0 +1,19 @@
+/// A gripper as bodies of a world: fingers or ring, and palm. Gripper's frame (scene/gripper.hpp).
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/gripper.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+struct GripperBody {
+  PartModelPtr model;
+  Pose pose;  ///< of the model in the gripper's frame; fingers: at width 0
+};
+
+/// Two fingers, that at -x first, or a ring; then the palm.
+std::vector<GripperBody> bodies_of(const Gripper& gripper);
+
+}  // namespace bin_scenes

@@ -1,0 +1,40 @@
+#include "grasp/holding.hpp"
+
+#include <gtest/gtest.h>
+
+namespace bin_scenes {
+namespace {
+
+// The same block as in HoldsAMomentAcrossItsAxis of test/solver/sphere/jaws_test.cpp, where it is simulated.
+TEST(Holding, AWeightBesideThePadsTurnsOutOfThem) {
+  const double weight = 0.05 * 9.81, friction = 0.5, width = 0.008, half = 0.003, beside = 0.008;
+  Grasp grasp;
+  grasp.width = width;
+  grasp.radius = 0.002;
+  grasp.first = {Vec3(-0.5 * width, -half, -half), Vec3(-0.5 * width, half, half)};
+  grasp.second = {Vec3(0.5 * width, -half, -half), Vec3(0.5 * width, half, half)};
+  const Pose down{Vec3::Zero(), Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()))};
+  // 2 h F of the pads' ends, and the couple of what friction spares: w (mu F - m g / 2).
+  const double just = weight * (beside + 0.5 * width) / (2.0 * half + friction * width);
+  for (const double side : {-1.0, 1.0})
+    for (const double share : {0.99, 1.0, 1.01, 3.0}) {
+      Gripper gripper;
+      gripper.force = share * just;
+      const Burden burden{weight, Vec3(0, 0, -weight), Vec3(side * beside, 0, -0.006), Vec3::UnitZ()};
+      const Hold hold = hold_of(grasp, down, gripper, friction, burden);
+      EXPECT_EQ(hold.score > 1e-9, share > 1.0) << share;
+      if (share == 1.0) {
+        EXPECT_NEAR(hold.friction, friction, 1e-9);
+      }
+      if (share == 3.0) {
+        EXPECT_NEAR(hold.score,
+                    (1.0 - weight / (2.0 * friction * gripper.force)) *
+                        (1.0 - beside * weight /
+                                   (gripper.force * 2.0 * half + width * (friction * gripper.force - 0.5 * weight))),
+                    1e-9);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace bin_scenes
