@@ -137,6 +137,7 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
     for (const auto& [other, force] : acting.pressing)
       if (force > lies_on * std::min(weight[part.id], weight[other])) blocking.insert(other);
     const double limit = placed.top() - lowest(part.box, placed.up());
+    pick.lift = limit * placed.up();
     for (const PlacedPart& other : placed.all()) {
       const bool upright_walls = other.id < 0 && loaded.request.bin.kind == Bin::Kind::box;
       if (other.id == part.id || upright_walls || blocking.count(other.id)) continue;
