@@ -72,7 +72,7 @@ class Forces {
     const double down = -force.dot(up_);
     if (other >= 0 && down > 0.0) {
       acting.load += down;
-      acting.pressing[other] += down;
+      if (normal.dot(up_) < -supports) acting.pressing[other] += down;  // at a side friction pulls, and nothing lies
     }
     if (normal.dot(up_) > supports) return;  // it is left as soon as the part goes up
     acting.drag += pair_friction(friction_of(id), friction_of(other)) * std::abs(force.dot(normal));
