@@ -109,6 +109,17 @@ TEST(SceneGrasps, PartsSideBySideDoNotBlockEachOther) {
   EXPECT_GT(free_of(found, 0), 0u);
 }
 
+TEST(SceneGrasps, WhatIsOnlyGrazedDoesNotBlock) {
+  for (const double over : {2e-5, 5e-4}) {  // m, by which the upper cube stands over the lower one's rim
+    Stage stage({two_fingers()});
+    const std::size_t cube = stage.add(test::box_mesh({0.04, 0.04, 0.04}));
+    stage.put(cube, {0, 0, 0.02});
+    stage.put(cube, {0.04 - over, 0, 0.07});
+    const std::vector<int> expected = over < 1e-4 ? std::vector<int>{} : std::vector<int>{1};
+    EXPECT_EQ(pick_of(stage.find(), 0).blocked_by, expected) << over;
+  }
+}
+
 TEST(SceneGrasps, HookedPartsNeverComeFree) {
   // Two links of a chain, one through the other.
   Stage stage({two_fingers()});
