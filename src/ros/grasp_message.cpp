@@ -1,3 +1,4 @@
+/// Grasps told as messages and markers, and the grasp of a pose that a client sends back.
 #include "grasp_message.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -361,19 +361,19 @@ std::vector<Form> forms_of_fingers() {
   const auto leaning = [](const Grasp& g) {
     return std::abs(closing(g.pose).x()) > 0.9 ? Figure(1e-3 * g.friction) : std::nullopt;
   };
-  return {
-      {"cube, 40 mm", "width = edge", mean_mm(cube, width), 40.0, 1e-6},
-      {"cube, 40 mm", "moment / (2 friction force) = mean distance in the pad", mean_mm(cube, whole_pad),
-       1e3 * mean_distance(0.012, 0.010), 1e-6},
-      {"cylinder, radius R = 12 mm, 30 mm high", "width along its axis = height", mean_mm(cylinder, along), 30.0, 1e-6},
-      {"the same", "contact across it, pad gives g: 2 sqrt(2 g R)", mean_mm(cylinder, across),
-       2e3 * std::sqrt(2.0 * 2e-4 * 0.012), 0.05},
-      {"sphere, R = 20 mm", "width = 2 R", mean_mm(sphere, width), 40.0, 0.05},
-      {"sphere, R = 20 mm", "moment / (2 friction force) = 2/3 sqrt(2 g R)",
-       mean_mm(sphere, [](const Grasp& g) { return Figure(g.radius); }), 2e3 / 3.0 * std::sqrt(2.0 * 2e-4 * 0.02), 0.08},
-      {"wedge, sides lean by 0.15 rad", "least friction = tan 0.15", mean_mm(wedge, leaning), std::tan(0.15), 1e-9},
-      {"ring, 10 mm high", "width across its faces = height", mean_mm(ring, along), 10.0, 1e-6},
-      {"plate, 2 mm", "width = thickness", mean_mm(plate, width), 2.0, 1e-6}};
+  return {{"cube, 40 mm", "width = edge", mean_mm(cube, width), 40.0, 1e-6},
+          {"cube, 40 mm", "moment arm = mean distance in the pad", mean_mm(cube, whole_pad),
+           1e3 * mean_distance(0.012, 0.010), 1e-6},
+          {"cylinder, R = 12 mm", "width along it = height, 30", mean_mm(cylinder, along), 30.0, 1e-6},
+          {"the same", "contact across = 2 sqrt(2 g R)", mean_mm(cylinder, across), 2e3 * std::sqrt(2.0 * 2e-4 * 0.012),
+           0.05},
+          {"sphere, R = 20 mm", "width = 2 R", mean_mm(sphere, width), 40.0, 0.05},
+          {"sphere, R = 20 mm", "moment arm = 2/3 sqrt(2 g R)",
+           mean_mm(sphere, [](const Grasp& g) { return Figure(g.radius); }), 2e3 / 3.0 * std::sqrt(2.0 * 2e-4 * 0.02),
+           0.08},
+          {"wedge, sides lean by 0.15 rad", "least friction = tan 0.15", mean_mm(wedge, leaning), std::tan(0.15), 1e-9},
+          {"ring, 10 mm high", "width = height", mean_mm(ring, along), 10.0, 1e-6},
+          {"plate, 2 mm", "width = thickness", mean_mm(plate, width), 2.0, 1e-6}};
 }
 
 std::vector<Form> forms_of_cups() {
@@ -387,7 +387,7 @@ std::vector<Form> forms_of_cups() {
     return std::abs(approach(g.pose).z()) < 0.5 ? Figure(g.gap) : std::nullopt;
   };
   const auto distance = [](const Grasp& g) { return Figure(g.pose.position.norm()); };
-  return {{"cup, r = 10 mm, on a cylinder, R = 20 mm", "gap = R - sqrt(R^2 - r^2)", mean_mm(cylinder, on_side),
+  return {{"cup, r = 10 mm, on cylinder, 20 mm", "gap = R - sqrt(R^2 - r^2)", mean_mm(cylinder, on_side),
            1e3 * (0.02 - deep), 0.005},
           {"the same on a sphere", "ring to centre = sqrt(R^2 - r^2)", mean_mm(sphere, distance), 1e3 * deep, 0.03}};
 }
