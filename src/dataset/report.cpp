@@ -6,6 +6,7 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/data_folder.hpp"
+#include "dataset/grasp_view.hpp"
 #include "dataset/page.hpp"
 #include "dataset/published.hpp"
 #include "dataset/scene_index.hpp"
@@ -110,6 +111,7 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   const auto scene = scene_in(folder.scene(number).string());
   if (!scene || !scene->is_object()) return {};
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
+  view["told"] = grasp_view(folder.scene(number).string());
   if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
   std::map<int, int> object_of;
   const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;

@@ -106,8 +106,11 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
   }
   if (formats.count("bag")) bag_writer()((base / "scene.bag").string(), result.scene, loaded, result.images);
   if (formats.count("mcap")) mcap_writer()((base / "scene.mcap").string(), mcap, result.scene, loaded, result.images);
-  if (formats.count("grasps") && result.grasps)
+  if (formats.count("grasps") && result.grasps) {
     write_text((base / "grasps.json").string(), grasps_json(*result.grasps, result.scene, loaded.request));
+    for (const Sensor& sensor : result.scene.sensors)
+      write_text((base / (sensor.name + "_grasps.npy")).string(), grasps_npy(*result.grasps, sensor, loaded.request));
+  }
   write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
 }
 

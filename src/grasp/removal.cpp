@@ -18,6 +18,7 @@ namespace {
 constexpr double lies_on = 0.05;       ///< load / weight of the lighter one, from which a part lies on another
 constexpr double supports = 0.2;       ///< sine of the normal's angle to the horizontal, from which a contact supports
 constexpr double most_overlap = 0.02;  ///< / smaller diagonal: of parts at rest, which is no hold
+constexpr double side_play = 1e-3;     ///< / smaller diagonal: by which a gripper gives way to what it grazes
 
 /// Forces that act on one part.
 struct Acting {
@@ -72,7 +73,7 @@ class Forces {
     const double down = -force.dot(up_);
     if (other >= 0 && down > 0.0) {
       acting.load += down;
-      acting.pressing[other] += down;
+      if (normal.dot(up_) < -supports) acting.pressing[other] += down;  // at a side friction pulls, and nothing lies
     }
     if (normal.dot(up_) > supports) return;  // it is left as soon as the part goes up
     acting.drag += pair_friction(friction_of(id), friction_of(other)) * std::abs(force.dot(normal));
@@ -90,6 +91,28 @@ double mass_of(const PartLine& line, const PartModel& model) {
   return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
 }
 
+namespace {
+
+/// Whether the part only grazes what it meets after `free`: moved aside a little it passes.
+bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Vec3& way, double free, double limit) {
+  const double play = side_play * std::min(part.box.diagonal(), other.box.diagonal());
+  double aside = 0.0;
+  while (free > 0.0) {
+    const Pose met{pose.position + (free + play) * way, pose.orientation};
+    const Penetration overlap = penetration(*part.mesh, met, *other.mesh, other.pose);
+    if (overlap.depth <= 0.0 || overlap.direction.dot(way) > supports) return false;
+    const double step = overlap.depth + 0.1 * play;
+    aside += step;
+    if (aside > play) return false;
+    pose.position -= step * overlap.direction;
+    free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
+    if (free >= limit) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit) {
   Aabb swept = part.box;
   swept.extend(Vec3(part.box.lower + limit * way));
@@ -103,11 +126,11 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, d
   for (const double raise : {1e-5, 2e-4, 2e-3}) {
     const Pose pose = nudged(part, way, raise * smaller, smaller);
     const double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
-    if (free > 0.0) return free < limit;
+    if (free > 0.0) return free < limit && !grazes(other, part, pose, way, free, limit);
     const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
     // The other one, to be moved up out of the part, lies on it.
     if (overlap.depth > most_overlap * smaller || overlap.direction.dot(way) > supports) return true;
-    for (const double play : {1e-6, 1e-3}) {
+    for (const double play : {1e-6, side_play}) {
       Pose apart = pose;
       apart.position -= (overlap.depth + play * smaller) * overlap.direction;
       const double then = free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit);
@@ -137,6 +160,7 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
     for (const auto& [other, force] : acting.pressing)
       if (force > lies_on * std::min(weight[part.id], weight[other])) blocking.insert(other);
     const double limit = placed.top() - lowest(part.box, placed.up());
+    pick.lift = limit * placed.up();
     for (const PlacedPart& other : placed.all()) {
       const bool upright_walls = other.id < 0 && loaded.request.bin.kind == Bin::Kind::box;
       if (other.id == part.id || upright_walls || blocking.count(other.id)) continue;

@@ -27,6 +27,7 @@ GraspJson gripper_json(const Gripper& g) {
   if (g.type == Gripper::Type::parallel) {
     json.update({{"type", "parallel"},
                  {"stroke", g.travel()},
+                 {"opening", g.opening},
                  {"finger_width", g.finger_width},
                  {"finger_thickness", g.finger_thickness},
                  {"pad_length", g.pad_length}});

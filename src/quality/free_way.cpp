@@ -8,6 +8,22 @@ namespace bin_scenes {
 
 namespace {
 
+/// Whether an edge of a separates the shadows of both along z by more than rounding: neither meets the other on its way
+/// then. Most pairs of triangles end here, at a tenth of the cost of triangle_distance().
+bool edge_separates(const TrianglePoints& a, const TrianglePoints& b) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 edge = a[(i + 1) % 3] - a[i];
+    const auto side = [&](const Vec3& point) {
+      return edge.x() * (point.y() - a[i].y()) - edge.y() * (point.x() - a[i].x());
+    };
+    const double inward = side(a[(i + 2) % 3]) < 0.0 ? -1.0 : 1.0;
+    const double nearest = std::max({inward * side(b[0]), inward * side(b[1]), inward * side(b[2])});
+    const double rounding = 1e-13 * edge.lpNorm<1>() * (a[i].lpNorm<1>() + b[0].lpNorm<1>() + b[1].lpNorm<1>());
+    if (nearest < -rounding) return true;
+  }
+  return false;
+}
+
 /// How far s can move along `direction` before it meets t; infinite if it never does. Both are open at their rims, so
 /// that parts sliding along each other do not hold each other.
 double triangle_distance(const TrianglePoints& s, const TrianglePoints& t, const Vec3& direction) {
@@ -70,7 +86,9 @@ double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, cons
       a, stand_a, b, stand_b, [&](const Aabb& one, const Aabb& other) { return bound(motion_a(one), motion_b(other)); },
       [&] { return best; },
       [&](const Facet& s, const Facet& t) {
-        if (bound(s.box, t.box) < best) best = std::min(best, triangle_distance(s.points, t.points, down));
+        if (!(bound(s.box, t.box) < best)) return;
+        if (edge_separates(s.points, t.points) || edge_separates(t.points, s.points)) return;
+        best = std::min(best, triangle_distance(s.points, t.points, down));
       });
   return best;
 }

@@ -1,3 +1,4 @@
+/// Grasps told as messages and markers, and the grasp of a pose that a client sends back.
 #include "grasp_message.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -13,6 +14,36 @@ using GraspMarker = visualization_msgs::Marker;
 const PartPick* pick_of(const SceneGrasps& all, int id) {
   const auto found = std::find_if(all.parts.begin(), all.parts.end(), [&](const PartPick& p) { return p.id == id; });
   return found == all.parts.end() ? nullptr : &*found;
+}
+
+/// Far below the distances at which grasps are thinned, far above what changes of frames round away.
+constexpr double same_place = 1e-4;  ///< m
+constexpr double same_angle = 1e-3;  ///< rad
+
+/// The grasp of any part nearest to the one that is asked for. Throws an input Error if there is none at that place.
+const SceneGrasp& grasp_at(const SceneGrasps& all, const Request& request,
+                           const bin_scenes_msgs::PickPart::Request& asked) {
+  const auto& grippers = request.grippers;
+  const auto gripper =
+      std::find_if(grippers.begin(), grippers.end(), [&](const Gripper& one) { return one.name == asked.gripper; });
+  if (gripper == grippers.end())
+    throw input_error("the request of the scene has no gripper '" + asked.gripper + "'", "pick_part",
+                      "name one of its grippers as get_grasps does");
+  const auto index = static_cast<std::size_t>(gripper - grippers.begin());
+  const Pose pose = pose_from(asked.grasp);
+  const SceneGrasp* nearest = nullptr;
+  double distance = same_place;
+  for (const SceneGrasp& grasp : all.grasps) {
+    const double apart = (grasp.pose.position - pose.position).norm();
+    if (grasp.gripper != index || !(apart < distance)) continue;
+    if (!(grasp.pose.orientation.angularDistance(pose.orientation) < same_angle)) continue;
+    distance = apart;
+    nearest = &grasp;
+  }
+  if (!nearest)
+    throw input_error("'" + asked.gripper + "' has no grasp at that pose", "pick_part",
+                      "ask get_grasps again: its answer holds until the heap changes");
+  return *nearest;
 }
 
 /// Bodies of a gripper as markers in the bin frame.
@@ -92,6 +123,35 @@ void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<Scen
     response.reasons.push_back(reason_of(grasp, *pick_of(all, grasp.part)));
   }
   response.removal_order.assign(all.removal_order.begin(), all.removal_order.end());
+}
+
+void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,
+                 const std::vector<Sensor>& sensors) {
+  for (const Sensor& sensor : sensors) response.sensors.push_back(sensor.name);
+  for (const SceneGrasp& grasp : chosen) {
+    response.visible.insert(response.visible.end(), grasp.visible.begin(), grasp.visible.end());
+    response.measured.insert(response.measured.end(), grasp.measured.begin(), grasp.measured.end());
+  }
+}
+
+PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_scenes_msgs::PickPart::Request& asked) {
+  const auto& direction = asked.lift_direction;
+  if (asked.ids.size() != 1 || direction.x != 0.0 || direction.y != 0.0 || direction.z != 0.0)
+    throw input_error("a grasp takes one part straight up", "pick_part",
+                      "name one part in ids, and leave lift_direction 0 0 0");
+  const PartPick* pick = pick_of(all, asked.ids[0]);
+  if (!pick)
+    throw input_error("there is no part " + std::to_string(asked.ids[0]) + " that could be picked", "pick_part",
+                      "take one that get_grasps tells");
+  const SceneGrasp& grasp = grasp_at(all, request, asked);
+  if (grasp.part != pick->id)
+    throw input_error(
+        "the grasp is one of part " + std::to_string(grasp.part) + ", not of part " + std::to_string(pick->id),
+        "pick_part", "take part, gripper and pose from the same place of get_grasps' answer");
+  if (!grasp.free())
+    throw input_error("the grasp is not free: " + reason_of(grasp, *pick), "pick_part",
+                      "take one that get_grasps tells as free, or leave gripper empty");
+  return *pick;
 }
 
 visualization_msgs::MarkerArray grasp_markers(const std::vector<SceneGrasp>& grasps, const Request& request,

@@ -17,6 +17,13 @@ std::vector<SceneGrasp> chosen_grasps(const SceneGrasps& all, const bin_scenes_m
 void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen, const SceneGrasps& all,
           const Request& request, const Frames& frames, const ros::Time& stamp);
 
+/// What each sensor sees of them: those that were found with images.
+void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,
+                 const std::vector<Sensor>& sensors);
+
+/// The part that a call picks by a grasp. Throws an input Error if the grasp is none of that part, or not free.
+PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_scenes_msgs::PickPart::Request& asked);
+
 /// Fingers, cups and palms, green for the best score and red for none. What was shown before goes.
 visualization_msgs::MarkerArray grasp_markers(const std::vector<SceneGrasp>& grasps, const Request& request,
                                               const Frames& frames, const ros::Time& stamp);

@@ -17,6 +17,14 @@ namespace {
 
 using Code = bin_scenes_msgs::ErrorCode;
 
+Lift lift_of(const bin_scenes_msgs::PickPart::Request& request) {
+  Lift lift;
+  const auto& d = request.lift_direction;
+  if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) lift.direction = Vec3(d.x, d.y, d.z);
+  lift.distance = request.lift_distance;
+  return lift;
+}
+
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
@@ -64,14 +72,18 @@ std::shared_ptr<Job> SceneJobs::generate(const bin_scenes_msgs::SceneRequest& me
 
 std::shared_ptr<Job> SceneJobs::pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer) {
   const auto make = [this, request](const RunHooks& hooks) {
-    Lift lift;
-    const auto& d = request.lift_direction;
-    if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) lift.direction = Vec3(d.x, d.y, d.z);
-    lift.distance = request.lift_distance;
     const std::vector<int> ids(request.ids.begin(), request.ids.end());
+    const Lift lift = request.gripper.empty() ? lift_of(request) : lift_by_grasp(request, hooks);
     return ids.empty() ? maker_->settle(hooks) : maker_->pick(ids, lift, hooks);
   };
   return submit("pick_part", make, std::move(answer));
+}
+
+/// That of a grasp, if it is one of the part and free.
+Lift SceneJobs::lift_by_grasp(const bin_scenes_msgs::PickPart::Request& request, const RunHooks& hooks) const {
+  const MadeScene made = maker_->heap_as_it_lies("pick_part");
+  const PartPick pick = picked_by(maker_->grasps(made, {}, hooks), made.loaded.request, request);
+  return {pick.lift, request.lift_distance != 0.0 ? request.lift_distance : pick.lift.norm()};
 }
 
 std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& request, Answer answer) {
@@ -84,11 +96,15 @@ std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& re
 std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request& request,
                                        std::shared_ptr<GraspAnswer> told, Answer answer) {
   const auto work = [this, request, told](Job& job) {
-    const SceneMaker::Grasps grasps = maker_->grasps(job.hooks());
-    const std::vector<SceneGrasp> chosen = chosen_grasps(grasps.found, request);
+    MadeScene made = maker_->heap_as_it_lies("get_grasps");
+    if (request.render) publication_.render(made, true, job.hooks());
+    const SceneGrasps grasps =
+        maker_->grasps(made, request.render ? made.images : std::vector<RangeImage>(), job.hooks());
+    const std::vector<SceneGrasp> chosen = chosen_grasps(grasps, request);
     job.commit();
-    fill(told->response, chosen, grasps.found, grasps.request, settings_.frames, stamp_);
-    told->markers = grasp_markers(chosen, grasps.request, settings_.frames, stamp_);
+    fill(told->response, chosen, grasps, made.loaded.request, settings_.frames, stamp_);
+    if (request.render) fill_shares(told->response, chosen, made.scene.sensors);
+    told->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp_);
     Outcome outcome;
     outcome.success = true;
     return outcome;

@@ -72,6 +72,7 @@ class SceneJobs {
   Outcome run(Job& job, const Make& make, bool render);
   Outcome show(MadeScene made);
   Request request_of(const bin_scenes_msgs::SceneRequest& message) const;
+  Lift lift_by_grasp(const bin_scenes_msgs::PickPart::Request& request, const RunHooks& hooks) const;
   void note(const std::string& name, const Outcome& outcome);
 
   Publication& publication_;

@@ -62,14 +62,22 @@ MadeScene SceneMaker::settle(const RunHooks& hooks) {
   return settled(heap_, hooks);
 }
 
-SceneMaker::Grasps SceneMaker::grasps(const RunHooks& hooks) {
-  const Heap& heap = this->heap("get_grasps");
-  const CancelScope scope(hooks.cancel);
-  const LoadedRequest loaded = heap.loaded();
-  if (loaded.request.grippers.empty())
-    throw input_error("the request of the scene has no grippers", "get_grasps",
+MadeScene SceneMaker::heap_as_it_lies(const char* purpose) const {
+  MadeScene made;
+  made.loaded = heap(purpose).loaded();
+  if (made.loaded.request.grippers.empty())
+    throw input_error("the request of the scene has no grippers", purpose,
                       "add for instance `grippers: [robotiq_2f_85]`");
-  return {grasper_.find(heap.scene(), loaded, {}), loaded.request};
+  made.scene = heap_->scene();
+  made.scene.sensors = last_.sensors;
+  made.images.resize(made.scene.sensors.size());
+  return made;
+}
+
+SceneGrasps SceneMaker::grasps(const MadeScene& made, const std::vector<RangeImage>& images,
+                               const RunHooks& hooks) const {
+  const CancelScope scope(hooks.cancel);
+  return grasper_.find(made.scene, made.loaded, images);
 }
 
 MadeScene SceneMaker::settled(const std::shared_ptr<Heap>& heap, const RunHooks& hooks) {

@@ -37,12 +37,10 @@ class SceneMaker {
   /// Onto the heap, or into the bin if it was emptied.
   MadeScene add(const std::vector<PartLine>& lines, const RunHooks& hooks);
   MadeScene settle(const RunHooks& hooks);
-  struct Grasps {
-    SceneGrasps found;
-    Request request;
-  };
-  /// Of the scene that is kept; what cameras see of them is left out.
-  Grasps grasps(const RunHooks& hooks);
+  /// The heap of the scene that is kept as it lies now, for grasps(): not judged, and without images.
+  MadeScene heap_as_it_lies(const char* purpose) const;
+  /// What cameras see of them only if `images` are those of the scene.
+  SceneGrasps grasps(const MadeScene& made, const std::vector<RangeImage>& images, const RunHooks& hooks) const;
   /// The empty bin of the scene that is kept.
   MadeScene emptied() const;
 

@@ -2,6 +2,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
+#include "dataset/grasp_view.hpp"
 #include "dataset/page.hpp"
 #include "tool/commands.hpp"
 #include "tool/progress_bar.hpp"
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_grasps = 10;
 constexpr std::size_t most_points = 400'000;  ///< of all sensors; a point takes 25 bytes of the page
 
 /// Numbers as the page's typed arrays have them: little-endian, base64.
@@ -110,33 +110,6 @@ void add_sensors(Json& data, const Json& scene, const std::string& folder) {
   }
 }
 
-/// The best free grasps of grasps.json, if it is there: of different parts first.
-void add_grasps(Json& data, const std::string& folder) {
-  const fs::path path = fs::path(folder) / "grasps.json";
-  data["grippers"] = data["grasps"] = Json::array();
-  std::error_code missing;
-  if (!fs::is_regular_file(path, missing)) return;
-  const Json all = Json::parse(read_file(path.string()));
-  data["grippers"] = all.at("grippers");
-  std::vector<const Json*> free;
-  for (const Json& grasp : all.at("grasps"))
-    if (grasp.at("free").get<bool>()) free.push_back(&grasp);
-  std::stable_sort(free.begin(), free.end(),
-                   [](const Json* a, const Json* b) { return a->at("score") > b->at("score"); });
-  std::set<int> parts;
-  std::vector<const Json*> others;
-  for (const Json* grasp : free) {
-    if (data["grasps"].size() == most_grasps) return;
-    if (parts.insert(grasp->at("part").get<int>()).second) {
-      data["grasps"].push_back(*grasp);
-    } else {
-      others.push_back(grasp);
-    }
-  }
-  for (std::size_t i = 0; i < others.size() && data["grasps"].size() < most_grasps; ++i)
-    data["grasps"].push_back(*others[i]);
-}
-
 Json view_data(const Json& scene, const std::string& folder, const std::string& models) {
   Json data = {{"name", fs::weakly_canonical(folder).filename().string()},
                {"seed", scene.at("seed")},
@@ -146,7 +119,7 @@ Json view_data(const Json& scene, const std::string& folder, const std::string& 
   for (const char* list : {"meshes", "parts", "sensors", "clouds"}) data[list] = Json::array();
   add_parts(data, scene, folder, models);
   add_sensors(data, scene, folder);
-  add_grasps(data, folder);
+  data.update(grasp_view(folder));
   if (scene.at("bin").contains("mesh")) data["bin"]["shape"] = packed(find_bin(scene.at("bin"), folder, models));
   return data;
 }

@@ -2,6 +2,8 @@
 """Data sets with output `grasps`: files, shards, and bins that are emptied by their own grasps."""
 import json
 
+import numpy as np
+
 from data_set import DataSetTest, main
 
 GRIPPERS = "  grippers: [cup_10mm, {name: two, stroke: 0.06}]\n  sensors:"
@@ -45,6 +47,27 @@ class Grasps(DataSetTest):
                 self.assertEqual(proof["success"], proof["outcome"] == "lifted")
                 self.assertLess(proof["slip"], 0.1)
         self.assertIn("proof", json.dumps(Shards(self.folder / "out")[0].grasps))
+
+    def test_graspnet_reads_the_free_grasps_of_two_fingers(self):
+        """Columns of graspnetAPI's GraspGroup. Its gripper: x approaches, y closes, the fingers end at depth along x."""
+        self.make(self.plan(scenes=1, outputs="json, grasps"), "out")
+        told = self.grasps("out", 0)
+        free = [grasp for grasp in told["grasps"] if grasp["free"] and grasp["gripper"] == "two"]
+        self.assertGreater(len(free), 10)
+        gripper = next(gripper for gripper in told["grippers"] if gripper["name"] == "two")
+        for camera in ("camera", "side"):
+            rows = np.load(self.folder / ("out/scenes/scene_000000/%s_grasps.npy" % camera))
+            self.assertEqual((rows.shape, rows.dtype), ((len(free), 17), np.float32))
+            for row, grasp in zip(rows, free):
+                pose = grasp["pose_in_camera"][camera]
+                x, y, z, w = pose["orientation_xyzw"]
+                close = [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)]
+                approach = [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)]
+                rotation = np.column_stack([approach, close, np.cross(approach, close)])
+                expected = [1.1 - grasp["friction"], min(gripper["stroke"], grasp["width"] + 2 * gripper["opening"]),
+                            gripper["finger_width"], gripper["pad_length"] / 2, *rotation.ravel(), *pose["position"], grasp["part"]]
+                np.testing.assert_allclose(row, expected, rtol=0, atol=1e-6)
+                self.assertAlmostEqual(np.linalg.det(row[4:13].reshape(3, 3)), 1, 5)
 
     def test_a_bin_is_emptied_by_its_own_grasps(self):
         more = "depletion: {steps: 3, take: {order: grasp}}"

@@ -82,6 +82,25 @@ class Report(DataSetTest):
             self.browse("--window-size=1240,2300", "--screenshot=%s" % KEEP)
 
     @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
+    def test_grasps_of_the_scene_in_3d_are_counted_and_drawn(self):
+        path = self.folder / self.plan(scenes=1, outputs="json, bop, grasps")
+        path.write_text(path.read_text().replace("  sensors:", "  grippers: [cup_10mm, {name: two, stroke: 0.06}]\n  sensors:"))
+        self.make("plan.yaml", "out")
+        done = self.run_tool("report", "out")
+        free = [g for g in json.loads((self.folder / "out/scenes/scene_000000/grasps.json").read_text())["grasps"] if g["free"]]
+        for _ in range(5):
+            dom = self.browse("--dump-dom", at="#three").stdout
+            if "data-drawn" in dom or "no 3-D view" in done.stderr:
+                break
+        for gripper in ("cup_10mm", "two"):
+            row = '<td class="">%s</td><td class="n">%d</td>' % (gripper, sum(g["gripper"] == gripper for g in free))
+            self.assertTrue(row in dom, row)
+        if "no 3-D view" not in done.stderr:
+            self.assertTrue('data-grasps="%d"' % min(10, len(free)) in dom, "the grasps were not drawn")
+        if KEEP:
+            self.browse("--window-size=1240,1700", "--screenshot=%s" % KEEP)
+
+    @unittest.skipUnless(CHROMIUM, "needs Debian's package chromium")
     def test_it_opens_with_ten_thousand_scenes(self):
         self.make(self.plan(scenes=2, outputs="json, bop"), "out")
         with sqlite3.connect(self.folder / "out/index.sqlite") as index:

@@ -109,6 +109,17 @@ TEST(SceneGrasps, PartsSideBySideDoNotBlockEachOther) {
   EXPECT_GT(free_of(found, 0), 0u);
 }
 
+TEST(SceneGrasps, WhatIsOnlyGrazedDoesNotBlock) {
+  for (const double over : {2e-5, 5e-4}) {  // m, by which the upper cube stands over the lower one's rim
+    Stage stage({two_fingers()});
+    const std::size_t cube = stage.add(test::box_mesh({0.04, 0.04, 0.04}));
+    stage.put(cube, {0, 0, 0.02});
+    stage.put(cube, {0.04 - over, 0, 0.07});
+    const std::vector<int> expected = over < 1e-4 ? std::vector<int>{} : std::vector<int>{1};
+    EXPECT_EQ(pick_of(stage.find(), 0).blocked_by, expected) << over;
+  }
+}
+
 TEST(SceneGrasps, HookedPartsNeverComeFree) {
   // Two links of a chain, one through the other.
   Stage stage({two_fingers()});
@@ -135,10 +146,26 @@ TEST(SceneGrasps, LoadAndPullComeFromContactForces) {
   const SceneGrasps found = stage.find();
   EXPECT_NEAR(pick_of(found, 0).load, weight, 1e-12);
   EXPECT_NEAR(pick_of(found, 1).load, 0.0, 1e-12);
+  // To where their lowest points pass the rim of the bin.
+  EXPECT_LT((pick_of(found, 0).lift - Vec3(0, 0, 0.10)).norm(), 1e-9);
+  EXPECT_LT((pick_of(found, 1).lift - Vec3(0, 0, 0.06)).norm(), 1e-9);
   // The upper one: its weight, and friction sqrt(0.5 * 0.5) of the wall. The lower one: both weights, and the friction
   // with which the upper one presses on it.
   EXPECT_NEAR(pick_of(found, 1).pull, weight + 0.5 * 3.0, 1e-9);
   EXPECT_NEAR(pick_of(found, 0).pull, 2.0 * weight + 0.5 * weight, 1e-9);
+}
+
+TEST(SceneGrasps, FrictionAtASideIsLoadButNoPartThatLiesOnIt) {
+  Stage stage({two_fingers()});
+  const std::size_t cube = stage.add(test::box_mesh({0.04, 0.04, 0.04}));
+  stage.put(cube, {0, 0, 0.02});
+  stage.put(cube, {0.04, 0, 0.02});
+  const double weight = 9.81 * 1000.0 * 0.04 * 0.04 * 0.04;
+  stage.scene.contacts.push_back({0, 1, Vec3(0.02, 0, 0.02), Vec3::UnitX(), Vec3(0.8, 0, 0.4 * weight)});
+  const SceneGrasps found = stage.find();
+  EXPECT_NEAR(pick_of(found, 0).load, 0.4 * weight, 1e-12);
+  EXPECT_TRUE(pick_of(found, 0).blocked_by.empty());
+  EXPECT_TRUE(pick_of(found, 1).blocked_by.empty());
 }
 
 TEST(SceneGrasps, WhatIsTooHeavySlips) {

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """pick_part, add_parts, next_scene, clear_scene: what lies in the bin changes, and the topics with it."""
 
+import copy
 import math
 import os
 import sys
@@ -13,6 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from scene_client import CAMERA, Doors, NodeTestCase, wait_until  # noqa: E402
 from bin_scenes.msg import ErrorCode, PartLine, ScenePart  # noqa: E402
 from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
+from geometry_msgs.msg import Vector3  # noqa: E402
 from sensor_msgs.msg import PointCloud2  # noqa: E402
 
 class HeapTest(NodeTestCase):
@@ -78,6 +80,45 @@ class HeapTest(NodeTestCase):
         self.assertIn("there is no part %d" % told.parts[0], refused.message)
         self.doors.scene()
         self.assertIn("no grippers", self.doors.grasps().message)
+
+    def test_a_part_is_picked_by_a_grasp(self):
+        grippers = ["grippers=[{name: two, stroke: 0.06}, cup_10mm]", "solver.type=sphere"]
+        before = self.doors.scene(set=grippers)
+        told = self.doors.grasps(all=True)
+        best = {"ids": [told.parts[0]], "gripper": told.grippers[0], "grasp": told.poses.poses[0]}
+        self.assertTrue(told.free[0])
+        other = next(i for i, part in enumerate(told.parts) if part != told.parts[0])
+        blocked = told.free.index(False)
+        nowhere = copy.deepcopy(best["grasp"])
+        nowhere.position.z += 0.003
+        for change, words in (
+                ({"grasp": nowhere}, "'%s' has no grasp at that pose" % told.grippers[0]),
+                ({"gripper": "three"}, "no gripper 'three'"),
+                ({"ids": [told.parts[other]]}, "is one of part %d, not of part %d" % (told.parts[0], told.parts[other])),
+                ({"ids": [told.parts[blocked]], "gripper": told.grippers[blocked], "grasp": told.poses.poses[blocked]},
+                 "the grasp is not free: " + told.reasons[blocked]),
+                ({"ids": []}, "name one part"), ({"ids": [0, 1]}, "name one part"), ({"ids": [99]}, "no part 99"),
+                ({"lift_direction": Vector3(1, 0, 0)}, "straight up"), ({"lift_distance": 11}, "the distance is 11")):
+            response = self.doors.pick(**dict(best, **change))
+            self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT), words)
+            self.assertIn(words, response.message)
+        self.assertEqual(self.doors.latched().header.stamp, before.header.stamp)
+        after = self.doors.pick(**best).scene
+        self.assertEqual([p.id for p in after.parts if p.state == ScenePart.REMOVED], best["ids"])
+        stale = self.doors.pick(**best)
+        self.assertIn("no part %d" % told.parts[0], stale.message)
+
+    def test_sensors_see_the_contact_of_grasps(self):
+        told = self.doors.scene(CAMERA, set=["grippers=[{name: two, stroke: 0.06}]"])
+        self.assertEqual(len(self.doors.grasps().sensors), 0)
+        told = self.doors.grasps(all=True, render=True)
+        self.assertEqual((told.success, told.message), (True, ""))
+        self.assertEqual(told.sensors, ["camera"])
+        for shares in (told.visible, told.measured):
+            self.assertEqual(len(shares), len(told.poses.poses))
+            self.assertTrue(all(0 <= share <= 1 for share in shares))
+        self.assertGreater(max(told.visible), 0.3)
+        self.assertTrue(all(m <= v for m, v in zip(told.measured, told.visible)))
 
     def test_wrong_ids_change_nothing(self):
         before = self.doors.scene()

@@ -111,6 +111,11 @@ class View(unittest.TestCase):
         self.assertEqual(len({g["part"] for g in data["grasps"]}), min(10, len({g["part"] for g in free})))
         self.assertEqual(data["grasps"][0]["score"], max(g["score"] for g in free))
         self.assertEqual([g["name"] for g in data["grippers"]], ["cup_10mm", "two"])
+        for row in data["counts"]:
+            of_gripper = [grasp for grasp in told["grasps"] if grasp["gripper"] == row["gripper"]]
+            self.assertEqual(sum(v for k, v in row.items() if k != "gripper"), len(of_gripper))
+            self.assertEqual(row["free"], sum(grasp["free"] for grasp in of_gripper))
+            self.assertEqual(row["approach"], sum(grasp["reason"].endswith(": approach") for grasp in of_gripper))
         if CHROMIUM:
             self.assertIn('data-grasps="%d"' % len(data["grasps"]), self.browse("--dump-dom"))
 

@@ -29,6 +29,10 @@ Scene read_scene_json(const std::string& path);
 /// grasps.json as text (format "bin_scenes/grasps/1"): docs/use/outputs.md.
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request);
 
+/// Free grasps of grippers with two fingers as a file of numpy, for graspnetAPI's GraspGroup: float32, 17 columns, in
+/// the frame of the sensor.
+std::string grasps_npy(const SceneGrasps& grasps, const Sensor& sensor, const Request& request);
+
 void write_text(const std::string& path, const std::string& text);
 
 /// Organised, binary, optical frame, pose as VIEWPOINT; fields x y z normal_x normal_y normal_z intensity label
