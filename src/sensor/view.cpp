@@ -3,6 +3,7 @@
 #include "bin_scenes/core/assertion.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/drawing.hpp"
 #include "sensor/pixel_rays.hpp"
 
 namespace bin_scenes {
@@ -10,6 +11,11 @@ namespace bin_scenes {
 View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
   BIN_SCENES_ASSERT(lens.width > 0 && lens.height > 0 && lens.fx > 0.0 && lens.fy > 0.0);
   BIN_SCENES_ASSERT(is_rigid(pose) && near <= far);
+  if (std::optional<View> view = drawn(scenery, lens, pose, near, far, nullptr)) return std::move(*view);
+  return cast(scenery, lens, pose, near, far);
+}
+
+View cast(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
   View view;
   view.lens = lens;
   view.pose = pose;
