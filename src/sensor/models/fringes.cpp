@@ -82,14 +82,21 @@ Fringes::Fringes(const StructuredLightSettings& s, int width)
   const double sigma = std::max(s.defocus, 1e-3);
   const int reach = std::min(margin - 1, static_cast<int>(std::ceil(4.0 * sigma + 0.5)));
   table_.assign(static_cast<std::size_t>(samples * (width + 1) + 2) * count, 0.0f);
-  std::vector<double> sum(count);
+  std::vector<double> sum(count), shares(static_cast<std::size_t>(samples * (2 * reach + 1)));
+  for (int k = 0; k < samples; ++k) {  // a column lies in one of so many places of its pixel
+    const double column = static_cast<double>(k) / samples - 0.5, middle = std::floor(column + 0.5);
+    for (int j = -reach; j <= reach; ++j) {
+      shares[static_cast<std::size_t>(k * (2 * reach + 1) + j + reach)] =
+          below((middle + j + 0.5 - column) / sigma) - below((middle + j - 0.5 - column) / sigma);
+    }
+  }
   for (int i = 0; i <= samples * (width + 1) + 1; ++i) {
     const double column = static_cast<double>(i) / samples - 0.5;
-    const int middle = static_cast<int>(std::lround(column));
+    const int middle = static_cast<int>(std::floor(column + 0.5));
     std::fill(sum.begin(), sum.end(), 0.0);
     double total = 0.0;
     for (int j = middle - reach; j <= middle + reach; ++j) {
-      const double share = below((j + 0.5 - column) / sigma) - below((j - 0.5 - column) / sigma);
+      const double share = shares[static_cast<std::size_t>(i % samples * (2 * reach + 1) + j - middle + reach)];
       const float* const in = &shown[static_cast<std::size_t>(std::clamp(j + margin, 0, columns - 1)) * count];
       for (int n = 0; n < count; ++n) sum[n] += share * in[n];
       total += share;

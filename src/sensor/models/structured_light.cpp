@@ -48,7 +48,6 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       turn_(view.pose.orientation.toRotationMatrix()),
       codes_(view.depth.size()),
       columns_(view.depth.size()),
-      distances_(view.depth.size()),
       whites_(view.depth.size()),
       planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
@@ -106,7 +105,6 @@ void StructuredLight::light_row(std::size_t row) {
     const std::size_t i = row * width + x;
     codes_[i] = lit[x].code;
     columns_[i] = lit[x].column;
-    distances_[i] = lit[x].distance;
     whites_[i] = lit[x].reflected / std::max(lit[x].distance * lit[x].distance, 1e-12);
   }
 }
@@ -123,7 +121,8 @@ double StructuredLight::gain() const {
       const std::size_t i = y * width + x;
       lit.emplace_back();
       lit.back().code = codes_[i];
-      lit.back().distance = distances_[i];
+      lit.back().distance =
+          (setup_.projector_pose.position - (view_.pose.position + turn_ * (view_.depth[i] * rays_.at(x, y)))).norm();
       depths.push_back(view_.depth[i]);
     }
   }
@@ -163,11 +162,17 @@ double StructuredLight::depth_sigma(std::size_t index) const {
   return depth_sigma(p, fringe(p));
 }
 
+/// Whether the brightest of a fringe's images saturates.
+bool StructuredLight::saturates(const Fringe& f, double column) const {
+  if (!imager_.saturated(f.mean + f.amplitude)) return false;  // spares most pixels the cosine
+  return imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column));
+}
+
 /// The longest exposure of a fringe that does not saturate, else the shortest.
 double StructuredLight::scale_for(const Fringe& f, double column) const {
-  const double most = f.mean + f.amplitude * fringes_.brightest(column);
+  if (scales_.size() == 1) return scales_.back();
   for (const double scale : scales_) {
-    if (!imager_.saturated(scale * most)) return scale;
+    if (!saturates({scale * f.mean, scale * f.amplitude}, column)) return scale;
   }
   return scales_.back();
 }
@@ -256,7 +261,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
           amplitude += spread * normals.next();
         if (mixed) {
           out.validity[i] = Validity::mixed;
-        } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {
+        } else if (saturates(f, column)) {
           out.validity[i] = Validity::saturated;
         } else if (amplitude < setup_.settings.min_modulation) {
           out.validity[i] = code == Validity::shadow ? code : Validity::dark;
