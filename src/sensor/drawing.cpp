@@ -16,7 +16,6 @@ namespace bin_scenes {
 namespace {
 
 constexpr int band_rows = 16;  // one band's pixels stay in the processor's cache
-constexpr std::uint32_t nothing = ~0u, of_the_floor = nothing - 1;
 
 /// A mesh as the camera sees it.
 struct Body {
@@ -59,6 +58,12 @@ class Drawing {
   void draw_triangle(Band& band, const Body& body, std::uint32_t triangle, Silhouette* silhouette) const;
   void draw_floor(Band& band) const;
   void show(const Band& band);
+  struct Shown {
+    std::array<float, 3> normal;
+    std::uint16_t label;
+    std::int32_t line;
+  };
+  Shown shown_of(std::uint32_t face) const;
 
   const Scenery& scenery_;
   Lens lens_;
@@ -74,17 +79,17 @@ class Drawing {
 /// Where a band keeps some pixels of a row.
 struct Kept {
   double* near;
-  std::uint32_t *body, *triangle;
+  std::uint32_t* face;
 };
 
 struct Drawing::Band {
   int top, bottom;           // rows, inclusive
   std::vector<double> near;  // 1 / depth
-  std::vector<std::uint32_t> body, triangle;
+  std::vector<std::uint32_t> face;
 
   Kept at(int row, int width, int column) {
     const std::size_t i = static_cast<std::size_t>(row - top) * width + column;
-    return {&near[i], &body[i], &triangle[i]};
+    return {&near[i], &face[i]};
   }
 };
 
@@ -181,15 +186,13 @@ bool Drawing::place_bodies(bool for_silhouettes) {
 struct Plane {
   double start, step, lowest, highest, limit;
 };
-void draw_span(const Plane& plane, const double* ray_x, int count, const Kept& kept, std::uint32_t body,
-               std::uint32_t triangle) {
+void draw_span(const Plane& plane, const double* ray_x, int count, const Kept& kept, std::uint32_t face) {
   for (int i = 0; i < count; ++i) {
     // Of a triangle seen edge on, the plane says nothing; its corners do.
     const double here = std::min(std::max(plane.start + plane.step * ray_x[i], plane.lowest), plane.highest);
     const bool first = here > kept.near[i] && here <= plane.limit;
     kept.near[i] = first ? here : kept.near[i];
-    kept.body[i] = first ? body : kept.body[i];
-    kept.triangle[i] = first ? triangle : kept.triangle[i];
+    kept.face[i] = first ? face : kept.face[i];
   }
 }
 
@@ -200,10 +203,9 @@ void Drawing::draw_triangle(Band& band, const Body& body, std::uint32_t t, Silho
   const Vec3 normal = body.turn * plane.normal;
   const Vec3 slope = normal / (plane.offset + normal.dot(body.place));  // 1 / depth = slope . ray
   const auto [lowest, highest] = std::minmax({corner[0]->near, corner[1]->near, corner[2]->near});
-  const auto index = static_cast<std::uint32_t>(&body - bodies_.data());
   for_spans(corner, band.top, band.bottom, lens_.width, [&](int row, int first, int last) {
     const Plane along{slope.y() * rays_.y(row) + slope.z(), slope.x(), lowest, highest, nearest_};
-    draw_span(along, rays_.x() + first, last - first + 1, band.at(row, lens_.width, first), index, t);
+    draw_span(along, rays_.x() + first, last - first + 1, band.at(row, lens_.width, first), body.placed.first_face + t);
     if (silhouette) set_bits(*silhouette, row, first, last);
   });
 }
@@ -212,7 +214,7 @@ void Drawing::draw_floor(Band& band) const {
   for (int row = band.top; row <= band.bottom; ++row) {
     const Vec3 slope = turn_.row(2).transpose() / -height_over_floor_;
     const Plane along{slope.y() * rays_.y(row) + slope.z(), slope.x(), -1e300, 1e300, nearest_};
-    draw_span(along, rays_.x(), lens_.width, band.at(row, lens_.width, 0), of_the_floor, 0);
+    draw_span(along, rays_.x(), lens_.width, band.at(row, lens_.width, 0), Scenery::floor_face);
   }
 }
 
@@ -222,8 +224,7 @@ void Drawing::draw_band(int index) {
   band.bottom = std::min(band.top + band_rows, lens_.height) - 1;
   const std::size_t pixels = static_cast<std::size_t>(band.bottom - band.top + 1) * lens_.width;
   band.near.assign(pixels, farthest_);
-  band.body.assign(pixels, nothing);
-  band.triangle.assign(pixels, 0);
+  band.face.assign(pixels, Scenery::no_face);
   for (const Body& body : bodies_) {
     const std::size_t own = static_cast<std::size_t>(index) - static_cast<std::size_t>(body.first_band);
     if (own >= body.bands.size()) continue;
@@ -237,35 +238,38 @@ void Drawing::draw_band(int index) {
   show(band);
 }
 
-/// From triangles to depth, label and normal.
+/// From faces to depth, label and normal.
 void Drawing::show(const Band& band) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const std::size_t first = static_cast<std::size_t>(band.top) * lens_.width;
-  std::uint32_t body = nothing, triangle = 0;
-  std::array<float, 3> normal{nan, nan, nan};
-  std::uint16_t label = 0;
-  std::int32_t line = -1;
+  std::uint32_t face = Scenery::no_face;
+  Shown shown{{nan, nan, nan}, 0, -1};
   for (std::size_t i = 0; i < band.near.size(); ++i) {
-    if (band.body[i] != body || band.triangle[i] != triangle) {
-      body = band.body[i], triangle = band.triangle[i];
-      label = 0, line = -1;
-      Vec3 n = Vec3::Constant(nan);
-      if (body == of_the_floor) {
-        n = (height_over_floor_ > 0.0 ? 1.0 : -1.0) * turn_.row(2).transpose();
-      } else if (body != nothing) {
-        const Body& seen = bodies_[body];
-        label = seen.placed.label, line = seen.placed.line;
-        const Scenery::Plane& plane = (*seen.placed.planes)[triangle];
-        n = seen.turn * plane.normal;
-        if (plane.offset + n.dot(seen.place) > 0.0) n = -n;  // towards the lens
-      }
-      normal = {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
-    }
-    view_.depth[first + i] = body == nothing ? std::numeric_limits<double>::quiet_NaN() : 1.0 / band.near[i];
-    view_.label[first + i] = label;
-    view_.normal[first + i] = normal;
-    view_.line[first + i] = line;
+    if (band.face[i] != face) shown = shown_of(face = band.face[i]);
+    view_.depth[first + i] = face == Scenery::no_face ? std::numeric_limits<double>::quiet_NaN() : 1.0 / band.near[i];
+    view_.label[first + i] = shown.label;
+    view_.normal[first + i] = shown.normal;
+    view_.face[first + i] = face;
+    view_.line[first + i] = shown.line;
   }
+}
+
+Drawing::Shown Drawing::shown_of(std::uint32_t face) const {
+  Vec3 n = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Shown shown{{}, 0, -1};
+  if (face == Scenery::floor_face) {
+    n = (height_over_floor_ > 0.0 ? 1.0 : -1.0) * turn_.row(2).transpose();
+  } else if (face != Scenery::no_face) {
+    const auto after = std::upper_bound(bodies_.begin(), bodies_.end(), face,
+                                        [](std::uint32_t f, const Body& body) { return f < body.placed.first_face; });
+    const Body& body = *std::prev(after);
+    const Scenery::Plane& plane = (*body.placed.planes)[face - body.placed.first_face];
+    n = body.turn * plane.normal;
+    if (plane.offset + n.dot(body.place) > 0.0) n = -n;  // towards the lens
+    shown.label = body.placed.label, shown.line = body.placed.line;
+  }
+  shown.normal = {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())};
+  return shown;
 }
 
 void Drawing::draw() {
@@ -274,6 +278,7 @@ void Drawing::draw() {
   view_.label.resize(pixels);
   view_.normal.resize(pixels);
   view_.line.resize(pixels);
+  view_.face.resize(pixels);
   in_parallel(static_cast<std::size_t>((lens_.height + band_rows - 1) / band_rows),
               [&](std::size_t band) { draw_band(static_cast<int>(band)); });
   for (Silhouette& s : silhouettes_)

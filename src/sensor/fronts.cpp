@@ -51,4 +51,20 @@ bool shows_fronts_only(const Mesh& mesh) {
   return closed(mesh) && all_face_outward(mesh);
 }
 
+std::vector<char> outermost_triangles(const Mesh& mesh) {
+  constexpr double flat = 1e-6;  // m: less than rays begin above a surface
+  constexpr double most = 2e8;   // comparisons, a second
+  std::vector<char> out(mesh.triangles.size(), 0);
+  double left = most;
+  for (std::size_t t = 0; t < out.size() && left > 0.0; ++t) {
+    const Vec3 normal = mesh.area_vector(t).normalized();
+    const double offset = normal.dot(mesh.vertices[mesh.triangles[t][0]]) + flat;
+    std::size_t v = 0;
+    while (v < mesh.vertices.size() && normal.dot(mesh.vertices[v]) <= offset) ++v;
+    out[t] = v == mesh.vertices.size() && normal.squaredNorm() > 0.5;
+    left -= static_cast<double>(v);
+  }
+  return out;
+}
+
 }  // namespace bin_scenes

@@ -10,6 +10,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -130,6 +131,7 @@ struct MeshTree {
   Mesh own;
   RTCScene embree = nullptr;
   std::vector<Scenery::Plane> planes;  // of each triangle
+  std::vector<char> outermost;         // whether no corner of the mesh lies before it
   bool closed = false;
   /// Smooth normals of the corners of each triangle; made when they are asked for first.
   const std::vector<Corners>& corners() const {
@@ -163,6 +165,7 @@ struct MeshTree {
       planes.push_back({normal, normal.dot(a)});
     }
     closed = shows_fronts_only(m);
+    outermost = outermost_triangles(m);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(embree, geometry);
     rtcReleaseGeometry(geometry);
@@ -214,7 +217,8 @@ struct Scenery::State {
     std::uint16_t label = 0;
     std::int32_t line = -1;
     int id = -1;
-    std::int64_t part = -1;        // index into Scene::parts
+    std::int64_t part = -1;  // index into Scene::parts
+    std::uint32_t first_face = 0;
     Mat3 turn = Mat3::Identity();  // of the pose
   };
   RTCScene scene = nullptr;
@@ -228,6 +232,8 @@ struct Scenery::State {
   }
 
   void add(MeshTreePtr tree, PartModelPtr model, const Pose& pose, std::uint16_t label, std::int32_t line, int id) {
+    const auto first_face =
+        bodies.empty() ? 0 : bodies.back().first_face + static_cast<std::uint32_t>(bodies.back().tree->planes.size());
     const std::int64_t part = label ? static_cast<std::int64_t>(of_part.size()) - 1 : -1;
     BIN_SCENES_ASSERT(is_rigid(pose));
     const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
@@ -236,8 +242,8 @@ struct Scenery::State {
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(bodies.size()));
     rtcReleaseGeometry(instance);
-    bodies.push_back(
-        {std::move(tree), std::move(model), pose, label, line, id, part, pose.orientation.toRotationMatrix()});
+    bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, part, first_face,
+                      pose.orientation.toRotationMatrix()});
   }
 
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
@@ -382,7 +388,24 @@ std::size_t Scenery::body_count() const {
 
 Scenery::Body Scenery::body(std::size_t index) const {
   const State::Body& body = state_->bodies.at(index);
-  return {&body.tree->mesh(), &body.tree->planes, body.tree->closed, body.pose, body.part, body.label, body.line};
+  return {&body.tree->mesh(), &body.tree->planes, body.tree->closed, body.first_face,
+          body.pose,          body.part,          body.label,        body.line};
+}
+
+Scenery::Face Scenery::face(std::uint32_t face) const {
+  if (face >= floor_face) return {};
+  const std::vector<State::Body>& all = state_->bodies;
+  const auto after = std::upper_bound(all.begin(), all.end(), face,
+                                      [](std::uint32_t f, const State::Body& body) { return f < body.first_face; });
+  const State::Body& body = *std::prev(after);
+  const std::uint32_t triangle = face - body.first_face;
+  return {static_cast<std::uint32_t>(after - all.begin() - 1), triangle, body.turn * body.tree->planes[triangle].normal,
+          body.tree->outermost[triangle] != 0};
+}
+
+std::uint32_t Scenery::face_of(const Hit& hit) const {
+  if (std::isnan(hit.distance)) return no_face;
+  return hit.body == State::of_the_floor ? floor_face : state_->bodies[hit.body].first_face + hit.triangle;
 }
 
 bool Scenery::on_floor() const {

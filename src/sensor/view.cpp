@@ -24,6 +24,7 @@ View cast(const Scenery& scenery, const Lens& lens, const Pose& pose, double nea
   view.label.resize(width * height);
   view.normal.resize(width * height);
   view.line.resize(width * height);
+  view.face.resize(width * height);
   const Mat3 turn = pose.orientation.toRotationMatrix(), back = turn.transpose();
   const PixelRays directions(lens);
   in_parallel(height, [&](std::size_t row) {
@@ -41,6 +42,7 @@ View cast(const Scenery& scenery, const Lens& lens, const Pose& pose, double nea
       view.label[i] = hit.label;
       view.normal[i] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())};
       view.line[i] = hit.line;
+      view.face[i] = scenery.face_of(hit);
     }
   });
   return view;

@@ -3,6 +3,7 @@
 #include "bin_scenes/sensor/silhouettes.hpp"
 #include "sensor/drawing.hpp"
 #include "sensor/fronts.hpp"
+#include "sensor/sight.hpp"
 #include "sensor/stage.hpp"
 
 #include <gtest/gtest.h>
@@ -129,6 +130,38 @@ TEST(View, IsTheSameDrawnAndCast) {
         EXPECT_LE(other, 2u) << "Embree is single at edges: " << static_cast<int>(kind) << " " << near << " " << height;
       }
     }
+  }
+}
+
+/// Of parts beside and above each other in a bin, on a floor and alone.
+TEST(View, WhatClearSightSparesNoRayIsBlocked) {
+  for (const Bin::Kind kind : {Bin::Kind::box, Bin::Kind::floor, Bin::Kind::none}) {
+    Stage stage;
+    scatter(stage, 0.1, 11);
+    stage.place(stage.model(test::torus_mesh(0.05, 0.02, 32, 16)),
+                {Vec3(0.05, 0.05, 0.15), turned(0.4, Vec3(1, 2, 0))});
+    stage.request.bin.kind = kind;
+    const Scenery scenery = stage.scenery();
+    const Pose camera = at(0, 0, 0.9, Quat(0, 1, 0, 0)), light = at(0.15, 0, 0.9, turned(M_PI - 0.05, Vec3(1, 0.2, 0)));
+    const Lens lens = Lens::from_fov(200, 160, 0.6);
+    const View view = render(scenery, lens, camera, 0.05, 10.0);
+    const ClearSight sight(scenery, Lens::from_fov(600, 400, 0.9), light);
+    std::size_t spared = 0, lit = 0;
+    for (std::size_t i = 0; i < view.depth.size(); ++i) {
+      if (std::isnan(view.depth[i])) continue;
+      const Vec3 normal = camera.orientation * Vec3(view.normal[i][0], view.normal[i][1], view.normal[i][2]);
+      const Vec3 point =
+          camera * (view.depth[i] * lens.ray(static_cast<double>(i % 200), static_cast<double>(i / 200)));
+      if (normal.dot(light.position - point) <= 0.0) continue;
+      const Ray ray{point + 1e-5 * normal, light.position - point - 1e-5 * normal, 0.0, 1.0};
+      std::uint8_t blocked = 0;
+      scenery.blocked(&ray, &blocked, 1);
+      lit += blocked == 0;
+      if (!sight.clear(point, scenery.face(view.face[i]), view.face[i] == Scenery::floor_face)) continue;
+      ++spared;
+      ASSERT_EQ(blocked, 0) << i % 200 << " " << i / 200 << " " << static_cast<int>(kind);
+    }
+    EXPECT_GT(spared, lit / 2) << static_cast<int>(kind);
   }
 }
 

@@ -81,6 +81,7 @@ class Scenery {
     const Mesh* mesh = nullptr;
     const std::vector<Plane>* planes = nullptr;  ///< of the mesh's triangles, in its frame
     bool closed = false;                         ///< who stands outside sees fronts of triangles only
+    std::uint32_t first_face = 0;                ///< that of its triangle 0
     Pose pose;
     std::int64_t part = -1;  ///< index into Scene::parts; -1: the bin
     std::uint16_t label = 0;
@@ -88,6 +89,18 @@ class Scenery {
   };
   std::size_t body_count() const;
   Body body(std::size_t body) const;
+
+  /// A number of each triangle of all bodies, those of one body in a row.
+  static constexpr std::uint32_t no_face = ~0u, floor_face = no_face - 1;
+  struct Face {
+    std::uint32_t body = no_face, triangle = 0;
+    Vec3 normal = Vec3::Zero();  ///< outward, bin frame
+    bool outermost = false;      ///< all of the body lies behind its plane
+  };
+  Face face(std::uint32_t face) const;
+  /// The face that a ray hit.
+  std::uint32_t face_of(const Hit& hit) const;
+
   /// Whether an endless floor lies at z = 0.
   bool on_floor() const;
 

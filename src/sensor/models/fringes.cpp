@@ -43,7 +43,11 @@ double below(double x) {
 }  // namespace
 
 Fringes::Fringes(const StructuredLightSettings& s, int width)
-    : steps_(s.steps), width_(width), period_(s.period), black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
+    : steps_(s.steps),
+      width_(width),
+      period_(s.period),
+      averaging_(std::sqrt(2.0 / s.steps)),
+      black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
   const int needed = bits_for(2.0 * std::ceil(width / period_));
   bits_ = s.gray_bits ? s.gray_bits : needed;
   if (bits_ < needed) {
@@ -180,7 +184,7 @@ double Fringes::column_sigma(double image_sigma, double modulation) const {
 }
 
 double Fringes::amplitude_sigma(double image_sigma) const {
-  return std::sqrt(2.0 / steps_) * image_sigma;
+  return averaging_ * image_sigma;
 }
 
 }  // namespace bin_scenes

@@ -27,6 +27,7 @@ struct SeenPoint {
   Vec3 position, normal;  ///< the normal turned towards the eye
   std::int32_t line = -1;
   bool hit = false;
+  bool clear = false;  ///< nothing lies between it and the light: no ray needs to be asked
 };
 
 SeenPoint seen_point(const View& view, std::size_t pixel);

@@ -45,6 +45,7 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       imager_(setup.imager, setup.noise),
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       rays_(view.lens),
+      sight_(scenery, setup.projector, setup.projector_pose),
       turn_(view.pose.orientation.toRotationMatrix()),
       codes_(view.depth.size()),
       columns_(view.depth.size()),
@@ -92,12 +93,17 @@ void StructuredLight::light_row(std::size_t row) {
   const auto width = static_cast<std::size_t>(view_.lens.width);
   std::vector<SeenPoint> points(width);
   std::vector<Lit> lit(width);
+  std::uint32_t number = Scenery::no_face;
+  Scenery::Face face;
   for (std::size_t x = 0; x < width; ++x) {
     const std::size_t i = row * width + x;
     const Pixel p = pixel(x, row);
     planes_[i] = view_.depth[i] * p.normal.dot(p.ray);
     if (std::isnan(view_.depth[i])) continue;
-    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * p.ray), turn_ * p.normal, view_.line[i], true};
+    if (view_.face[i] != number) face = scenery_.face(number = view_.face[i]);
+    const Vec3 point = view_.pose.position + turn_ * (view_.depth[i] * p.ray);
+    points[x] = {point, turn_ * p.normal, view_.line[i], true,
+                 sight_.clear(point, face, number == Scenery::floor_face)};
   }
   light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
         width);

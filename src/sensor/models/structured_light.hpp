@@ -23,6 +23,7 @@
 #include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
 #include "sensor/pixel_rays.hpp"
+#include "sensor/sight.hpp"
 
 #include <memory>
 #include <vector>
@@ -93,6 +94,7 @@ class StructuredLight {
   Imager imager_;
   Triangulation triangulation_;
   PixelRays rays_;
+  ClearSight sight_;
   Mat3 turn_;  ///< of the camera
 
   // Of the light that falls on what each pixel's centre sees, row-major.

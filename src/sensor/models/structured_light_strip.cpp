@@ -128,7 +128,10 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   std::vector<Lit> lit(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Hit& hit = hits[i];
-    points[i] = {rays[i].origin + hit.distance * rays[i].direction, hit.normal, hit.line, !std::isnan(hit.distance)};
+    const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
+    const std::uint32_t face = model_.scenery_.face_of(hit);
+    points[i] = {point, hit.normal, hit.line, face != Scenery::no_face,
+                 model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
   }
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());
