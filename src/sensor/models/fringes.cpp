@@ -40,6 +40,18 @@ double below(double x) {
   return 0.5 * std::erfc(-x * M_SQRT1_2);
 }
 
+/// Light of a projector's pixel in the columns from `reach` before to `reach` after it, for each of the places in a
+/// column that the table has.
+std::vector<double> shares_of_neighbours(double sigma, int reach) {
+  std::vector<double> shares;
+  for (int k = 0; k < samples; ++k) {
+    const double column = static_cast<double>(k) / samples - 0.5, middle = std::floor(column + 0.5);
+    for (int j = -reach; j <= reach; ++j)
+      shares.push_back(below((middle + j + 0.5 - column) / sigma) - below((middle + j - 0.5 - column) / sigma));
+  }
+  return shares;
+}
+
 }  // namespace
 
 Fringes::Fringes(const StructuredLightSettings& s, int width)
@@ -86,14 +98,8 @@ Fringes::Fringes(const StructuredLightSettings& s, int width)
   const double sigma = std::max(s.defocus, 1e-3);
   const int reach = std::min(margin - 1, static_cast<int>(std::ceil(4.0 * sigma + 0.5)));
   table_.assign(static_cast<std::size_t>(samples * (width + 1) + 2) * count, 0.0f);
-  std::vector<double> sum(count), shares(static_cast<std::size_t>(samples * (2 * reach + 1)));
-  for (int k = 0; k < samples; ++k) {  // a column lies in one of so many places of its pixel
-    const double column = static_cast<double>(k) / samples - 0.5, middle = std::floor(column + 0.5);
-    for (int j = -reach; j <= reach; ++j) {
-      shares[static_cast<std::size_t>(k * (2 * reach + 1) + j + reach)] =
-          below((middle + j + 0.5 - column) / sigma) - below((middle + j - 0.5 - column) / sigma);
-    }
-  }
+  const std::vector<double> shares = shares_of_neighbours(sigma, reach);
+  std::vector<double> sum(count);
   for (int i = 0; i <= samples * (width + 1) + 1; ++i) {
     const double column = static_cast<double>(i) / samples - 0.5;
     const int middle = static_cast<int>(std::floor(column + 0.5));
