@@ -75,7 +75,7 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
     const Sensor& sensor = scene.sensors[s];
     flag_what_stands_inside(sensor, scene, loaded.parts);
     const Sensor device = true_device(scene.sensors, s, scene.seed);
-    Seen seen = see(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
+    SeenWithMasks seen = see(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};
     RangeImage& image = images[s] = measure(scenery, std::move(seen.view), device, surfaces, draw);
     report_as_believed(image, device, sensor);

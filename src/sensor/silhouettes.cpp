@@ -159,8 +159,8 @@ std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, do
   return all;
 }
 
-Seen see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
-  Seen seen;
+SeenWithMasks see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+  SeenWithMasks seen;
   if (std::optional<View> view = drawn(scenery, lens, pose, near, far, &seen.alone)) {
     seen.view = std::move(*view);
     return seen;

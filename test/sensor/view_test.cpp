@@ -88,7 +88,7 @@ TEST(View, DrawnIsWhatADoublePrecisionRayCastSeesUpToTheLastPixel) {
     const Pose world{Vec3(0.3, -0.2, 0.4), turned(0.7, Vec3(1, 2, 3))};
     for (ScenePart& part : stage.scene.parts) part.pose = world * part.pose;
     const Lens lens = Lens::from_fov(150, 120, 0.45);
-    const Seen seen = see(stage.scenery(), lens, world, 0.05, 10.0);
+    const SeenWithMasks seen = see(stage.scenery(), lens, world, 0.05, 10.0);
     ASSERT_TRUE(drawn(stage.scenery(), lens, world, 0.05, 10.0, nullptr)) << "nothing is left to rays here";
     const BruteCast brute(stage);
     for (int row = 0; row < lens.height; ++row) {

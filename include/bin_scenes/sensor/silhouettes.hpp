@@ -22,10 +22,10 @@ struct Silhouette {
 std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, double near, double far);
 
 /// render() and silhouettes() in one pass where that can be.
-struct Seen {
+struct SeenWithMasks {
   View view;
   std::vector<Silhouette> alone;
 };
-Seen see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
+SeenWithMasks see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
 
 }  // namespace bin_scenes
