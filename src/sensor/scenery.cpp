@@ -5,10 +5,12 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "sensor/bin_mesh.hpp"
+#include "sensor/fronts.hpp"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -128,12 +130,9 @@ struct MeshTree {
   PartModelPtr owner;  // none: `own` is the mesh
   Mesh own;
   RTCScene embree = nullptr;
-  /// Of each triangle: normal (unit) and its product with any point of the plane.
-  struct Plane {
-    Vec3 normal;
-    double offset;
-  };
-  std::vector<Plane> planes;
+  std::vector<Scenery::Plane> planes;  // of each triangle
+  std::vector<char> outermost;         // whether no corner of the mesh lies before it
+  bool closed = false;
   /// Smooth normals of the corners of each triangle; made when they are asked for first.
   const std::vector<Corners>& corners() const {
     std::call_once(once_, [this] { corners_ = smooth_corners(mesh()); });
@@ -165,6 +164,8 @@ struct MeshTree {
       const Vec3 normal = (m.vertices[t[1]] - a).cross(m.vertices[t[2]] - a).normalized();
       planes.push_back({normal, normal.dot(a)});
     }
+    closed = shows_fronts_only(m);
+    outermost = outermost_triangles(m);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(embree, geometry);
     rtcReleaseGeometry(geometry);
@@ -216,6 +217,8 @@ struct Scenery::State {
     std::uint16_t label = 0;
     std::int32_t line = -1;
     int id = -1;
+    std::int64_t part = -1;  // index into Scene::parts
+    std::uint32_t first_face = 0;
     Mat3 turn = Mat3::Identity();  // of the pose
   };
   RTCScene scene = nullptr;
@@ -229,6 +232,9 @@ struct Scenery::State {
   }
 
   void add(MeshTreePtr tree, PartModelPtr model, const Pose& pose, std::uint16_t label, std::int32_t line, int id) {
+    const auto first_face =
+        bodies.empty() ? 0 : bodies.back().first_face + static_cast<std::uint32_t>(bodies.back().tree->planes.size());
+    const std::int64_t part = label ? static_cast<std::int64_t>(of_part.size()) - 1 : -1;
     BIN_SCENES_ASSERT(is_rigid(pose));
     const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, tree->embree);
@@ -236,7 +242,8 @@ struct Scenery::State {
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(bodies.size()));
     rtcReleaseGeometry(instance);
-    bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, pose.orientation.toRotationMatrix()});
+    bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, part, first_face,
+                      pose.orientation.toRotationMatrix()});
   }
 
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
@@ -281,7 +288,7 @@ Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) c
   Hit hit;
   const Body& body = bodies[packet.hit.instID[0][lane]];
   hit.triangle = packet.hit.primID[lane];
-  const MeshTree::Plane& plane = body.tree->planes[hit.triangle];
+  const Plane& plane = body.tree->planes[hit.triangle];
   const Vec3 normal = body.turn * plane.normal;
   const double rise = normal.dot(ray.direction);
   hit.distance = (plane.offset + normal.dot(body.pose.position - ray.origin)) / rise;
@@ -373,6 +380,36 @@ Scenery::Placed Scenery::part(std::size_t part) const {
   if (index < 0) return {};
   const State::Body& body = state_->bodies[static_cast<std::size_t>(index)];
   return {&body.tree->mesh(), body.pose, body.id};
+}
+
+std::size_t Scenery::body_count() const {
+  return state_->bodies.size();
+}
+
+Scenery::Body Scenery::body(std::size_t index) const {
+  const State::Body& body = state_->bodies.at(index);
+  return {&body.tree->mesh(), &body.tree->planes, body.tree->closed, body.first_face,
+          body.pose,          body.part,          body.label,        body.line};
+}
+
+Scenery::Face Scenery::face(std::uint32_t face) const {
+  if (face >= floor_face) return {};
+  const std::vector<State::Body>& all = state_->bodies;
+  const auto after = std::upper_bound(all.begin(), all.end(), face,
+                                      [](std::uint32_t f, const State::Body& body) { return f < body.first_face; });
+  const State::Body& body = *std::prev(after);
+  const std::uint32_t triangle = face - body.first_face;
+  return {static_cast<std::uint32_t>(after - all.begin() - 1), triangle, body.turn * body.tree->planes[triangle].normal,
+          body.tree->outermost[triangle] != 0};
+}
+
+std::uint32_t Scenery::face_of(const Hit& hit) const {
+  if (std::isnan(hit.distance)) return no_face;
+  return hit.body == State::of_the_floor ? floor_face : state_->bodies[hit.body].first_face + hit.triangle;
+}
+
+bool Scenery::on_floor() const {
+  return state_->floor;
 }
 
 }  // namespace bin_scenes

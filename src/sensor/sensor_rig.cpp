@@ -75,12 +75,11 @@ void SensorRig::render(Scene& scene, const LoadedRequest& loaded, const std::vec
     const Sensor& sensor = scene.sensors[s];
     flag_what_stands_inside(sensor, scene, loaded.parts);
     const Sensor device = true_device(scene.sensors, s, scene.seed);
-    View view = bin_scenes::render(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
-    std::vector<Silhouette> alone = silhouettes(scenery, view, sensor.near, sensor.far);
+    SeenWithMasks seen = see(scenery, lens_of(device), *device.pose, sensor.near, sensor.far);
     const Draw draw{scene.seed, scene.index, s};
-    RangeImage& image = images[s] = measure(scenery, std::move(view), device, surfaces, draw);
+    RangeImage& image = images[s] = measure(scenery, std::move(seen.view), device, surfaces, draw);
     report_as_believed(image, device, sensor);
-    count_pixels(image, scene, std::move(alone));
+    count_pixels(image, scene, std::move(seen.alone));
     scene.report.profile.count("views");
     scene.report.profile.count("noisy_images", sensor.noise && !sensor_model(sensor.model).exact);
     std::size_t there = 0;

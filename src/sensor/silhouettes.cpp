@@ -3,6 +3,8 @@
 #include "bin_scenes/sensor/silhouettes.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/drawing.hpp"
+#include "sensor/spans.hpp"
 
 #include <algorithm>
 #include <bitset>
@@ -77,37 +79,17 @@ void set(Silhouette& s, int x, int y) {
 /// Where lines stay straight and no triangle leaves the range, its projection says which pixel centres it covers. That
 /// is what a ray through each would find, at a fifth of the time: triangles are few, and pixels many.
 void fill_by_triangles(Silhouette& s, const Mesh& mesh, const std::vector<Vec3>& corners, const Lens& lens) {
-  std::vector<Eigen::Vector2d> at;  // in the rectangle
+  std::vector<Corner> at;  // in the rectangle
   at.reserve(corners.size());
   for (const Vec3& p : corners) {
     const double y = p.y() / p.z();
-    at.emplace_back(lens.fx * p.x() / p.z() + lens.skew * y + lens.cx - s.left, lens.fy * y + lens.cy - s.top);
+    at.push_back({lens.fx * p.x() / p.z() + lens.skew * y + lens.cx - s.left, lens.fy * y + lens.cy - s.top, 0.0});
   }
-  constexpr double edge = 1e-9;  // pixel; a centre between two triangles belongs to one of them, whatever the rounding
   for (const Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector2d* const corner[3] = {&at[triangle[0]], &at[triangle[1]], &at[triangle[2]]};
-    const auto [low, high] = std::minmax({corner[0]->y(), corner[1]->y(), corner[2]->y()});
-    const auto [near_x, far_x] = std::minmax({corner[0]->x(), corner[1]->x(), corner[2]->x()});
-    if (far_x < 0.0 || near_x > s.width - 1.0) continue;
-    const int last = static_cast<int>(std::floor(std::min(high + edge, s.height - 1.0)));
-    for (int y = static_cast<int>(std::ceil(std::max(low - edge, 0.0))); y <= last; ++y) {
-      double first_x = far_x, last_x = near_x;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector2d &a = *corner[k], &b = *corner[(k + 1) % 3];
-        const auto [below, above] = std::minmax(a.y(), b.y());
-        if (y < below - edge || y > above + edge) continue;
-        const double share = above - below > edge ? std::clamp((y - a.y()) / (b.y() - a.y()), 0.0, 1.0) : 0.0;
-        const double x = a.x() + share * (b.x() - a.x());
-        first_x = std::min(first_x, x);
-        last_x = std::max(last_x, x);
-        if (above - below <= edge) {  // runs along the row
-          first_x = std::min(first_x, b.x());
-          last_x = std::max(last_x, b.x());
-        }
-      }
-      const int end = static_cast<int>(std::floor(std::min(last_x + edge, s.width - 1.0)));
-      for (int x = static_cast<int>(std::ceil(std::max(first_x - edge, 0.0))); x <= end; ++x) set(s, x, y);
-    }
+    const Corner* const corner[3] = {&at[triangle[0]], &at[triangle[1]], &at[triangle[2]]};
+    for_spans(corner, 0, s.height - 1, s.width, [&](int y, int first, int last) {
+      for (int x = first; x <= last; ++x) set(s, x, y);
+    });
   }
 }
 
@@ -175,6 +157,17 @@ std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, do
     finish(s, view, part.id + 1);
   });
   return all;
+}
+
+SeenWithMasks see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
+  SeenWithMasks seen;
+  if (std::optional<View> view = drawn(scenery, lens, pose, near, far, &seen.alone)) {
+    seen.view = std::move(*view);
+    return seen;
+  }
+  seen.view = render(scenery, lens, pose, near, far);
+  seen.alone = silhouettes(scenery, seen.view, near, far);
+  return seen;
 }
 
 }  // namespace bin_scenes

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/assertion.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/drawing.hpp"
 #include "sensor/pixel_rays.hpp"
 
 namespace bin_scenes {
@@ -10,6 +11,11 @@ namespace bin_scenes {
 View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
   BIN_SCENES_ASSERT(lens.width > 0 && lens.height > 0 && lens.fx > 0.0 && lens.fy > 0.0);
   BIN_SCENES_ASSERT(is_rigid(pose) && near <= far);
+  if (std::optional<View> view = drawn(scenery, lens, pose, near, far, nullptr)) return std::move(*view);
+  return cast(scenery, lens, pose, near, far);
+}
+
+View cast(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far) {
   View view;
   view.lens = lens;
   view.pose = pose;
@@ -18,6 +24,7 @@ View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double n
   view.label.resize(width * height);
   view.normal.resize(width * height);
   view.line.resize(width * height);
+  view.face.resize(width * height);
   const Mat3 turn = pose.orientation.toRotationMatrix(), back = turn.transpose();
   const PixelRays directions(lens);
   in_parallel(height, [&](std::size_t row) {
@@ -35,6 +42,7 @@ View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double n
       view.label[i] = hit.label;
       view.normal[i] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())};
       view.line[i] = hit.line;
+      view.face[i] = scenery.face_of(hit);
     }
   });
   return view;

@@ -1,5 +1,9 @@
 #include "bin_scenes/sensor/view.hpp"
 
+#include "bin_scenes/sensor/silhouettes.hpp"
+#include "sensor/drawing.hpp"
+#include "sensor/fronts.hpp"
+#include "sensor/sight.hpp"
 #include "sensor/stage.hpp"
 
 #include <gtest/gtest.h>
@@ -71,6 +75,104 @@ TEST(View, IsWhatADoublePrecisionRayCastSees) {
     const View view = render(stage.scenery(), lens, world, 0.05, 10.0);
     expect_as_brute(view, BruteCast(stage), 0.05, 10.0, 2e-6);
   }
+}
+
+/// Of a heap in a bin: label and depth of each pixel, those at borders too, and what of each part others hide.
+TEST(View, DrawnIsWhatADoublePrecisionRayCastSeesUpToTheLastPixel) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Stage stage;
+    scatter(stage, 0.8, seed);
+    Mesh open = test::box_mesh({0.08, 0.08, 0.05});
+    open.triangles.resize(9);  // one sees into it, and through it
+    stage.place(stage.model(open), {Vec3(0.02, 0.03, 0.7), turned(2.0, Vec3(seed, 1, 0))});
+    const Pose world{Vec3(0.3, -0.2, 0.4), turned(0.7, Vec3(1, 2, 3))};
+    for (ScenePart& part : stage.scene.parts) part.pose = world * part.pose;
+    const Lens lens = Lens::from_fov(150, 120, 0.45);
+    const SeenWithMasks seen = see(stage.scenery(), lens, world, 0.05, 10.0);
+    ASSERT_TRUE(drawn(stage.scenery(), lens, world, 0.05, 10.0, nullptr)) << "nothing is left to rays here";
+    const BruteCast brute(stage);
+    for (int row = 0; row < lens.height; ++row) {
+      for (int column = 0; column < lens.width; ++column) {
+        const std::size_t i = static_cast<std::size_t>(row) * lens.width + column;
+        const Vec3 ray = world.orientation * lens.ray(column, row);
+        const BruteHit hit = brute.hit(world.position, ray, 0.05, 10.0);
+        ASSERT_EQ(seen.view.label[i], hit.label) << column << " " << row;
+        ASSERT_FALSE(std::abs(seen.view.depth[i] - hit.distance) > 1e-9) << column << " " << row;
+        for (int part = 0; part < static_cast<int>(seen.alone.size()); ++part) {
+          const bool covers = brute.hit(world.position, ray, 0.05, 10.0, part + 1).label != 0;
+          ASSERT_EQ(seen.alone[static_cast<std::size_t>(part)].at(column, row), covers) << part << column << " " << row;
+        }
+      }
+    }
+  }
+}
+
+/// In a box bin and on a floor, near and far, where a part lies partly out of range or a wall behind the lens.
+TEST(View, IsTheSameDrawnAndCast) {
+  Stage stage;
+  scatter(stage, 0.05, 7);
+  const Lens lens = Lens::from_fov(160, 120, 0.9);
+  for (const Bin::Kind kind : {Bin::Kind::box, Bin::Kind::floor, Bin::Kind::none}) {
+    stage.request.bin.kind = kind;
+    for (const auto& [near, far] : {std::pair{0.01, 10.0}, {0.55, 10.0}, {0.01, 0.6}, {0.58, 0.62}}) {
+      for (const double height : {0.6, 0.2}) {
+        const Pose above = at(0.02, -0.01, height, turned(M_PI - 0.1, Vec3(1, 0.1, 0)));
+        const Scenery scenery = stage.scenery();
+        const View view = render(scenery, lens, above, near, far), rays = cast(scenery, lens, above, near, far);
+        std::size_t other = 0;
+        for (std::size_t i = 0; i < view.depth.size(); ++i) {
+          const bool same = view.label[i] == rays.label[i] && view.line[i] == rays.line[i] &&
+                            std::isnan(view.depth[i]) == std::isnan(rays.depth[i]) &&
+                            !(std::abs(view.depth[i] - rays.depth[i]) > 1e-9) &&
+                            !(std::abs(view.normal[i][2] - rays.normal[i][2]) > 1e-6);
+          other += !same;
+        }
+        EXPECT_LE(other, 2u) << "Embree is single at edges: " << static_cast<int>(kind) << " " << near << " " << height;
+      }
+    }
+  }
+}
+
+/// Of parts beside and above each other in a bin, on a floor and alone.
+TEST(View, WhatClearSightSparesNoRayIsBlocked) {
+  for (const Bin::Kind kind : {Bin::Kind::box, Bin::Kind::floor, Bin::Kind::none}) {
+    Stage stage;
+    scatter(stage, 0.1, 11);
+    stage.place(stage.model(test::torus_mesh(0.05, 0.02, 32, 16)),
+                {Vec3(0.05, 0.05, 0.15), turned(0.4, Vec3(1, 2, 0))});
+    stage.request.bin.kind = kind;
+    const Scenery scenery = stage.scenery();
+    const Pose camera = at(0, 0, 0.9, Quat(0, 1, 0, 0)), light = at(0.15, 0, 0.9, turned(M_PI - 0.05, Vec3(1, 0.2, 0)));
+    const Lens lens = Lens::from_fov(200, 160, 0.6);
+    const View view = render(scenery, lens, camera, 0.05, 10.0);
+    const ClearSight sight(scenery, Lens::from_fov(600, 400, 0.9), light);
+    std::size_t spared = 0, lit = 0;
+    for (std::size_t i = 0; i < view.depth.size(); ++i) {
+      if (std::isnan(view.depth[i])) continue;
+      const Vec3 normal = camera.orientation * Vec3(view.normal[i][0], view.normal[i][1], view.normal[i][2]);
+      const Vec3 point =
+          camera * (view.depth[i] * lens.ray(static_cast<double>(i % 200), static_cast<double>(i / 200)));
+      if (normal.dot(light.position - point) <= 0.0) continue;
+      const Ray ray{point + 1e-5 * normal, light.position - point - 1e-5 * normal, 0.0, 1.0};
+      std::uint8_t blocked = 0;
+      scenery.blocked(&ray, &blocked, 1);
+      lit += blocked == 0;
+      if (!sight.clear(point, scenery.face(view.face[i]), view.face[i] == Scenery::floor_face)) continue;
+      ++spared;
+      ASSERT_EQ(blocked, 0) << i % 200 << " " << i / 200 << " " << static_cast<int>(kind);
+    }
+    EXPECT_GT(spared, lit / 2) << static_cast<int>(kind);
+  }
+}
+
+TEST(View, AMeshShowsOnlyFrontsIfItIsClosedAndNoShellIsTurnedInsideOut) {
+  Mesh box = test::box_mesh({0.1, 0.1, 0.1});
+  EXPECT_TRUE(shows_fronts_only(box));
+  Mesh turned_inside_out = box, open = box;
+  for (Triangle& t : turned_inside_out.triangles) std::swap(t[0], t[1]);
+  open.triangles.pop_back();
+  EXPECT_FALSE(shows_fronts_only(turned_inside_out));
+  EXPECT_FALSE(shows_fronts_only(open));
 }
 
 TEST(View, SeesThroughADistortedLens) {

@@ -71,6 +71,39 @@ class Scenery {
   std::size_t part_count() const;
   Placed part(std::size_t part) const;
 
+  /// The plane of a triangle: unit normal, and its product with any point.
+  struct Plane {
+    Vec3 normal;
+    double offset;
+  };
+  /// One of all meshes that are there, the bin's included.
+  struct Body {
+    const Mesh* mesh = nullptr;
+    const std::vector<Plane>* planes = nullptr;  ///< of the mesh's triangles, in its frame
+    bool closed = false;                         ///< who stands outside sees fronts of triangles only
+    std::uint32_t first_face = 0;                ///< that of its triangle 0
+    Pose pose;
+    std::int64_t part = -1;  ///< index into Scene::parts; -1: the bin
+    std::uint16_t label = 0;
+    std::int32_t line = -1;
+  };
+  std::size_t body_count() const;
+  Body body(std::size_t body) const;
+
+  /// A number of each triangle of all bodies, those of one body in a row.
+  static constexpr std::uint32_t no_face = ~0u, floor_face = no_face - 1;
+  struct Face {
+    std::uint32_t body = no_face, triangle = 0;
+    Vec3 normal = Vec3::Zero();  ///< outward, bin frame
+    bool outermost = false;      ///< all of the body lies behind its plane
+  };
+  Face face(std::uint32_t face) const;
+  /// The face that a ray hit.
+  std::uint32_t face_of(const Hit& hit) const;
+
+  /// Whether an endless floor lies at z = 0.
+  bool on_floor() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

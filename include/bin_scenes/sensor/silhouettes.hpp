@@ -21,4 +21,11 @@ struct Silhouette {
 /// By index into Scene::parts. A part's silhouette holds all pixels of `view` that show it.
 std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, double near, double far);
 
+/// render() and silhouettes() in one pass where that can be.
+struct SeenWithMasks {
+  View view;
+  std::vector<Silhouette> alone;
+};
+SeenWithMasks see(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
+
 }  // namespace bin_scenes

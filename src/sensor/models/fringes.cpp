@@ -40,10 +40,26 @@ double below(double x) {
   return 0.5 * std::erfc(-x * M_SQRT1_2);
 }
 
+/// Light of a projector's pixel in the columns from `reach` before to `reach` after it, for each of the places in a
+/// column that the table has.
+std::vector<double> shares_of_neighbours(double sigma, int reach) {
+  std::vector<double> shares;
+  for (int k = 0; k < samples; ++k) {
+    const double column = static_cast<double>(k) / samples - 0.5, middle = std::floor(column + 0.5);
+    for (int j = -reach; j <= reach; ++j)
+      shares.push_back(below((middle + j + 0.5 - column) / sigma) - below((middle + j - 0.5 - column) / sigma));
+  }
+  return shares;
+}
+
 }  // namespace
 
 Fringes::Fringes(const StructuredLightSettings& s, int width)
-    : steps_(s.steps), width_(width), period_(s.period), black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
+    : steps_(s.steps),
+      width_(width),
+      period_(s.period),
+      averaging_(std::sqrt(2.0 / s.steps)),
+      black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
   const int needed = bits_for(2.0 * std::ceil(width / period_));
   bits_ = s.gray_bits ? s.gray_bits : needed;
   if (bits_ < needed) {
@@ -82,14 +98,15 @@ Fringes::Fringes(const StructuredLightSettings& s, int width)
   const double sigma = std::max(s.defocus, 1e-3);
   const int reach = std::min(margin - 1, static_cast<int>(std::ceil(4.0 * sigma + 0.5)));
   table_.assign(static_cast<std::size_t>(samples * (width + 1) + 2) * count, 0.0f);
+  const std::vector<double> shares = shares_of_neighbours(sigma, reach);
   std::vector<double> sum(count);
   for (int i = 0; i <= samples * (width + 1) + 1; ++i) {
     const double column = static_cast<double>(i) / samples - 0.5;
-    const int middle = static_cast<int>(std::lround(column));
+    const int middle = static_cast<int>(std::floor(column + 0.5));
     std::fill(sum.begin(), sum.end(), 0.0);
     double total = 0.0;
     for (int j = middle - reach; j <= middle + reach; ++j) {
-      const double share = below((j + 0.5 - column) / sigma) - below((j - 0.5 - column) / sigma);
+      const double share = shares[static_cast<std::size_t>(i % samples * (2 * reach + 1) + j - middle + reach)];
       const float* const in = &shown[static_cast<std::size_t>(std::clamp(j + margin, 0, columns - 1)) * count];
       for (int n = 0; n < count; ++n) sum[n] += share * in[n];
       total += share;
@@ -173,7 +190,7 @@ double Fringes::column_sigma(double image_sigma, double modulation) const {
 }
 
 double Fringes::amplitude_sigma(double image_sigma) const {
-  return std::sqrt(2.0 / steps_) * image_sigma;
+  return averaging_ * image_sigma;
 }
 
 }  // namespace bin_scenes

@@ -43,8 +43,8 @@ class Fringes {
 
  private:
   int steps_, bits_, width_;
-  double period_, black_, amplitude_;
-  std::vector<float> table_;  ///< [sample of a column][image]
+  double period_, averaging_, black_, amplitude_;  ///< averaging: of the amplitude's noise by the steps
+  std::vector<float> table_;                       ///< [sample of a column][image]
   std::vector<float> sine_, cosine_;
 };
 

@@ -68,6 +68,13 @@ void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& 
     const double x = point.x() / point.z(), y = point.y() / point.z();
     return Eigen::Vector2d(projector.fx * x + projector.skew * y + projector.cx, projector.fy * y + projector.cy);
   };
+  const auto shine = [&](std::size_t i) {
+    const SeenPoint& p = points[i];
+    Surface own;
+    lit[i].code = Validity::valid;
+    lit[i].reflected = reflected(surfaces.at(p.line, p.label, p.position, own), p.normal,
+                                 (pose.position - p.position) / lit[i].distance, (eye_of(i) - p.position).normalized());
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
     lit[i] = {};
@@ -81,19 +88,17 @@ void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& 
     if (!projector.inside(*pixel)) continue;
     lit[i].code = Validity::shadow;
     if (!(p.normal.dot(pose.position - p.position) > 0.0)) continue;  // the camera sees the other side
+    if (p.clear) {
+      shine(i);
+      continue;
+    }
     rays.push_back(ray_between(p.position, p.normal, pose.position));
     asked.push_back(i);
   }
   std::vector<std::uint8_t> blocked(rays.size());
   scenery.blocked(rays.data(), blocked.data(), rays.size(), kind);
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    if (blocked[k]) continue;
-    const SeenPoint& p = points[asked[k]];
-    Lit& l = lit[asked[k]];
-    l.code = Validity::valid;
-    Surface own;
-    l.reflected = reflected(surfaces.at(p.line, p.label, p.position, own), p.normal,
-                            (pose.position - p.position) / l.distance, (eye_of(asked[k]) - p.position).normalized());
+    if (!blocked[k]) shine(asked[k]);
   }
 }
 

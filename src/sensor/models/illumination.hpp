@@ -28,6 +28,7 @@ struct SeenPoint {
   std::int32_t line = -1;
   bool hit = false;
   std::uint16_t label = 0;  ///< of the part whose texture it has
+  bool clear = false;       ///< nothing lies between it and the light: no ray needs to be asked
 };
 
 SeenPoint seen_point(const View& view, std::size_t pixel);

@@ -9,10 +9,11 @@ Imager::Imager(const ImagerSettings& s, bool noise)
     : shot_(1.0 / s.full_well),
       read_(s.read_noise * s.read_noise / (s.full_well * s.full_well)),
       steps_(std::ldexp(1.0, s.bits) - 1.0),
+      rounding_(1.0 / (12.0 * steps_ * steps_)),
       noise_(noise) {}
 
 double Imager::variance(double signal) const {
-  return shot_ * std::max(signal, 0.0) + read_ + 1.0 / (12.0 * steps_ * steps_);
+  return shot_ * std::max(signal, 0.0) + read_ + rounding_;
 }
 
 void Imager::expose(float* signals, std::size_t count, Random& random) const {

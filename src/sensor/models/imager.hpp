@@ -21,6 +21,7 @@ class Imager {
 
  private:
   double shot_, read_, steps_;  ///< variance per signal, variance, steps of the converter
+  double rounding_;             ///< variance of the converter's steps
   bool noise_;
 };
 

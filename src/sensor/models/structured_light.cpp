@@ -45,10 +45,10 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       imager_(setup.imager, setup.noise),
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       rays_(view.lens),
+      sight_(scenery, setup.projector, setup.projector_pose),
       turn_(view.pose.orientation.toRotationMatrix()),
       codes_(view.depth.size()),
       columns_(view.depth.size()),
-      distances_(view.depth.size()),
       whites_(view.depth.size()),
       planes_(view.depth.size()) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
@@ -93,13 +93,17 @@ void StructuredLight::light_row(std::size_t row) {
   const auto width = static_cast<std::size_t>(view_.lens.width);
   std::vector<SeenPoint> points(width);
   std::vector<Lit> lit(width);
+  std::uint32_t number = Scenery::no_face;
+  Scenery::Face face;
   for (std::size_t x = 0; x < width; ++x) {
     const std::size_t i = row * width + x;
     const Pixel p = pixel(x, row);
     planes_[i] = view_.depth[i] * p.normal.dot(p.ray);
     if (std::isnan(view_.depth[i])) continue;
-    points[x] = {view_.pose.position + turn_ * (view_.depth[i] * p.ray), turn_ * p.normal, view_.line[i], true,
-                 view_.label[i]};
+    if (view_.face[i] != number) face = scenery_.face(number = view_.face[i]);
+    const Vec3 point = view_.pose.position + turn_ * (view_.depth[i] * p.ray);
+    points[x] = {point, turn_ * p.normal, view_.line[i], true,
+                 sight_.clear(point, face, number == Scenery::floor_face)};
   }
   light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
         width);
@@ -107,7 +111,6 @@ void StructuredLight::light_row(std::size_t row) {
     const std::size_t i = row * width + x;
     codes_[i] = lit[x].code;
     columns_[i] = lit[x].column;
-    distances_[i] = lit[x].distance;
     whites_[i] = lit[x].reflected / std::max(lit[x].distance * lit[x].distance, 1e-12);
   }
 }
@@ -124,7 +127,8 @@ double StructuredLight::gain() const {
       const std::size_t i = y * width + x;
       lit.emplace_back();
       lit.back().code = codes_[i];
-      lit.back().distance = distances_[i];
+      lit.back().distance =
+          (setup_.projector_pose.position - (view_.pose.position + turn_ * (view_.depth[i] * rays_.at(x, y)))).norm();
       depths.push_back(view_.depth[i]);
     }
   }
@@ -164,11 +168,17 @@ double StructuredLight::depth_sigma(std::size_t index) const {
   return depth_sigma(p, fringe(p));
 }
 
+/// Whether the brightest of a fringe's images saturates.
+bool StructuredLight::saturates(const Fringe& f, double column) const {
+  if (!imager_.saturated(f.mean + f.amplitude)) return false;  // spares most pixels the cosine
+  return imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column));
+}
+
 /// The longest exposure of a fringe that does not saturate, else the shortest.
 double StructuredLight::scale_for(const Fringe& f, double column) const {
-  const double most = f.mean + f.amplitude * fringes_.brightest(column);
+  if (scales_.size() == 1) return scales_.back();
   for (const double scale : scales_) {
-    if (!imager_.saturated(scale * most)) return scale;
+    if (!saturates({scale * f.mean, scale * f.amplitude}, column)) return scale;
   }
   return scales_.back();
 }
@@ -257,7 +267,7 @@ Measurement StructuredLight::analytic(const Random& random) const {
           amplitude += spread * normals.next();
         if (mixed) {
           out.validity[i] = Validity::mixed;
-        } else if (imager_.saturated(f.mean + f.amplitude * fringes_.brightest(column))) {
+        } else if (saturates(f, column)) {
           out.validity[i] = Validity::saturated;
         } else if (amplitude < setup_.settings.min_modulation) {
           out.validity[i] = code == Validity::shadow ? code : Validity::dark;

@@ -23,6 +23,7 @@
 #include "sensor/models/measurement.hpp"
 #include "sensor/models/triangulation.hpp"
 #include "sensor/pixel_rays.hpp"
+#include "sensor/sight.hpp"
 
 #include <memory>
 #include <vector>
@@ -76,6 +77,7 @@ class StructuredLight {
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
   void add_phasor(const float* indirect, double& column, Fringe& fringe) const;
+  bool saturates(const Fringe& fringe, double column) const;
   double scale_for(const Fringe& fringe, double column) const;
   bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
@@ -92,15 +94,16 @@ class StructuredLight {
   Imager imager_;
   Triangulation triangulation_;
   PixelRays rays_;
+  ClearSight sight_;
   Mat3 turn_;  ///< of the camera
 
   // Of the light that falls on what each pixel's centre sees, row-major.
-  std::vector<Validity> codes_;              ///< valid, nothing, shadow or outside
-  std::vector<double> columns_, distances_;  ///< of the projector; m from it
-  std::vector<double> whites_;               ///< reflected / distance^2
-  std::vector<double> planes_;               ///< Pixel::plane
-  std::vector<double> scales_;               ///< exposures / ImagerSettings::exposure, the longest first
-  double gain_ = 0.0;                        ///< signal of the projector's white = gain * white
+  std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside
+  std::vector<double> columns_;  ///< of the projector
+  std::vector<double> whites_;   ///< reflected / distance^2
+  std::vector<double> planes_;   ///< Pixel::plane
+  std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first
+  double gain_ = 0.0;            ///< signal of the projector's white = gain * white
 
   std::unique_ptr<const IndirectField> indirect_;  ///< none: no bounces
 };

@@ -128,8 +128,11 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   std::vector<Lit> lit(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Hit& hit = hits[i];
-    points[i] = {rays[i].origin + hit.distance * rays[i].direction, hit.normal, hit.line, !std::isnan(hit.distance),
-                 hit.label};
+    const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
+    const std::uint32_t face = model_.scenery_.face_of(hit);
+    points[i] = {point,     hit.normal,
+                 hit.line,  face != Scenery::no_face,
+                 hit.label, model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
   }
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());
@@ -170,29 +173,37 @@ std::vector<char> StructuredLight::Strip::uniform(int first, int last) const {
   };
   std::vector<char> across(at(bottom, 0), 1), down = across, all(static_cast<std::size_t>(last - first) * width_, 0);
   for (int y = top; y < bottom; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      if (x + 1 < width_) across[at(y, x)] = alike(y, x, y, x + 1);
-      if (y + 1 < bottom) down[at(y, x)] = alike(y, x, y + 1, x);
-    }
+    const std::size_t row = static_cast<std::size_t>(y) * width_;
+    alike(row, row + 1, width_ - 1, &across[at(y, 0)]);
+    if (y + 1 < bottom) alike(row, row + static_cast<std::size_t>(width_), width_, &down[at(y, 0)]);
   }
   for (int y = first; y < last; ++y) {
+    const char* const own = &across[at(y, 0)];
+    const char* const above = y > top ? own - width_ : own;
+    const char* const below = y + 1 < bottom ? own + width_ : own;
+    const char* const to_below = &down[at(y, 0)];
+    const char* const to_above = y > top ? to_below - width_ : to_below;
+    char* const same = &all[static_cast<std::size_t>(y - first) * width_];
     for (int x = 0; x < width_; ++x) {
-      char same = down[at(y, x)] & (y > top ? down[at(y - 1, x)] : 1);
-      for (int v = std::max(top, y - 1); v < std::min(bottom, y + 2); ++v) {
-        same &= across[at(v, x)] & (x > 0 ? across[at(v, x - 1)] : 1);
-      }
-      all[static_cast<std::size_t>(y - first) * width_ + static_cast<std::size_t>(x)] = same;
+      same[x] = static_cast<char>(own[x] & above[x] & below[x] & to_below[x] & to_above[x]);
+      if (x > 0) same[x] = static_cast<char>(same[x] & own[x - 1] & above[x - 1] & below[x - 1]);
     }
   }
   return all;
 }
 
-/// Whether two pixels see one plane of one surface, lit alike.
-bool StructuredLight::Strip::alike(int row_a, int a, int row_b, int b) const {
-  const std::size_t i = static_cast<std::size_t>(row_a) * width_ + a, k = static_cast<std::size_t>(row_b) * width_ + b;
-  if (model_.codes_[i] != model_.codes_[k] || model_.view_.line[i] != model_.view_.line[k]) return false;
-  if (model_.view_.normal[i] != model_.view_.normal[k]) return false;
-  return std::abs(model_.planes_[i] - model_.planes_[k]) < 0.1 * least_step;
+/// Whether two pixels see one plane of one surface, lit alike; for `count` pairs.
+void StructuredLight::Strip::alike(std::size_t a, std::size_t b, int count, char* out) const {
+  const Validity* const code = model_.codes_.data();
+  const std::int32_t* const line = model_.view_.line.data();
+  const std::array<float, 3>* const normal = model_.view_.normal.data();
+  const double* const plane = model_.planes_.data();
+  for (int x = 0; x < count; ++x, ++a, ++b) {
+    const bool one_plane = std::abs(plane[a] - plane[b]) < 0.1 * least_step;
+    out[x] =
+        static_cast<char>(one_plane & (code[a] == code[b]) & (line[a] == line[b]) & (normal[a][0] == normal[b][0]) &
+                          (normal[a][1] == normal[b][1]) & (normal[a][2] == normal[b][2]));
+  }
 }
 
 std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixels() const {

@@ -50,7 +50,7 @@ class StructuredLight::Strip {
 
   std::vector<char> uniform(int first, int last) const;
   float off_face(const Pixel& pixel, int right, int down, const Cells& cells, const Values& weight) const;
-  bool alike(int row_a, int a, int row_b, int b) const;
+  void alike(std::size_t a, std::size_t b, int count, char* out) const;
   bool differs(int x, int y) const;
   double hidden_step(const Pixel& pixel) const;
   std::vector<Seen> cast(const std::vector<Spot>& spots) const;

@@ -1,0 +1,18 @@
+/// Whether the back of a triangle of a mesh is ever seen from outside.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Each shell is closed and its triangles face outward: where a ray from outside meets the mesh first, it meets a
+/// front. The fronts cover whatever the mesh covers.
+bool shows_fronts_only(const Mesh& mesh);
+
+/// Of each triangle: whether all of the mesh lies behind its plane, so that the mesh does not shade it. Of meshes of
+/// many corners it may say no where it is so.
+std::vector<char> outermost_triangles(const Mesh& mesh);
+
+}  // namespace bin_scenes
