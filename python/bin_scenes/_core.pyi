@@ -1,6 +1,6 @@
 """Types of the compiled module. Arrays are the scene's own memory: they are not copied, keep the scene alive, and may be
 written to. N is the number of parts, H and W rows and columns of an image. SI units."""
-from typing import Any, Dict, Iterator, List, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -44,6 +44,9 @@ class Image:
     @property
     def validity(self) -> npt.NDArray[np.uint8]:
         """(H, W) 0 valid, else the reason (docs/use/sensors.md)."""
+    @property
+    def picture(self) -> Optional[Union[npt.NDArray[np.uint8], npt.NDArray[np.uint16]]]:
+        """Of model `image`: (H, W) grey or (H, W, 3) red, green, blue; counts of its 8 or 16 bits. Else None."""
     @property
     def points(self) -> npt.NDArray[np.float32]:
         """(H, W, 3) organised cloud (m); NaN where depth is. Made at first use."""

@@ -98,6 +98,16 @@ auto cloud(Make make) {
   };
 }
 
+/// What a camera took; None of the other models.
+py::object picture(py::object self) {
+  ImageData& data = *self.cast<ImagePtr>();
+  Picture& taken = data.image.picture;
+  if (taken.channels == 0) return py::none();
+  std::vector<py::ssize_t> shape = {data.image.height, data.image.width};
+  if (taken.channels > 1) shape.push_back(taken.channels);
+  return taken.bits == 8 ? array_of(data.picture_bytes(), shape, self) : array_of(taken.counts, shape, self);
+}
+
 void bind_image(py::module_& m) {
   py::class_<ImageData, ImagePtr>(m, "Image")
       .def_property_readonly("name", [](const ImageData& i) { return i.image.sensor.name; })
@@ -123,6 +133,7 @@ void bind_image(py::module_& m) {
       .def_property_readonly("intensity", measured(&RangeImage::intensity))
       .def_property_readonly("snr", measured(&RangeImage::snr))
       .def_property_readonly("validity", measured(&RangeImage::validity))
+      .def_property_readonly("picture", picture)
       .def_property_readonly("points", cloud(&ImageData::points))
       .def_property_readonly("normals", cloud(&ImageData::normals))
       .def_property_readonly("truth_depth", truth(&RangeImage::truth_depth, &RangeImage::depth))

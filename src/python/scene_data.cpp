@@ -19,6 +19,12 @@ std::vector<std::array<float, 3>>& ImageData::normals() {
   return normals_;
 }
 
+std::vector<std::uint8_t>& ImageData::picture_bytes() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (picture_bytes_.empty()) picture_bytes_.assign(image.picture.counts.begin(), image.picture.counts.end());
+  return picture_bytes_;
+}
+
 SceneData::SceneData(Generator::Result&& result, std::shared_ptr<const LoadedRequest> request)
     : scene(std::move(result.scene)), loaded(std::move(request)) {
   for (RangeImage& image : result.images) images.push_back(std::make_shared<ImageData>(std::move(image)));

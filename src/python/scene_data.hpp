@@ -12,16 +12,19 @@
 
 namespace bin_scenes::python {
 
-/// An image with its organised cloud, which is made when it is first asked for.
+/// An image with its organised cloud and the bytes of its picture, which are made when they are first asked for.
 class ImageData {
  public:
   explicit ImageData(RangeImage made) : image(std::move(made)) {}
   RangeImage image;
   std::vector<std::array<float, 3>>& points();
   std::vector<std::array<float, 3>>& normals();
+  /// Counts of 8 bits in a byte each.
+  std::vector<std::uint8_t>& picture_bytes();
 
  private:
   std::mutex mutex_;
+  std::vector<std::uint8_t> picture_bytes_;
   std::vector<std::array<float, 3>> points_, normals_;
 };
 

@@ -93,6 +93,29 @@ class Bits(unittest.TestCase):
                 self.assertLess(off.max(), 0.5 * image.depth_scale + 1e-6)
                 self.assertTrue((image.truth_label == np.asarray(Image.open(base + "_truth_labels.png"))).all())
 
+    def test_pictures_have_the_counts_of_the_files(self):
+        from PIL import Image
+        camera = {"model": "image", "width": 48, "height": 36}
+        cameras = [{**camera, "name": "grey8", "image": {"samples": 1}},
+                   {**camera, "name": "grey16", "image": {"samples": 1, "bits": 16}},
+                   {**camera, "name": "colour", "image": {"samples": 1, "colour": True}}]
+        keys = nuts(3, sensors=[*cameras, {"name": "camera", "width": 48, "height": 36}])
+        keys["parts"][0]["surface"] = {"colour": [1, 0.5, 0.2]}
+        with tempfile.TemporaryDirectory() as folder, Generator() as g:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(keys))
+            subprocess.run([TOOL, "generate", request, "--out", folder, "--formats", "png"], check=True, capture_output=True)
+            images = next(g.generate(keys)).images
+            for name, kind, shape in (("grey8", "u1", (36, 48)), ("grey16", "u2", (36, 48)), ("colour", "u1", (36, 48, 3))):
+                picture = images[name].picture
+                self.assertEqual((picture.dtype, picture.shape), (np.dtype(kind), shape), name)
+                self.assertFalse(picture.flags.owndata, name)
+                written = np.asarray(Image.open(pathlib.Path(folder) / ("scene_000000/%s_image.png" % name)))
+                np.testing.assert_array_equal(picture, written)
+                self.assertGreater(picture.max(), 100)
+            self.assertGreater(images["grey16"].picture.max(), 255)
+            self.assertIsNone(images["camera"].picture)
+
     def test_a_dict_is_the_same_request(self):
         with Generator() as g:
             keys = dict(self.keys, parts=[dict(self.keys["parts"][0], count=12)])
