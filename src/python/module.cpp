@@ -206,6 +206,11 @@ void bind_scene(py::module_& m) {
                              [](const SceneData& s) -> py::object {
                                return py::module_::import("json").attr("loads")(s.report_json())["report"];
                              })
+      .def_property_readonly("grasps",
+                             [](const SceneData& s) -> py::object {
+                               if (!s.grasps) return py::none();
+                               return py::module_::import("json").attr("loads")(text_of(s.grasps_json()));
+                             })
       .def("json", [](const SceneData& s) {
         std::string text;
         {
@@ -264,9 +269,9 @@ void bind_session(py::module_& m) {
              own.session->close();
            })
       .def("generate",
-           [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images) {
+           [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images, bool grasps) {
              return std::unique_ptr<Scenes>(
-                 new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, images)});
+                 new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, Wanted{images, grasps})});
            })
       .def("heap", [](const SessionHolder& own, const Request& request) {
         const py::gil_scoped_release waiting;
@@ -302,7 +307,11 @@ void bind_heap(py::module_& m) {
           },
           waiting)
       .def(
-          "scene", [](HeapHandle& heap, bool images) { return heap.scene(images, poll_signals); }, waiting);
+          "scene",
+          [](HeapHandle& heap, bool images, bool grasps) {
+            return heap.scene(Wanted{images, grasps}, poll_signals);
+          },
+          waiting);
 }
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;
