@@ -1,6 +1,6 @@
 """Generator and Heap."""
 from types import TracebackType
-from typing import Any, List, Mapping, Optional, Sequence, Type, Union
+from typing import Any, Iterable, List, Mapping, Optional, Sequence, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,13 +11,23 @@ from ._request import Request, read
 
 Ids = Union[int, Sequence[int], "npt.NDArray[Any]"]
 Vector = Union[Sequence[float], "npt.NDArray[Any]"]
+MOST_GRAVITY = 1e4  # m/s2, of a component: what a request may have
 
 
 def _ids(ids: Ids, where: str) -> List[int]:
     array = np.atleast_1d(np.asarray(ids))
     if array.ndim != 1 or array.size and not np.issubdtype(array.dtype, np.integer):
         raise Error("ids of shape %s and type %s" % (array.shape, array.dtype), where, "give whole numbers, as in Scene.ids")
+    for i in array:
+        if not 0 <= i < 2**31:
+            raise Error("no part has the id %d" % i, where, "give ids of Scene.ids")
     return [int(i) for i in array]
+
+
+def _flag(value: Any, name: str, where: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise Error("%s is %r" % (name, value), where, "give True or False")
+    return bool(value)
 
 
 def _vector(vector: Vector, where: str) -> List[float]:
@@ -55,7 +65,8 @@ class Generator:
         self._session.close()
 
     def generate(self, request: Request, *, scenes: Optional[int] = None, seed: Optional[int] = None,
-                 first: Optional[int] = None, prefetch: int = 0, images: bool = True, **overrides: Any) -> "_core.Scenes":
+                 first: Optional[int] = None, prefetch: int = 0, images: bool = True, grasps: bool = False,
+                 **overrides: Any) -> "_core.Scenes":
         """Scenes of a request, in order of their index: an iterator of Scene.
 
         request:   name of a YAML file, or a dict of the same keys; a dict may hold arrays, for instance
@@ -64,6 +75,7 @@ class Generator:
                    scene that `bin_scenes generate` writes. A loop without end asks for scenes=10**9.
         prefetch:  scenes made ahead at most, in the background, while the loop's body runs; 0: none
         images:    False: no sensor image is made
+        grasps:    True: Scene.grasps are found, for the request's grippers
         overrides: further keys, as `--set` has them, which replace what the request says: bin={"floor": True},
                    solver__type="bullet" (or **{"solver.type": "bullet"}), parts__0__count=20
 
@@ -72,7 +84,8 @@ class Generator:
         if not isinstance(prefetch, (int, np.integer)) or not 0 <= prefetch <= 1000:
             raise Error("prefetch is %r" % (prefetch,), "Generator.generate", "give 0 to 1000 scenes")
         self._session.refuse_if_closed()
-        return self._session.generate(read(request, scenes=scenes, seed=seed, first=first, **overrides), int(prefetch), images)
+        wanted = [_flag(images, "images", "Generator.generate"), _flag(grasps, "grasps", "Generator.generate")]
+        return self._session.generate(read(request, scenes=scenes, seed=seed, first=first, **overrides), int(prefetch), *wanted)
 
     def heap(self, request: Request, *, seed: Optional[int] = None, first: Optional[int] = None, **overrides: Any) -> "Heap":
         """Scene `first` of a request as a heap that can be changed: settle() pours it. Arguments as in generate()."""
@@ -97,10 +110,16 @@ class Heap:
     def lift(self, ids: Ids, direction: Vector = (0.0, 0.0, 1.0), distance: float = 0.1) -> None:
         """Moves parts by `distance` (m) along `direction` (x y z, bin frame) at 0.1 m/s, and drags along what hangs on
         them. Afterwards remove() them, or let them fall by settle()."""
-        self._heap.lift(_ids(ids, "Heap.lift"), _vector(direction, "Heap.lift: direction"), float(distance))
+        try:
+            length = float(distance)
+        except (TypeError, ValueError):
+            raise Error("is no length: %r" % (distance,), "Heap.lift: distance", "give a number in m") from None
+        self._heap.lift(_ids(ids, "Heap.lift"), _vector(direction, "Heap.lift: direction"), length)
 
     def add(self, parts: Union[Mapping[str, Any], Sequence[Mapping[str, Any]]]) -> "npt.NDArray[np.int32]":
         """Pours more onto the heap during the next settle(): lines as in `parts` of a request. Returns the new ids."""
+        if not isinstance(parts, Iterable):
+            raise Error("a %s is no part line" % type(parts).__name__, "Heap.add", "give a dict with `model`")
         lines = [parts] if isinstance(parts, Mapping) else list(parts)
         if not lines:
             raise Error("no part line is given", "Heap.add", "name at least one model")
@@ -114,8 +133,13 @@ class Heap:
 
     def set_gravity(self, gravity: Vector) -> None:
         """Tilts or turns the heap: gravity (m/s2) x y z in the bin frame. All parts wake."""
-        self._heap.set_gravity(_vector(gravity, "Heap.set_gravity"))
+        vector = _vector(gravity, "Heap.set_gravity")
+        if max(abs(x) for x in vector) > MOST_GRAVITY:
+            raise Error("a component of %g m/s2" % max(vector, key=abs), "Heap.set_gravity",
+                        "give at most %g, as in a request" % MOST_GRAVITY)
+        self._heap.set_gravity(vector)
 
-    def scene(self, images: bool = True) -> "_core.Scene":
-        """The heap as it is now, judged, and seen by the request's sensors unless `images` is False."""
-        return self._heap.scene(images)
+    def scene(self, images: bool = True, grasps: bool = False) -> "_core.Scene":
+        """The heap as it is now, judged, and seen by the request's sensors unless `images` is False. With `grasps` of the
+        request's grippers."""
+        return self._heap.scene(_flag(images, "images", "Heap.scene"), _flag(grasps, "grasps", "Heap.scene"))

@@ -27,7 +27,11 @@ def _plain(value: Any) -> Any:
 def _text(value: Any, where: str) -> str:
     """YAML, of which JSON is a part; numbers read back as the same bits."""
     try:
-        return json.dumps(value, default=_plain, ensure_ascii=False)
+        text = json.dumps(value, default=_plain, ensure_ascii=False)
+        text.encode()
+        return text
+    except UnicodeEncodeError as error:
+        raise Error("%r is no text of UTF-8" % error.object[error.start:error.end], where, "rename that file") from None
     except (TypeError, ValueError, RecursionError) as error:
         raise Error(str(error), where, "give numbers, texts, lists, dicts and arrays") from None
 
@@ -41,5 +45,5 @@ def read(request: Request, **overrides: Any) -> "_core.Request":
     if isinstance(request, Mapping):
         return _core.read_text(_text(request, "request"), assignments)
     if isinstance(request, (str, os.PathLike)):
-        return _core.read_file(os.fspath(request), assignments)
+        return _core.read_file(os.fsencode(request), assignments)
     raise Error("a %s is no request" % type(request).__name__, "request", "give the name of a YAML file, or a dict")

@@ -7,6 +7,8 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -51,6 +53,10 @@ bool software_renderer(const std::string& renderer) {
   return false;
 }
 
+bool opens(const char* library) {
+  return dlopen(library, RTLD_LAZY) != nullptr;  // kept, as libepoxy keeps it
+}
+
 /// A place to try: an EGL device, or Mesa's surfaceless platform (device == nullptr).
 struct Candidate {
   EGLDeviceEXT device = nullptr;
@@ -58,6 +64,9 @@ struct Candidate {
 };
 
 std::vector<Candidate> candidates() {
+  // libepoxy ends the program where it does not find them.
+  const bool opengl = opens("libOpenGL.so.0") || opens("libGL.so.1");
+  if (!opengl || !opens("libEGL.so.1")) return {};
   std::vector<Candidate> found;
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (has(client, "EGL_EXT_platform_device") &&
@@ -216,16 +225,17 @@ Device::Device() : state_(std::make_unique<State>()) {
         break;
       }
       close(context);
-      if (!insist) attempts += "\n  " + candidate.info.name + ": " + candidate.info.detail;
+      if (!insist) attempts += (attempts.empty() ? "" : "; ") + candidate.info.name + ": " + candidate.info.detail;
     }
     if (state_->context.context != EGL_NO_CONTEXT) break;
   }
   if (state_->context.context == EGL_NO_CONTEXT)
-    throw environment_error("no OpenGL 4.5 device could be opened through EGL; tried:" +
-                                (attempts.empty() ? std::string("\n  nothing: EGL lists no device") : attempts),
-                            "GL",
-                            "install a driver with EGL, or Mesa's software renderer: apt install libegl1 "
-                            "libgl1-mesa-dri");
+    throw environment_error(
+        "no OpenGL 4.5 device could be opened through EGL; tried: " +
+            (attempts.empty() ? std::string("nothing, as there is no EGL, or it lists no device") : attempts),
+        "GL",
+        "install a driver with EGL, or Mesa's software renderer: apt install libegl1 "
+        "libgl1-mesa-dri");
 
   const auto* vendor = reinterpret_cast<const char*>(glGetString(GL_VENDOR));
   state_->vendor = vendor ? vendor : "";
@@ -295,10 +305,12 @@ void Device::make_current() {
 }
 
 std::vector<DeviceInfo> Device::enumerate() {
+  std::vector<Candidate> list = candidates();
+  if (list.empty()) return {};
   const EGLDisplay display = eglGetCurrentDisplay();
   const EGLContext context = eglGetCurrentContext();
   std::vector<DeviceInfo> infos;
-  for (Candidate& candidate : candidates()) {
+  for (Candidate& candidate : list) {
     close(open(candidate));
     infos.push_back(candidate.info);
   }

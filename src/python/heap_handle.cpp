@@ -57,11 +57,10 @@ void HeapHandle::set_gravity(const Vec3& gravity, const Poll& poll) {
       "Heap.set_gravity", [&](Session&, Heap& heap) { heap.set_gravity(gravity); }, poll);
 }
 
-std::shared_ptr<SceneData> HeapHandle::scene(bool images, const Poll& poll) {
+std::shared_ptr<SceneData> HeapHandle::scene(const Wanted& wanted, const Poll& poll) {
   std::shared_ptr<SceneData> scene;
   const auto make = [&](Session& own, Heap& heap) {
-    Generator::Options options;
-    options.render = images;
+    Generator::Options options = options_of(wanted, heap.loaded().request, "Heap.scene");
     options.hooks = own.hooks();
     scene = std::make_shared<SceneData>(own.generator().result(heap, options),
                                         std::make_shared<LoadedRequest>(heap.loaded()));

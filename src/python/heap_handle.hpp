@@ -22,7 +22,7 @@ class HeapHandle {
   void lift(const std::vector<int>& ids, const Vec3& direction, double distance, const Poll& poll);
   std::vector<int> add(const std::vector<PartLine>& lines, const Poll& poll);
   void set_gravity(const Vec3& gravity, const Poll& poll);
-  std::shared_ptr<SceneData> scene(bool images, const Poll& poll);
+  std::shared_ptr<SceneData> scene(const Wanted& wanted, const Poll& poll);
 
  private:
   /// `job` with the heap, in the session's thread.

@@ -98,6 +98,16 @@ auto cloud(Make make) {
   };
 }
 
+/// What a camera took; None of the other models.
+py::object picture(py::object self) {
+  ImageData& data = *self.cast<ImagePtr>();
+  Picture& taken = data.image.picture;
+  if (taken.channels == 0) return py::none();
+  std::vector<py::ssize_t> shape = {data.image.height, data.image.width};
+  if (taken.channels > 1) shape.push_back(taken.channels);
+  return taken.bits == 8 ? array_of(data.picture_bytes(), shape, self) : array_of(taken.counts, shape, self);
+}
+
 void bind_image(py::module_& m) {
   py::class_<ImageData, ImagePtr>(m, "Image")
       .def_property_readonly("name", [](const ImageData& i) { return i.image.sensor.name; })
@@ -123,6 +133,7 @@ void bind_image(py::module_& m) {
       .def_property_readonly("intensity", measured(&RangeImage::intensity))
       .def_property_readonly("snr", measured(&RangeImage::snr))
       .def_property_readonly("validity", measured(&RangeImage::validity))
+      .def_property_readonly("picture", picture)
       .def_property_readonly("points", cloud(&ImageData::points))
       .def_property_readonly("normals", cloud(&ImageData::normals))
       .def_property_readonly("truth_depth", truth(&RangeImage::truth_depth, &RangeImage::depth))
@@ -195,6 +206,11 @@ void bind_scene(py::module_& m) {
                              [](const SceneData& s) -> py::object {
                                return py::module_::import("json").attr("loads")(s.report_json())["report"];
                              })
+      .def_property_readonly("grasps",
+                             [](const SceneData& s) -> py::object {
+                               if (!s.grasps) return py::none();
+                               return py::module_::import("json").attr("loads")(text_of(s.grasps_json()));
+                             })
       .def("json", [](const SceneData& s) {
         std::string text;
         {
@@ -253,9 +269,9 @@ void bind_session(py::module_& m) {
              own.session->close();
            })
       .def("generate",
-           [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images) {
+           [](const SessionHolder& own, const Request& request, std::size_t ahead, bool images, bool grasps) {
              return std::unique_ptr<Scenes>(
-                 new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, images)});
+                 new Scenes{std::make_unique<SceneStream>(own.session, request, ahead, Wanted{images, grasps})});
            })
       .def("heap", [](const SessionHolder& own, const Request& request) {
         const py::gil_scoped_release waiting;
@@ -291,7 +307,11 @@ void bind_heap(py::module_& m) {
           },
           waiting)
       .def(
-          "scene", [](HeapHandle& heap, bool images) { return heap.scene(images, poll_signals); }, waiting);
+          "scene",
+          [](HeapHandle& heap, bool images, bool grasps) {
+            return heap.scene(Wanted{images, grasps}, poll_signals);
+          },
+          waiting);
 }
 
 using Assignments = std::vector<std::pair<std::string, std::string>>;

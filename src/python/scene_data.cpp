@@ -1,5 +1,6 @@
 #include "scene_data.hpp"
 
+#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 
 #include <utility>
@@ -19,8 +20,25 @@ std::vector<std::array<float, 3>>& ImageData::normals() {
   return normals_;
 }
 
+std::vector<std::uint8_t>& ImageData::picture_bytes() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (picture_bytes_.empty()) picture_bytes_.assign(image.picture.counts.begin(), image.picture.counts.end());
+  return picture_bytes_;
+}
+
+Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller) {
+  if (wanted.grasps && request.grippers.empty()) {
+    throw input_error("grasps are asked for, but the request has no grippers", caller,
+                      "add for instance grippers=[\"robotiq_2f_85\"]");
+  }
+  Generator::Options options;
+  options.render = wanted.images;
+  options.grasps = wanted.grasps;
+  return options;
+}
+
 SceneData::SceneData(Generator::Result&& result, std::shared_ptr<const LoadedRequest> request)
-    : scene(std::move(result.scene)), loaded(std::move(request)) {
+    : scene(std::move(result.scene)), grasps(std::move(result.grasps)), loaded(std::move(request)) {
   for (RangeImage& image : result.images) images.push_back(std::make_shared<ImageData>(std::move(image)));
   for (const ScenePart& part : scene.parts) {
     const Vec3 &at = part.pose.position, &v = part.velocity.linear, &w = part.velocity.angular;
@@ -47,6 +65,10 @@ std::string SceneData::json() const {
     copy.silhouettes = image.silhouettes;
   }
   return scene_json(scene, loaded->request, seen, loaded->parts);
+}
+
+std::string SceneData::grasps_json() const {
+  return bin_scenes::grasps_json(*grasps, scene, loaded->request);
 }
 
 std::string SceneData::report_json() const {

@@ -7,28 +7,41 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace bin_scenes::python {
 
-/// An image with its organised cloud, which is made when it is first asked for.
+/// An image with its organised cloud and the bytes of its picture, which are made when they are first asked for.
 class ImageData {
  public:
   explicit ImageData(RangeImage made) : image(std::move(made)) {}
   RangeImage image;
   std::vector<std::array<float, 3>>& points();
   std::vector<std::array<float, 3>>& normals();
+  /// Counts of 8 bits in a byte each.
+  std::vector<std::uint8_t>& picture_bytes();
 
  private:
   std::mutex mutex_;
+  std::vector<std::uint8_t> picture_bytes_;
   std::vector<std::array<float, 3>> points_, normals_;
 };
+
+/// What is made of a scene beside its poses.
+struct Wanted {
+  bool images = true, grasps = false;
+};
+
+/// Throws an input Error where the request has no grippers, but grasps are wanted.
+Generator::Options options_of(const Wanted& wanted, const Request& request, const std::string& caller);
 
 struct SceneData {
   SceneData(Generator::Result&& result, std::shared_ptr<const LoadedRequest> request);
 
   Scene scene;
+  std::optional<SceneGrasps> grasps;
   std::shared_ptr<const LoadedRequest> loaded;
   std::vector<std::shared_ptr<ImageData>> images;
   std::vector<std::array<double, 7>> poses;       ///< by part: x y z qx qy qz qw
@@ -37,6 +50,8 @@ struct SceneData {
 
   /// scene.json as the command line writes it; without images it has no block `truth`.
   std::string json() const;
+  /// grasps.json as the command line writes it.
+  std::string grasps_json() const;
   /// That of the report alone.
   std::string report_json() const;
 };

@@ -7,12 +7,13 @@
 
 namespace bin_scenes::python {
 
-SceneStream::SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead, bool images)
+SceneStream::SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead,
+                         const Wanted& wanted)
     : session_(std::move(session)), state_(std::make_shared<State>()) {
+  const Generator::Options chosen = options_of(wanted, request, "Generator.generate");
   const auto make = [=, state = state_](Session& own) {
     std::shared_ptr<const LoadedRequest> loaded;
-    Generator::Options options;
-    options.render = images;
+    Generator::Options options = chosen;
     options.hooks = own.hooks();
     const CancelScope scope(options.hooks.cancel);
     own.generator().generate(request, options, [&](Generator::Result&& result) {

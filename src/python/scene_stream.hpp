@@ -15,7 +15,7 @@ namespace bin_scenes::python {
 class SceneStream {
  public:
   /// @param ahead  scenes that wait at most, beside those in the making; 0: work rests while nobody waits in next()
-  SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead, bool images);
+  SceneStream(std::shared_ptr<Session> session, const Request& request, std::size_t ahead, const Wanted& wanted);
   ~SceneStream() { stop(); }
   SceneStream(const SceneStream&) = delete;
   SceneStream& operator=(const SceneStream&) = delete;

@@ -12,6 +12,7 @@ namespace {
 
 // What grippers for bins are built like, with room to spare. Millimetres taken for metres lie far outside.
 constexpr double longest = 2.0, shortest = 1e-4;  // m
+constexpr double widest_clearance = 0.2;          // m
 
 std::string metres(double value) {
   char text[32];
@@ -46,6 +47,9 @@ void check_gripper(const Gripper& gripper, const std::string& key) {
       throw input_error("is " + metres(value) + ", shorter than any gripper's", key + "." + name,
                         "lengths are in m; perhaps " + metres(1e3 * value) + " is meant");
   }
+  if (gripper.clearance > widest_clearance)
+    throw input_error("is " + metres(gripper.clearance) + ", wider than any bin has room for", key + ".clearance",
+                      "lengths are in m; for mm write " + metres(1e-3 * gripper.clearance));
   if (gripper.type == Gripper::Type::parallel) {
     if (gripper.pad_length > gripper.finger_depth)
       throw input_error("is longer than finger_depth, " + metres(gripper.finger_depth), key + ".pad_length",

@@ -188,7 +188,9 @@ void check_grippers(const Request& request) {
       refuse(key + ".name", "'" + gripper.name + "' is taken", "give each gripper a name of its own");
     check_gripper(gripper, key);
     // Closed on nothing, it must still go in.
-    const double least = gripper.type == Gripper::Type::suction ? 2.0 * gripper.radius : 2.0 * gripper.finger_thickness;
+    const double least = gripper.type == Gripper::Type::suction
+                             ? 2.0 * gripper.radius
+                             : std::max(2.0 * gripper.finger_thickness, gripper.finger_width);
     const Vec3& room = request.bin.inner_size;
     if (request.bin.kind == Bin::Kind::box && least > std::max(room.x(), room.y()))
       refuse(key, "'" + gripper.name + "' is wider than the bin", "lengths are in m");

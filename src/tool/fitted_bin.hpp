@@ -25,6 +25,7 @@ struct FittedBin {
   Vec3 inner_size;     ///< m
   double level = 0.0;  ///< m: mean height of the heap
   double hull = 0.0;   ///< m3: convex hull of one part
+  double loose = 0.0;  ///< volume of the heap / that of all hulls
 };
 
 /// A box with sides of 4 : 3 in which `count` parts lie about a fifth of its length high, but wide enough for one part

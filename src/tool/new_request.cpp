@@ -114,9 +114,9 @@ std::string request_text(const Draft& d, const fs::path& folder) {
   text += line(format("  wall_thickness: %g", wall_thickness), "m");
   text += line("  friction: 0.5", "");
   text += format(
-      "  # Chosen for the part and count: a heap takes about 1.5 times the convex hulls (%.3g cm3 each) of its\n"
+      "  # Chosen for the part and count: a heap takes about %.2g times the convex hulls (%.3g cm3 each) of its\n"
       "  # parts. On this floor it lies %.0f mm high on average; the rim is above its top.\n",
-      1e6 * d.fitted.hull, 1e3 * d.fitted.level);
+      d.fitted.loose, 1e6 * d.fitted.hull, 1e3 * d.fitted.level);
   text += part_text(d, folder);
   text += line("pour: {pattern: rain}", "parts enter just above the heap");
   return text + sensor_text(d);

@@ -60,6 +60,8 @@ TEST_F(Grippers, MistakesAreTold) {
       {"[{name: a, type: suction, radius: 10}]", "for mm write 0.01 m"},
       {"[{name: a, finger_width: 0.00002}]", "shorter than any gripper's"},
       {"[{name: a, finger_thickness: 0.25}]", "'a' is wider than the bin"},
+      {"[{name: a, finger_width: 0.45}]", "'a' is wider than the bin"},
+      {"[{name: a, clearance: 1}]", "for mm write 0.001 m"},
       {"[{name: a, pad_length: 0.06}]", "is longer than finger_depth, 0.05 m"},
       {"[{name: a, type: suction, radius: 0.01, lip: 0.02}]", "is no smaller than the radius of the ring"},
       {"[{stroke: 0.05}]", "'grippers[0].name': is missing"},

@@ -188,6 +188,8 @@ class Bop(DataSetTest):
         self.assertEqual(shards[-1].key, shards.keys[-1])
         with self.assertRaises(KeyError):
             shards["999999_000000"]
+        with self.assertRaisesRegex(KeyError, "image %s has no rgb.png; there are camera.json" % shards.keys[0]):
+            shards[0].rgb
         begin = time.monotonic()
         depths = [sample.depth for sample in shards]
         print("%d samples of up to 96 x 72 decoded in %.3f s" % (len(depths), time.monotonic() - begin))

@@ -93,6 +93,44 @@ class Bits(unittest.TestCase):
                 self.assertLess(off.max(), 0.5 * image.depth_scale + 1e-6)
                 self.assertTrue((image.truth_label == np.asarray(Image.open(base + "_truth_labels.png"))).all())
 
+    def test_pictures_have_the_counts_of_the_files(self):
+        from PIL import Image
+        camera = {"model": "image", "width": 48, "height": 36}
+        cameras = [{**camera, "name": "grey8", "image": {"samples": 1}},
+                   {**camera, "name": "grey16", "image": {"samples": 1, "bits": 16}},
+                   {**camera, "name": "colour", "image": {"samples": 1, "colour": True}}]
+        keys = nuts(3, sensors=[*cameras, {"name": "camera", "width": 48, "height": 36}])
+        keys["parts"][0]["surface"] = {"colour": [1, 0.5, 0.2]}
+        with tempfile.TemporaryDirectory() as folder, Generator() as g:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(keys))
+            subprocess.run([TOOL, "generate", request, "--out", folder, "--formats", "png"], check=True, capture_output=True)
+            images = next(g.generate(keys)).images
+            for name, kind, shape in (("grey8", "u1", (36, 48)), ("grey16", "u2", (36, 48)), ("colour", "u1", (36, 48, 3))):
+                picture = images[name].picture
+                self.assertEqual((picture.dtype, picture.shape), (np.dtype(kind), shape), name)
+                self.assertFalse(picture.flags.owndata, name)
+                written = np.asarray(Image.open(pathlib.Path(folder) / ("scene_000000/%s_image.png" % name)))
+                np.testing.assert_array_equal(picture, written)
+                self.assertGreater(picture.max(), 100)
+            self.assertGreater(images["grey16"].picture.max(), 255)
+            self.assertIsNone(images["camera"].picture)
+
+    def test_grasps_are_those_of_the_file(self):
+        keys = nuts(4, grippers=["robotiq_2f_85"])
+        with tempfile.TemporaryDirectory() as folder, Generator() as g:
+            request = pathlib.Path(folder) / "request.yaml"
+            request.write_text(json.dumps(keys))
+            subprocess.run([TOOL, "generate", request, "--out", folder, "--formats", "grasps"], check=True, capture_output=True)
+            written = json.loads((pathlib.Path(folder) / "scene_000000/grasps.json").read_text())
+            scene = next(g.generate(keys, grasps=True))
+            self.assertEqual(scene.grasps, written)
+            self.assertGreater(len(written["grasps"]), 10)
+            self.assertIsNone(next(g.generate(keys)).grasps)
+            heap = g.heap(keys)
+            heap.settle()
+            self.assertEqual(heap.scene(grasps=True).grasps, written)
+
     def test_a_dict_is_the_same_request(self):
         with Generator() as g:
             keys = dict(self.keys, parts=[dict(self.keys["parts"][0], count=12)])
@@ -237,11 +275,21 @@ class BadInput(unittest.TestCase):
         self.refused(lambda: self.g.generate(nuts(), prefetch=-1), "-1", "Generator.generate")
         self.refused(lambda: self.g.generate(7), "int", "request", "dict")
         self.refused(lambda: self.g.generate("nowhere.yaml"), "no such", "nowhere.yaml")
+        self.refused(lambda: self.g.generate({"parts": [{"model": "\udcff.stl"}]}), "no text of UTF-8", "request")
+        self.refused(lambda: self.g.generate(nuts(), images="camera"), "'camera'", "Generator.generate")
+        self.refused(lambda: self.g.generate(nuts(), grasps=True), "no grippers", "Generator.generate", "grippers=")
+        self.refused(lambda: self.heap.scene(grasps=True), "no grippers", "Heap.scene", "grippers=")
         self.refused(lambda: self.g.generate({"parts": [{"model": "nowhere.stl"}]}), "nowhere.stl", "request")
         self.refused(lambda: next(self.g.generate(nuts(), memory_budget=1000)), "needs about", "memory_budget")
         cycle = nuts()
         cycle["parts"].append(cycle)
         self.refused(lambda: self.g.generate(cycle), "Circular", "request")
+
+    def test_a_file_may_have_a_name_of_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            request = pathlib.Path(folder) / os.fsdecode(b"\xff.yaml")
+            request.write_text(json.dumps(nuts(2)))
+            self.assertEqual(next(self.g.generate(request, images=False)).poses.shape, (2, 7))
 
     def test_arrays_of_wrong_shape(self):
         for poses in (np.zeros((2, 6)), np.zeros(7), np.zeros((1, 1, 7))):
@@ -250,10 +298,15 @@ class BadInput(unittest.TestCase):
         self.refused(lambda: self.heap.remove([[1]]), "(1, 1)", "Heap.remove")
         self.refused(lambda: self.heap.remove(1.5), "float64", "Heap.remove")
         self.refused(lambda: self.heap.remove([7]), "7", "ids")
+        self.refused(lambda: self.heap.remove([2 ** 31]), "2147483648", "Heap.remove")
         self.refused(lambda: self.heap.lift([0], direction=[0, 1]), "(2,)", "Heap.lift: direction")
+        self.refused(lambda: self.heap.lift([0], distance="a"), "'a'", "Heap.lift: distance")
+        self.refused(lambda: self.heap.lift([0], distance=[1]), "[1]", "Heap.lift: distance")
+        self.refused(lambda: self.heap.set_gravity([0, 0, -1e9]), "1e+09", "Heap.set_gravity")
         self.refused(lambda: self.heap.set_gravity([0, np.inf, 1]), "not finite", "Heap.set_gravity")
         self.refused(lambda: self.heap.set_gravity("down"), "'down'", "Heap.set_gravity")
         self.refused(lambda: self.heap.add([]), "no part line", "Heap.add")
+        self.refused(lambda: self.heap.add(None), "NoneType", "Heap.add")
 
     def test_a_closed_generator(self):
         g = Generator()

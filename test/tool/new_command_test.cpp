@@ -27,6 +27,17 @@ TEST_F(CommandLine, NewWritesARequestWithABinThatItsHeapFills) {
   EXPECT_EQ(json("again/scene_000000/scene.json")["report"]["state_hash"], scene["report"]["state_hash"]);
 }
 
+TEST_F(CommandLine, NewMakesRoomForPinsThatLean) {
+  put("pin.stl", box_stl(Vec3(2, 2, 60)));
+  const Outcome made = run("new pin.stl --count 30 --out pins.yaml");
+  EXPECT_EQ(made.code, 0) << made.out << made.err;
+  double rim = 0.0, top = 0.0;
+  const std::size_t at = made.out.find("bin of ");
+  ASSERT_NE(at, std::string::npos) << made.out;
+  ASSERT_EQ(std::sscanf(made.out.c_str() + at, "bin of %*f x %*f x %lf m, heap %lf m high", &rim, &top), 2) << made.out;
+  EXPECT_LT(top, rim) << made.out;
+}
+
 TEST_F(CommandLine, NewSaysHowTheUnitWasChosenAndRefusesWhatFitsNoBin) {
   const auto unit_of = [&](double edge, const std::string& options) {
     put("part.stl", box_stl(edge));

@@ -102,8 +102,8 @@ void StructuredLight::light_row(std::size_t row) {
     if (std::isnan(view_.depth[i])) continue;
     if (view_.face[i] != number) face = scenery_.face(number = view_.face[i]);
     const Vec3 point = view_.pose.position + turn_ * (view_.depth[i] * p.ray);
-    points[x] = {point, turn_ * p.normal, view_.line[i], true,
-                 sight_.clear(point, face, number == Scenery::floor_face)};
+    points[x] = {point, turn_ * p.normal, view_.line[i],
+                 true,  view_.label[i],   sight_.clear(point, face, number == Scenery::floor_face)};
   }
   light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
         width);
