@@ -23,7 +23,7 @@ class Sample:
 
     def raw(self, name):
         """Bytes of a file: depth.png, gray.tiff, rgb.png, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
-        truth_labels.png, truth_normal.png, or of plans with output `grasps` grasps.json."""
+        truth_labels.png, truth_normal.png, of pictures of 16 bits image.png, or of plans with output `grasps` grasps.json."""
         if name not in self._files:
             raise KeyError("image %s has no %s; there are %s" % (self.key, name, " ".join(sorted(self._files))))
         offset, size = self._files[name]
@@ -54,6 +54,13 @@ class Sample:
     def rgb(self):
         """(rows, columns, 3), 8 bits: of a sensor that takes colour images."""
         return read_png(self.raw("rgb.png"))
+
+    @property
+    def picture(self):
+        """(rows, columns[, 3]): the counts of a sensor `image` as it gave them, uint16 of 16 bits; of others `gray`."""
+        if "image.png" in self._files:
+            return read_png(self.raw("image.png"))
+        return self.rgb if "rgb.png" in self._files else self.gray
 
     @property
     def snr(self):

@@ -346,10 +346,9 @@ class PlanFile {
       return "grasps are asked for, but the request has no grippers";
     if (bop && request.sensors.size() != plan_.reference.sensors.size())
       return "BOP has the same number of images in each scene, one a sensor";
-    std::string why;
     for (const Sensor& sensor : request.sensors)
-      if (bop && why.empty()) why = bop_misfit(sensor);
-    return why;
+      if (const std::string why = bop_misfit(sensor); bop && !why.empty()) return why;
+    return "";
   }
 
   void check_outputs() {
@@ -358,6 +357,7 @@ class PlanFile {
     if (plan_.wants("shards") && plan_.shard_size < plan_.reference.sensors.size())
       complain("is less than the images of one scene", "shard_size", "give at least as many as there are sensors");
     if (!plan_.wants("bop") && !plan_.wants("shards")) return;
+    if (const std::string loss = bop_loss(plan_.reference.sensors); !loss.empty()) plan_.notes.push_back(loss);
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
       const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);

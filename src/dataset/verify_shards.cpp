@@ -66,11 +66,13 @@ bool labels_agree(const Json& truth, const Json& masks, const LoadedImage& label
 void verify_shard_images(const std::string& key, const std::map<std::string, std::string>& files, bool by_truth,
                          const std::string& where, Findings& findings) {
   LoadedImage depth, snr, labels, normals;
+  std::optional<LoadedImage> picture;
   try {
     depth = png_from(files.at("depth.png"), where + ", " + key + ".depth.png");
     snr = png_from(files.at("snr.png"), where + ", " + key + ".snr.png");
     labels = png_from(files.at("truth_labels.png"), where + ", " + key + ".truth_labels.png");
     normals = png_from(files.at("truth_normal.png"), where + ", " + key + ".truth_normal.png");
+    if (files.count("image.png")) picture = png_from(files.at("image.png"), where + ", " + key + ".image.png");
   } catch (const Error& error) {
     findings.expect(false, "shard_images", error.where(), error.problem());
     return;
@@ -82,6 +84,9 @@ void verify_shard_images(const std::string& key, const std::map<std::string, std
   if (!findings.expect(same(snr) && same(labels) && same(normals) && normals.channels == 3, "shard_images", image,
                        "depth, SNR, labels and normals have different sizes"))
     return;
+  if (picture)
+    findings.expect(same(*picture) && picture->bits == 16, "shard_images", image,
+                    "image.png is none of 16 bits of the size of depth.png");
   if (by_truth)
     findings.expect(labels_agree(Json::parse(files.at("gt.json")), Json::parse(files.at("mask_visib.json")), labels),
                     "shard_labels", image, "mask_visib.json is not where truth_labels.png has the parts");

@@ -46,7 +46,7 @@ std::string six_digits(std::size_t number);
 
 /// Samples of BOP's layout by images, to be packed into shards: {scene:06d}_{image:06d}.{depth.png, gray.tiff,
 /// camera.json, gt.json, gt_info.json, mask.json, mask_visib.json}, of colour images rgb.png, and beside BOP's files
-/// snr.png, truth_labels.png and truth_normal.png.
+/// of pictures of 16 bits image.png, and snr.png, truth_labels.png and truth_normal.png.
 void write_bop_samples(const std::string& directory, std::size_t scene, const std::vector<BopImage>& images);
 /// grasps.json beside them, the same for all images of the scene.
 void write_grasp_samples(const std::string& directory, const Scene& scene, std::size_t number,

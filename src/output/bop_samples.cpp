@@ -72,6 +72,8 @@ void write_bop_samples(const std::string& directory, std::size_t scene, const st
     write_bytes(base + "gray.tiff", tiff8(image.width, image.height, 1, image.gray));
     if (image.seen->picture.channels == 3)
       write_bytes(base + "rgb.png", png8(image.width, image.height, 3, in_bytes(image.seen->picture)));
+    if (image.seen->picture.bits == 16)  // which readers of BOP's own files cut to their lower 8
+      write_bytes(base + "image.png", png_of(image.width, image.height, image.seen->picture));
     write_bytes(base + "snr.png", png16(image.width, image.height, counted_snr(image.seen->snr)));
     write_bytes(base + "truth_labels.png", png16(image.width, image.height, image.seen->seen_label()));
     write_bytes(base + "truth_normal.png",

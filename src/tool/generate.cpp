@@ -112,7 +112,7 @@ McapProfile mcap_profile(const GenerateOptions& options) {
   return mcap_profile_of(*options.mcap, "--mcap");
 }
 
-/// Refuses options that the request cannot serve.
+/// Refuses options that the request cannot serve, and tells what they leave out.
 void check_options(const GenerateOptions& options, const Request& request, bool needs_sensors) {
   const auto asked = [&](const char* format) {
     return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
@@ -130,6 +130,8 @@ void check_options(const GenerateOptions& options, const Request& request, bool 
       const std::string why = bop_misfit(sensor);
       if (!why.empty()) throw input_error(why, "sensors: " + sensor.name, bop_misfit_remedy);
     }
+    if (const std::string loss = bop_loss(request.sensors); !loss.empty())
+      std::fprintf(stderr, "bin_scenes: note: %s\n", loss.c_str());
   }
   if (!options.trace.empty() && request.scenes != 1) {
     throw input_error("a trace holds one scene, but " + std::to_string(request.scenes) + " are asked for", "--trace",

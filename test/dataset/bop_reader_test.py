@@ -50,9 +50,18 @@ class Images(unittest.TestCase):
     def test_rgb_of_8_bits(self):
         np.testing.assert_array_equal(read_png(png(2, 1, 8, 2, b"\0\1\2\3\4\5\6")), [[[1, 2, 3], [4, 5, 6]]])
 
+    def test_rgb_of_16_bits_keeps_them(self):
+        values = np.array([[[0, 1, 256], [40000, 65535, 7]], [[513, 0, 255], [3, 65535, 40001]], [[9, 8, 7], [6, 5, 300]]], np.uint16)
+        stored = [np.frombuffer(row.astype(">u2").tobytes(), np.uint8) for row in values]
+        below = [b"\0" + stored[0].tobytes(), b"\2" + (stored[1] - stored[0]).tobytes(), b"\2" + (stored[2] - stored[1]).tobytes()]
+        image = read_png(png(2, 3, 16, 2, b"".join(below)))
+        self.assertEqual(image.dtype, np.uint16)
+        np.testing.assert_array_equal(image, values)
+
     def test_what_it_cannot_read_is_refused(self):
-        whole = png(64, 64, 8, 0, bytes(range(65)) * 64)
-        for data in (b"", b"no picture", whole[:-40], png(1, 1, 16, 2, bytes(7)), png(1, 1, 8, 6, bytes(5))):
+        whole, colours = png(64, 64, 8, 0, bytes(range(65)) * 64), png(2, 1, 16, 2, b"\0" + bytes(range(12)))
+        filtered, short = png(1, 1, 16, 2, b"\4" + bytes(6)), png(1, 2, 16, 2, bytes(7))
+        for data in (b"", b"no picture", whole[:-40], colours[:-20], filtered, short, png(1, 1, 8, 6, bytes(5))):
             with self.assertRaises(ValueError):
                 read_png(data)
         with self.assertRaises(ValueError):
@@ -173,6 +182,34 @@ class Bop(DataSetTest):
             self.assertAlmostEqual(info[str(number)]["diameter"], 1e3 * np.linalg.norm(size), places=3)
             self.assertEqual(len(info[str(number)]["symmetries_discrete"]), others)
             self.assertNotIn("symmetries_continuous", info[str(number)])
+
+    def test_shards_keep_16_bits_and_bop_tells_that_it_does_not(self):
+        plan = self.plan(scenes=1)
+        path, camera = self.folder / plan, "    - {name: camera, width: 96, height: 72"
+        image = ", model: image, image: {samples: 1, bits: 16%s}"
+        text = path.read_text().replace(camera, camera + image % ", colour: true")
+        path.write_text(text.replace("width: 64, height: 48", "width: 64, height: 48" + image % ""))
+        told = self.make(plan, "out").stderr
+        self.assertEqual(told.count("BOP's files hold the upper 8 bits of pictures of 16"), 1, told)
+        scene = self.out / "scenes/scene_000000"
+        for sample, sensor, shape in zip(Shards(self.out), ("camera", "side"), ((72, 96, 3), (48, 64))):
+            picture = sample.picture
+            self.assertEqual((picture.shape, picture.dtype), (shape, np.uint16))
+            self.assertGreater(len(np.unique(picture)), 256)  # no picture of 8 bits, stretched
+            self.assertEqual(sample.raw("image.png"), (scene / (sensor + "_image.png")).read_bytes())
+            bytes_of = sample.rgb if picture.ndim == 3 else sample.gray
+            self.assertEqual(bytes_of.dtype, np.uint8)
+            self.assertLessEqual(abs(bytes_of.astype(int) - picture / 257).max(), 1)
+        self.run_tool("dataset", "verify", "out")
+
+    def test_pictures_of_8_bits_are_those_of_bop(self):
+        plan = self.plan(scenes=1, outputs="json, shards")
+        path, camera = self.folder / plan, "    - {name: camera, width: 96, height: 72"
+        path.write_text(path.read_text().replace(camera, camera + ", model: image, image: {samples: 1, colour: true}"))
+        self.assertNotIn("bits", self.make(plan, "out").stderr)
+        colour, depth = Shards(self.out)
+        np.testing.assert_array_equal(colour.picture, colour.rgb)
+        np.testing.assert_array_equal(depth.picture, depth.gray)
 
     def test_the_example_shows_a_batch(self):
         list(self.images())

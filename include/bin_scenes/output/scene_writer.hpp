@@ -60,6 +60,8 @@ void write_bop(const std::string& directory, const Scene& scene, const std::vect
 /// Why BOP's files cannot hold what a sensor sees, since they describe it by a camera matrix alone; empty: they can.
 std::string bop_misfit(const Sensor& sensor);
 extern const char* const bop_misfit_remedy;
+/// What BOP's files leave out of what sensors give; empty: nothing.
+std::string bop_loss(const std::vector<Sensor>& sensors);
 /// How BOP's files tell what is visible, and which object a part is.
 struct BopOptions {
   /// 0: a pixel shows the part that is truly seen there. Else, in m: it shows every part that lies no deeper than so

@@ -13,7 +13,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
           s.samples);
   v.field({"colour", "", "RGB instead of grey"}, s.colour);
-  v.field({"bits", "", "of a count, 8 or 16", at_least(8.0, 16.0)}, s.bits);
+  v.field({"bits", "", "of a count, 8 or 16, of which BOP has the upper 8", at_least(8.0, 16.0)}, s.bits);
 }
 
 /// Paths of one image, some 3 million of which a core traces a second.
