@@ -21,7 +21,7 @@ GraspJson pose_json(const Pose& pose) {
   return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-/// What draws a gripper; keys as in the request.
+/// What draws a gripper and what labels depend on; keys as in the request.
 GraspJson gripper_json(const Gripper& g) {
   GraspJson json = {{"name", g.name}};
   if (g.type == Gripper::Type::parallel) {
@@ -30,11 +30,22 @@ GraspJson gripper_json(const Gripper& g) {
                  {"opening", g.opening},
                  {"finger_width", g.finger_width},
                  {"finger_thickness", g.finger_thickness},
-                 {"pad_length", g.pad_length}});
+                 {"pad_length", g.pad_length},
+                 {"pad_give", g.pad_give}});
   } else {
-    json.update({{"type", "suction"}, {"radius", g.radius}});
+    json.update({{"type", "suction"},
+                 {"stroke", g.travel()},
+                 {"radius", g.radius},
+                 {"lip", g.lip},
+                 {"stiffness", g.stiffness}});
   }
-  json.update({{"finger_depth", g.finger_depth}, {"palm", {g.palm.x(), g.palm.y(), g.palm.z()}}, {"force", g.force}});
+  json.update({{"finger_depth", g.finger_depth},
+               {"palm", {g.palm.x(), g.palm.y(), g.palm.z()}},
+               {"force", g.force},
+               {"friction", g.friction},
+               {"clearance", g.clearance},
+               {"tilt", g.tilt},
+               {"most", g.most}});
   return json;
 }
 

@@ -32,6 +32,13 @@ class Grasps(DataSetTest):
             self.assertIn("camera", shards[key].grasps["grasps"][0]["pose_in_camera"])
         self.run_tool("dataset", "verify", "out")
 
+    def test_grippers_tell_all_that_labels_depend_on(self):
+        both = {"clearance": 0.002, "friction": 0.4, "tilt": 0.7, "most": 50, "force": 30.0, "stroke": 0.02}
+        two, cup = {"name": "two", "pad_give": 1e-4, **both}, {"name": "cup", "type": "suction", "lip": 0.002, "stiffness": 150.0, **both}
+        self.make(self.plan("  grippers: %s\n  sensors:" % json.dumps([two, cup]), scenes=1, outputs="json, grasps"), "out")
+        for given, told in zip((two, cup), self.grasps("out", 0)["grippers"]):
+            self.assertEqual({key: told.get(key) for key in given}, given)
+
     def test_as_many_grasps_are_proved_as_the_plan_asks_for(self):
         from bin_scenes_data import Shards
         self.make(self.plan(GRIPPERS.replace("  sensors:", "  prove: 3\n  sensors:"), scenes=1, outputs="json, shards, grasps",
