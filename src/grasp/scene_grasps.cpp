@@ -245,6 +245,17 @@ std::string reason_of(const SceneGrasp& grasp, const PartPick& part) {
   }
 }
 
+namespace {
+
+/// Whether an upright palm does not go into the bin, however it is turned, and fingers do not reach the floor.
+bool stays_above(const Gripper& gripper, const Bin& bin) {
+  const Vec3& room = bin.inner_size;
+  return bin.kind == Bin::Kind::box && gripper.finger_depth < room.z() &&
+         std::min(gripper.palm.x(), gripper.palm.y()) > std::min(room.x(), room.y());
+}
+
+}  // namespace
+
 std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request) {
   std::vector<Flag> flags;
   for (const SceneGrasps::Found& found : grasps.found) {
@@ -255,6 +266,12 @@ std::vector<Flag> flags_of(const SceneGrasps& grasps, const Request& request) {
                          "': " + text_of(found.counts, gripper.type),
                      "choose a gripper that fits the part"});
   }
+  for (const Gripper& gripper : request.grippers)
+    if (stays_above(gripper, request.bin))
+      flags.push_back({"palm_too_wide",
+                       "the palm of '" + gripper.name + "' is wider than the bin: fingers reach no deeper than " +
+                           std::to_string(std::lround(1e3 * gripper.finger_depth)) + " mm below the rim",
+                       "lengthen finger_depth or narrow palm, in m"});
   return flags;
 }
 

@@ -393,5 +393,24 @@ TEST(SceneGrasps, NoGraspAtAllSaysWhy) {
   EXPECT_NE(flags[0].text.find("5000 where the ring leaves the part"), std::string::npos) << flags[0].text;
 }
 
+TEST(SceneGrasps, APalmThatCannotFollowIsTold) {
+  Gripper broad = cup();
+  broad.palm = {0.31, 0.32, 0.1};
+  broad.finger_depth = 0.05;
+  Stage stage({broad});
+  Request& request = stage.loaded.request;
+  request.bin.kind = Bin::Kind::box;
+  const auto told = [&](const Vec3& room) {
+    request.bin.inner_size = room;
+    return flags_of({}, request);
+  };
+  const auto flags = told({0.4, 0.3, 0.2});
+  ASSERT_EQ(flags.size(), 1u);
+  EXPECT_EQ(flags[0].code, "palm_too_wide");
+  EXPECT_NE(flags[0].text.find("no deeper than 50 mm below the rim"), std::string::npos) << flags[0].text;
+  EXPECT_TRUE(told({0.4, 0.3, 0.05}).empty());   // its fingers reach the floor
+  EXPECT_TRUE(told({0.4, 0.315, 0.2}).empty());  // it goes in, turned
+}
+
 }  // namespace
 }  // namespace bin_scenes
