@@ -4,6 +4,9 @@
 #include "bin_scenes/part/part_model.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -146,6 +149,30 @@ TopoDS_Shape thread(double radius, double height) {
   tool.AddWire(wire(top, outer));
   tool.CheckCompatibility(false);
   return tool.Shape().Reversed();  // the tutorial's faces look inwards
+}
+
+/// In a process of its own, from whose file system /proc is taken.
+TEST_F(Cad, WithoutProcTheTrueCauseIsTold) {
+  const std::string path = step(BRepPrimAPI_MakeBox(10.0, 20.0, 30.0).Shape());
+  constexpr int told = 0, not_told = 1, not_allowed = 2;
+  const pid_t pid = fork();
+  if (pid == 0) {
+    const bool gone = unshare(CLONE_NEWNS) == 0 && mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+                      umount2("/proc", MNT_DETACH) == 0;
+    if (!gone) _exit(not_allowed);
+    try {
+      load_mesh(path);
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      _exit(error.problem().find("by way of /proc, which is not mounted") == std::string::npos ? not_told : told);
+    }
+    _exit(not_told);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(pid, &status, 0), pid);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == not_allowed) GTEST_SKIP() << "needs the right to unmount";
+  EXPECT_EQ(WEXITSTATUS(status), told);
 }
 
 }  // namespace
