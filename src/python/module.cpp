@@ -64,6 +64,15 @@ py::array copied(const Value* values, std::vector<py::ssize_t> shape) {
   return py::array_t<Value>(std::move(shape), values);
 }
 
+/// For __reduce__ of what shows memory of this process.
+auto no_pickle(const char* advice) {
+  return [advice](py::object self) -> py::object {
+    const auto name = self.get_type().attr("__name__").cast<std::string>();
+    throw py::type_error("a bin_scenes." + name +
+                         " cannot be pickled or copied: its arrays show memory of this process. " + advice);
+  };
+}
+
 using ImagePtr = std::shared_ptr<ImageData>;
 using ScenePtr = std::shared_ptr<SceneData>;
 
@@ -110,6 +119,7 @@ py::object picture(py::object self) {
 
 void bind_image(py::module_& m) {
   py::class_<ImageData, ImagePtr>(m, "Image")
+      .def("__reduce__", no_pickle("Send arrays that you need of it, such as image.depth"))
       .def_property_readonly("name", [](const ImageData& i) { return i.image.sensor.name; })
       .def_property_readonly("width", [](const ImageData& i) { return i.image.width; })
       .def_property_readonly("height", [](const ImageData& i) { return i.image.height; })
@@ -175,6 +185,7 @@ py::dict visible_fraction(const SceneData& scene) {
 
 void bind_scene(py::module_& m) {
   py::class_<SceneData, ScenePtr>(m, "Scene")
+      .def("__reduce__", no_pickle("Send what you need of it, such as {'poses': scene.poses, 'json': scene.json()}"))
       .def_property_readonly("seed", [](const SceneData& s) { return s.scene.seed; })
       .def_property_readonly("index", [](const SceneData& s) { return s.scene.index; })
       .def_property_readonly("accepted", [](const SceneData& s) { return s.scene.report.accepted; })

@@ -162,6 +162,16 @@ class Arrays(unittest.TestCase):
         image.truth_normals[0, 0] = 2.0
         self.assertEqual(self.scene.images["camera"].truth_normals[0, 0, 2], 2.0)
 
+    def test_pickling_says_what_to_send_instead(self):
+        for shown, advice in ((self.scene, "scene.json()"), (self.scene.images["camera"], "image.depth")):
+            with self.assertRaises(TypeError) as caught:
+                pickle.dumps(shown)
+            self.assertIn(advice, str(caught.exception))
+        sent = {"poses": self.scene.poses, "json": self.scene.json(), "depth": self.scene.images["camera"].depth}
+        again = pickle.loads(pickle.dumps(sent))
+        np.testing.assert_array_equal(again["poses"], self.scene.poses)
+        np.testing.assert_array_equal(again["depth"], self.scene.images["camera"].depth)
+
     def test_arrays_outlive_scene_and_generator(self):
         with Generator() as g:
             scene = next(g.generate(nuts()))
