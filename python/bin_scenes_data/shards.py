@@ -14,6 +14,19 @@ def run_lengths_to_mask(run_lengths):
     return np.repeat(values, run_lengths["counts"]).reshape(width, height).T
 
 
+def matrices(poses):
+    """(N, 4, 4) of poses as JSON tells them."""
+    poses = list(poses)
+    made = np.tile(np.eye(4), (len(poses), 1, 1))
+    for matrix, pose in zip(made, poses):
+        x, y, z, w = pose["orientation_xyzw"]
+        matrix[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                          [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                          [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+        matrix[:3, 3] = pose["position"]
+    return made
+
+
 class Sample:
     """One image with its truth."""
 
@@ -109,6 +122,23 @@ class Sample:
     def grasps(self):
         """Grasps of the scene, a dict as grasps.json tells them; poses in the bin and in each camera."""
         return self._json("grasps.json")
+
+    @property
+    def grasp_arrays(self):
+        """The same as arrays, a row each: `pose` (N, 4, 4) in the bin (m), `part`, `gripper` (a row of
+        grasps["grippers"]), `width` (m), `score`, `free`, `proved` (1: lifted, 0: failed, -1: not tried), and by name of
+        a camera `in_camera` (N, 4, 4) and `visible` (N,), the share of the contact that it sees."""
+        told = self.grasps
+        grasps, names = told["grasps"], [gripper["name"] for gripper in told["grippers"]]
+        cameras = list(grasps[0]["pose_in_camera"]) if grasps else []
+        column = lambda kind, value: np.array([value(grasp) for grasp in grasps], kind)
+        return {"pose": matrices(grasp["pose"] for grasp in grasps),
+                "part": column(int, lambda g: g["part"]), "gripper": column(int, lambda g: names.index(g["gripper"])),
+                "width": column(float, lambda g: g["width"]), "score": column(float, lambda g: g["score"]),
+                "free": column(bool, lambda g: g["free"]),
+                "proved": column(int, lambda g: g["proof"]["success"] if "proof" in g else -1),
+                "in_camera": {name: matrices(g["pose_in_camera"][name] for g in grasps) for name in cameras},
+                "visible": {name: column(float, lambda g: g["visible"][name]) for name in cameras}}
 
     def masks(self, name="mask_visib"):
         """(parts, rows, columns), boolean: what is visible, or with `mask` the whole silhouettes."""

@@ -22,13 +22,31 @@ class Grasps(DataSetTest):
     def scene(self, out, scene):
         return json.loads((self.folder / out / ("scenes/scene_%06d/scene.json" % scene)).read_text())
 
+    def check_arrays(self, arrays, told):
+        """Matrices against points turned by quaternions, one by one."""
+        grasps, point = told["grasps"], np.array([0.01, 0.02, 0.03])
+        self.assertEqual([told["grippers"][i]["name"] for i in arrays["gripper"]], [g["gripper"] for g in grasps])
+        for name in ("part", "width", "score", "free"):
+            np.testing.assert_array_equal(arrays[name], [g[name] for g in grasps])
+        np.testing.assert_array_equal(arrays["proved"], -np.ones(len(grasps)))
+        for camera in ("camera", "side"):
+            np.testing.assert_array_equal(arrays["visible"][camera], [g["visible"][camera] for g in grasps])
+        for i, grasp in enumerate(grasps):
+            for matrix, pose in ((arrays["pose"][i], grasp["pose"]),
+                                 (arrays["in_camera"]["side"][i], grasp["pose_in_camera"]["side"])):
+                v, w = np.array(pose["orientation_xyzw"][:3]), pose["orientation_xyzw"][3]
+                turned = point + 2 * np.cross(v, np.cross(v, point) + w * point) + pose["position"]
+                np.testing.assert_allclose((matrix @ [*point, 1])[:3], turned, rtol=0, atol=1e-12)
+
     def test_shards_hold_the_grasps_of_their_scene(self):
         from bin_scenes_data import Shards
         self.make(self.plan(scenes=2, outputs="json, shards, grasps"), "out")
         shards = Shards(self.folder / "out")
         self.assertEqual(len(shards), 4)  # two cameras
         for key in shards.keys:
-            self.assertEqual(shards[key].grasps, self.grasps("out", int(key[:6])))
+            told = self.grasps("out", int(key[:6]))
+            self.assertEqual(shards[key].grasps, told)
+            self.check_arrays(shards[key].grasp_arrays, told)
             self.assertIn("camera", shards[key].grasps["grasps"][0]["pose_in_camera"])
         self.run_tool("dataset", "verify", "out")
 
