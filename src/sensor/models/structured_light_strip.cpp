@@ -130,8 +130,9 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
     const Hit& hit = hits[i];
     const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
     const std::uint32_t face = model_.scenery_.face_of(hit);
-    points[i] = {point, hit.normal, hit.line, face != Scenery::no_face, hit.label,
-                 model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
+    points[i] = {point,     hit.normal,
+                 hit.line,  face != Scenery::no_face,
+                 hit.label, model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
   }
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());
