@@ -84,6 +84,7 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
 /// Whether two pixels are lit differently or have different surfaces.
 bool StructuredLight::Strip::differ(std::size_t a, std::size_t b) const {
   if (model_.codes_[a] != model_.codes_[b]) return true;
+  if (!model_.worn_.empty() && model_.worn_[a] != model_.worn_[b]) return true;
   const std::int32_t one = model_.view_.line[a], other = model_.view_.line[b];
   return one != other && !same(model_.surfaces_.of(one), model_.surfaces_.of(other));
 }
@@ -141,7 +142,12 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());
   std::vector<Seen> seen(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) seen[i] = {hits[i].distance, lit[i], hits[i].line};
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    Surface own;
+    const SeenPoint& p = points[i];
+    const Surface& surface = p.hit ? model_.surfaces_.at(p.line, p.label, p.position, own) : own;
+    seen[i] = {hits[i].distance, lit[i], hits[i].line, diffuse_share(surface)};
+  }
   return seen;
 }
 
@@ -159,7 +165,8 @@ StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel,
     const double u = cells::across(cells::corners[k]), v = cells::down(cells::corners[k]);
     const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
     const double off = std::abs(corners[k].depth - pixel.plane / here);
-    const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line));
+    const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line)) ||
+                       corners[k].diffuse != model_.diffuse(pixel.index);
     // A sixteenth of the pixel is enough to be mixed, and of what is removed nobody asks how much.
     const bool removed = reach_ == 0 && model_.setup_.settings.mixed == MixedPixels::remove;
     if (!(off < model_.setup_.settings.edge_step)) return removed ? Kind::mixed : Kind::crossed;
@@ -208,6 +215,9 @@ void StructuredLight::Strip::alike(std::size_t a, std::size_t b, int count, char
         static_cast<char>(one_plane & (code[a] == code[b]) & (line[a] == line[b]) & (normal[a][0] == normal[b][0]) &
                           (normal[a][1] == normal[b][1]) & (normal[a][2] == normal[b][2]));
   }
+  if (model_.worn_.empty()) return;
+  a -= static_cast<std::size_t>(count), b -= static_cast<std::size_t>(count);
+  for (int x = 0; x < count; ++x, ++a, ++b) out[x] = static_cast<char>(out[x] & (model_.worn_[a] == model_.worn_[b]));
 }
 
 std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixels() const {
@@ -341,7 +351,7 @@ void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, 
     own.depth[k] = static_cast<float>(s.depth);
     own.outside = own.outside || s.lit.code == Validity::outside;
     if (s.lit.code == Validity::nothing) continue;
-    own.diffuse += static_cast<float>(diffuse_share(model_.surfaces_.of(s.line))) / per_pixel;
+    own.diffuse += static_cast<float>(s.diffuse) / per_pixel;
   }
   add(index, own);
 }
@@ -351,7 +361,7 @@ StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, c
   const Lens& lens = model_.view_.lens;
   const std::size_t index = pixel.index;
   Cells own;
-  own.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
+  own.diffuse = static_cast<float>(model_.diffuse(index));
   own.outside = model_.codes_[index] == Validity::outside;
   for (int k = 0; k < per_pixel; ++k) {
     const double u = cells::across(k), v = cells::down(k);

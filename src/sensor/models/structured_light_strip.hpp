@@ -47,6 +47,7 @@ class StructuredLight::Strip {
     double depth;
     Lit lit;
     std::int32_t line;
+    double diffuse;  ///< share of ambient light sent back
   };
 
   std::vector<char> uniform(int first, int last) const;

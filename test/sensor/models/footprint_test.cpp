@@ -281,5 +281,63 @@ TEST(Footprint, ABlurredBorderDrawsTheDepthWhereverItCrossesAPixel) {
   }
 }
 
+/// A plate with rust. Light of the projector and of the surroundings is that of each point's surface, weighted by the
+/// blur over the pixel's box.
+TEST(Footprint, BordersOfTextureDrawTheDepthAndSendBackTheirAmbientLight) {
+  constexpr int fine = 12, reach = 2, row = 30;
+  const double z = 0.7, blur = 0.6;
+  Targets targets;
+  add_plate(targets, {0, 0, z}, {4.0, 4.0, 0.01}, 0.9);
+  const Scenery scenery = targets.scenery();
+  Surfaces surfaces = targets.surfaces();
+  surfaces.lines[0].texture.rust = 0.4;
+  surfaces.places.assign(2, {Pose(), Vec3::UnitX(), 7});
+  for (const double exposure : {0.8, 1e-6}) {
+    Device device(0.1);
+    device.setup.imager.blur = blur;
+    device.setup.imager.exposure = exposure;
+    device.setup.imager.ambient = exposure < 0.01 ? 0.5 : 0.0;
+    device.setup.settings.min_modulation = 1e-6;
+    const View view = render(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
+    const StructuredLight model(scenery, view, surfaces, device.setup);
+    const auto below = [&](double x) { return 0.5 * std::erfc(-x / (blur * std::sqrt(2.0))); };
+    const auto weight = [&](double d) { return below(d + 0.5) - below(d - 0.5); };
+    const auto expected = [&](int x) {
+      std::vector<Light> lights;
+      double ambient = 0.0, all = 0.0;
+      for (int k = -reach * fine; k < (reach + 1) * fine; ++k) {
+        for (int l = -reach * fine; l < (reach + 1) * fine; ++l) {
+          const double u = (k + 0.5) / fine - 0.5, v = (l + 0.5) / fine - 0.5, w = weight(u) * weight(v);
+          Surface own;
+          const double albedo = diffuse_share(surfaces.at(0, 1, z * device.camera.ray(x + u, row + v), own));
+          lights.push_back(light_on_plate(device, x + u, row + v, z, albedo));
+          lights.back().signal *= w;
+          ambient += w * albedo, all += w;
+        }
+      }
+      return std::make_pair(depth_of(device, x, row, common_column(lights, device.setup.settings.period)),
+                            ambient / all);
+    };
+    for (const bool decoded : {false, true}) {
+      const Random random(1, 0, Stream::noise);
+      const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
+      double drawn = 0.0;
+      for (int x = 5; x < 195; ++x) {
+        const auto [depth, ambient] = expected(x);
+        const std::size_t i = row * 200 + static_cast<std::size_t>(x);
+        if (exposure < 0.01) {
+          EXPECT_NEAR(measured.intensity[i], 0.5 * ambient, 0.025) << x << " " << decoded;
+          continue;
+        }
+        drawn = std::max(drawn, std::abs(depth - z));
+        EXPECT_NEAR(measured.depth[i], depth, 4e-4) << x << " " << decoded;
+      }
+      if (exposure > 0.01) {
+        EXPECT_GT(drawn, 2e-3);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes
