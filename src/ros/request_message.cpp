@@ -127,6 +127,13 @@ Keys surface_keys(const msgs::Surface& surface, const std::string& path) {
   keys.optional("albedo", surface.albedo);
   keys.optional("gloss", surface.gloss);
   keys.optional("roughness", surface.roughness);
+  keys.optional("anisotropy", surface.anisotropy);
+  if (is_set(surface.along)) keys.value("along", values(surface.along));
+  Keys texture(path + ".texture");
+  texture.optional("scratches", surface.texture_scratches);
+  texture.optional("oil", surface.texture_oil);
+  texture.optional("rust", surface.texture_rust);
+  keys.section("texture", texture);
   return keys;
 }
 

@@ -22,7 +22,7 @@ struct Body {
   Scenery::Body placed;
   Mat3 turn;   // mesh to camera
   Vec3 place;  // m
-  std::vector<Corner> corners;
+  std::vector<ImageCorner> corners;
   bool one_sided = false;  // all that is seen of it faces the camera
   int first_band = 0;
   std::vector<std::vector<std::uint32_t>> bands;  // triangles
@@ -126,7 +126,7 @@ bool Drawing::place(Body& body, const Pose& mesh_in_camera, bool whole) const {
 /// The rectangle of the image that a body can cover.
 void Drawing::frame(const Body& body, Silhouette& s) const {
   double left = 1e300, right = -left, top = left, bottom = -left;
-  for (const Corner& corner : body.corners) {
+  for (const ImageCorner& corner : body.corners) {
     left = std::min(left, corner.u), right = std::max(right, corner.u);
     top = std::min(top, corner.v), bottom = std::max(bottom, corner.v);
   }
@@ -145,15 +145,15 @@ void Drawing::frame(const Body& body, Silhouette& s) const {
 void Drawing::sort_into_bands(Body& body) const {
   if (body.corners.empty()) return;
   double top = 1e300, bottom = -top;
-  for (const Corner& corner : body.corners) top = std::min(top, corner.v), bottom = std::max(bottom, corner.v);
+  for (const ImageCorner& corner : body.corners) top = std::min(top, corner.v), bottom = std::max(bottom, corner.v);
   const double end = lens_.height - 1.0, right_end = lens_.width - 1.0;
   if (bottom < -edge || top > end + edge) return;
   body.first_band = down(std::max(top, 0.0)) / band_rows;
   body.bands.resize(static_cast<std::size_t>(down(std::min(bottom + 1.0, end)) / band_rows - body.first_band + 1));
   const std::vector<Triangle>& triangles = body.placed.mesh->triangles;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const Corner &a = body.corners[triangles[t][0]], &b = body.corners[triangles[t][1]],
-                 &c = body.corners[triangles[t][2]];
+    const ImageCorner &a = body.corners[triangles[t][0]], &b = body.corners[triangles[t][1]],
+                      &c = body.corners[triangles[t][2]];
     const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);  // seen from outside: negative
     if (body.one_sided ? !(area < 0.0) : !(area != 0.0)) continue;
     const double high = std::min(a.v, std::min(b.v, c.v)), low = std::max(a.v, std::max(b.v, c.v));
@@ -198,7 +198,8 @@ void draw_span(const Plane& plane, const double* ray_x, int count, const Kept& k
 
 void Drawing::draw_triangle(Band& band, const Body& body, std::uint32_t t, Silhouette* silhouette) const {
   const Triangle& corners = body.placed.mesh->triangles[t];
-  const Corner* const corner[3] = {&body.corners[corners[0]], &body.corners[corners[1]], &body.corners[corners[2]]};
+  const ImageCorner* const corner[3] = {&body.corners[corners[0]], &body.corners[corners[1]],
+                                        &body.corners[corners[2]]};
   const Scenery::Plane& plane = (*body.placed.planes)[t];
   const Vec3 normal = body.turn * plane.normal;
   const Vec3 slope = normal / (plane.offset + normal.dot(body.place));  // 1 / depth = slope . ray

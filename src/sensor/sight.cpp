@@ -19,10 +19,10 @@ constexpr std::uint32_t nobody = ~0u, bent = ~0u;
 /// A mesh in the light's field.
 struct ClearSight::Seen {
   Scenery::Body body;
-  Mat3 turn;                    // mesh to light
-  Vec3 place;                   // m
-  std::vector<Corner> corners;  // in cells
-  double margin;                // cells
+  Mat3 turn;                         // mesh to light
+  Vec3 place;                        // m
+  std::vector<ImageCorner> corners;  // in cells
+  double margin;                     // cells
 };
 
 ClearSight::ClearSight(const Scenery& scenery, const Lens& light, const Pose& pose)
@@ -82,7 +82,7 @@ void ClearSight::mark_cell(Cell& cell, const Seen& seen, std::uint32_t triangle,
 
 void ClearSight::mark(const Seen& seen, std::uint32_t t, std::uint32_t body) {
   const Triangle& triangle = seen.body.mesh->triangles[t];
-  const Corner &a = seen.corners[triangle[0]], &b = seen.corners[triangle[1]], &c = seen.corners[triangle[2]];
+  const ImageCorner &a = seen.corners[triangle[0]], &b = seen.corners[triangle[1]], &c = seen.corners[triangle[2]];
   // Where light meets a closed mesh first, it meets a front.
   if (seen.body.closed && (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u) > 1e-9) return;
   const double top = std::min(a.v, std::min(b.v, c.v)) - seen.margin,
@@ -106,7 +106,8 @@ void ClearSight::mark(const Seen& seen, std::uint32_t t, std::uint32_t body) {
 /// The cells of each row that a large triangle may touch.
 void ClearSight::mark_rows(const Seen& seen, std::uint32_t t, std::uint32_t body) {
   const Triangle& triangle = seen.body.mesh->triangles[t];
-  const Corner* const corner[3] = {&seen.corners[triangle[0]], &seen.corners[triangle[1]], &seen.corners[triangle[2]]};
+  const ImageCorner* const corner[3] = {&seen.corners[triangle[0]], &seen.corners[triangle[1]],
+                                        &seen.corners[triangle[2]]};
   const auto [high, low] = std::minmax({corner[0]->v, corner[1]->v, corner[2]->v});
   const double highest = std::max(corner[0]->near, std::max(corner[1]->near, corner[2]->near));
   const int upper = down(std::max(high - seen.margin, 0.0)),
@@ -122,7 +123,7 @@ void ClearSight::mark_rows(const Seen& seen, std::uint32_t t, std::uint32_t body
     const double top = row - seen.margin, bottom = row + 1 + seen.margin;
     double left = 1e300, right = -left;
     for (int k = 0; k < 3; ++k) {
-      const Corner &a = *corner[k], &b = *corner[k == 2 ? 0 : k + 1];
+      const ImageCorner &a = *corner[k], &b = *corner[k == 2 ? 0 : k + 1];
       if (std::max(a.v, b.v) < top || std::min(a.v, b.v) > bottom) continue;
       for (const double v : {std::clamp(a.v, top, bottom), std::clamp(b.v, top, bottom)}) {
         const double share = a.v == b.v ? 0.0 : (v - a.v) / (b.v - a.v), u = a.u + share * (b.u - a.u);

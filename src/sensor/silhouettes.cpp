@@ -79,14 +79,14 @@ void set(Silhouette& s, int x, int y) {
 /// Where lines stay straight and no triangle leaves the range, its projection says which pixel centres it covers. That
 /// is what a ray through each would find, at a fifth of the time: triangles are few, and pixels many.
 void fill_by_triangles(Silhouette& s, const Mesh& mesh, const std::vector<Vec3>& corners, const Lens& lens) {
-  std::vector<Corner> at;  // in the rectangle
+  std::vector<ImageCorner> at;  // in the rectangle
   at.reserve(corners.size());
   for (const Vec3& p : corners) {
     const double y = p.y() / p.z();
     at.push_back({lens.fx * p.x() / p.z() + lens.skew * y + lens.cx - s.left, lens.fy * y + lens.cy - s.top, 0.0});
   }
   for (const Triangle& triangle : mesh.triangles) {
-    const Corner* const corner[3] = {&at[triangle[0]], &at[triangle[1]], &at[triangle[2]]};
+    const ImageCorner* const corner[3] = {&at[triangle[0]], &at[triangle[1]], &at[triangle[2]]};
     for_spans(corner, 0, s.height - 1, s.width, [&](int y, int first, int last) {
       for (int x = first; x <= last; ++x) set(s, x, y);
     });

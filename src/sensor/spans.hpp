@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 /// A corner of a triangle in the image.
-struct Corner {
+struct ImageCorner {
   double u, v;  ///< pixel
   double near;  ///< 1 / depth (1/m)
 };
@@ -29,7 +29,7 @@ constexpr double edge = 1e-9;
 /// Calls span(row, first, last) with the columns of each row, from `top` to `bottom`, whose pixel centres a triangle
 /// covers, edges included.
 template <class Span>
-void for_spans(const Corner* const (&corner)[3], int top, int bottom, int width, const Span& span) {
+void for_spans(const ImageCorner* const (&corner)[3], int top, int bottom, int width, const Span& span) {
   const auto [low, high] = std::minmax({corner[0]->v, corner[1]->v, corner[2]->v});
   const auto [left, right] = std::minmax({corner[0]->u, corner[1]->u, corner[2]->u});
   if (right < 0.0 || left > width - 1.0 || high < top - edge || low > bottom + edge) return;
@@ -37,7 +37,7 @@ void for_spans(const Corner* const (&corner)[3], int top, int bottom, int width,
   for (int row = up(std::max(low - edge, static_cast<double>(top))); row <= last_row; ++row) {
     double first = right, last = left;
     for (int k = 0; k < 3; ++k) {
-      const Corner &a = *corner[k], &b = *corner[k == 2 ? 0 : k + 1];
+      const ImageCorner &a = *corner[k], &b = *corner[k == 2 ? 0 : k + 1];
       const double below = std::min(a.v, b.v), above = std::max(a.v, b.v);
       if (row < below - edge || row > above + edge) continue;
       const bool along = above - below <= edge;  // runs along the row

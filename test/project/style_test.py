@@ -101,6 +101,23 @@ def complaints(command):
     return "" if run.returncode == 0 else run.stdout + run.stderr
 
 
+def named_classes(text):
+    """(Namespace, name) of each class that is defined outside of functions, classes and nameless namespaces."""
+    spaces, depths, depth = [], [], 0
+    for line in bare(text).splitlines():
+        space = re.match(r"\s*(?:inline )?namespace\b *([\w:]*) *\{", line)
+        name = re.match(r"(?:class|struct)\s+(\w+)(?:\s+final)?\s*(?::(?!:)[^;]*)?\{", line)
+        if name and all(spaces) and len(spaces) == depth:
+            yield "::".join(spaces), name[1]
+        if space:
+            spaces.append(space[1])
+            depths.append(depth)
+        depth += line.count("{") - line.count("}")
+        while depths and depth <= depths[-1]:
+            depths.pop()
+            spaces.pop()
+
+
 class Style(unittest.TestCase):
     maxDiff = None
 
@@ -143,6 +160,16 @@ class Style(unittest.TestCase):
         self.assertGreater(count, 5000)
         self.assertEqual(large - pending, set(), "above %d parameters or %d lines" % (MOST_PARAMETERS, MOST_LINES))
         self.assertEqual(pending - large, set(), "these are small now: take them from LARGE")
+
+    def test_classes_of_one_name_share_no_namespace(self):
+        """Two in different files would be one to the linker: whichever's vector<> it takes, the other writes beyond."""
+        found = {}
+        for path in PATHS:
+            if path.startswith(("src/", "include/")) and path.endswith((".cpp", ".hpp")):
+                for space, name in named_classes((ROOT / path).read_text()):
+                    found.setdefault((space, name), set()).add(path)
+        self.assertGreater(len(found), 400)
+        self.assertEqual({name: files for name, files in found.items() if len(files) > 1}, {})
 
     def test_long_files_say_what_they_do(self):
         for path in PATHS:

@@ -107,6 +107,11 @@ TEST(RequestMessage, SurfaceAndMotionAreThoseOfAFile) {
   part.surface.albedo = {0.2};
   part.surface.gloss = {0.0};
   part.surface.roughness = {0.7};
+  part.surface.anisotropy = {0.6};
+  part.surface.along.y = 1.0;
+  part.surface.texture_scratches = {0.1};
+  part.surface.texture_oil = {0.0};
+  part.surface.texture_rust = {0.3};
   part.motion.times = {0.5, 1.0};
   part.motion.poses.resize(2);
   part.motion.poses[1].position.x = 0.05;
@@ -120,7 +125,8 @@ parts:
     unit: mm
     fixed: true
     poses: [[0, 0, 0.1, 0, 0, 0, 1]]
-    surface: {material: brass, albedo: 0.2, gloss: 0, roughness: 0.7}
+    surface: {material: brass, albedo: 0.2, gloss: 0, roughness: 0.7, anisotropy: 0.6, along: [0, 1, 0],
+      texture: {scratches: 0.1, oil: 0, rust: 0.3}}
     motion: {times: [0.5, 1], poses: [[0, 0, 0, 0, 0, 0, 1], [0.05, 0, 0, 0, 0, 0, 1]], shake: [0.01, 0, 0],
       tilt: [0, 0, 0.02], frequency: 3, seconds: 2}
 )",

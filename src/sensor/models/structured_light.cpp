@@ -17,6 +17,11 @@ namespace {
 /// direct light less the quarter of the amplitude that a bit has to pass.
 constexpr double turns_bits = 0.7;
 
+bool textured(const Surfaces& surfaces) {
+  return surfaces.bin.texture.any() || std::any_of(surfaces.lines.begin(), surfaces.lines.end(),
+                                                   [](const Surface& line) { return line.texture.any(); });
+}
+
 /// Normally distributed numbers, drawn in pairs.
 class Normals {
  public:
@@ -50,7 +55,8 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       codes_(view.depth.size()),
       columns_(view.depth.size()),
       whites_(view.depth.size()),
-      planes_(view.depth.size()) {
+      planes_(view.depth.size()),
+      worn_(textured(surfaces) ? view.depth.size() : 0) {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
   for (const double exposure : setup.imager.exposures)
     scales_.insert(scales_.begin(), exposure / setup.imager.exposure);
@@ -112,6 +118,9 @@ void StructuredLight::light_row(std::size_t row) {
     codes_[i] = lit[x].code;
     columns_[i] = lit[x].column;
     whites_[i] = lit[x].reflected / std::max(lit[x].distance * lit[x].distance, 1e-12);
+    Surface own;
+    if (!worn_.empty() && points[x].hit)
+      worn_[i] = diffuse_share(surfaces_.at(points[x].line, points[x].label, points[x].position, own));
   }
 }
 
@@ -150,8 +159,13 @@ StructuredLight::Vec2 StructuredLight::slope(const Pixel& pixel) const {
   return triangulation_.slope(pixel.ray, view_.depth[pixel.index], pixel.normal, view_.lens);
 }
 
+/// Share of ambient light sent back.
+double StructuredLight::diffuse(std::size_t index) const {
+  return worn_.empty() ? diffuse_share(surfaces_.of(view_.line[index])) : worn_[index];
+}
+
 double StructuredLight::ambient(std::size_t index) const {
-  return setup_.imager.ambient * diffuse_share(surfaces_.of(view_.line[index]));
+  return setup_.imager.ambient * diffuse(index);
 }
 
 StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {

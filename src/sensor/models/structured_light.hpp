@@ -73,6 +73,7 @@ class StructuredLight {
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
   Vec2 slope(const Pixel& pixel) const;
+  double diffuse(std::size_t index) const;
   double ambient(std::size_t index) const;
   Fringe fringe(const Pixel& pixel) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
@@ -102,6 +103,7 @@ class StructuredLight {
   std::vector<double> columns_;  ///< of the projector
   std::vector<double> whites_;   ///< reflected / distance^2
   std::vector<double> planes_;   ///< Pixel::plane
+  std::vector<double> worn_;     ///< share of ambient light sent back; empty: no surface has a texture
   std::vector<double> scales_;   ///< exposures / ImagerSettings::exposure, the longest first
   double gain_ = 0.0;            ///< signal of the projector's white = gain * white
 

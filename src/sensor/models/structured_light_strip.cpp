@@ -61,7 +61,7 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
   std::vector<char> needed(pixels, 0);
   for (const Uneven& pixel : uneven) {
     const int x = static_cast<int>(pixel.index % width_), y = static_cast<int>(pixel.index / width_);
-    if (y >= top_ && y < bottom_) {
+    if (y >= top_ && y < bottom_) {  // beside an edge, cells are those of the pixel's face
       if (pixel.kind == Kind::bent) add_bent(pixel);
       if (pixel.kind == Kind::mixed) add_mixed(pixel);
       if (pixel.kind == Kind::crossed) crossed.push_back(&pixel);
@@ -81,15 +81,20 @@ StructuredLight::Strip::Strip(const StructuredLight& model, int first, int last)
   }
 }
 
+/// Whether two pixels are lit differently or have different surfaces.
+bool StructuredLight::Strip::differ(std::size_t a, std::size_t b) const {
+  if (model_.codes_[a] != model_.codes_[b]) return true;
+  if (!model_.worn_.empty() && model_.worn_[a] != model_.worn_[b]) return true;
+  const std::int32_t one = model_.view_.line[a], other = model_.view_.line[b];
+  return one != other && !same(model_.surfaces_.of(one), model_.surfaces_.of(other));
+}
+
 /// Whether a neighbour is lit differently, sees nothing or has another surface.
 bool StructuredLight::Strip::differs(int x, int y) const {
   const std::size_t own = static_cast<std::size_t>(y) * width_ + x;
   for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
-      const std::size_t i = static_cast<std::size_t>(v) * width_ + u;
-      if (model_.codes_[i] != model_.codes_[own]) return true;
-      const std::int32_t a = model_.view_.line[own], b = model_.view_.line[i];
-      if (a != b && !same(model_.surfaces_.of(a), model_.surfaces_.of(b))) return true;
+      if (differ(own, static_cast<std::size_t>(v) * width_ + u)) return true;
     }
   }
   return false;
@@ -130,13 +135,19 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
     const Hit& hit = hits[i];
     const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
     const std::uint32_t face = model_.scenery_.face_of(hit);
-    points[i] = {point, hit.normal, hit.line, face != Scenery::no_face, hit.label,
-                 model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
+    points[i] = {point,     hit.normal,
+                 hit.line,  face != Scenery::no_face,
+                 hit.label, model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
   }
   light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
         points.data(), lit.data(), lit.size());
   std::vector<Seen> seen(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) seen[i] = {hits[i].distance, lit[i], hits[i].line};
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    Surface own;
+    const SeenPoint& p = points[i];
+    const Surface& surface = p.hit ? model_.surfaces_.at(p.line, p.label, p.position, own) : own;
+    seen[i] = {hits[i].distance, lit[i], hits[i].line, diffuse_share(surface)};
+  }
   return seen;
 }
 
@@ -154,7 +165,8 @@ StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel,
     const double u = cells::across(cells::corners[k]), v = cells::down(cells::corners[k]);
     const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
     const double off = std::abs(corners[k].depth - pixel.plane / here);
-    const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line));
+    const bool other = corners[k].lit.code != code || !same(own, model_.surfaces_.of(corners[k].line)) ||
+                       corners[k].diffuse != model_.diffuse(pixel.index);
     // A sixteenth of the pixel is enough to be mixed, and of what is removed nobody asks how much.
     const bool removed = reach_ == 0 && model_.setup_.settings.mixed == MixedPixels::remove;
     if (!(off < model_.setup_.settings.edge_step)) return removed ? Kind::mixed : Kind::crossed;
@@ -203,6 +215,9 @@ void StructuredLight::Strip::alike(std::size_t a, std::size_t b, int count, char
         static_cast<char>(one_plane & (code[a] == code[b]) & (line[a] == line[b]) & (normal[a][0] == normal[b][0]) &
                           (normal[a][1] == normal[b][1]) & (normal[a][2] == normal[b][2]));
   }
+  if (model_.worn_.empty()) return;
+  a -= static_cast<std::size_t>(count), b -= static_cast<std::size_t>(count);
+  for (int x = 0; x < count; ++x, ++a, ++b) out[x] = static_cast<char>(out[x] & (model_.worn_[a] == model_.worn_[b]));
 }
 
 std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixels() const {
@@ -234,14 +249,46 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
     for (const int cell : cells::corners) corners.push_back({index, cell});
   }
   const std::vector<Seen> seen = cast(corners);
-  std::vector<Uneven> uneven;
+  std::vector<Uneven> uneven, even;
   for (std::size_t i = 0; i < maybe.size(); ++i) {
     const Pixel pixel = model_.pixel(maybe[i] % width_, maybe[i] / width_);
     const Seen* const own = &seen[4 * i];
     const Kind kind = kind_of(pixel, own);
-    if (kind != Kind::even) uneven.push_back({maybe[i], kind, {own[0], own[1], own[2], own[3]}});
+    (kind == Kind::even ? even : uneven).push_back({maybe[i], kind, {own[0], own[1], own[2], own[3]}});
   }
+  if (reach_ > 0) add_beside(from, to, even, uneven);
   return uneven;
+}
+
+/// An edge that runs between pixels crosses none of their cells, yet the blur brings light from its other side. Of
+/// even pixels, those count whose neighbour across the edge is even, too.
+void StructuredLight::Strip::add_beside(int from, int to, const std::vector<Uneven>& even,
+                                        std::vector<Uneven>& uneven) const {
+  const std::size_t origin = static_cast<std::size_t>(from) * width_;
+  std::vector<char> crossed(static_cast<std::size_t>(to - from) * width_, 0);
+  for (const Uneven& pixel : uneven) crossed[pixel.index - origin] = 1;
+  for (const Uneven& pixel : even) {
+    const int x = static_cast<int>(pixel.index % width_), y = static_cast<int>(pixel.index / width_);
+    const auto edge_towards = [&](int u, int v) {
+      if (u < 0 || u >= width_ || v < from || v >= to) return false;
+      const std::size_t other = static_cast<std::size_t>(v) * width_ + u;
+      return !crossed[other - origin] && edge_between(pixel.index, other);
+    };
+    if (!edge_towards(x - 1, y) && !edge_towards(x + 1, y) && !edge_towards(x, y - 1) && !edge_towards(x, y + 1))
+      continue;
+    uneven.push_back(pixel);
+    uneven.back().kind = Kind::beside;
+  }
+}
+
+/// Whether two pixels that both see something of the projector's field differ, or lie edge_step apart.
+bool StructuredLight::Strip::edge_between(std::size_t a, std::size_t b) const {
+  const Validity code = model_.codes_[b];
+  if (code != Validity::valid && code != Validity::shadow) return false;
+  if (differ(a, b)) return true;
+  const Pixel own = model_.pixel(a % width_, a / width_);
+  const double here = own.normal.dot(model_.rays_.at(b % width_, b / width_));
+  return !(std::abs(model_.view_.depth[b] - own.plane / here) < model_.setup_.settings.edge_step);
 }
 
 /// Share of a neighbour's cells that lie off a pixel's face by edge_step or more.
@@ -304,7 +351,7 @@ void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, 
     own.depth[k] = static_cast<float>(s.depth);
     own.outside = own.outside || s.lit.code == Validity::outside;
     if (s.lit.code == Validity::nothing) continue;
-    own.diffuse += static_cast<float>(diffuse_share(model_.surfaces_.of(s.line))) / per_pixel;
+    own.diffuse += static_cast<float>(s.diffuse) / per_pixel;
   }
   add(index, own);
 }
@@ -314,7 +361,7 @@ StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, c
   const Lens& lens = model_.view_.lens;
   const std::size_t index = pixel.index;
   Cells own;
-  own.diffuse = static_cast<float>(diffuse_share(model_.surfaces_.of(model_.view_.line[index])));
+  own.diffuse = static_cast<float>(model_.diffuse(index));
   own.outside = model_.codes_[index] == Validity::outside;
   for (int k = 0; k < per_pixel; ++k) {
     const double u = cells::across(k), v = cells::down(k);

@@ -13,8 +13,9 @@ namespace bin_scenes {
 
 /// Some rows of the image and what their pixels near edges see. A pixel is *uneven* if a neighbour lies off its face,
 /// is lit differently or has another surface, and rays through its corners confirm it. Where they meet an edge, all its
-/// cells are asked by rays; where they meet faces that bend gently, cells lie between centre and corners. Cells of
-/// neighbours within the blur's reach follow from their faces.
+/// cells are asked by rays; where they meet faces that bend gently, cells lie between centre and corners; where an
+/// edge runs just between two pixels, cells lie on the pixel's face. Cells of neighbours within the blur's reach follow
+/// from their faces.
 class StructuredLight::Strip {
  public:
   static constexpr int per_pixel = cells::per_pixel;
@@ -46,16 +47,18 @@ class StructuredLight::Strip {
     double depth;
     Lit lit;
     std::int32_t line;
+    double diffuse;  ///< share of ambient light sent back
   };
 
   std::vector<char> uniform(int first, int last) const;
   float off_face(const Pixel& pixel, int right, int down, const Cells& cells, const Values& weight) const;
   void alike(std::size_t a, std::size_t b, int count, char* out) const;
+  bool differ(std::size_t a, std::size_t b) const;
   bool differs(int x, int y) const;
   double hidden_step(const Pixel& pixel) const;
   std::vector<Seen> cast(const std::vector<Spot>& spots) const;
   /// How the corner cells of a pixel lie to its face.
-  enum class Kind { even, bent, mixed, crossed };
+  enum class Kind { even, beside, bent, mixed, crossed };
   struct Uneven {
     std::size_t index;  ///< pixel
     Kind kind;
@@ -63,6 +66,8 @@ class StructuredLight::Strip {
   };
   Kind kind_of(const Pixel& pixel, const Seen* corners) const;
   std::vector<Uneven> uneven_pixels() const;
+  void add_beside(int from, int to, const std::vector<Uneven>& even, std::vector<Uneven>& uneven) const;
+  bool edge_between(std::size_t a, std::size_t b) const;
   void add_crossed(const std::vector<const Uneven*>& pixels);
   void add_mixed(const Uneven& pixel);
   void add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen);

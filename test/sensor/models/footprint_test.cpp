@@ -180,40 +180,160 @@ TEST(Footprint, WhereAShadowEndsPixelsFadeIntoTheLight) {
   }
 }
 
-TEST(Footprint, ABlurredBorderOfDarkAndBrightDrawsTheDepth) {
-  // Two plates of one plane that meet at x = 0. Each pixel's light is weighted by the blur over the pixel's box.
-  const double z = 0.7;
-  Targets targets;
-  add_plate(targets, {-1.0003, 0, z}, {2.0, 4.0, 0.01}, 0.9);
-  add_plate(targets, {0.9997, 0, z}, {2.0, 4.0, 0.01}, 0.05);
+/// The border of a shadow is a straight line on the plate that crosses pixels at every share.
+TEST(Footprint, AtAShadowsBorderTheSignalFollowsTheShareThatIsLit) {
+  constexpr int fine = 16;
+  const double turn = 0.021, z = 1.0, between = 0.6;
   for (const double blur : {0.0, 0.6}) {
-    Device device(0.1);
+    Device device(0.2);
     device.setup.imager.blur = blur;
-    device.setup.settings.min_modulation = 1e-6;
-    const auto below = [&](double x) {
-      return blur > 0.0 ? 0.5 * std::erfc(-x / (blur * std::sqrt(2.0))) : x > 0.0 ? 1.0 : 0.0;
+    device.setup.imager.ambient = 0.0;
+    device.setup.imager.reference_distance = z;
+    Targets empty, targets;
+    for (Targets* const all : {&empty, &targets}) add_plate(*all, {0, 0, z}, {4.0, 4.0, 0.01}, 0.6);
+    add_plate(targets, {0.06, 0, between}, {0.03, 2.0, 0.01}, 0.6, turn);
+    const Vec3 light = device.setup.projector_pose.position;
+    const auto lit_at = [&](double u, double v) {
+      const Vec3 passed = light + between / z * (z * device.camera.ray(u, v) - light) - Vec3(0.06, 0.0, between);
+      return passed.x() * std::cos(turn) + passed.y() * std::sin(turn) < -0.015;
+    };
+    const auto below = [&](double x) { return 0.5 * std::erfc(-x / (blur * std::sqrt(2.0))); };
+    const auto weight = [&](double d) {
+      return blur > 0.0 ? below(d + 0.5) - below(d - 0.5) : std::abs(d) < 0.5 ? 1.0 : 0.0;
     };
     for (const bool decoded : {false, true}) {
-      const Shot shot = shoot(targets, device, decoded);
-      double largest = 0.0;
-      for (int x = 90; x < 110; ++x) {
-        std::vector<Light> lights;
-        for (double d = -4.0 + 1.0 / 128; d < 4.0; d += 1.0 / 64) {
-          const bool bright = z * device.camera.ray(x + d, 30).x() < -0.0003;
-          lights.push_back(light_on_plate(device, x + d, 30, z, bright ? 0.9 : 0.05));
-          lights.back().signal *= below(d + 0.5) - below(d - 0.5);
+      const Shot bright = shoot(empty, device, decoded), shot = shoot(targets, device, decoded);
+      double worst = 0.0, sum = 0.0;
+      int crossed = 0, wrong = 0;
+      for (std::size_t i = 0; i < shot.view.depth.size(); ++i) {
+        const int x = static_cast<int>(i % 200), y = static_cast<int>(i / 200);
+        if (x < 58 || x > 74 || y < 3 || y > 56) continue;  // far from the border; rows that lack neighbours
+        double lit = 0.0, all = 0.0;
+        const int reach = blur > 0.0 ? 2 : 0;
+        for (int k = -reach * fine; k < (reach + 1) * fine; ++k) {
+          for (int l = -reach * fine; l < (reach + 1) * fine; ++l) {
+            const double u = (k + 0.5) / fine - 0.5, v = (l + 0.5) / fine - 0.5, w = weight(u) * weight(v);
+            all += w;
+            lit += lit_at(x + u, y + v) ? w : 0.0;
+          }
         }
-        const double expected = depth_of(device, x, 30, common_column(lights, device.setup.settings.period)) - z;
-        const std::size_t i = 30 * 200 + static_cast<std::size_t>(x);
-        ASSERT_EQ(shot.measured.validity[i], Validity::valid);
-        EXPECT_NEAR(shot.measured.depth[i] - z, expected, 1e-4) << blur << " " << decoded << " " << x;
-        largest = std::max(largest, std::abs(shot.measured.depth[i] - z));
-        if (x < 96 || x > 103) {
-          EXPECT_NEAR(shot.measured.depth[i], z, decoded ? 5e-5 : 1e-9) << x;
+        const double share = lit / all;
+        if (share < 0.01 || share > 0.99) continue;
+        const double off = std::abs(shot.measured.intensity[i] / bright.measured.intensity[i] - share);
+        worst = std::max(worst, off), sum += off, ++crossed;
+        wrong += share > 0.1 && shot.measured.validity[i] != Validity::valid;
+      }
+      ASSERT_GT(crossed, 50);
+      EXPECT_LT(worst, 1.0 / 16.0) << blur << " " << decoded;  // a cell
+      EXPECT_LT(sum / crossed, blur > 0.0 ? 0.004 : 0.02) << blur << " " << decoded;
+      EXPECT_EQ(wrong, 0) << blur << " " << decoded;
+    }
+  }
+}
+
+/// Two plates of one plane that meet in the column `border` of the image's middle row. Each pixel's light is weighted
+/// by the blur over the pixel's box. Returns the largest error of depth.
+double contrast_error(double border, double blur, bool decoded) {
+  const double z = 0.7;
+  Device device(0.1);
+  device.setup.imager.blur = blur;
+  device.setup.settings.min_modulation = 1e-6;
+  const double edge = z * device.camera.ray(border, 30).x();
+  Targets targets;
+  add_plate(targets, {edge - 1.0, 0, z}, {2.0, 4.0, 0.01}, 0.9);
+  add_plate(targets, {edge + 1.0, 0, z}, {2.0, 4.0, 0.01}, 0.05);
+  const auto below = [&](double x) {
+    return blur > 0.0 ? 0.5 * std::erfc(-x / (blur * std::sqrt(2.0))) : x > 0.0 ? 1.0 : 0.0;
+  };
+  const Shot shot = shoot(targets, device, decoded);
+  double largest = 0.0;
+  for (int x = 90; x < 110; ++x) {
+    std::vector<Light> lights;
+    for (double d = -4.0 + 1.0 / 128; d < 4.0; d += 1.0 / 64) {
+      lights.push_back(light_on_plate(device, x + d, 30, z, x + d < border ? 0.9 : 0.05));
+      lights.back().signal *= below(d + 0.5) - below(d - 0.5);
+    }
+    const double expected = depth_of(device, x, 30, common_column(lights, device.setup.settings.period)) - z;
+    const std::size_t i = 30 * 200 + static_cast<std::size_t>(x);
+    EXPECT_EQ(shot.measured.validity[i], Validity::valid);
+    EXPECT_NEAR(shot.measured.depth[i] - z, expected, 1e-4) << border << " " << blur << " " << decoded << " " << x;
+    largest = std::max(largest, std::abs(shot.measured.depth[i] - z));
+    if (x < 96 || x > 103) {
+      EXPECT_NEAR(shot.measured.depth[i], z, decoded ? 5e-5 : 1e-9) << x;
+    }
+  }
+  return largest;
+}
+
+TEST(Footprint, ABorderOfDarkAndBrightDrawsTheDepth) {
+  for (const bool decoded : {false, true}) contrast_error(99.25, 0.0, decoded);
+}
+
+TEST(Footprint, ABlurredBorderDrawsTheDepthWhereverItCrossesAPixel) {
+  for (const bool decoded : {false, true}) {
+    double smallest = 1.0, largest = 0.0;
+    for (const double border : {99.5, 99.75, 100.0, 100.25}) {  // 99.5: between two pixels
+      const double error = contrast_error(border, 0.6, decoded);
+      smallest = std::min(smallest, error), largest = std::max(largest, error);
+    }
+    EXPECT_GT(smallest, 5e-4) << decoded;
+    EXPECT_LT(largest, 1.5 * smallest) << decoded;
+  }
+}
+
+/// A plate with rust. Light of the projector and of the surroundings is that of each point's surface, weighted by the
+/// blur over the pixel's box.
+TEST(Footprint, BordersOfTextureDrawTheDepthAndSendBackTheirAmbientLight) {
+  constexpr int fine = 12, reach = 2, row = 30;
+  const double z = 0.7, blur = 0.6;
+  Targets targets;
+  add_plate(targets, {0, 0, z}, {4.0, 4.0, 0.01}, 0.9);
+  const Scenery scenery = targets.scenery();
+  Surfaces surfaces = targets.surfaces();
+  surfaces.lines[0].texture.rust = 0.4;
+  surfaces.places.assign(2, {Pose(), Vec3::UnitX(), 7});
+  for (const double exposure : {0.8, 1e-6}) {
+    Device device(0.1);
+    device.setup.imager.blur = blur;
+    device.setup.imager.exposure = exposure;
+    device.setup.imager.ambient = exposure < 0.01 ? 0.5 : 0.0;
+    device.setup.settings.min_modulation = 1e-6;
+    const View view = render(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
+    const StructuredLight model(scenery, view, surfaces, device.setup);
+    const auto below = [&](double x) { return 0.5 * std::erfc(-x / (blur * std::sqrt(2.0))); };
+    const auto weight = [&](double d) { return below(d + 0.5) - below(d - 0.5); };
+    const auto expected = [&](int x) {
+      std::vector<Light> lights;
+      double ambient = 0.0, all = 0.0;
+      for (int k = -reach * fine; k < (reach + 1) * fine; ++k) {
+        for (int l = -reach * fine; l < (reach + 1) * fine; ++l) {
+          const double u = (k + 0.5) / fine - 0.5, v = (l + 0.5) / fine - 0.5, w = weight(u) * weight(v);
+          Surface own;
+          const double albedo = diffuse_share(surfaces.at(0, 1, z * device.camera.ray(x + u, row + v), own));
+          lights.push_back(light_on_plate(device, x + u, row + v, z, albedo));
+          lights.back().signal *= w;
+          ambient += w * albedo, all += w;
         }
       }
-      if (blur > 0.0) {
-        EXPECT_GT(largest, 5e-4) << decoded;
+      return std::make_pair(depth_of(device, x, row, common_column(lights, device.setup.settings.period)),
+                            ambient / all);
+    };
+    for (const bool decoded : {false, true}) {
+      const Random random(1, 0, Stream::noise);
+      const Measurement measured = decoded ? model.decoded(random) : model.analytic(random);
+      double drawn = 0.0;
+      for (int x = 5; x < 195; ++x) {
+        const auto [depth, ambient] = expected(x);
+        const std::size_t i = row * 200 + static_cast<std::size_t>(x);
+        if (exposure < 0.01) {
+          EXPECT_NEAR(measured.intensity[i], 0.5 * ambient, 0.025) << x << " " << decoded;
+          continue;
+        }
+        drawn = std::max(drawn, std::abs(depth - z));
+        EXPECT_NEAR(measured.depth[i], depth, 4e-4) << x << " " << decoded;
+      }
+      if (exposure > 0.01) {
+        EXPECT_GT(drawn, 2e-3);
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "solver/sphere/shapes/shape.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "part/closed_forms.hpp"
 #include "part/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -30,6 +31,20 @@ void expect_same(const sphere::Samples& a, const sphere::Samples& b) {
   EXPECT_EQ(a.face_spacing, b.face_spacing);
   EXPECT_EQ(a.sag, b.sag);
   EXPECT_EQ(a.radius, b.radius);
+}
+
+// 80 pins of 64 facets trembled for 20 s; of 24, whose edges are sharp, they lay after five.
+TEST(NodesOnCurves, OfAPinStandAThirdOfItsRadiusApart) {
+  const double radius = 1e-3;
+  const PartModelPtr pin = PartModel::from_mesh(prism_mesh(radius, 0.06, 64), "pin");
+  const sphere::Shape shape = sphere::make_shape(*pin, 200, 1000, 0.01);
+  EXPECT_LT(shape.fine.face_spacing, 0.35 * radius);
+  EXPECT_GT(shape.fine.face_spacing, 0.2 * radius);
+}
+
+TEST(NodesOnCurves, AreNoMoreWhereTheyLeanLittle) {
+  const PartModelPtr drum = PartModel::from_mesh(prism_mesh(0.05, 0.06, 64), "drum");
+  EXPECT_LT(sphere::make_shape(*drum, 200, 1000, 0.01).fine.nodes.size(), 2000u);
 }
 
 TEST(ShapeFromTheCache, IsTheOneThatWasMade) {

@@ -4,6 +4,7 @@
 #include "solver/sphere/shapes/sharp_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <iomanip>
 #include <sstream>
@@ -32,6 +33,27 @@ int at_least(int count, double wanted) {
   return std::max(count, static_cast<int>(std::min<double>(wanted, most_samples)));
 }
 
+/// Nodes of a part that is mostly curved, so that neighbours lean by 0.3 rad and stand a third of the radius apart.
+/// Wider apart, crossing pins tremble: what touches them slides past the end of a node's way. Fillets, tighter than the
+/// part is thick, do not count.
+double nodes_on_curves(const PartModel& part, double thickness, double sharp_angle) {
+  constexpr double lean = 0.3, flat = 0.01;  // rad
+  const Mesh& mesh = part.mesh();
+  double curved = 0.0, leaning = 0.0;  // m2; area / radius^2
+  for (const Fold& fold : folds_of(mesh, flat)) {
+    const double angle = std::acos(std::clamp(fold.cosine, -1.0, 1.0));
+    if (!fold.closed || !fold.convex || angle > sharp_angle) continue;
+    double area = 0.0;
+    for (const std::size_t face : fold.faces) area += 0.5 * mesh.area_vector(face).norm();
+    const double radius = area / (mesh.vertices[fold.a] - mesh.vertices[fold.b]).norm() / angle;
+    if (radius < 0.7 * thickness) continue;
+    curved += area;
+    leaning += area / (radius * radius);
+  }
+  const double whole = part.mass().area;
+  return curved < 0.5 * whole ? 0.0 : whole / curved * leaning / (lean * lean);
+}
+
 struct BothSamples {
   Samples coarse, fine;
 };
@@ -58,7 +80,7 @@ BothSamples make_both(const PartModel& part, int coarse, int fine) {
   const double edge_nodes =
       sharp_length(part.mesh(), folds, coarse_angle) / (longest_edge_piece * part.diagonal()) / edge_share;
   const int coarse_count = at_least(coarse, coarse_per_patch * patches);
-  const int fine_count = at_least(fine, std::max(patches, edge_nodes));
+  const int fine_count = at_least(fine, std::max({patches, edge_nodes, nodes_on_curves(part, thickness, fine_angle)}));
   BothSamples both;
   if (fine == 0) {
     both.coarse = both.fine = make_samples(part, folds, coarse_count, coarse_angle, coarse_ridge);
