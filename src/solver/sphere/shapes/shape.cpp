@@ -1,3 +1,4 @@
+/// Makes the collision shape of a part: how many samples it needs, its field, and what of both is kept in the cache.
 #include "solver/sphere/shapes/shape.hpp"
 
 #include "part/part_cache.hpp"
