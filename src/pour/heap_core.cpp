@@ -315,13 +315,7 @@ void HeapCore::advance() {
   const Stage before = settling_.stage();
   if (!settling_.advance(*this, time_) || settling_.done()) return;
   set_solver_phase();
-  if (settling_.stage() == Stage::reprobe) wake_moved(settling_.moved_within());
   poured_ = before == Stage::pour;
-}
-
-void HeapCore::wake_moved(double within) {
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    if (moves(b) && rest_.still(b, time_) < within) solver_.wake(id_, b);
 }
 
 void HeapCore::change_world() {

@@ -76,7 +76,6 @@ class HeapCore final : private HeapView {
   void start_rain();
   void insert_waiting();
   void cut_walls();
-  void wake_moved(double within);  ///< in the solver, what moved within the last seconds, and what that touches
   double motion_seconds() const;
   void put_on_path(double t, double dt, bool ends);
   void begin_motion();

@@ -35,9 +35,8 @@ struct Settling::Seen {
   bool too_many(std::size_t parts) const {
     return parts > std::max(0.0, tolerated_share * static_cast<double>(heap.count()) - tolerated_less);
   }
-  bool moved() const { return calm() && too_many(heap.still_for_less_than(after_jolt())) && checks < most_checks; }
-  double after_jolt() const { return in_stage - jolt; }
-  bool probed() const { return calm() && heap.all_rest() && (in_stage >= creep || heap.all_asleep()); }
+  bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && checks < most_checks; }
+  bool stood() const { return calm() && heap.all_rest(); }
   /// A part that tips or falls is waited for. On soft contacts the whole heap would sag again, and others fall as it is
   /// pressed: of hundreds there is always one.
   bool rocks() const {
@@ -64,12 +63,10 @@ const Settling::Transition Settling::transitions[] = {
     {Stage::press,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::probe},
     {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::press,  Finish::settled, Finish::pressed, [](const Seen& s) { return s.rest(); },         Stage::done},
-    {Stage::probe,   Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::reprobe},
-    {Stage::probe,   Finish::probed,  Finish::probed,  [](const Seen& s) { return s.probed(); },       Stage::verify},
-    {Stage::probe,   Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
-    {Stage::reprobe, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::reprobe},
-    {Stage::reprobe, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.probed(); },       Stage::verify},
-    {Stage::reprobe, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::probe},
+    {Stage::probe,  Finish::probed,  Finish::probed,
+     [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::verify},
+    {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::verify},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
@@ -95,7 +92,7 @@ void Settling::enter(Stage stage, double time) {
   begun_ = time;
   if (done()) return;
   friction_ = std::min(friction_, row(stage_).phase.friction);
-  checks_ += stage == Stage::probe || stage == Stage::reprobe || stage == Stage::verify;
+  checks_ += stage == Stage::probe || stage == Stage::verify;
 }
 
 bool Settling::advance(const HeapView& heap, double time) {
@@ -104,7 +101,6 @@ bool Settling::advance(const HeapView& heap, double time) {
   advanced_ = time;
   for (const Transition& t : transitions) {
     if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
-    moved_within_ = seen.after_jolt();
     enter(t.to, time);
     return true;
   }

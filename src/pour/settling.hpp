@@ -1,8 +1,8 @@
 /// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
-///     pour ─► settle ─► press ─► probe ─► reprobe ─► verify ─► done   a stage in which parts rock on goes back to
-///                └─ settled ┘ pressed ┘                probed ┘        settle; given poses start in hold, a heap from
-///                                                                     which parts were taken out starts in repair
+///     pour ─► settle ─► press ─► probe ─► verify ─► done     a stage in which parts rock on goes back to settle;
+///                └─ settled ┘ pressed ┘     probed ┘         given poses start in hold, a heap from which parts were
+///                                                           taken out starts in repair
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-enum class Stage { pour, settle, press, probe, reprobe, verify, hold, repair, done };
+enum class Stage { pour, settle, press, probe, verify, hold, repair, done };
 
 struct StageRow {
   Stage stage;
@@ -34,9 +34,6 @@ inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,  
 /// nothing apart, and friction is reduced from now on. Parts near their friction limit slip or tip now instead of later.
 /// Parts sleep one by one, so that one that creeps does not keep the others awake.
 inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
-/// Probed again are the parts that moved in the last probe, with those they touch and those that these wake in turn.
-/// The others stood, and sleep.
-inline constexpr Phase reprobe{     true,  Stiffness::rigid, 0.9,       true,     Sleep::by_touch,  true};
 /// Pressed again without remembered forces, as when this solver continues from the poses.
 inline constexpr Phase verify{      true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
 /// A heap given at rest continues on stiff contacts: softer or coarser ones would let it sink.
@@ -47,11 +44,10 @@ inline constexpr Phase repair{      true,  Stiffness::stiff, 1.0,       false,  
 
 }  // namespace phases
 
-inline constexpr std::array<StageRow, 8> stage_rows{{{Stage::pour, "pour", phases::pour},
+inline constexpr std::array<StageRow, 7> stage_rows{{{Stage::pour, "pour", phases::pour},
                                                      {Stage::settle, "settle", phases::settle},
                                                      {Stage::press, "press", phases::press},
                                                      {Stage::probe, "probe", phases::probe},
-                                                     {Stage::reprobe, "reprobe", phases::reprobe},
                                                      {Stage::verify, "verify", phases::verify},
                                                      {Stage::hold, "hold", phases::hold},
                                                      {Stage::repair, "repair", phases::repair}}};
@@ -90,8 +86,6 @@ class Settling {
   Stage stage() const { return stage_; }
   /// The solver's phase in this stage. Friction that was reduced once stays reduced to the end.
   Phase phase() const;
-  /// Within so many seconds what moved in the last stage has done so, when the current one begins.
-  double moved_within() const { return moved_within_; }
   bool done() const { return stage_ == Stage::done; }
   /// How far it has come: "settled", "pressed", "probed", or "none" before it is done.
   const char* finish() const;
@@ -107,8 +101,7 @@ class Settling {
   Stage stage_ = Stage::pour, last_ = Stage::pour;  ///< last_: before it was done
   double begun_ = 0.0;                              ///< s: start of the stage
   double advanced_ = 0.0;                           ///< s: the last advance()
-  double moved_within_ = 0.0;                       ///< s
-  int checks_ = 0;                                  ///< times that probe, reprobe or verify began
+  int checks_ = 0;                                  ///< times that probe or verify began
   double friction_ = 1.0;                           ///< share of friction that holds; never rises again
 };
 

@@ -309,10 +309,6 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
 }
 
-bool is_probe(Stage stage) {
-  return stage == Stage::probe || stage == Stage::reprobe;
-}
-
 /// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes (or
 /// presses after one) with a slide behind it, a swing of it to and fro in the first probe, and slow
 /// creeping of the first one to begin with; they fall asleep when they have been probed for so long. Notes its phases.
@@ -326,7 +322,6 @@ class HoveringSolver : public Solver {
   };
   explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
   std::vector<Stage> phases;
-  std::vector<std::size_t> woken;
   double probed_s = 0.0;  ///< in the last probe
 
   WorldId add_world(const WorldDef& def) override {
@@ -336,7 +331,6 @@ class HoveringSolver : public Solver {
   void remove_world(WorldId) override {}
   void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
   void remove(WorldId, std::size_t) override {}
-  void wake(WorldId, std::size_t body) override { woken.push_back(body); }
   bool set_phase(WorldId, const Phase& phase) override {
     phases.push_back(stage_of(phase));
     if (probes()) probed_s = 0.0;
@@ -376,8 +370,8 @@ class HoveringSolver : public Solver {
   std::string device() const override { return "cpu"; }
 
  private:
-  bool probes() const { return !phases.empty() && is_probe(phases.back()); }
-  std::ptrdiff_t times_probed() const { return std::count_if(phases.begin(), phases.end(), is_probe); }
+  bool probes() const { return !phases.empty() && phases.back() == Stage::probe; }
+  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
 
   Habits habits_;
   bool jumped_ = false, swung_ = false;
@@ -389,9 +383,8 @@ class HoveringSolver : public Solver {
 struct Probed {
   std::vector<Stage> phases;
   double last_s;  ///< length of the last probe
-  std::vector<std::size_t> woken;
 
-  std::ptrdiff_t times() const { return std::count_if(phases.begin(), phases.end(), is_probe); }
+  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
 };
 Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25,
               Pour::Finish finish = Pour::Finish::probed) {
@@ -403,7 +396,7 @@ Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, doubl
   const Report report = pour({request, {small_box()}}, solver, {0})[0].report;
   EXPECT_TRUE(report.at_rest);
   EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
-  return {solver.phases, solver.probed_s, solver.woken};
+  return {solver.phases, solver.probed_s};
 }
 
 TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
@@ -415,18 +408,16 @@ TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
 
 TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
   HoveringSolver::Habits habits;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, reprobe = Stage::reprobe,
-             press = Stage::press, verify = Stage::verify;
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             verify = Stage::verify;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify}));
   EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
   habits.jumps_at_s = 0.015;
   habits.jumps = 1;
   EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
   habits.jumps_at_s = 0.05;
-  const Probed again = probed(habits);
-  EXPECT_EQ(again.phases, (std::vector<Stage>{pour, settle, press, probe, reprobe, verify}))
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}))
       << "it comes to lie in the first, and stands the second";
-  EXPECT_EQ(again.woken, std::vector<std::size_t>{0}) << "the other one stood";
   habits.jumps = 100;
   EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
   EXPECT_EQ(probed(habits, 149).times(), 12);
@@ -449,14 +440,14 @@ TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
 
 TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
   HoveringSolver::Habits habits;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, reprobe = Stage::reprobe,
-             press = Stage::press, verify = Stage::verify;
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             verify = Stage::verify;
   habits.swings_s = 3.0;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
   EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, verify}))
       << "one of many is waited for";
   habits.swings_s = 1.5;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, reprobe, verify})) << "in time";
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify})) << "in time";
 }
 
 // A part that fell sent the heap back to soft contacts, on which it sagged as a whole; 1,000 rods never came to an end.
@@ -464,9 +455,9 @@ TEST(Pour, WhatFallsInAProbeIsWaitedFor) {
   HoveringSolver::Habits habits;
   habits.swings_fast = true;
   habits.swings_s = 0.3;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, reprobe = Stage::reprobe,
-             press = Stage::press, verify = Stage::verify;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, reprobe, verify}));
+  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
+             verify = Stage::verify;
+  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}));
   habits.swings_s = 3.0;
   EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
 }

@@ -68,7 +68,6 @@ class Watched : public Solver {
   void remove_world(WorldId id) override { solver_->remove_world(id); }
   void insert(WorldId id, std::size_t body, const BodyState& state) override { solver_->insert(id, body, state); }
   void remove(WorldId id, std::size_t body) override { solver_->remove(id, body); }
-  void wake(WorldId id, std::size_t body) override { solver_->wake(id, body); }
   bool set_phase(WorldId id, const Phase& phase) override {
     ++stages[stage_of(phase)];
     return solver_->set_phase(id, phase);

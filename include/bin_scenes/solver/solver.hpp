@@ -131,8 +131,6 @@ class Solver {
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
   /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.
   virtual void remove(WorldId world, std::size_t body) = 0;
-  /// Wakes a body and those it touches. Nothing to solvers to which all phases are the same.
-  virtual void wake(WorldId /*world*/, std::size_t /*body*/) {}
   /// Returns false if contacts are the same to this solver in all phases.
   virtual bool set_phase(WorldId world, const Phase& phase) = 0;
 

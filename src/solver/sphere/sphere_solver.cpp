@@ -85,7 +85,7 @@ class SphereSolver final : public Solver {
     World& world = slots_[id]->world;
     world.frame = frame;
     world.gravity = frame.gravity.cast<float>();
-    for (Body& b : world.bodies) sphere::wake(b);
+    for (Body& b : world.bodies) wake(b);
   }
 
   void set_jaws(WorldId id, const Jaws& jaws) override { sphere::set_jaws(slots_[id]->world, jaws); }
@@ -94,15 +94,10 @@ class SphereSolver final : public Solver {
   }
   void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slots_[id]->world, body, state); }
 
-  void wake(WorldId id, std::size_t body) override {
-    World& w = slots_[id]->world;
-    for (const std::uint32_t other : touched_by(w, static_cast<std::uint32_t>(body))) sphere::wake(w.bodies[other]);
-    sphere::wake(w.bodies[body]);
-  }
-
   void remove(WorldId id, std::size_t body) override {
-    wake(id, body);
-    slots_[id]->world.bodies[body].present = false;
+    World& w = slots_[id]->world;
+    for (const std::uint32_t other : touched_by(w, static_cast<std::uint32_t>(body))) wake(w.bodies[other]);
+    w.bodies[body].present = false;
   }
 
   bool set_phase(WorldId id, const Phase& phase) override {

@@ -94,15 +94,10 @@ class GlSphereSolver final : public Solver {
     r.changed.insert(body);
   }
 
-  void wake(WorldId id, std::size_t body) override {
-    Resident& r = world(id);
-    for (const std::uint32_t other : touched(r.world, body)) wake_one(r, other);
-    wake_one(r, body);
-  }
-
   void remove(WorldId id, std::size_t body) override {
-    wake(id, body);
     Resident& r = world(id);
+    for (const std::uint32_t other : touched(r.world, body)) wake(r, other);
+    wake(r, static_cast<std::uint32_t>(body));
     r.world.bodies[body].present = false;
     r.changed.insert(body);
   }
@@ -223,7 +218,7 @@ class GlSphereSolver final : public Solver {
     return sphere::touched_by(world, static_cast<std::uint32_t>(body));
   }
 
-  static void wake_one(Resident& r, std::size_t body) {
+  static void wake(Resident& r, std::size_t body) {
     sphere::Body& b = r.world.bodies[body];
     if (!b.present) return;
     sphere::wake(b);
