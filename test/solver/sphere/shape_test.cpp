@@ -33,7 +33,7 @@ void expect_same(const sphere::Samples& a, const sphere::Samples& b) {
   EXPECT_EQ(a.radius, b.radius);
 }
 
-// 80 pins of 64 facets trembled for 20 s; of 24, whose edges are sharp, they lay after five.
+// 80 pins of 64 facets still trembled after 20 s; of 24, whose edges are sharp, they lay after eight.
 TEST(NodesOnCurves, OfAPinStandAThirdOfItsRadiusApart) {
   const double radius = 1e-3;
   const PartModelPtr pin = PartModel::from_mesh(prism_mesh(radius, 0.06, 64), "pin");

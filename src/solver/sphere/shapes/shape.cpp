@@ -35,8 +35,7 @@ int at_least(int count, double wanted) {
 }
 
 /// Nodes of a part that is mostly curved, so that neighbours lean by 0.3 rad and stand a third of the radius apart.
-/// Wider apart, crossing pins tremble: what touches them slides past the end of a node's way. Fillets, tighter than the
-/// part is thick, do not count.
+/// Wider apart, crossing pins tremble. Fillets, tighter than the part is thick, do not count.
 double nodes_on_curves(const PartModel& part, double thickness, double sharp_angle) {
   constexpr double lean = 0.3, flat = 0.01;  // rad
   const Mesh& mesh = part.mesh();
