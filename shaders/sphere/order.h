@@ -58,8 +58,10 @@ void put_in_order(SphereWorld world, uint p) {
 // One invocation: those of the last color are solved one by one, so their order counts.
 void put_last_in_order(SphereWorld world, uint list, uint count) {
   uint index = 0u;
-  for (uint p = list; index < members_in(LAST_COLOR) && p < list + count; ++p)
-    if (pairs[p].color == LAST_COLOR) put_in_order(world, pairs[p], contacts_of(world, p), index++);
+  for (uint p = list; index < members_in(LAST_COLOR) && p < list + count; ++p) {
+    SpherePair pair = pairs[p];  // a copy: what is coherent cannot be an argument
+    if (pair.color == LAST_COLOR) put_in_order(world, pair, contacts_of(world, p), index++);
+  }
 }
 
 // When all of the color are in order.

@@ -38,12 +38,16 @@ Storage::~Storage() {
 }
 
 Storage::Storage(Storage&& other) noexcept
-    : label_(std::move(other.label_)), id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+    : label_(std::move(other.label_)),
+      id_(std::exchange(other.id_, 0)),
+      bytes_(std::exchange(other.bytes_, 0)),
+      filled_(other.filled_) {}
 
 Storage& Storage::operator=(Storage&& other) noexcept {
   std::swap(label_, other.label_);
   std::swap(id_, other.id_);
   std::swap(bytes_, other.bytes_);
+  std::swap(filled_, other.filled_);
   return *this;
 }
 
@@ -80,6 +84,8 @@ void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
   BIN_SCENES_ASSERT(offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
+  // On NVIDIA (driver 580.159) a clear that is under way would undo a write of 80 kB that was asked for after it.
+  if (std::exchange(filled_, false)) glFinish();
   traffic().bytes_uploaded += bytes;
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
@@ -87,9 +93,11 @@ void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
 void Storage::read(std::size_t offset, void* data, std::size_t bytes) const {
   BIN_SCENES_ASSERT(offset + bytes <= bytes_);
   if (!bytes) return;
-  update_barrier();
-  traffic().bytes_read_back += bytes;
-  glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+  // Not glGetNamedBufferSubData: NVIDIA's (driver 580.159) returns what was read before when the buffer has held the
+  // arguments of the dispatch that wrote to it.
+  ReadBack back;
+  back.request(*this, offset, bytes);
+  std::memcpy(data, back.wait(), bytes);
 }
 
 void Storage::copy_from(const Storage& source, std::size_t source_offset, std::size_t offset, std::size_t bytes) {
@@ -110,6 +118,7 @@ void Storage::fill(std::uint32_t word, std::size_t offset, std::size_t bytes) {
   update_barrier();
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
                             GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+  filled_ = true;
 }
 
 void Storage::bind(unsigned binding) const {

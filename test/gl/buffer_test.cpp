@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/program.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,27 @@ TEST_F(BufferTest, FillsASubRange) {
   buffer.upload(counting(4));
   buffer.fill(9, 1, 2);
   EXPECT_EQ(buffer.download(), (std::vector<std::uint32_t>{1, 9, 9, 4}));
+}
+
+TEST_F(BufferTest, AWriteComesAfterTheClearBeforeIt) {
+  for (const std::size_t count : {2000u, 20000u, 1000000u}) {
+    Buffer<std::uint32_t> buffer("test");
+    buffer.resize(count);
+    buffer.clear();
+    buffer.upload(counting(count));
+    EXPECT_TRUE(buffer.download() == counting(count)) << count;
+  }
+}
+
+TEST_F(BufferTest, ReadsWhatADispatchHasWrittenBesideItsOwnArguments) {
+  const Program ask_groups = Program::compute("test/ask_groups.comp");
+  Buffer<std::uint32_t> arguments("test");
+  arguments.upload({1, 1, 1});
+  EXPECT_EQ(arguments.download()[0], 1u);
+  ask_groups.set("groups", 5u);
+  arguments.bind(1);
+  dispatch_indirect(ask_groups, arguments.storage(), 0, Barrier::arguments);
+  EXPECT_EQ(arguments.download()[0], 5u);
 }
 
 TEST_F(BufferTest, ReadBackThroughAFenceSeesTheState) {

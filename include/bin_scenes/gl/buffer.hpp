@@ -46,6 +46,7 @@ class Storage {
   std::string label_;
   unsigned id_ = 0;
   std::size_t bytes_ = 0;
+  bool filled_ = false;  ///< and not written since
 };
 
 /// `count` elements of one type whose layout in memory is std430's.
