@@ -31,7 +31,10 @@
 #define BIND_ORDER 22
 #define BIND_ROWS 31
 
-#define SPHERE_GROUP 64             // invocations of a group, but where one group takes a world
+#define SPHERE_GROUP 64             // invocations of a group, but where one group takes a world or a pair
+#ifndef SPHERE_PAIR_GROUP
+#define SPHERE_PAIR_GROUP 64        // of a group that takes pairs: Capacity::pair_group
+#endif
 #ifndef SPHERE_WORLD_GROUP
 #define SPHERE_WORLD_GROUP 64       // of a group that takes a world: Capacity::world_group
 #endif

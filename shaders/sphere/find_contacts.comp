@@ -4,7 +4,7 @@
 // the order of arrival nor who tested what matters. Twin: find_contacts().
 #include "shared/sphere.h"
 
-layout(local_size_x = SPHERE_GROUP) in;
+layout(local_size_x = SPHERE_PAIR_GROUP) in;
 
 layout(std430, binding = BIND_SETTINGS) readonly buffer Settings { SphereSettingsBlock settings; };
 layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
@@ -116,7 +116,7 @@ const uint NOT_BEGUN = 0xffffffffu;
 // that is full, to go on from there: edge `e` of cluster k, or its node.
 void test_clusters(View view, inout uint k, inout uint e) {
   const uint lane = gl_LocalInvocationIndex % SPHERE_CLUSTER;
-  for (; k < near_count; k += SPHERE_GROUP / SPHERE_CLUSTER, e = NOT_BEGUN) {
+  for (; k < near_count; k += SPHERE_PAIR_GROUP / SPHERE_CLUSTER, e = NOT_BEGUN) {
     uint c = near_clusters[k], node = c * SPHERE_CLUSTER + lane;
     uvec4 range = clusters[view.samples.clusters.x + c].edges;
     if (e == NOT_BEGUN) {
@@ -136,7 +136,7 @@ void test_samples(View view) {
   float slack = view.margin + radius_of(view.samples) + sag_of(view.samples) + error_of(view.field);
   if (thread == 0u) near_count = queued = 0u;
   barrier();
-  for (uint c = thread; c < count; c += SPHERE_GROUP) {
+  for (uint c = thread; c < count; c += SPHERE_PAIR_GROUP) {
     vec4 ball = clusters[view.samples.clusters.x + c].ball;
     ++clusters_tested;
     if (sample_field(view.field, carried(view.to_field, ball.xyz)) <= ball.w + slack)
@@ -149,7 +149,7 @@ void test_samples(View view) {
     test_clusters(view, k, e);
     barrier();
     full = queued > SPHERE_SAMPLE_QUEUE;
-    for (uint q = thread; q < min(queued, SPHERE_SAMPLE_QUEUE); q += SPHERE_GROUP) test_sample(view, sample_queue[q]);
+    for (uint q = thread; q < min(queued, SPHERE_SAMPLE_QUEUE); q += SPHERE_PAIR_GROUP) test_sample(view, sample_queue[q]);
     barrier();
     if (thread == 0u) queued = 0u;
     barrier();
@@ -215,7 +215,7 @@ void test_rim(SphereWorld world, uint k, uint shape, Samples samples, Field fiel
   Rim rim;
   float radius = shapes[shape].box_center.w;
   if (!find_rim(plane, world.ground.z, a.position, radius, margin, face_spacing_of(samples), rim)) return;
-  for (int i = rim.first + int(gl_LocalInvocationIndex); i <= rim.last; i += SPHERE_GROUP) {
+  for (int i = rim.first + int(gl_LocalInvocationIndex); i <= rim.last; i += SPHERE_PAIR_GROUP) {
     float before = distance_at(rim, field, a.rotation, i - 1), here = distance_at(rim, field, a.rotation, i);
     float after = distance_at(rim, field, a.rotation, i + 1), t, distance;
     vec3 point, gradient;
@@ -238,7 +238,7 @@ void test_ground(SpherePair pair, float margin) {
     Solid solid = Solid(true, own, plane, world.ground.z);
     float far = radius_of(samples) + sag_of(samples) + margin;
     if (dot(normal_of(plane), a.position) - offset_of(plane) > shapes[shape].box_center.w + far) continue;
-    for (uint c = thread / SPHERE_CLUSTER; c < samples.clusters.y; c += SPHERE_GROUP / SPHERE_CLUSTER) {
+    for (uint c = thread / SPHERE_CLUSTER; c < samples.clusters.y; c += SPHERE_PAIR_GROUP / SPHERE_CLUSTER) {
       vec4 ball = clusters[samples.clusters.x + c].ball;
       if (thread % SPHERE_CLUSTER == 0u) ++clusters_tested;
       if (dot(normal_of(plane), carried(carry, ball.xyz)) - offset_of(plane) > ball.w + far) continue;

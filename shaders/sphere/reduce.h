@@ -39,7 +39,7 @@ void leave_room() {
 
 // Side by side for neighbours, so that a group's reads are one.
 uint candidate_place(uint k) {
-  return settings.contact_groups + (room * settings.candidates + k) * SPHERE_GROUP + gl_LocalInvocationIndex;
+  return settings.contact_groups + (room * settings.candidates + k) * SPHERE_PAIR_GROUP + gl_LocalInvocationIndex;
 }
 
 void begin_candidates(SphereWorld world, uint slot) {

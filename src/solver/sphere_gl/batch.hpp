@@ -110,6 +110,7 @@ class Batch {
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
   std::size_t running_count_ = 0, contact_groups_ = 1;  ///< worlds of one group each
+  std::size_t pair_group_;                              ///< invocations of a group of find_contacts
   std::vector<LargeWorld> running_large_;
   const LargeWorld* at_turn_ = nullptr;  ///< none: the worlds of one group each
   bool bound_ = false;

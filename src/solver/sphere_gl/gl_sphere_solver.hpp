@@ -16,6 +16,7 @@ struct Capacity {
   double memory = 1e9;             ///< bytes on the device for the worlds that run at once
   std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
   std::size_t world_group = 0;     ///< invocations that share such a world; 0: 64 on a software device, else 256
+  std::size_t pair_group = 0;      ///< invocations that find contacts of a pair; 0: 64 on a software device, else 32
   bool share_impacts = true;       ///< such a world sweeps until impacts are shared; larger ones never do
   std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
   std::size_t colors = 32;         ///< of a large world that may have dispatches of their own; others share a group

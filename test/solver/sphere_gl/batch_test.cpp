@@ -117,9 +117,11 @@ TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
 }
 
 TEST(SphereGlBatch, AWorldIsTheSameInAGroupOfAnySize) {
-  Capacity wide;
-  wide.world_group = 256;
-  EXPECT_EQ(fallen(2, wide), fallen(2));
+  Capacity other;
+  other.world_group = 256;
+  EXPECT_EQ(fallen(2, other), fallen(2));
+  other.pair_group = 32;
+  EXPECT_EQ(fallen(2, other), fallen(2));
 }
 
 /// Four walls of four rows of bricks, each brick on two: 256 bodies, more than a group holds on a software device, in
@@ -271,7 +273,9 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
 TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   SphereSettings settings = coarse();
   settings.field_cell = 0.01;
-  const auto solver = make_gl_sphere_solver(settings);
+  sphere_gl::Capacity capacity;
+  capacity.group_bodies = sphere_gl::software_group_bodies;
+  const auto solver = make_gl_sphere_solver(settings, capacity);
   const WorldId id = Walls().add(*solver);
   solver->set_phase(id, phases::settle);
   // Of each sweep those of four colors that are wider than a group, of one more that might be, and of all the rest.
