@@ -81,17 +81,18 @@ bench() {  # NAME LIMIT ARGUMENTS...
   step "bench_$name" "$limit" "$bundle/run" bin_scenes_bench --results "$results" ${small:+--quick} "$@"
 }
 
-# Where the time goes: each pass, of one world and of many. Then one scene alone, and many in one run.
+# Where the time goes: each pass, of one world and of many. Then one scene alone.
 bench passes 90 --filter passes
-bench throughput 60 --filter throughput --rows solver=sphere/gpu scenes=1
-bench throughput_16 60 --filter throughput --rows solver=sphere/gpu scenes=16
+bench one_scene 60 --filter throughput --rows solver=sphere/gpu scenes=1
 
 # Small forms of what needs little: closed forms, and the least iterations at which the thesis's cubes stand.
 small=1 bench closed_forms 60 --filter closed_forms
 small=1 bench stability 30 --filter thesis_tables --rows table=stability
 
-# The thesis's 512 teapots, 600 steps stage by stage, then its other tables.
-step teapots 90 "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite \
+# The thesis's 512 teapots, 600 steps stage by stage, then its other tables. Exit code 1: they are set apart, as they
+# overlap, which is that method's way.
+# shellcheck disable=SC2016  # the inner shell expands them
+step teapots 90 bash -c '"$@" || (( $? == 1 ))' - "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite \
   --seconds 6 --set solver.thesis.iterations=5 --verbose ${small:+--set "parts[0].count=16"}
 for table in spheres_per_body static_spheres; do
   bench "$table" 40 --filter thesis_tables --rows "table=$table"
@@ -107,8 +108,8 @@ bench goals 120 --filter goals --rows solver=sphere/gpu
 step conrods 60 "$bundle/run" bin_scenes generate "$bundle/config/conrods.yaml" --out "$out/conrods" --overwrite \
   --formats json,png ${small:+--set "parts[0].count=20"}
 
-# Accepted scenes a second of 512 in one run, in what time is left.
-bench throughput_512 300 --filter throughput --rows solver=sphere/gpu scenes=512
+# Accepted scenes a second of 16 in one run, and of 512 in what time is left.
+bench throughput 360 --filter throughput --rows solver=sphere/gpu
 
 if (( ${#failed[@]} )); then
   echo "failed: ${failed[*]}" | tee "$out/failed.txt"
