@@ -102,7 +102,7 @@ struct SphereSettingsBlock {
   uint cut_steps;          // 1: for fast parts
   float probe_slip;        // s of a step that begins without forces, without friction
   float touch_move;        // d: rest_move where bodies sleep by touch
-  float settled;           // d per second: a contact whose speed a sweep changes by more is not solved yet
+  float tolerance;         // d per second: a contact whose speed a sweep changes by more is not solved yet
   vec4 softness[3];        // by Stiffness: rate (of sub-steps), damping ratio, slop (d), sub-steps in place of one
 };
 
@@ -125,9 +125,9 @@ struct SphereProgress {
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
-  uint wide_colors;                          // one more than the most of a step, since the host last looked; 0: none
+  uint wide_colors;                          // one more than the most of a step, since the host last observed it; 0: none
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
-  // Counters, since the host last looked.
+  // Counters, since the host last observed it.
   uint asleep_steps, pairs_culled;
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;

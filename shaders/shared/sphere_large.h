@@ -61,7 +61,7 @@ struct SphereMotion {  // since contacts were found
 };
 
 struct SphereWork {
-  uint lowest[2];  // coloring: lowest key, by round; update_sleep: label of the island, and whether it is restless
+  uint lowest[2];  // coloring: lowest key, by round; update_sleep: label of the island, and whether a body of it moved lately
   uint used_low, used_high;
 };
 

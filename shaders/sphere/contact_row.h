@@ -100,7 +100,7 @@ void solve_normal(uint at, uint stride, Give give, inout Side a, inout Side b) {
   Row row = row_at(at, stride);
   float speed = dot(relative_velocity(row, a, b), row.normal);
   float total = normal_impulse(row.impulse.x, speed, row.gap, row.normal_mass, give), change = total - row.impulse.x;
-  unconverged = unconverged || is_unsettled(change, row.normal_mass, settings.settled * world.gravity.w);
+  unconverged = unconverged || is_unconverged(change, row.normal_mass, settings.tolerance * world.gravity.w);
   apply(row, change * row.normal, a, b);
   rows[at + 3u * stride].x = total;
   if (total > 0.0) rows[at + 4u * stride].w = 1.0;

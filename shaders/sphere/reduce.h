@@ -74,7 +74,7 @@ void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
       SphereCandidate(vec4(on_a, separation), vec4(normal, FAR), uvec4(feature, known, 0u, 0u));
 }
 
-// 64-bit sum, for what a big world counts beyond 2^32 between two looks.
+// 64-bit sum, for what a big world counts beyond 2^32 between two observations.
 void count_possible(uint n) {
   uint before = atomicAdd(progress[world_index].nodes_possible, n);
   if (before + n < before) atomicAdd(progress[world_index].nodes_possible_high, 1u);

@@ -1,6 +1,6 @@
 // Rest of a body of world `w`. Needs the bindings Settings, Progress, Bodies, States, Shapes and sphere/body.h.
 
-bool is_restless(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
+bool moved_lately(uint body) { return moves(body) && states[body].still_position.w < settings.rest_window; }
 
 // Whether it moved on in this step: bodies that are woken by touch have not, unless they go.
 bool went_on(uint body) { return moves(body) && states[body].still_position.w == 0.0; }
@@ -22,16 +22,16 @@ void note_motion(uint body, uint w) {
 
 // Puts a body to sleep or wakes it, with its island; woken by part it sleeps again if it stays, by touch after the rest
 // window.
-void settle(uint body, uint label, bool restless, uint w) {
+void settle(uint body, uint label, bool stays_awake, uint w) {
   uint flags = states[body].flags.x;
   states[body].flags.y = label;
   if ((flags & SPHERE_PRESENT) == 0u || bodies[body].material.x == 0.0) return;
   bool asleep = (flags & SPHERE_ASLEEP) != 0u;
-  if (!restless && !asleep) {
+  if (!stays_awake && !asleep) {
     states[body].velocity = vec4(0.0);
     states[body].spin = vec4(0.0);
   }
-  if (restless && asleep && progress[w].sleep != SPHERE_SLEEP_BY_PART)
+  if (stays_awake && asleep && progress[w].sleep != SPHERE_SLEEP_BY_PART)
     states[body].still_position.w = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH ? progress[w].time_step : 0.0;
-  states[body].flags.x = restless ? flags & ~SPHERE_ASLEEP : flags | SPHERE_ASLEEP;
+  states[body].flags.x = stays_awake ? flags & ~SPHERE_ASLEEP : flags | SPHERE_ASLEEP;
 }

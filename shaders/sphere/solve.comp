@@ -24,7 +24,7 @@ shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed
 shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce, any_impact;
-shared uint unsettled[2];  // some contact is unconverged; take turns
+shared uint some_unconverged[2];  // a contact is; take turns
 
 #define velocity_of(i) velocity[i]
 #define spin_of(i) spin[i]
@@ -75,10 +75,10 @@ void sweep_until_shared(uint first, uint others, int count) {
     uint turn = turns++ & 1u;
     unconverged = false;
     sweep(i == 0 ? first : others);
-    if (unconverged) unsettled[turn] = 1u;
-    if (gl_LocalInvocationIndex == 0u) unsettled[turn ^ 1u] = 0u;
+    if (unconverged) some_unconverged[turn] = 1u;
+    if (gl_LocalInvocationIndex == 0u) some_unconverged[turn ^ 1u] = 0u;
     barrier();
-    impact = unsettled[turn] != 0u;
+    impact = some_unconverged[turn] != 0u;
   }
 }
 
@@ -100,7 +100,7 @@ void main() {
   take_sub_step_of(w, 0u);
   for (uint c = gl_LocalInvocationIndex; c <= SPHERE_COLORS; c += SPHERE_WORLD_GROUP)
     starts[c] = color_starts[w * (SPHERE_COLORS + 1u) + c];
-  if (gl_LocalInvocationIndex < 2u) unsettled[gl_LocalInvocationIndex] = 0u;
+  if (gl_LocalInvocationIndex < 2u) some_unconverged[gl_LocalInvocationIndex] = 0u;
   if (gl_LocalInvocationIndex == 0u) any_impact = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
   barrier();

@@ -9,7 +9,7 @@
 #include "sphere/placement.h"
 #include "sphere/solve_step.h"
 
-// A contact of this invocation's has changed its speed by more than `settled` in the sweep.
+// A contact of this invocation's has changed its speed by more than `tolerance` in the sweep.
 bool unconverged = false;
 
 // A body as one manifold sees it.

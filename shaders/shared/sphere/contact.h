@@ -59,9 +59,9 @@ INLINE Real normal_impulse(Real before, Real speed, Real gap, Real mass, IN(Give
   return max(before + change, all_lanes(0.0f));
 }
 
-// Whether a sweep that has changed an impulse so was not the last that it takes. settled: m/s.
-INLINE Mask is_unsettled(Real change, Real mass, float settled) {
-  return max(change, -change) > settled * mass;
+// Whether a sweep that has changed an impulse so was not the last that it takes. tolerance: m/s.
+INLINE Mask is_unconverged(Real change, Real mass, float tolerance) {
+  return max(change, -change) > tolerance * mass;
 }
 
 // Coulomb's cone: both directions at once. most: friction times the normal impulse.

@@ -198,21 +198,21 @@ INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, floa
 // plane across the edge would stop it there, a peg above the mouth of its hole. What meets something on its way is held
 // by that as it lies now.
 INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
-  const int most_looks = 18;
+  const int most_advances = 18;
   View view = given;
   vec3 way = view.drift + cross(view.twist, point), place = point, gradient = away;
   float size = length(way), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
   float apart = distance;
-  bool looks_ahead = abs(distance) <= error || (distance > 0.0f && distance - error < size);
+  bool advances = abs(distance) <= error || (distance > 0.0f && distance - error < size);
   Walls walls;
   WaysOut ways;
   walls.count = ways.count = 0u;
-  for (int i = 0; i < most_looks && radius_of(view.samples) <= 0.0f; ++i) {
+  for (int i = 0; i < most_advances && radius_of(view.samples) <= 0.0f; ++i) {
     walls = walls_at_crease(view.other, view.field, place);
     ways.count = 0u;
-    if (walls.count == 0u && (looks_ahead || bounds_of(cone) != 0u))
+    if (walls.count == 0u && (advances || bounds_of(cone) != 0u))
       ways = ways_out_at_edge(view.other, view.field, place);
-    if (!looks_ahead) break;
+    if (!advances) break;
     WayOut near = nearest_way(walls, ways, gradient, apart);
     bool meets = near.distance <= 0.0f;
     if (i == 0 && (meets || near.distance + dot(near.away, way) >= 0.0f)) break;
@@ -221,8 +221,8 @@ INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance,
       view.ahead = way;
       break;
     }
-    looks_ahead = !meets && i + 2 < most_looks;
-    done = looks_ahead ? min(done + max(near.distance, least), size) : 0.0f;
+    advances = !meets && i + 2 < most_advances;
+    done = advances ? min(done + max(near.distance, least), size) : 0.0f;
     place = point + (done > 0.0f ? done / size : 0.0f) * way;
     apart = sample_field(view.field, place, gradient);
   }

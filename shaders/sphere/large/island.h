@@ -1,6 +1,6 @@
 // Labels of islands: the way up to the lowest body of an island, shortened as it is walked. Needs the binding Work.
 #define label_of(i) work[i].lowest[0]
-#define restless_of(i) work[i].lowest[1]
+#define moved_lately_of(i) work[i].lowest[1]
 
 // While others may lower it.
 uint label_now(uint i) { return atomicOr(label_of(i), 0u); }

@@ -1,7 +1,8 @@
 // Islands of a large world, an invocation a pair: those that press join their islands, lock-free, the higher root under
 // the lower one (after Jaiganesh, Burtscher 2018, "A high-performance connected components implementation for GPUs").
-// A root is the lowest body of its island, whoever came first. By part or by touch nobody is joined: the restless keep
-// whoever presses on them awake, or what moves on wakes whatever has contacts with it. Twin: kept_awake() of update_sleep().
+// A root is the lowest body of its island, whoever came first. By part or by touch nobody is joined: a body that
+// moved lately keeps those that press on it awake, or one that moves on wakes all that have contacts with it. Twin:
+// kept_awake() of update_sleep().
 #include "shared/sphere_large.h"
 #include "shared/dispatch.h"
 
@@ -34,8 +35,8 @@ void main() {
   if (bodies[pair.a].material.x == 0.0 || bodies[pair.b].material.x == 0.0) return;
   if (sleep != SPHERE_SLEEP_BY_ISLAND) {
     bool by_touch = sleep == SPHERE_SLEEP_BY_TOUCH;
-    if (by_touch ? went_on(pair.a) || went_on(pair.b) : is_restless(pair.a) || is_restless(pair.b))
-      restless_of(pair.a - world.bodies.x) = restless_of(pair.b - world.bodies.x) = 1u;
+    if (by_touch ? went_on(pair.a) || went_on(pair.b) : moved_lately(pair.a) || moved_lately(pair.b))
+      moved_lately_of(pair.a - world.bodies.x) = moved_lately_of(pair.b - world.bodies.x) = 1u;
     return;
   }
   uint a = root_of(pair.a - world.bodies.x), b = root_of(pair.b - world.bodies.x);

@@ -42,12 +42,12 @@ void main() {
   if (stage == SLEEP_NOTE) {
     if (moves(body)) note_motion(body, large_world);
     label_of(i) = i;
-    restless_of(i) = 0u;
+    moved_lately_of(i) = 0u;
   } else if (stage == SLEEP_MARK) {
     uint root = root_of(i);
     atomicMin(label_of(i), root);
-    if (is_restless(body)) restless_of(root) = 1u;
+    if (moved_lately(body)) moved_lately_of(root) = 1u;
   } else {
-    settle(body, world.bodies.x + label_of(i), restless_of(label_of(i)) == 1u, large_world);
+    settle(body, world.bodies.x + label_of(i), moved_lately_of(label_of(i)) == 1u, large_world);
   }
 }

@@ -23,7 +23,7 @@ constexpr btScalar slop = 1.5e-5;
 constexpr btScalar fastest_push = 3.0;  ///< units/s
 /// A contact whose speed a sweep still changes by more (units/s) is not solved: an impact that two walls of a wedge
 /// share takes dozens of sweeps. After two it left overlap, and the speed at which this was pushed out.
-constexpr btScalar settled = 0.02;
+constexpr btScalar tolerance = 0.02;
 constexpr int most_sweeps = 40;         ///< for such, instead of `sweeps`
 constexpr btScalar force_growth = 1.5;  ///< of a contact in a sub-step; with more, heaps rebound from an impact
 
@@ -178,23 +178,23 @@ bool ContactSolver::sweep(btScalar h, Sweep kind, bool all) {
   const btScalar omega = 2 * SIMD_PI * stiffness / h;
   const btScalar a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
   const Soft soft{omega / a1, a2 * a3, a3};
-  restless_.swap(was_restless_);
-  restless_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), 0);
+  unconverged_.swap(were_unconverged_);
+  unconverged_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), 0);
   bool more = false;
   // Normal and friction pair of bodies by pair of bodies: a stack of ten stands so with a third of the sweeps it takes
   // when all normals come before all friction. Turning every other sweep round made it fall.
   for (std::size_t k = 0; k + 1 < blocks_.size(); ++k) {
     const btSolverConstraint& first = m_tmpSolverContactConstraintPool[blocks_[k]];
     const int bodies[] = {first.m_solverBodyIdA, first.m_solverBodyIdB};
-    if (!all && !was_restless_[bodies[0]] && !was_restless_[bodies[1]]) continue;
+    if (!all && !were_unconverged_[bodies[0]] && !were_unconverged_[bodies[1]]) continue;
     if (kind == Sweep::first_push) resist_turn(blocks_[k], blocks_[k + 1]);
     btScalar changed = 0;
     for (int c = blocks_[k]; c < blocks_[k + 1]; ++c)
       changed = std::max(changed, solve_normal(c, h, kind == Sweep::relax ? nullptr : &soft));
     for (int c = blocks_[k]; c < blocks_[k + 1]; ++c) solve_friction(m_tmpSolverContactConstraintPool[c]);
-    if (changed <= settled) continue;
+    if (changed <= tolerance) continue;
     more = true;
-    for (const int body : bodies) restless_[body] = m_tmpSolverBodyPool[body].m_originalBody != nullptr;
+    for (const int body : bodies) unconverged_[body] = m_tmpSolverBodyPool[body].m_originalBody != nullptr;
   }
   return more;
 }

@@ -75,7 +75,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   void begin();
   void forget_impacts(btScalar speed);
   void warm_start();
-  /// Over all contacts, or those of bodies that the last sweep left restless; whether it leaves any.
+  /// Over all contacts, or those of bodies that the last sweep left unconverged; whether it leaves any.
   bool sweep(btScalar h, Sweep kind, bool all);
   void resist_turn(int first, int last);
   btScalar solve_normal(int contact, btScalar h, const Soft* soft);
@@ -86,8 +86,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
   std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
   std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
-  std::vector<char> restless_, was_restless_;  ///< by body: a contact of it is not solved yet, before and in this sweep
-  std::vector<Way> ways_;                      ///< parallel to m_tmpSolverBodyPool
+  std::vector<char> unconverged_, were_unconverged_;  ///< by body: a contact of it is, in this sweep and before it
+  std::vector<Way> ways_;                             ///< parallel to m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

@@ -1,7 +1,7 @@
-/// Blows that follow each other within one step have no common moment before them: each contact rebounds at a share of
-/// its own speed of approach, and together they may give back more than there was: a ball that rebounds from the floor
-/// under one that it had just parted from doubled the energy of both. Here bodies that rebound together have at most
-/// what they had before.
+/// Impacts that follow each other within one step have no common moment before them: each contact rebounds at a share
+/// of its own speed of approach, and together they may give back more than there was: a ball that rebounds from the
+/// floor under one that it had just parted from doubled the energy of both. Here bodies that rebound together have at
+/// most what they had before.
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>

@@ -38,9 +38,9 @@ struct Settings {
   /// A step. Stiffness of contacts grows with the square of their number. 4 is for tests that build a World themselves:
   /// make_world() sets the request's number, 2 by default.
   int sub_steps = 4;
-  int sweeps = 2;        ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
-  float settled = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = an
-                         ///< impact in a wedge or a chain gives energy
+  int sweeps = 2;          ///< before bodies move, and as many after unless contacts are rigid; with 1 stacks sway
+  float tolerance = 0.1f;  ///< d per second: a contact whose speed a sweep changes by more is not solved yet; more = an
+                           ///< impact in a wedge or a chain gives energy
   int sharing_sweeps = 12;  ///< most sweeps for that; fewer = the same
   int impact_sweeps = 24;  ///< most in a step with an impact, times heaviest / lightest part; with half as many a light
                            ///< part under one of a hundred times its mass leaves at 7 % of the impact's speed

@@ -19,7 +19,7 @@
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
 /// run without leaving the group. A world of more bodies than a group holds takes a step by itself, with passes of many
 /// dispatches (large_world.hpp). A world that has done its steps, or for whose pairs there is no room, is left as it
-/// is until the host has looked.
+/// is until the host has observed it.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"

@@ -1,4 +1,4 @@
-/// Keeps the host's copy of each world, sends what changed, and looks at results when the device is done. CPU form:
+/// Keeps the host's copy of each world, sends what changed, and observes results when the device is done. CPU form:
 /// src/solver/sphere/sphere_solver.cpp.
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 using namespace sphere_gl;
 
-constexpr std::uint64_t steps_per_look = 16;  ///< a world without room waits no longer than these for the host
+constexpr std::uint64_t steps_per_observation = 16;  ///< a world without room waits no longer than these for the host
 
 /// What the host knows of a world: where it stood when the steps that were begun last were finished, but for the bodies
 /// changed since.
@@ -35,7 +35,7 @@ struct Resident {
   std::uint64_t steps = 0;
 };
 
-/// Worlds whose steps were issued and not looked at yet.
+/// Worlds whose steps were issued and not observed yet.
 struct Flight {
   std::vector<WorldId> ids;
   std::vector<Batch::Slot> slots;
@@ -150,10 +150,10 @@ class GlSphereSolver final : public Solver {
     if (at == flights_.end()) return;
     Flight flight = std::move(*at);
     flights_.erase(at);
-    while (const std::uint64_t left = look(flight)) issue(flight, left);
+    while (const std::uint64_t left = observe(flight)) issue(flight, left);
     if (flight.rest > 0.0f) {
       start(flight, 1, flight.rest);
-      while (const std::uint64_t left = look(flight)) issue(flight, left);
+      while (const std::uint64_t left = observe(flight)) issue(flight, left);
     }
     read_states(flight);
     spare_.push_back(std::move(flight.back));
@@ -252,12 +252,12 @@ class GlSphereSolver final : public Solver {
 
   void issue(Flight& flight, std::uint64_t left) {
     batch_.run(flight.slots, flight.share);
-    for (std::uint64_t k = 0; k < std::min(left, steps_per_look); ++k) batch_.step();
+    for (std::uint64_t k = 0; k < std::min(left, steps_per_observation); ++k) batch_.step();
     batch_.request(flight.slots, *flight.back);
   }
 
   /// Waits for what the steps left behind, makes room where it was asked for, and returns how many steps are left.
-  std::uint64_t look(const Flight& flight) {
+  std::uint64_t observe(const Flight& flight) {
     const auto* seen = static_cast<const gpu::SphereProgress*>(flight.back->wait());
     std::uint64_t left = 0;
     bool candidates = false;

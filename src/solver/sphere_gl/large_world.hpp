@@ -11,8 +11,8 @@
 ///
 /// A sweep is a dispatch a color that is wider than a group, and one group for all others, one after the other. How
 /// many groups a dispatch has is known on the device alone: the arguments lie in SphereLarge. How many colors are wide
-/// the host learns whenever it looks; those it does not know of yet are left to the one group. Buffers here serve one
-/// such world after the other.
+/// the host learns whenever it observes; those it does not know of yet are left to the one group. Buffers here serve
+/// one such world after the other.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"

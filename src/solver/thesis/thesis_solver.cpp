@@ -17,7 +17,7 @@ namespace bin_scenes {
 
 namespace {
 constexpr std::size_t most_contacts = 64;  // per sphere; a sphere among equal ones touches a dozen
-// Steps between looks at the status. A look waits for the device and lays the grid anew about the bodies.
+// Steps between observations of the status. One waits for the device and lays the grid anew about the bodies.
 constexpr std::uint64_t steps_per_look = 8;
 
 VoxelOptions voxels_of(const PartModel& part, const ThesisSettings& settings) {
@@ -178,7 +178,7 @@ void ThesisSolver::State::run(const std::vector<thesis::World*>& batch, std::uin
   }
 }
 
-/// True if a buffer was full and there is room for more: the steps since the last look are to be repeated.
+/// True if a buffer was full and there is room for more: the steps since the last observation are to be repeated.
 bool ThesisSolver::State::grow_if_full(const gpu::ThesisStatus& status, std::size_t moving_spheres,
                                        const std::vector<gpu::ThesisNeed>& needs) {
   const thesis::Capacity before = capacity;

@@ -71,7 +71,7 @@ class ContactSolver {
                        settings_.push_speed / static_cast<float>(world.softness().refinement) * world.smallest_size)),
         firmly_(firmly(h_)),
         shares_impacts_(world.impact_sweeps(false) > 0),
-        settled_(settings_.settled * world.smallest_size),
+        tolerance_(settings_.tolerance * world.smallest_size),
         motions_(scratch.motions),
         free_(scratch.free),
         slides_(scratch.slides),
@@ -87,7 +87,7 @@ class ContactSolver {
   void warm_start();  ///< impulses of the last sub-step again
   /// One round of Gauss-Seidel over all contacts. `push` lets overlap out softly; without, the velocity that pushing
   /// left is taken back (relaxation). In the `first` that pushes, patches resist turns.
-  /// Returns whether it has changed a contact's speed by more than Settings::settled: another one has to share an
+  /// Returns whether it has changed a contact's speed by more than Settings::tolerance: another one has to share an
   /// impact.
   bool sweep(bool push, bool first);
   /// Most sweeps while an impact is not shared.
@@ -139,7 +139,7 @@ class ContactSolver {
   Swept begin(const Bundle& bundle, bool push, bool first);
   float speed(std::size_t body) const;
   void observe_gaps(const Bundle& bundle);
-  void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unsettled) const;
+  void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
   void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
   void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
   LaneMask hit(const ContactRows& c) const;
@@ -157,7 +157,7 @@ class ContactSolver {
   const float impact_speed_;  ///< m/s
   const Give softly_, firmly_;
   const bool shares_impacts_;  ///< by further sweeps
-  const float settled_;        ///< m/s
+  const float tolerance_;      ///< m/s
   bool friction_holds_ = true;
   bool impact_ = false;  ///< some contact closes fast
   std::vector<Motion>& motions_;
@@ -262,12 +262,12 @@ void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities
 }
 
 /// Sequential impulse, accumulated and clamped.
-void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unsettled) const {
+void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const {
   const Lanes before = c.normal_impulse;
   c.normal_impulse = normal_impulse(before, u.along_normal(c), c.gap, c.normal_mass, give);
   c.max_impulse = max(c.max_impulse, c.normal_impulse);
   const Lanes more = c.normal_impulse - before;
-  if (shares_impacts_) unsettled |= is_unsettled(more, c.normal_mass, settled_);
+  if (shares_impacts_) unconverged |= is_unconverged(more, c.normal_mass, tolerance_);
   u.push_along_normal(more, c);
 }
 
@@ -301,19 +301,19 @@ ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool 
 }
 
 bool ContactSolver::sweep(bool push, bool first) {
-  std::atomic<bool> unsettled{false};
+  std::atomic<bool> unconverged{false};
   for_each_color([&](std::uint32_t begin, std::uint32_t end) {
-    if (sweep(begin, end, push, first)) unsettled.store(true, std::memory_order_relaxed);
+    if (sweep(begin, end, push, first)) unconverged.store(true, std::memory_order_relaxed);
   });
-  return unsettled;
+  return unconverged;
 }
 
 BIN_SCENES_WIDE
 bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool first) {
-  LaneMask unsettled{};
+  LaneMask unconverged{};
   const Give& give = push ? softly_ : firmly_;
   const auto normal = [&](Swept& s, std::uint32_t k) {
-    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give, unsettled);
+    if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give, unconverged);
   };
   const auto friction = [&](Swept& s, std::uint32_t k) {
     if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
@@ -341,7 +341,7 @@ bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool 
     store(p.u, p.bundle, motions_);
     store(q.u, q.bundle, motions_);
   }
-  return any(unsettled);
+  return any(unconverged);
 }
 
 void ContactSolver::refresh_levers() {

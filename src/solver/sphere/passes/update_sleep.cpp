@@ -34,7 +34,7 @@ void note_motion(const World& world, Body& b) {
   }
 }
 
-bool restless(const World& world, std::uint32_t body) {
+bool moved_lately(const World& world, std::uint32_t body) {
   return world.bodies[body].moves() && world.bodies[body].still < world.settings.rest_window;
 }
 
@@ -48,16 +48,16 @@ bool touch(const World& world, const Manifold& m) {
          world.bodies[m.b].inverse_mass > 0;
 }
 
-/// Whom the restless keep awake: themselves and whoever is joined to them, directly if bodies sleep by part. By touch
-/// they wake whoever has contacts with them as they go on, pressed or not: what carried a part carries it no more.
+/// Whom bodies that moved lately keep awake: themselves and those joined to them, directly if bodies sleep by part. By
+/// touch they wake all that have contacts with them as they go on, pressed or not: what carried a part does so no more.
 std::vector<char> kept_awake(const World& world) {
   const auto count = static_cast<std::uint32_t>(world.bodies.size());
   std::vector<char> awake(count, 0);
   if (world.sleep != Sleep::by_island) {
-    for (std::uint32_t i = 0; i < count; ++i) awake[i] = restless(world, i);
+    for (std::uint32_t i = 0; i < count; ++i) awake[i] = moved_lately(world, i);
     const bool by_part = world.sleep == Sleep::by_part;
     for (const Manifold& m : world.manifolds)
-      if (by_part ? joins(world, m) && (restless(world, m.a) || restless(world, m.b))
+      if (by_part ? joins(world, m) && (moved_lately(world, m.a) || moved_lately(world, m.b))
                   : touch(world, m) && (went_on(world, m.a) || went_on(world, m.b)))
         awake[m.a] = awake[m.b] = 1;
     return awake;
@@ -65,7 +65,7 @@ std::vector<char> kept_awake(const World& world) {
   DisjointSets islands = islands_of(world);
   std::vector<char> of_island(count, 0);
   for (std::uint32_t i = 0; i < count; ++i)
-    if (restless(world, i)) of_island[islands.root(i)] = 1;
+    if (moved_lately(world, i)) of_island[islands.root(i)] = 1;
   for (std::uint32_t i = 0; i < count; ++i) awake[i] = of_island[islands.root(i)];
   return awake;
 }
