@@ -15,8 +15,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int tries_per_part = 12;  ///< places tried for a part, turned one way, at each look
-constexpr int misses_per_look = 4;  ///< consecutive parts without a place after which a look stops trying
+constexpr int tries_per_part = 12;   ///< places tried for a part, in one orientation, in each slice
+constexpr int misses_per_slice = 4;  ///< consecutive parts without a place after which a slice stops trying
 
 }  // namespace
 
@@ -280,7 +280,7 @@ void HeapCore::insert_waiting() {
   for (const std::size_t b : waiting_) {
     std::optional<Pose> pose;
     const Cover& shape = plan_->covers[plan_->line_of[b]];
-    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
+    if (misses < misses_per_slice && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
     if (!pose) {
       ++misses;
       still.push_back(b);
