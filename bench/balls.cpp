@@ -1,7 +1,9 @@
-/// Equal balls in bulk: how densely they pack, and how steep a heap of them is. Both solvers, default settings.
+/// Equal balls in bulk: how densely they pack, and how steep a heap of them is, both solvers, default settings; and
+/// SimBenchmark's cube of them.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
 #include "framework/statistics.hpp"
+#include "peers/stock_bullet.hpp"
 #include "runs.hpp"
 
 #include "bin_scenes/core/random.hpp"
@@ -95,11 +97,11 @@ void add_bed(WorldDef& def, double width, double friction, std::vector<BodyState
 }
 
 /// Angle (deg) of the line that fits the surface of a heap on a bed of height d over the distance from where they fall,
-/// from a fifth of the way to the foot to four fifths of it.
+/// from a fifth to four fifths of the distance of the foot.
 double slope_of(const std::vector<Vec3>& centers) {
-  std::vector<double> ways;
-  for (const Vec3& c : centers) ways.push_back(c.head<2>().norm());
-  const double foot = 2.0 * median(ways);  // of a cone; what rolled away does not count
+  std::vector<double> distances;
+  for (const Vec3& c : centers) distances.push_back(c.head<2>().norm());
+  const double foot = 2.0 * median(distances);  // of a cone; what rolled away does not count
   const int reach = static_cast<int>(foot / d) + 1;
   double n = 0, sr = 0, sh = 0, srr = 0, srh = 0;
   for (int i = -reach; i <= reach; ++i)
@@ -174,7 +176,7 @@ const Form forms[] = {{"random packing", "filled", packing, 0.0, 0.63, 0.65},
                       {"angle of repose", "deg", repose, 0.6},
                       {"angle of repose", "deg", repose, 0.8}};
 
-void run(Run& out) {
+void balls(Run& out) {
   const std::size_t count = out.quick() ? 120 : 1000;
   for (const std::string solver : {"sphere", "bullet"}) {
     double steepest_below = -std::numeric_limits<double>::infinity();
@@ -182,15 +184,15 @@ void run(Run& out) {
       const Row key =
           Row::keys("form", form.name, "friction", form.friction, "solver", solver, "time_step_s", "default");
       if (!out.wanted(key)) continue;
-      const std::size_t balls = form.measure == repose ? count / 2 : count;
+      const std::size_t number = form.measure == repose ? count / 2 : count;
       // Of 10, slopes are off by as much as they differ at 0.6 and 0.8.
       const std::uint64_t seeds = out.quick() ? 1 : form.measure == packing ? 5 : 30;
       std::vector<Row> scenes;
       for (std::uint64_t seed = 1; seed <= seeds && (seed == 1 || !scenes.back().at("scenes").empty()); ++seed)
-        scenes.push_back(isolated([&] { return form.measure(solver, balls, form.friction, seed); }).row);
+        scenes.push_back(isolated([&] { return form.measure(solver, number, form.friction, seed); }).row);
       const Row all = joined(scenes);
       const double value = all.number("value");  // NaN, which meets no goal, if a scene failed
-      Row row = Row(key).info("unit", form.unit).info("balls", balls);
+      Row row = Row(key).info("unit", form.unit).info("balls", number);
       if (form.measure == packing) {
         row.info("goal", Row::text(form.lower) + " to " + Row::text(form.upper));
         row.info("met", value >= form.lower && value <= form.upper);
@@ -203,8 +205,87 @@ void run(Run& out) {
   }
 }
 
-const Registration registration{
-    "balls", "packing of equal balls and slope of their heaps", {"form", "friction", "solver", "time_step_s"}, run};
+// SimBenchmark's cube of spheres "666" (Hwangbo, Kang; github.com/leggedrobotics/SimBenchmark), and Bullet as it comes
+// beside the solvers here: 10 iterations, sleeping with Bullet's own thresholds. Scene, metric and duration are its
+// own; its random numbers are not, so the first decimals of a figure mean nothing. Published rows of other engines:
+// bench/results/simbenchmark_published.csv.
+
+/// 6 x 6 x 6 balls of 10 kg and 0.1 m without friction, 0.21 m apart, shifted by up to a millimetre.
+void place_cube(testing::Lab& lab) {
+  const PartModelPtr ball = testing::sphere(0.1);
+  lab.def().bin.friction = 0.0;
+  Random random(42, 0, Stream::probe);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      for (int k = 0; k < 6; ++k) {
+        const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+        lab.place(ball, Vec3(0.21 * i, 0.21 * j, 0.21 * k + 0.101) + 0.001 * Vec3(x, y, z), Quat::Identity(),
+                  testing::material(0.0, 0.0, 10.0));
+      }
+}
+
+/// Sum of squared overlaps (m2).
+double overlap(const std::vector<BodyState>& balls) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Vec3& center = balls[i].pose.position;
+    const double floor = std::max(0.0, 0.1 - center.z());
+    sum += floor * floor;
+    for (std::size_t j = i + 1; j < balls.size(); ++j) {
+      const double square = (center - balls[j].pose.position).squaredNorm();
+      if (square < 0.04) sum += (0.2 - std::sqrt(square)) * (0.2 - std::sqrt(square));
+    }
+  }
+  return sum;
+}
+
+/// Overlap as its mean over time, and CPU time of the steps alone.
+Row cube_of_balls(testing::Lab lab, double seconds) {
+  place_cube(lab);
+  double sum = 0.0, cpu_s = 0.0;
+  int steps = 0;
+  for (; lab.time() < seconds - 0.5 * lab.solver().step_size(); ++steps) {
+    if (steps > 0) sum += overlap(lab.states());  // a world holds nothing before its first step
+    const Clock clock;
+    lab.simulate(lab.solver().step_size());
+    cpu_s += clock.cpu_s();
+  }
+  return Row().measure("error", sum / steps).measure("cpu_s", cpu_s).info("unit", "m2");
+}
+
+std::unique_ptr<Solver> made(const std::string& name, double time_step) {
+  if (name == "bullet_stock") {
+    StockBullet stock;
+    stock.time_step = time_step;
+    stock.balls = {0.1};
+    stock.pieces.resize(1);  // a ball has none
+    return make_stock_bullet(stock);
+  }
+  Request request;
+  choose_solver(request, name);
+  request.solver.sphere.time_step = request.solver.bullet.time_step = time_step;
+  request.solver.bullet.sleeping = false;
+  return solver_of(request, {});
+}
+
+void simbenchmark(Run& out) {
+  // Ten seconds is what SimBenchmark simulates: a quick run's errors are means over less time.
+  const double seconds = out.quick() ? 2.0 : 10.0;
+  for (const std::string solver : {"sphere", "bullet", "bullet_stock"})
+    for (const double time_step : {0.001, 0.004, 0.01}) {
+      const Row key = Row::keys("scene", "666", "solver", solver, "time_step_s", time_step);
+      if (!out.wanted(key)) continue;
+      out.row(
+          Row(key).append(isolated([&] { return cube_of_balls(testing::Lab(made(solver, time_step)), seconds); }).row));
+    }
+}
+
+const Registration of_balls{
+    "balls", "packing of equal balls and slope of their heaps", {"form", "friction", "solver", "time_step_s"}, balls};
+const Registration of_simbenchmark{"simbenchmark",
+                                   "SimBenchmark's cube of balls: overlap and CPU time",
+                                   {"scene", "solver", "time_step_s"},
+                                   simbenchmark};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -80,9 +80,9 @@ Errors rods(const MakeLab& lab) {
 }
 
 const Form forms[] = {
-    {[](const MakeLab& lab) { return Errors{testing::free_fall(lab()).way}; }, {{"free_fall", "rel", 1e-4}}},
+    {[](const MakeLab& lab) { return Errors{testing::free_fall(lab()).distance}; }, {{"free_fall", "rel", 1e-4}}},
     {bounce, {{"bounce_0.9", "rel", 1e-2}}, true},
-    {[](const MakeLab& lab) { return Errors{testing::slide(lab()).way}; }, {{"sliding_distance", "rel", 5e-3}}},
+    {[](const MakeLab& lab) { return Errors{testing::slide(lab()).distance}; }, {{"sliding_distance", "rel", 5e-3}}},
     {friction_angle, {{"friction_angle", "deg", 0.5}}, false, false},
     {[](const MakeLab& lab) { return Errors{testing::roll(lab())}; }, {{"rolling_15_deg", "rel", 2e-3}}, true},
     {collision, {{"collision_momentum", "rel", 1e-5}, {"collision_energy_gain", "rel", 1e-5}}},

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int gpu_seeds = 20;  ///< a scene takes long where llvmpipe is the device
 
-/// A part whose piles are looked at; a reference has twice the seeds.
+/// A part whose piles are compared; a reference has twice the seeds.
 struct Pile {
   const char* part;
   int seeds;
@@ -97,22 +97,20 @@ std::vector<Sample> poured_over(Request request, int seeds, double limit_cpu_s, 
   return all;
 }
 
-/// Of the first `count` scenes from the one at `first` on, in that order.
-std::vector<double> pooled(const std::vector<Sample>& scenes, const std::vector<std::size_t>& order, std::size_t first,
-                           std::size_t count, const std::string& measure) {
+/// Of at most `count` scenes from the one at `first` on.
+std::vector<double> pooled(const std::vector<Sample>& scenes, std::size_t first, std::size_t count,
+                           const std::string& measure) {
   std::vector<double> values;
-  for (std::size_t i = first; i < std::min(first + count, order.size()); ++i) {
-    const std::vector<double>& more = scenes[order[i]].at(measure);
+  for (std::size_t i = first; i < std::min(first + count, scenes.size()); ++i) {
+    const std::vector<double>& more = scenes[i].at(measure);
     values.insert(values.end(), more.begin(), more.end());
   }
   return values;
 }
 
-std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-  return order;
+std::vector<Sample> shuffled(std::vector<Sample> scenes, Random& random) {
+  for (std::size_t i = scenes.size(); i > 1; --i) std::swap(scenes[i - 1], scenes[random.below(i)]);
+  return scenes;
 }
 
 /// Distances from a random half of the reference: of at most as many candidate scenes, or (without candidates) of
@@ -120,15 +118,15 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 std::vector<double> distances(const std::vector<Sample>& reference, const std::vector<Sample>& candidates,
                               const std::string& measure, std::size_t count) {
   constexpr int splits = 40;
+  const std::size_t half = reference.size() / 2;
   std::vector<double> out;
   Random random(1, 0, Stream::probe);
   for (int k = 0; k < splits; ++k) {
-    const std::vector<std::size_t> order = shuffled(reference.size(), random);
-    const std::size_t half = reference.size() / 2;
-    const std::vector<double> other =
-        candidates.empty() ? pooled(reference, order, half, count, measure)
-                           : pooled(candidates, shuffled(candidates.size(), random), 0, std::min(half, count), measure);
-    out.push_back(wasserstein(pooled(reference, order, 0, half, measure), other));
+    const std::vector<Sample> mixed = shuffled(reference, random);
+    out.push_back(wasserstein(pooled(mixed, 0, half, measure),
+                              candidates.empty()
+                                  ? pooled(mixed, half, count, measure)
+                                  : pooled(shuffled(candidates, random), 0, std::min(half, count), measure)));
   }
   return out;
 }
@@ -153,10 +151,8 @@ Request request_for(const std::string& name, const std::string& part, std::size_
 /// candidates the reference stands for them.
 Row measure_row(const std::vector<Sample>& reference, const std::vector<Sample>& candidates, const char* measure) {
   const std::vector<Sample>& scenes = candidates.empty() ? reference : candidates;
-  std::vector<std::size_t> all(scenes.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<double> own = distances(reference, {}, measure, scenes.size());
-  const std::vector<double> values = pooled(scenes, all, 0, all.size(), measure);
+  const std::vector<double> values = pooled(scenes, 0, scenes.size(), measure);
   const std::vector<double> distance = distances(reference, candidates, measure, scenes.size());
   return Row()
       .exact("seeds", scenes.size())

@@ -1,7 +1,8 @@
 /// The goals of the default solver: on every sample part, on parts that no solver was tuned to, drawn from seeds, and
 /// on thin parts in a deep bin, of which every solver that knows surfaces by points knows too little; and what each
-/// finish of a pour costs and leaves. Where the exact convex pieces of a part are known, the referee has its say. Few
-/// parts in a small bin are the harder test: p95 is that of the second worst.
+/// finish of a pour costs and leaves; and the main job as a user asks for it, both solvers over counts and shapes.
+/// Where the exact convex pieces of a part are known, the referee has its say. Few parts in a small bin are the harder
+/// test: p95 is that of the second worst.
 #include "framework/benchmark.hpp"
 #include "framework/host.hpp"
 #include "judged.hpp"
@@ -187,6 +188,24 @@ void finish(Run& out) {
   }
 }
 
+/// Scene time, memory and the errors of the final scene.
+void scenes(Run& out) {
+  const std::vector<std::size_t> counts = {64, 256, 512};
+  for (const std::size_t count : out.quick() ? std::vector<std::size_t>{16} : counts)
+    for (const char* part : {"bolt_hex", "conrod", "pipe_tee"})
+      for (const std::string solver : {"sphere", "bullet"}) {
+        const Row key = Row::keys("part", part, "bodies", count, "solver", solver, "sleeping", "yes");
+        if (!out.wanted(key)) continue;
+        const bool bullet = solver == "bullet", many = count > 256 || (count > 64 && bullet);
+        Request request = bin_of(part, count);
+        choose_solver(request, solver);
+        warm_up(request);
+        const Judged how{out.quick() ? 20.0 : bullet ? 600.0 : 150.0, 0};
+        const int seeds = out.quick() || many ? 1 : 3;
+        out.row(Row(key).append(joined(judged_scenes(out.scratch(), request, {}, {}, how, seeds))));
+      }
+}
+
 const Registration of_samples{"goals",
                               "150 parts of every shape, 40 of some, and deep bins, against the goals and the referee",
                               {"part", "bodies", "solver", "sleeping"},
@@ -197,6 +216,10 @@ const Registration of_thin{
     "thin", "150 thin parts in a deep bin against the goals", {"part", "bodies", "solver"}, thin};
 const Registration of_finish{
     "finish", "what each finish of a pour costs and leaves", {"part", "bodies", "solver", "finish"}, finish};
+const Registration of_scenes{"scenes",
+                             "time, memory and errors of whole scenes: three parts, both solvers, 64 to 512",
+                             {"part", "bodies", "solver", "sleeping"},
+                             scenes};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -77,7 +77,7 @@ std::vector<Row> judged_scenes(const std::string& scratch, Request request, cons
 }
 
 MakeSolver stock_bullet_on(const std::string& pieces, StockBullet settings) {
-  return [pieces, settings](const std::vector<PartModelPtr>&) mutable {
+  return [pieces, settings]() mutable {
     settings.pieces = {read_pieces(pieces, millimetre)};
     return make_stock_bullet(settings);
   };

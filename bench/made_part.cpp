@@ -16,8 +16,8 @@ namespace bin_scenes::bench {
 
 namespace {
 
-/// Corners of a convex prism or frustum (mm): two rings of as many, the lower first, both counterclockwise when looked
-/// at from above.
+/// Corners of a convex prism or frustum (mm): two rings of as many, the lower first, both counterclockwise
+/// as seen from above.
 using Prism = std::vector<Vec3>;
 using Prisms = std::vector<Prism>;
 

@@ -4,9 +4,6 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "framework/benchmark.hpp"
-#include "framework/isolated.hpp"
-
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -57,15 +54,6 @@ std::string stages_of(const Profile& profile, double scale) {
   return out;
 }
 
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 std::vector<PartModelPtr> load_parts(const Request& request) {
   std::vector<PartModelPtr> parts;
   for (const PartLine& line : request.parts) {
@@ -97,7 +85,7 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
   const Clock clock;
   out.parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = make ? make(out.parts) : solver_of(request, out.parts);
+  const std::unique_ptr<Solver> solver = make ? make() : solver_of(request, out.parts);
   out.scene = std::move(pour({request, out.parts}, *solver, {request.first}).front());
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bin_scenes/generate/generator.hpp"
-#include "framework/table.hpp"
+#include "framework/isolated.hpp"
 
 #include <chrono>
 #include <functional>
@@ -17,9 +17,6 @@ Request bin_of(const std::string& part, std::size_t count);
 
 /// The solvers as figures name them: "sphere", "bullet", "sphere/thesis".
 void choose_solver(Request& request, const std::string& name);
-
-/// Of all threads of this process so far (s).
-double cpu_seconds();
 
 /// Seconds since it was made, of all threads and of the wall.
 class Clock {
@@ -40,7 +37,7 @@ std::vector<PartModelPtr> load_parts(const Request& request);
 /// The request's solver for them.
 std::unique_ptr<Solver> solver_of(const Request& request, const std::vector<PartModelPtr>& parts);
 /// A solver that no request can name; none: the request's.
-using MakeSolver = std::function<std::unique_ptr<Solver>(const std::vector<PartModelPtr>& parts)>;
+using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 /// One judged scene, timed from request to final poses: judging comes after.
 struct Poured {

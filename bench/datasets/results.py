@@ -7,9 +7,10 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-RESULTS = ROOT / "bench/results"
+RESULTS = ROOT / os.environ.get("BIN_SCENES_RESULTS", "bench/results")
 
 
 def cpu():
@@ -30,6 +31,16 @@ def commit():
 
 def version():
     return re.search(r"project\(bin_scenes VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def timed(*words):
+    """Wall and processor seconds of a command that says nothing; ends the script if it fails."""
+    begin = time.monotonic()
+    process = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+    _, status, used = os.wait4(process.pid, 0)
+    if status:
+        sys.exit("%s: the run failed" % os.path.basename(sys.argv[0]))
+    return time.monotonic() - begin, used.ru_utime + used.ru_stime
 
 
 def put(name, about, keys, rows):

@@ -23,27 +23,20 @@ namespace {
 
 constexpr double wall_per_cpu = 30.0;  ///< a process that waits longer than this for its CPU time hangs
 
-// A row goes through the pipe as a table; one cut short by a crash has no last column.
-constexpr const char* last = "whole";
+// A row goes through the pipe as a table with this behind it, which one cut short by a crash lacks.
+constexpr char end_of_row = '\0';
 
 std::string packed(const Row& row) {
   Table table;
-  table.add(Row(row).info(last, true));
-  return to_csv(table);
+  table.add(row);
+  return (row.cells().empty() ? std::string() : to_csv(table)) + end_of_row;
 }
 
-bool unpack(const std::string& text, Row& row) {
-  try {
-    const Table table = from_csv(text, "a row's process");
-    if (table.rows.size() != 1) return false;
-    bool whole = false;
-    const Row only = table.row(0);
-    for (const auto& [column, value] : only.cells())
-      column.name == last ? void(whole = true) : void(row.add(column, value));
-    return whole;
-  } catch (const Error&) {
-    return false;
-  }
+bool unpack(std::string text, Row& row) {
+  if (text.empty() || text.back() != end_of_row) return false;
+  text.pop_back();
+  if (!text.empty()) row = from_csv(text, "a row's process").row(0);
+  return true;
 }
 
 [[noreturn]] void child(const std::function<Row()>& work, int pipe, double limit_cpu_s) {
@@ -87,8 +80,9 @@ double resident_mb() {
   return 1e-6 * resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-double seconds(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+double cpu_seconds_of(const rusage& usage) {
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
 }  // namespace
@@ -117,7 +111,7 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.peak_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
   result.added_mb = std::max(0.0, result.peak_mb - before_mb);
-  result.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  result.cpu_s = cpu_seconds_of(usage);
   const bool whole = unpack(text, result.row);
   result.good = whole && in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (!in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
@@ -127,6 +121,12 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   else if (!whole)
     result.row = Row().status("ended without a result");
   return result;
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return cpu_seconds_of(usage);
 }
 
 }  // namespace bin_scenes::bench

@@ -22,4 +22,7 @@ struct Isolated {
 /// not have made a GL context yet: contexts do not survive a fork.
 Isolated isolated(const std::function<Row()>& work, double limit_cpu_s = 600.0);
 
+/// User and system time of all threads of this process so far (s).
+double cpu_seconds();
+
 }  // namespace bin_scenes::bench

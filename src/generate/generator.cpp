@@ -106,9 +106,9 @@ struct Generator::State {
 
   void load(const Request& request, Reporter& reporter) {
     reporter.phase("load", request.first, request.part_count());
-    estimate_memory(request, {});
+    estimate_memory({request});
     models.load(request);
-    estimate_memory(request, models.loaded().parts);
+    estimate_memory(models.loaded());
     resolved_sensors(models.loaded());  // says what is wrong before hours of simulation
   }
 
@@ -195,7 +195,7 @@ void Generator::generate(const Request& request, const Options& options, const s
                         reporter.handed_on();
                         done(std::move(result));
                       },
-                      scenes_seen_at_once(request, estimate_memory(request, loaded.parts)));
+                      scenes_seen_at_once(request, estimate_memory(loaded)));
 
   const SceneList scenes{request.scenes, [&](std::size_t place) { return request.first + place; }};
   RunHooks hooks = options.hooks;

@@ -75,7 +75,9 @@ double body_bytes(const Request& request, const PartModel* part) {
 }
 
 /// Of the pairs of parts that start within each other, by their boxes at the poses they are given; stops above `most`.
-double overlap_bytes(const Request& request, const std::vector<PartModelPtr>& parts, double most) {
+double overlap_bytes(const LoadedRequest& loaded, double most) {
+  const Request& request = loaded.request;
+  const std::vector<PartModelPtr>& parts = loaded.parts;
   struct Placed {
     Aabb box;
     double hulls;
@@ -100,11 +102,12 @@ double overlap_bytes(const Request& request, const std::vector<PartModelPtr>& pa
   all.size().maxCoeff(&axis);
   std::sort(placed.begin(), placed.end(),
             [&](const Placed& a, const Placed& b) { return a.box.lower[axis] < b.box.lower[axis]; });
-  double bytes = 0.0, looks = 1e8;  // half a second: where so many are beside each other, few are within each other
+  double bytes = 0.0,
+         pairs_left = 1e8;  // half a second: where so many are beside each other, few are within each other
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const Placed& a = placed[i];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].box.lower[axis] <= a.box.upper[axis]; ++j) {
-      if (--looks < 0.0) return bytes;
+      if (--pairs_left < 0.0) return bytes;
       const Placed& b = placed[j];
       if (!a.box.overlaps(b.box)) continue;
       const Vec3 shared = a.box.upper.cwiseMin(b.box.upper) - a.box.lower.cwiseMax(b.box.lower);
@@ -142,7 +145,9 @@ std::size_t scenes_seen_at_once(const Request& request, double estimate) {
   return 1 + static_cast<std::size_t>(std::clamp((request.memory_budget - estimate) / one, 0.0, 1e6));
 }
 
-double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts) {
+double estimate_memory(const LoadedRequest& loaded) {
+  const Request& request = loaded.request;
+  const std::vector<PartModelPtr>& parts = loaded.parts;
   double bodies = 0.0;
   for (std::size_t line = 0; line < request.parts.size(); ++line) {
     const PartModel* part = line < parts.size() ? parts[line].get() : nullptr;
@@ -153,7 +158,7 @@ double estimate_memory(const Request& request, const std::vector<PartModelPtr>& 
   const double at_once = request.solver.type == SolverType::bullet ? 1.0 : tbb::this_task_arena::max_concurrency();
   bodies *= std::min(scenes, at_once);
   bodies += per_waiting_part * std::min(scenes * count, most_parts_waiting + count);
-  const double overlaps = overlap_bytes(request, parts, 1.1 * request.memory_budget) * std::min(scenes, at_once);
+  const double overlaps = overlap_bytes(loaded, 1.1 * request.memory_budget) * std::min(scenes, at_once);
   const double pixels = image_bytes(request);
   double models = 0.0;
   const std::size_t nodes = field_nodes_that_fit(request, parts);

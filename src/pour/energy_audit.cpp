@@ -79,11 +79,12 @@ void EnergyAudit::observe(double time, const std::vector<BodyState>& states, boo
     if (!before.in || before.fixed || !states[b].pose.finite()) continue;
     const Body now = body_at(b, states[b]);
     const PartModel& part = *world_.parts[world_.bodies[b].part];
-    const double way = std::max(0.5 * (before.speed + now.speed) * seconds, (now.center - before.center).norm());
+    const double distance = std::max(0.5 * (before.speed + now.speed) * seconds, (now.center - before.center).norm());
     const double gain = now.kinetic - before.kinetic + now.potential - before.potential -
                         allowed * std::max(now.kinetic, before.kinetic);
     reaches.push_back({b, 0.5 * (before.center + now.center),
-                       part.radius() + 0.5 * way + 0.5 * touching * part.diagonal(), gain, before.swift, now.speed});
+                       part.radius() + 0.5 * distance + 0.5 * touching * part.diagonal(), gain, before.swift,
+                       now.speed});
     faster |= now.speed > least_speed(b) && now.speed > flagged_ratio * before.swift + gravity_ * seconds;
     gained |= gain > worst_.gain * world_.bodies[b].mass * gravity_ * part.diagonal();
     before = now;

@@ -11,7 +11,7 @@
 /// integration may err by, which is a share of the kinetic energy.
 ///
 /// Energy alone does not see a light part that heavy ones pinch out: they lose more than it wins. Without restitution
-/// nothing leaves a contact faster than what struck it, so a part that is faster than everything in its group was
+/// nothing leaves a contact faster than what hit it, so a part that is faster than everything in its group was
 /// before, gravity's share taken off, was thrown. Wedges and levers give some: twice as fast is told, five times sets
 /// apart.
 #pragma once

@@ -6,19 +6,12 @@
 #include "solver/step_limit.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
-#include "bin_scenes/core/cancel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bin_scenes {
-
-namespace {
-
-constexpr int tries_per_part = 12;  ///< places tried for a part, turned one way, at each look
-constexpr int misses_per_look = 4;  ///< consecutive parts without a place after which a look stops trying
-
-}  // namespace
 
 HeapCore::HeapCore(std::shared_ptr<const PourPlan> plan, Solver& solver, std::size_t index)
     : plan_(std::move(plan)),
@@ -118,55 +111,6 @@ void HeapCore::insert(std::size_t body, const BodyState& state) {
   place_[body] = Place::in;
 }
 
-bool HeapCore::enter(std::size_t first) {
-  states_.resize(plan_->world.bodies.size(), {Pose::none(), {}});  // until a part is let in
-  place_.resize(states_.size(), Place::waiting);
-  start_given(first);
-  const bool enters = !waiting_.empty();
-  if (plan_->request.pour.pattern == Pour::Pattern::grid || plan_->world.bin.kind == Bin::Kind::none)
-    start_grid();
-  else
-    start_rain();
-  return enters;
-}
-
-void HeapCore::start_given(std::size_t first) {
-  for (std::size_t b = first; b < states_.size(); ++b) {
-    stop_if_cancelled();
-    const PartLine& line = plan_->request.parts[plan_->line_of[b]];
-    if (line.poses.empty()) {
-      waiting_.push_back(b);
-      continue;
-    }
-    BodyState state{line.poses[plan_->copy_of[b]], {}};
-    if (!line.velocities.empty() && !line.fixed) state.velocity = line.velocities[plan_->copy_of[b]];
-    if (!line.fixed && outside(state.pose * part(b).mass().center)) {
-      states_[b] = state;  // the walls would push it further out
-      place_[b] = Place::escaped;
-      continue;
-    }
-    insert(b, state);
-  }
-}
-
-void HeapCore::start_grid() {
-  std::vector<const PartModel*> models;
-  for (const std::size_t b : waiting_) models.push_back(&part(b));
-  if (models.empty()) return;
-  Opening opening = plan_->opening;
-  const Bin::Kind kind = plan_->world.bin.kind;
-  if (kind == Bin::Kind::floor || kind == Bin::Kind::none) opening.upper.z() = opening.lower.z();
-  opening.upper.z() = std::max(opening.upper.z(), top());
-  const std::vector<Pose> poses = grid_poses(models, opening, plan_->request.pour.grid_spacing, random_);
-  for (std::size_t i = 0; i < poses.size(); ++i) insert(waiting_[i], {poses[i], {}});
-  waiting_.clear();
-}
-
-void HeapCore::start_rain() {
-  for (std::size_t i = waiting_.size(); i > 1; --i)  // Fisher-Yates shuffle: part lines enter mixed
-    std::swap(waiting_[i - 1], waiting_[random_.below(i)]);
-  insert_waiting();
-}
 const std::vector<BodyState>& HeapCore::states() {
   if (fresh_) return states_;
   const std::vector<BodyState> now = solver_.states(id_);
@@ -231,16 +175,6 @@ bool HeapCore::slow(std::size_t body) const {
   return v.linear.norm() + 0.5 * size * v.angular.norm() <= limit;
 }
 
-double HeapCore::top() const {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < states_.size(); ++b) {
-    if (place_[b] != Place::in) continue;
-    for (const Cover::Ball& ball : plan_->covers[plan_->line_of[b]].balls)
-      highest = std::max(highest, (states_[b].pose * ball.center).z() + ball.radius);
-  }
-  return highest;
-}
-
 bool HeapCore::moves(std::size_t body) const {
   return place_[body] == Place::in && !plan_->world.bodies[body].fixed;
 }
@@ -267,45 +201,6 @@ std::size_t HeapCore::still_for_less_than(double seconds) const {
 bool HeapCore::all_asleep() const {
   const std::vector<bool> asleep = solver_.asleep(id_);
   return count_moving([&](std::size_t b) { return !asleep[b]; }) == 0;
-}
-
-void HeapCore::insert_waiting() {
-  if (waiting_.empty()) return;
-  Rain rain(plan_->opening, plan_->request.pour.drop_height);
-  if (plan_->world.bin_model) rain.add(plan_->bin_cover, Pose(), true);
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in) rain.add(plan_->covers[plan_->line_of[b]], states_[b].pose, time_ > 0.0 && slow(b));
-  int misses = 0;
-  std::vector<std::size_t> still;
-  for (const std::size_t b : waiting_) {
-    std::optional<Pose> pose;
-    const Cover& shape = plan_->covers[plan_->line_of[b]];
-    if (misses < misses_per_look && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
-    if (!pose) {
-      ++misses;
-      still.push_back(b);
-      continue;
-    }
-    misses = 0;
-    insert(b, {*pose, {}});
-    rain.add(shape, *pose, false);
-  }
-  // All parts rest and none of the waiting ones finds a place: the bin is full.
-  if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
-    for (const std::size_t b : still) place_[b] = Place::no_room;
-    still.clear();
-  }
-  waiting_ = std::move(still);
-}
-
-/// Cuts the raised walls down to the rim, once all parts are in.
-void HeapCore::cut_walls() {
-  walls_raised_ = false;
-  if (top() <= plan_->world.wall_height) return;  // no part touches the walls above the rim
-  earlier_steps_ += solver_.steps(id_);
-  solver_.remove_world(id_);  // first: both at once would hold twice the memory
-  make_world(false);
-  set_solver_phase();
 }
 
 void HeapCore::advance() {

@@ -29,7 +29,7 @@ class HeapCore final : private HeapView {
   void set_gravity(const Vec3& gravity);
   /// Moves bodies along a unit vector at a set speed, and simulates all others meanwhile.
   void lift(const std::vector<std::size_t>& bodies, const Vec3& direction, double distance, const RunHooks& hooks);
-  /// After a cancelled step: makes a new world with the states of the last look and settles it again.
+  /// After a cancelled step: makes a new world with the states of the last observation and settles it again.
   void recover();
 
   // Settling.
@@ -44,7 +44,7 @@ class HeapCore final : private HeapView {
   double time_left() const;
   void advanced(double seconds) { time_ += seconds, fresh_ = false; }
   /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice, then
-  /// change_world(). Different heaps of a solver may be looked at by different threads at once.
+  /// change_world(). Different heaps of a solver may be advanced by different threads at once.
   void advance();
   /// Once all parts are in: the world without raised walls, which may be a new one. By the solver's thread.
   void change_world();
@@ -108,7 +108,7 @@ class HeapCore final : private HeapView {
   std::uint64_t earlier_steps_ =
       0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
   bool fresh_ = false, walls_raised_ = false;
-  bool poured_ = false;  ///< by the last look
+  bool poured_ = false;  ///< in the last slice
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s
   std::vector<BodyState> states_;

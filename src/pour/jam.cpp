@@ -67,7 +67,7 @@ std::vector<Flag> flags_of(const JamReport& jam) {
   char text[160];
   std::snprintf(text, sizeof text, "part %d is squeezed by %.3g times the weight of itself and of what lies on it",
                 jam.part, jam.ratio);
-  return {{"part_jammed", text, "look at its fit: it may stick where its collision shape fills a gap of the part"}};
+  return {{"part_jammed", text, "check its fit: it may stick where its collision shape fills a gap of the part"}};
 }
 
 }  // namespace bin_scenes

@@ -38,8 +38,8 @@ Frame frame_at(const Motion& motion, const Vec3& gravity, double t, double dt) {
 /// Where a part that began at `start` is at t, and how fast its centre of mass and it turn until t + dt.
 BodyState state_at(const Motion& motion, const Pose& start, const Vec3& center, double t, double dt) {
   const auto pose_at = [&](double time) {
-    const Pose way = motion.at(time);
-    return Pose{start.position + way.position, (way.orientation * start.orientation).normalized()};
+    const Pose displacement = motion.at(time);
+    return Pose{start.position + displacement.position, (displacement.orientation * start.orientation).normalized()};
   };
   const Pose now = pose_at(t), after = pose_at(t + dt);
   BodyState state;

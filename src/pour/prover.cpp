@@ -20,7 +20,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double hand_way = 0.1;            ///< m
+constexpr double lift_height = 0.1;         ///< m
 constexpr double hand_speed = 0.25;         ///< m/s
 constexpr double hand_acceleration = 2.0;   ///< m/s2, also at the end
 constexpr double closing_speed = 0.04;      ///< m/s of each finger; slower than what bounces
@@ -29,18 +29,18 @@ constexpr double closing_patience = 0.1;    ///< s longer than they need for the
 constexpr double vacuum_rise = 0.05;        ///< s
 constexpr double holding = 0.05;            ///< s between gripping and lifting
 constexpr double jaw_masses = 4.0;          ///< of each jaw, in masses of the part: Jaws::mass
-constexpr double moved_way = 0.05;          ///< of a part's diagonal: others that moved farther are told
+constexpr double moved_distance = 0.05;     ///< of a part's diagonal: others that moved farther are told
 constexpr double moved_turn = 0.1;          ///< rad: likewise
-constexpr int steps_per_look = 4;           ///< at the forces
-constexpr int looks_without_grip = 3;       ///< after which the part is lost
+constexpr int steps_per_touch = 4;          ///< between two readings of the forces
+constexpr int touches_without_grip = 3;     ///< after which the part is lost
 constexpr std::size_t trials_at_once = 32;  ///< worlds in memory
 
-/// Way of the hand, t seconds after the lift began: speed rises and falls evenly.
-double way_at(double t) {
-  const double ramp = hand_speed / hand_acceleration, end = hand_way / hand_speed + ramp;
+/// Height of the hand above its start, t seconds after the lift began: speed rises and falls evenly.
+double height_at(double t) {
+  const double ramp = hand_speed / hand_acceleration, end = lift_height / hand_speed + ramp;
   if (t <= 0.0) return 0.0;
-  if (t >= end) return hand_way;
-  if (t > end - ramp) return hand_way - 0.5 * hand_acceleration * (end - t) * (end - t);
+  if (t >= end) return lift_height;
+  if (t > end - ramp) return lift_height - 0.5 * hand_acceleration * (end - t) * (end - t);
   if (t > ramp) return hand_speed * (t - 0.5 * ramp);
   return 0.5 * hand_acceleration * t * t;
 }
@@ -111,8 +111,8 @@ class Attempt {
 
   /// Tells the gripper's velocities of the next `seconds`.
   void go(double seconds) {
-    const double next = stage_ == Stage::lift ? way_at(time_ + seconds) : way_;
-    const Vec3 velocity = (next - way_) / seconds * ground_.up;
+    const double next = stage_ == Stage::lift ? height_at(time_ + seconds) : height_;
+    const Vec3 velocity = (next - height_) / seconds * ground_.up;
     if (parallel())
       solver_.set_jaws(id_, {first_, first_ + 1, trial_.pose.orientation * Vec3::UnitX(), trial_.force, closing_speed,
                              jaw_masses * ground_.world.bodies[part_].mass, velocity});
@@ -120,29 +120,29 @@ class Attempt {
       solver_.set_force(id_, part_, -vacuum() * (trial_.pose.orientation * Vec3::UnitZ()), mouth());
     for (std::size_t k = parallel() ? 2 : 0; stage_ == Stage::lift && k < bodies_.size(); ++k) {
       Pose pose = starts_[k];
-      pose.position += way_ * ground_.up;
+      pose.position += height_ * ground_.up;
       solver_.insert(id_, first_ + k, {pose, {velocity, Vec3::Zero()}});
     }
-    way_ = next;
+    height_ = next;
     time_ += seconds;
   }
 
-  /// At what came of it.
-  void look() {
+  /// Decides by the states after a step whether the stage is over.
+  void observe() {
     states_ = solver_.states(id_);
     if (stage_ == Stage::grip)
-      look_at_grip();
+      observe_closing();
     else if (stage_ == Stage::hold && time_ >= holding)
       begin(Stage::lift);
     else if (stage_ == Stage::lift)
-      look_at_lift();
+      observe_lift();
   }
 
  private:
   enum class Stage { grip, hold, lift, over };
 
   bool parallel() const { return gripper_.type == Gripper::Type::parallel; }
-  Vec3 mouth() const { return trial_.pose.position + way_ * ground_.up; }
+  Vec3 mouth() const { return trial_.pose.position + height_ * ground_.up; }
   double vacuum() const { return trial_.force * (stage_ == Stage::grip ? std::min(1.0, time_ / vacuum_rise) : 1.0); }
   Vec3 center(const BodyState& state) const { return state.pose * ground_.model(part_).mass().center; }
 
@@ -153,7 +153,7 @@ class Attempt {
     if (stage == Stage::lift) held_ = states_[part_];
   }
 
-  void look_at_grip() {
+  void observe_closing() {
     if (!parallel()) {
       if (time_ >= vacuum_rise) begin(Stage::hold);
       return;
@@ -199,16 +199,16 @@ class Attempt {
     return away.z() < gripper_.lip && away.head<2>().norm() < 0.5 * gripper_.radius;
   }
 
-  void look_at_lift() {
+  void observe_lift() {
     if (!parallel() && !sealed()) return end_lost();
-    if (++steps_ % steps_per_look == 0) {
+    if (++steps_ % steps_per_touch == 0) {
       const Touch now = touch();
       back_ = std::max(back_, now.back);
       without_ = now.gripper ? 0 : without_ + 1;
-      if (without_ >= looks_without_grip) return end_lost();
+      if (without_ >= touches_without_grip) return end_lost();
     }
-    if (way_ < hand_way) return;
-    const bool came = (center(states_[part_]) - center(before_[part_])).dot(ground_.up) >= 0.5 * hand_way;
+    if (height_ < lift_height) return;
+    const bool came = (center(states_[part_]) - center(before_[part_])).dot(ground_.up) >= 0.5 * lift_height;
     if (!came || without_ > 0) return end_lost();
     note_others();
     end(proof_.dragged.empty() ? LiftProof::Outcome::lifted : LiftProof::Outcome::dragged);
@@ -223,7 +223,7 @@ class Attempt {
   void end(LiftProof::Outcome outcome) {
     proof_.outcome = outcome;
     if (stage_ == Stage::lift) {
-      const Vec3 hand = way_ * ground_.up;
+      const Vec3 hand = height_ * ground_.up;
       proof_.slip = (center(states_[part_]) - hand - center(held_)).norm();
       proof_.turn = turn_between(states_[part_].pose, held_.pose);
     }
@@ -235,10 +235,10 @@ class Attempt {
       const auto body = static_cast<std::size_t>(part.id);
       if (body == part_ || !Ground::in(part)) continue;
       const PartModel& model = ground_.model(body);
-      const Vec3 way = states_[body].pose * model.mass().center - before_[body].pose * model.mass().center;
-      if (way.dot(ground_.up) > 0.5 * hand_way)
+      const Vec3 displacement = states_[body].pose * model.mass().center - before_[body].pose * model.mass().center;
+      if (displacement.dot(ground_.up) > 0.5 * lift_height)
         proof_.dragged.push_back(part.id);
-      else if (way.norm() > moved_way * model.diagonal() ||
+      else if (displacement.norm() > moved_distance * model.diagonal() ||
                turn_between(states_[body].pose, before_[body].pose) > moved_turn)
         proof_.moved.push_back(part.id);
     }
@@ -257,8 +257,8 @@ class Attempt {
   Vec3 contact_;              ///< middle of the ring, in the part's frame
   double patience_ = 0.0;     ///< s
   Stage stage_ = Stage::grip;
-  double time_ = 0.0;  ///< s of the stage
-  double way_ = 0.0;   ///< m of the hand
+  double time_ = 0.0;    ///< s of the stage
+  double height_ = 0.0;  ///< m, of the hand above its start
   int steps_ = 0, without_ = 0;
   double back_ = 0.0;  ///< N, most so far
   LiftProof proof_;
@@ -305,7 +305,7 @@ struct Prover::State {
       }
       solver->advance(ids, step);
       for (const auto& attempt : attempts)
-        if (!attempt->over()) attempt->look();
+        if (!attempt->over()) attempt->observe();
     } while (!ids.empty());
     for (const auto& attempt : attempts) proofs.push_back(attempt->proof());
   }

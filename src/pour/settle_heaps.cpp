@@ -1,5 +1,5 @@
-/// Advances heaps in slices of 1/60 s and looks at them between slices. While the device works on one group of heaps,
-/// the other one is looked at.
+/// Advances heaps in slices of 1/60 s and observes them between slices. While the device works on one group of heaps,
+/// the other one is observed.
 #include "pour/settle_heaps.hpp"
 
 #include "solver/step_limit.hpp"
@@ -17,14 +17,14 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two looks at a heap
+constexpr double slice_seconds = 1.0 / 60.0;  ///< simulated time between two observations of a heap
 
 struct Running {
   std::size_t number;
   HeapCore* heap;
 };
 
-/// Heaps that are simulated and looked at together. Of two groups one is looked at while the device works on the
+/// Heaps that are simulated and observed together. Of two groups one is observed while the device works on the
 /// other.
 struct Group {
   std::vector<Running> running;
@@ -118,16 +118,16 @@ class Run {
     if (group.left == 0 || group.running.empty()) fill(group);
   }
 
-  /// On all cores: on a fast device, one thread could not look at all worlds in the time that it takes for a slice.
+  /// On all cores: on a fast device, one thread could not observe all worlds in the time that it takes for a slice.
   static void advance(Group& group) {
-    const auto look_at = [&, flag = cancel_flag()](std::size_t i) {
+    const auto advance_heap = [&, flag = cancel_flag()](std::size_t i) {
       const CancelScope scope(flag);
       group.running[i].heap->advance();
     };
     if (group.running.size() == 1)
-      look_at(0);
+      advance_heap(0);
     else  // no scene is judged by this thread meanwhile
-      tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, group.running.size(), look_at); });
+      tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, group.running.size(), advance_heap); });
     for (Running& r : group.running) r.heap->change_world();
   }
 
@@ -143,13 +143,13 @@ class Run {
     group.running.erase(std::remove_if(group.running.begin(), group.running.end(), leaves), group.running.end());
   }
 
-  void tell(const Group& looked_at) {
+  void tell(const Group& observed) {
     if (!hooks_.progress) return;
     double sum = static_cast<double>(over_);
     for (const Group& group : groups_)
       for (const Running& r : group.running) sum += r.heap->progress().fraction;
     fraction_ = std::max(fraction_, sum / static_cast<double>(source_.count));
-    for (const Running& r : looked_at.running) {
+    for (const Running& r : observed.running) {
       Progress progress = r.heap->progress();
       progress.fraction = fraction_;
       hooks_.progress(progress);

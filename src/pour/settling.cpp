@@ -19,12 +19,12 @@ constexpr double tolerated_less = 2.0;
 
 }  // namespace
 
-/// A look at the heap.
+/// One observation of the heap.
 struct Settling::Seen {
   const HeapView& heap;
   double calm_s;      ///< s: time after which parts that stayed are calm
   double in_stage;    ///< s
-  double last_stage;  ///< s: the same at the last look
+  double last_stage;  ///< s: the same at the last observation
   int checks;
 
   bool all_in() const { return heap.all_in() && heap.all_slow(); }
@@ -42,7 +42,7 @@ struct Settling::Seen {
   bool rocks() const {
     return !calm() && in_stage > patience && (fast() || too_many(heap.still_for_less_than(calm_s)));
   }
-  /// True at one look, the first at which the heap can be calm: a given start was not at rest.
+  /// True at one observation, the first at which the heap can be calm: a given start was not at rest.
   bool stirs() const { return in_stage >= calm_s && last_stage < calm_s && heap.still_for_less_than(0.5 * calm_s) > 0; }
 };
 
@@ -53,7 +53,7 @@ struct Settling::Transition {
   Stage to;
 };
 
-/// At each look the first transition that applies is taken.
+/// At each observation the first transition that applies is taken.
 const Settling::Transition Settling::transitions[] = {
     // clang-format off
     // from           asked for                            when                                            to

@@ -69,7 +69,7 @@ class HeapView {
   virtual double rest_window() const = 0;                             ///< s
 };
 
-/// One heap's way through the stages, from the start of a settle to its end.
+/// The stages of one heap, from the start of a settle to its end.
 class Settling {
  public:
   explicit Settling(Pour::Finish finish) : finish_(finish) {}

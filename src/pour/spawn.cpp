@@ -109,7 +109,7 @@ const std::vector<Vec3>& Rain::balls_of(Obstacle& obstacle) {
 }
 
 std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Random& random, int tries) {
-  // One way round for all tries: the lowest of several would stand and hang where its frame lies low.
+  // One orientation for all tries: the lowest of several would stand and hang where its frame lies low.
   const auto turned = turned_to_fit(part, opening_, random);
   if (!turned) return std::nullopt;
   const auto& [orientation, bounds] = *turned;
@@ -128,7 +128,7 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
       const double z = clear + drop_height_;
       return (best && z >= best->position.z()) || z + bounds.lower.z() > opening_.upper.z() + drop_height_;
     };
-    for (const auto& [top, number] : order_) {  // the highest first, so that most of those below need no look
+    for (const auto& [top, number] : order_) {  // the highest first, so that most of those below need no test
       if (too_high() || top - middle.z() + shape.radius < heap) break;
       Obstacle& other = obstacles_[number];
       const double& known = other.settled ? heap : clear;
@@ -169,7 +169,7 @@ std::vector<Pose> grid_poses(const std::vector<const PartModel*>& parts, const O
     const Vec3 center(0.5 * (opening.lower.x() + opening.upper.x()) + (x - 0.5 * (nx - 1.0)) * cell,
                       0.5 * (opening.lower.y() + opening.upper.y()) + (y - 0.5 * (ny - 1.0)) * cell,
                       opening.upper.z() + (z + 0.5) * cell);
-    // A part longer than the opening is wide only fits some ways round.
+    // A part longer than the opening is wide only fits in some orientations.
     Quat orientation = random.orientation();
     for (int turn = 0; turn < 64 && !fits(*parts[i], orientation, size); ++turn) orientation = random.orientation();
     poses.push_back({center - orientation * parts[i]->mass().center, orientation});

@@ -38,7 +38,7 @@ class SceneStore {
   bool needs_grasps() const;
   bool needs_images() const;  ///< some format holds what sensors see, if there are any
 
-  /// Scenes of the request that have a folder. A look into the directory: what is asked for may be far more.
+  /// Scenes of the request that have a folder. Reads the directory: what is asked for may be far more.
   std::set<std::size_t> indices(const Request& request) const;
   enum class Found { nothing, accepted, set_apart };
   /// What is there of scene `index`. A scene of another request is an input Error; a folder that lacks one of the

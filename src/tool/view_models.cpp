@@ -18,12 +18,12 @@ std::vector<fs::path> candidates(const std::string& written, const std::string& 
   const fs::path path(written), name = path.filename();
   std::vector<fs::path> all;
   if (!models.empty()) all = {fs::path(models) / path, fs::path(models) / name};
-  const auto look_in = [&](const fs::path& place) {
+  const auto search_in = [&](const fs::path& place) {
     all.insert(all.end(), {place / path, place / name, place / "models" / name});
   };
-  look_in(fs::current_path());
+  search_in(fs::current_path());
   fs::path above = fs::weakly_canonical(folder);
-  for (look_in(above); above.has_relative_path(); look_in(above)) above = above.parent_path();
+  for (search_in(above); above.has_relative_path(); search_in(above)) above = above.parent_path();
   if (written.rfind("package://", 0) == 0) {
     try {
       all.emplace_back(config::resolve_file(written, folder, PathRules(), "models"));

@@ -192,7 +192,7 @@ at rest: at_rest of scenes | | all
             (self.root / folder).mkdir(parents=True)
         for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
                            ("test/stress/inspect_all", 0), ("bench/datasets/measure", 0), ("bench/datasets/audit", 0),
-                           ("build/bin_scenes", 0)):
+                           ("bench/datasets/lifts", 0), ("build/bin_scenes", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
             script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
@@ -204,7 +204,8 @@ at rest: at_rest of scenes | | all
         self.assertEqual(did, ["did build/bench/bin_scenes_bench --results bench/results", "did test/stress/soak build",
                                *("did bench/datasets/measure %s --tool build/bin_scenes" % part
                                  for part in ("throughput", "masks", "growth")),
-                               "did bench/datasets/audit build/bin_scenes", "did bench/publish"])
+                               "did bench/datasets/audit build/bin_scenes --stock build/bench/bin_scenes_bench_stock",
+                               "did bench/datasets/lifts --tool build/bin_scenes", "did bench/publish"])
         missing = self.run_script("all", "nowhere")
         self.assertEqual(missing.returncode, 2)
         self.assertIn("scripts/build", missing.stderr)

@@ -27,7 +27,7 @@ class EnergyAuditTest : public ::testing::Test {
   }
   static BodyState away(int n) { return at(10.0 * n, 1.0); }
 
-  /// The report after two states, one look apart.
+  /// The report after two states, one observation apart.
   EnergyReport between(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const {
     EnergyAudit audit(world);
     for (std::size_t b = 0; b < before.size(); ++b) audit.enter(b, before[b]);
@@ -77,13 +77,13 @@ TEST_F(EnergyAuditTest, WhatAFarPartLosesExplainsNothing) {
 }
 
 // Blocks of 11 m/s pinched a card out at 140 m/s, and lost more energy than it won.
-TEST_F(EnergyAuditTest, APartFasterThanWhatStruckItWasThrown) {
+TEST_F(EnergyAuditTest, APartFasterThanWhatHitItWasThrown) {
   world.bodies[1].mass = 0.001;
   const auto thrown = [&](double speed) {
     return between({at(0.0, 1.0, Vec3(11, 0, 0)), at(edge, 1.0), away(2)},
                    {at(0.0, 1.0, Vec3(5, 0, 0)), at(edge, 1.0, Vec3(speed, 0, 0)), away(2)});
   };
-  EXPECT_EQ(thrown(11.0).thrown.part, -1) << "as fast as what struck it";
+  EXPECT_EQ(thrown(11.0).thrown.part, -1) << "as fast as what hit it";
   const EnergyReport report = thrown(140.0);
   EXPECT_LT(report.gain, 1e-9);
   EXPECT_NEAR(report.thrown.ratio, (140.0 - g * dt) / 11.0, 1e-9);

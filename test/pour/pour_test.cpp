@@ -4,7 +4,7 @@
 #include "bin_scenes/pour/rest_watch.hpp"
 #include "bin_scenes/pour/spawn.hpp"
 #include "bin_scenes/solver/bullet_solver.hpp"
-#include "pour/stages.hpp"
+#include "pour/small_boxes.hpp"
 #include "solver/fixture.hpp"
 
 #include <tbb/global_control.h>
@@ -13,22 +13,6 @@
 namespace bin_scenes::testing {
 
 namespace {
-
-PartModelPtr small_box() {
-  static const PartModelPtr part = PartModel::from_mesh(box_mesh({0.05, 0.03, 0.02}), "box");
-  return part;
-}
-
-Request request_of(std::size_t count) {
-  Request request;
-  request.seed = 0;
-  request.bin.inner_size = Vec3(0.2, 0.15, 0.12);
-  PartLine line;
-  line.model = "box";
-  line.count = count;
-  request.parts.push_back(line);
-  return request;
-}
 
 std::vector<Scene> poured(const Request& request, const std::vector<std::size_t>& indices, const RunHooks& hooks = {}) {
   const auto solver = make_bullet_solver(request.solver.bullet);
@@ -307,187 +291,6 @@ TEST(Pour, WallsEndAtTheRimWhenTheSceneRests) {
   const Scene later = poured(again, {0})[0];
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_LT((later.parts[i].pose * small_box()->mass().center - before[i]).norm(), 0.01 * small_box()->diagonal());
-}
-
-/// Its bodies hover where they are put, but for a jump of the first one some time into each of so many probes (or
-/// presses after one) with a slide behind it, a swing of it to and fro in the first probe, and slow
-/// creeping of the first one to begin with; they fall asleep when they have been probed for so long. Notes its phases.
-class HoveringSolver : public Solver {
- public:
-  struct Habits {
-    int jumps = 0;
-    Stage jumps_in = Stage::probe;
-    double jumps_at_s = 0.05, slides_s = 0.0, swings_s = 0.0, creeps_s = 0.0, sleeps_at_s = 0.0;
-    bool heeds_phases = true, swings_fast = false;
-  };
-  explicit HoveringSolver(const Habits& habits) : habits_(habits) {}
-  std::vector<Stage> phases;
-  double probed_s = 0.0;  ///< in the last probe
-
-  WorldId add_world(const WorldDef& def) override {
-    states_.resize(def.bodies.size());
-    return 0;
-  }
-  void remove_world(WorldId) override {}
-  void insert(WorldId, std::size_t body, const BodyState& state) override { states_[body] = state; }
-  void remove(WorldId, std::size_t) override {}
-  bool set_phase(WorldId, const Phase& phase) override {
-    phases.push_back(stage_of(phase));
-    if (probes()) probed_s = 0.0;
-    pressed_s_ = 0.0;
-    jumped_ = false;
-    return habits_.heeds_phases;
-  }
-  double advance(const std::vector<WorldId>&, double seconds) override {
-    if (probes()) probed_s += seconds;
-    if (!probes() && times_probed() > 0) pressed_s_ += seconds;
-    const double asked_s = habits_.jumps_in == Stage::probe ? (probes() ? probed_s : 0.0) : pressed_s_;
-    if (jumped_ && asked_s <= habits_.jumps_at_s + habits_.slides_s) states_[0].pose.position.x() += 0.1 * seconds;
-    if (!jumped_ && habits_.jumps > 0 && asked_s > 0.0 && asked_s >= habits_.jumps_at_s) {
-      states_[0].pose.position.x() += 1e-3;
-      jumped_ = true;
-      --habits_.jumps;
-    }
-    const bool swings = probes() && times_probed() == 1 && probed_s < habits_.swings_s;
-    states_[0].velocity.linear.z() = swings && habits_.swings_fast ? -1.0 : 0.0;
-    if (swings) {
-      states_[0].pose.position.x() += swung_ ? -1e-3 : 1e-3;
-      swung_ = !swung_;
-    }
-    if (habits_.creeps_s > 0.0) states_[0].pose.position.x() += 0.01 * seconds;
-    habits_.creeps_s -= seconds;
-    return seconds;
-  }
-  std::vector<BodyState> states(WorldId) const override { return states_; }
-  std::vector<bool> asleep(WorldId) const override {
-    return std::vector<bool>(states_.size(), probes() && probed_s >= habits_.sleeps_at_s);
-  }
-  double step_size() const override { return 1e-3; }
-  std::uint64_t steps(WorldId) const override { return 0; }
-  const Profile& profile() const override { return profile_; }
-  std::vector<Flag> flags(WorldId) const override { return {}; }
-  std::string name() const override { return "hovering"; }
-  std::string device() const override { return "cpu"; }
-
- private:
-  bool probes() const { return !phases.empty() && phases.back() == Stage::probe; }
-  std::ptrdiff_t times_probed() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
-
-  Habits habits_;
-  bool jumped_ = false, swung_ = false;
-  double pressed_s_ = 0.0;  ///< in the last press after a probe
-  std::vector<BodyState> states_;
-  Profile profile_;
-};
-
-struct Probed {
-  std::vector<Stage> phases;
-  double last_s;  ///< length of the last probe
-
-  std::ptrdiff_t times() const { return std::count(phases.begin(), phases.end(), Stage::probe); }
-};
-Probed probed(const HoveringSolver::Habits& habits, std::size_t parts = 2, double rest_window = 0.25,
-              Pour::Finish finish = Pour::Finish::probed) {
-  HoveringSolver solver(habits);
-  Request request = request_of(parts);
-  request.pour.finish = finish;
-  request.pour.rest_window = rest_window;
-  request.bin.inner_size = Vec3(1.0, 1.0, 0.12);  // room for all
-  const Report report = pour({request, {small_box()}}, solver, {0})[0].report;
-  EXPECT_TRUE(report.at_rest);
-  EXPECT_EQ(report.finish, habits.heeds_phases ? name_of(finish) : "settled");
-  return {solver.phases, solver.probed_s};
-}
-
-TEST(Pour, ASceneIsFinishedAsFarAsTheRequestAsks) {
-  const auto phases = [](Pour::Finish finish) { return probed({}, 2, 0.25, finish).phases; };
-  const std::vector<Stage> all = phases(Pour::Finish::probed);
-  EXPECT_EQ(phases(Pour::Finish::settled), std::vector<Stage>(all.begin(), all.begin() + 2));
-  EXPECT_EQ(phases(Pour::Finish::pressed), std::vector<Stage>(all.begin(), all.begin() + 3));
-}
-
-TEST(Pour, WhatLiesStillIsPressedAndProbedUntilItStands) {
-  HoveringSolver::Habits habits;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             verify = Stage::verify;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify}));
-  EXPECT_EQ(probed(habits, 2, 0.01).times(), 1) << "a window shorter than a look";
-  habits.jumps_at_s = 0.015;
-  habits.jumps = 1;
-  EXPECT_EQ(probed(habits).times(), 1) << "it budges while forces are found";
-  habits.jumps_at_s = 0.05;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}))
-      << "it comes to lie in the first, and stands the second";
-  habits.jumps = 100;
-  EXPECT_EQ(probed(habits).times(), 12) << "it moves in all of them";
-  EXPECT_EQ(probed(habits, 149).times(), 12);
-  EXPECT_EQ(probed(habits, 150).times(), 1) << "one in fifty may, less two";
-}
-
-TEST(Pour, WhatStoodAProbeIsPressedUntilItStandsThatToo) {
-  HoveringSolver::Habits habits;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             verify = Stage::verify;
-  habits.jumps_in = verify;
-  habits.jumps_at_s = 1e-3;
-  habits.slides_s = 0.05;
-  habits.jumps = 2;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, verify, verify, verify}))
-      << "forces are forgotten anew each time";
-  habits.heeds_phases = false;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle})) << "a solver to which all stages are the same";
-}
-
-TEST(Pour, WhatRocksOnInAProbeIsSettledAgain) {
-  HoveringSolver::Habits habits;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             verify = Stage::verify;
-  habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
-  EXPECT_EQ(probed(habits, 150).phases, (std::vector<Stage>{pour, settle, press, probe, verify}))
-      << "one of many is waited for";
-  habits.swings_s = 1.5;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify})) << "in time";
-}
-
-// A part that fell sent the heap back to soft contacts, on which it sagged as a whole; 1,000 rods never came to an end.
-TEST(Pour, WhatFallsInAProbeIsWaitedFor) {
-  HoveringSolver::Habits habits;
-  habits.swings_fast = true;
-  habits.swings_s = 0.3;
-  const auto pour = Stage::pour, settle = Stage::settle, probe = Stage::probe, press = Stage::press,
-             verify = Stage::verify;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, probe, verify}));
-  habits.swings_s = 3.0;
-  EXPECT_EQ(probed(habits).phases, (std::vector<Stage>{pour, settle, press, probe, settle, press, probe, verify}));
-}
-
-TEST(Pour, AProbeWaitsUntilNothingCreepsButNotForLong) {
-  HoveringSolver::Habits habits;
-  const double at_once = probed(habits).last_s;
-  EXPECT_GE(at_once, 0.1) << "what has moved since forces were found must show";
-  EXPECT_LE(at_once, 0.25);
-  habits.sleeps_at_s = 0.4;
-  EXPECT_NEAR(probed(habits).last_s, 0.4, 0.03);
-  habits.sleeps_at_s = 100.0;
-  EXPECT_NEAR(probed(habits).last_s, 1.0, 0.03);
-}
-
-TEST(Pour, WhatWasGivenAtRestIsProbedOnlyIfItMoves) {
-  const auto phases_of = [](double creeps_s) {
-    HoveringSolver::Habits habits;
-    habits.creeps_s = creeps_s;
-    HoveringSolver solver(habits);
-    Request request = request_of(2);
-    request.pour.pattern = Pour::Pattern::given;
-    request.pour.finish = Pour::Finish::probed;
-    for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.05), Quat::Identity()});
-    EXPECT_TRUE(pour({request, {small_box()}}, solver, {0})[0].report.at_rest);
-    return solver.phases;
-  };
-  const auto settle = Stage::settle, probe = Stage::probe, press = Stage::press, verify = Stage::verify;
-  EXPECT_EQ(phases_of(0.0), (std::vector<Stage>{press}));
-  EXPECT_EQ(phases_of(0.5), (std::vector<Stage>{press, settle, press, probe, verify}));
 }
 
 TEST(Solver, TakingAPartOutWakesWhatItHeldUp) {

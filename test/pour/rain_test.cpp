@@ -121,7 +121,7 @@ std::optional<Pose> lowest_of_tries(const Opening& opening, double drop, const P
                                     const std::vector<Pose>& present, Random& random, int tries) {
   std::optional<Pose> best;
   Pose pose;
-  pose.orientation = random.orientation();  // a ring of this size fits any way round
+  pose.orientation = random.orientation();  // a ring of this size fits in any orientation
   Aabb bounds;
   for (const Vec3& x : part.mesh().vertices) bounds.extend(Vec3(pose.orientation.toRotationMatrix() * x));
   const Vec3 lower = opening.lower - bounds.lower, upper = opening.upper - bounds.upper;

@@ -110,7 +110,7 @@ TEST_P(Repeatability, ASceneGoesThroughEveryStage) {
   const Ends watched = ends_of(request, solver, {1});
   for (const Stage stage : {Stage::pour, Stage::settle, Stage::press, Stage::probe, Stage::verify})
     EXPECT_GT(solver.stages[stage], 0) << row(stage).name;
-  EXPECT_EQ(watched, ends_of(request, {1})) << "looked at at once, not while the device works on another";
+  EXPECT_EQ(watched, ends_of(request, {1})) << "observed at once, not while the device works on another";
 }
 
 // Worlds are shared among threads, and of one world pairs and bundles of manifolds, from 16 and 8 on.
@@ -124,7 +124,7 @@ TEST(SphereRepeatability, ThreadsChangeNothing) {
   EXPECT_EQ(ends_with(2, request, {1, 0})[1], alone[0]);
 }
 
-// The worlds of a group are looked at by all threads.
+// The worlds of a group are observed by all threads.
 TEST(SphereRepeatability, ThreadsThatLookAtWorldsOfTheDeviceChangeNothing) {
   const Request request = angles(12, Device::gpu);
   EXPECT_EQ(ends_with(1, request, {0, 1, 2, 3, 4}), ends_with(4, request, {0, 1, 2, 3, 4}));

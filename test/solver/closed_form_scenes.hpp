@@ -14,7 +14,7 @@ namespace bin_scenes::testing {
 constexpr double g = 9.81;
 
 struct Fall {
-  double way, speed;  ///< errors / exact value
+  double distance, speed;  ///< errors / exact value
 };
 /// A box thrown up and along, for one second.
 inline Fall free_fall(Lab lab) {
@@ -79,9 +79,9 @@ inline Carried carry(Lab lab) {
 }
 
 struct Slide {
-  double way;    ///< error / exact way
-  double aside;  ///< of the direction, rad
-  double speed;  ///< left over, m/s
+  double distance;  ///< error / exact distance
+  double aside;     ///< of the direction, rad
+  double speed;     ///< left over, m/s
 };
 /// A flat box that friction stops: v0^2 / (2 mu g), straight on.
 inline Slide slide(Lab lab, double friction_of_bin = 0.45, double friction_of_box = 0.2) {
@@ -90,9 +90,9 @@ inline Slide slide(Lab lab, double friction_of_bin = 0.45, double friction_of_bo
   lab.start(body).velocity.linear = Vec3(0.8, 0.6, 0.0);
   lab.simulate(1.0);
   const double mu = std::sqrt(friction_of_bin * friction_of_box), expected = 1.0 / (2.0 * mu * g);
-  const Vec3 way = lab.center(body);
-  return {std::abs(way.head<2>().norm() / expected - 1.0),
-          std::abs(std::atan2(way.y(), way.x()) - std::atan2(0.6, 0.8)), lab.state(body).velocity.linear.norm()};
+  const Vec3 end = lab.center(body);
+  return {std::abs(end.head<2>().norm() / expected - 1.0),
+          std::abs(std::atan2(end.y(), end.x()) - std::atan2(0.6, 0.8)), lab.state(body).velocity.linear.norm()};
 }
 
 /// Way in one second of a flat box with mu = 0.5 on a slope, m. A tilted gravity stands for it; `heading` is the
@@ -106,8 +106,8 @@ inline double slip(Lab lab, double angle, double heading, Phase phase = phases::
   return lab.center(body).head<2>().norm();
 }
 
-/// A ball that rolls down 15 degrees for one second: error / way, from the tessellated body's own moment of inertia
-/// (5/7 g sin(angle) for an ideal ball).
+/// A ball that rolls down 15 degrees for one second: error / distance, from the tessellated body's own moment of
+/// inertia (5/7 g sin(angle) for an ideal ball).
 inline double roll(Lab lab) {
   const double angle = 15.0 * M_PI / 180.0, radius = 0.025;
   lab.def().gravity = g * Vec3(std::sin(angle), 0.0, -std::cos(angle));
@@ -242,17 +242,18 @@ inline Tumble tumble(Lab lab) {
   return result;
 }
 
-/// Ten boxes on each other for `seconds`, turned by `heading` about the vertical: largest displacement of any / edge.
-inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const Vec3& size = Vec3::Constant(0.04)) {
+/// Boxes on each other for `seconds`, turned by `heading` about the vertical: largest displacement of any / edge.
+inline double stack_drift(Lab lab, double seconds, double heading = 0.0, const Vec3& size = Vec3::Constant(0.04),
+                          int count = 10) {
   const double edge = size.z();
   const PartModelPtr brick = box(size);
   const auto start = [&](int i) { return Vec3(0, 0, (i + 0.5) * edge); };
   const Quat turned(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
-  for (int i = 0; i < 10; ++i) lab.place(brick, start(i), turned, material(0.5));
+  for (int i = 0; i < count; ++i) lab.place(brick, start(i), turned, material(0.5));
   lab.begin(phases::press);  // as every scene ends
   lab.simulate(seconds);
   double most = 0.0;
-  for (int i = 0; i < 10; ++i)
+  for (int i = 0; i < count; ++i)
     most = std::max(most, (lab.center(static_cast<std::size_t>(i)) - start(i)).norm() / edge);
   return most;
 }

@@ -13,7 +13,7 @@ class Stacks : public SolverTest {};  ///< long
 
 TEST_P(ClosedForms, FreeFallIsAParabola) {
   const Fall error = free_fall(lab());
-  EXPECT_LT(error.way, 1e-4);
+  EXPECT_LT(error.distance, 1e-4);
   EXPECT_LT(error.speed, 1e-4);
 }
 
@@ -30,7 +30,7 @@ TEST_P(ClosedForms, ContactForcesCarryWhatLiesOnThem) {
 
 TEST_P(ClosedForms, SlidingDistanceFollowsFromFriction) {
   const Slide error = slide(lab());
-  EXPECT_LT(error.way, 0.005);
+  EXPECT_LT(error.distance, 0.005);
   EXPECT_LT(error.aside, 0.005);
   EXPECT_LT(error.speed, 1e-3);
 }

@@ -17,8 +17,8 @@ inline Fall long_flight(Lab lab) {
   lab.start(body).velocity.linear = start;
   lab.simulate(1.0);
   const double t = lab.time();
-  const Vec3 way = t * start - Vec3(0, 0, 0.5 * g * t * t), velocity = start - Vec3(0, 0, g * t);
-  return {(lab.center(body) - way).norm() / way.norm(),
+  const Vec3 fallen = t * start - Vec3(0, 0, 0.5 * g * t * t), velocity = start - Vec3(0, 0, g * t);
+  return {(lab.center(body) - fallen).norm() / fallen.norm(),
           (lab.state(body).velocity.linear - velocity).norm() / velocity.norm()};
 }
 

@@ -11,14 +11,14 @@ class HardContacts : public SolverTest {};
 // Single precision alone is off by 0.2 m in its place and 0.4 m/s in its speed.
 TEST_P(HardContacts, AThousandMetresASecondAreAKilometre) {
   const Fall error = long_flight(lab());
-  EXPECT_LT(error.way, 1e-6);
+  EXPECT_LT(error.distance, 1e-6);
   EXPECT_LT(error.speed, 1e-6);
 }
 
 // With the speed that a sub-step ends with it stops 0.6 % too early.
 TEST_P(HardContacts, SlidingDistanceFollowsFromGreatFriction) {
   const Slide error = slide(lab(), 0.5, 0.5);
-  EXPECT_LT(error.way, 1.5e-3);
+  EXPECT_LT(error.distance, 1.5e-3);
   EXPECT_LT(error.aside, 1e-3);
   EXPECT_LT(error.speed, 1e-3);
 }

@@ -268,8 +268,8 @@ TEST(SphereMasses, BlocksThrowNoCardOfAHouse) {
 // It turned back, climbed by 20 mm, and in a quarter of the step left the nut. The facets of its thread brake it.
 TEST_P(SphereSteps, ALongBoltScrewsDown) {
   const Screw screw = screw_down(lab(), 0.0004, 2.0, 30);
-  EXPECT_GT(screw.way, 0.015);
-  EXPECT_LT(screw.way, 0.1);
+  EXPECT_GT(screw.distance, 0.015);
+  EXPECT_LT(screw.distance, 0.1);
   EXPECT_LT(screw.risen, 2e-3);
 }
 
@@ -277,8 +277,8 @@ TEST_P(SphereSteps, ALongBoltScrewsDown) {
 TEST(SphereTightFits, ABoltScrewsDown) {
   for (const double play : {0.0003, 0.0004}) {
     const Screw screw = screw_down(Lab(sphere_default.make()), play, 1.0);
-    EXPECT_GT(screw.way, 5e-3) << play;
-    EXPECT_LT(screw.way, 25e-3) << play;
+    EXPECT_GT(screw.distance, 5e-3) << play;
+    EXPECT_LT(screw.distance, 25e-3) << play;
     EXPECT_LT(screw.risen, 2e-3) << play;
   }
 }

@@ -141,7 +141,7 @@ inline void place_fixed(Lab& lab, const PartModelPtr& part, double friction) {
 inline Fit corner_into_pit(Lab lab, double gap, double drop, double friction) {
   const std::uint32_t sides = 3;
   const double radius = 0.6, height = 0.8, depth = 0.6, angle = 0.3;
-  const double slope = std::sin(std::atan2(radius * std::cos(M_PI / sides), height));  // gap / way down
+  const double slope = std::sin(std::atan2(radius * std::cos(M_PI / sides), height));  // gap / distance down
   lab.def().bin.kind = Bin::Kind::none;
   const PartModelPtr corner = PartModel::from_mesh(spike_mesh(sides, radius, height, angle), "corner");
   const Vec3 rest = Vec3(0, 0, -depth) + corner->mass().center;
@@ -179,9 +179,9 @@ inline double spike_into_hole(Lab lab, double turn, double tilt, double aside, d
 }
 
 /// A bolt of a helical thread (10 mm radius, 3 mm pitch, depth 1.2 mm) in a fixed nut wider by `play` (m), without
-/// friction, three turns deep in it: way down in `seconds` (m), and EnergyRise.
+/// friction, three turns deep in it: distance down in `seconds` (m), and EnergyRise.
 struct Screw {
-  double way, risen;
+  double distance, risen;
 };
 inline Screw screw_down(Lab lab, double play, double seconds, std::uint32_t turns = 8) {
   constexpr std::uint32_t around = 48, per_turn = 8;
@@ -261,6 +261,31 @@ inline Chain hang_chain(Lab lab, int count, double slack) {
   }
   out.risen = rise.most();
   return out;
+}
+
+constexpr double sheet_thickness = 2e-4;  ///< m
+
+struct Sheets {
+  double lower, upper;  ///< of their middles, off where they lie at rest / thickness
+};
+/// A sheet of 1/5 mm that falls across another.
+inline Sheets falling_sheet(Lab lab) {
+  const PartModelPtr sheet = box({0.05, 0.04, sheet_thickness});
+  lab.place(sheet, Vec3(0, 0, 0.5 * sheet_thickness));
+  lab.place(sheet, Vec3(0, 0, 0.02), Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitZ())));
+  lab.simulate(0.5);
+  const auto off = [&](std::size_t i) { return std::abs(lab.center(i).z() / sheet_thickness - (i + 0.5)); };
+  return {off(0), off(1)};
+}
+
+/// Two sheets under a block of a hundred times their mass: how far the upper one sinks / thickness.
+inline double loaded_sheets(Lab lab) {
+  const PartModelPtr sheet = box({0.05, 0.04, sheet_thickness});
+  for (const double place : {0.5, 1.5})
+    lab.place(sheet, Vec3(0, 0, place * sheet_thickness), Quat::Identity(), material(0.5, 0.0, 0.01));
+  lab.place(box(Vec3::Constant(0.04)), Vec3(0, 0, 2.0 * sheet_thickness + 0.02), Quat::Identity(), material(0.5));
+  lab.simulate(0.5);
+  return std::abs(lab.center(1).z() / sheet_thickness - 1.5);
 }
 
 }  // namespace bin_scenes::testing

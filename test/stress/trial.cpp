@@ -38,8 +38,9 @@ double bytes_in_use() {
 }
 
 /// What the scene's own report says, held against what must be.
-void judge_scene(const Scene& scene, const Request& request, const std::vector<PartModelPtr>& parts,
-                 const Expect& expect, Outcome& outcome) {
+void judge_scene(const Scene& scene, const LoadedRequest& loaded, const Expect& expect, Outcome& outcome) {
+  const Request& request = loaded.request;
+  const std::vector<PartModelPtr>& parts = loaded.parts;
   const auto fails = [&](const std::string& what) {
     if (std::find(outcome.failures.begin(), outcome.failures.end(), what) == outcome.failures.end())
       outcome.failures.push_back(what);
@@ -131,14 +132,14 @@ Outcome run_here(const std::string& yaml, const std::string& directory, const Ex
     if (expect.traced) {
       options.hooks.trace_rate = trace_rate;
       options.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-        if (time == 0.0) watch = std::make_unique<Watch>(request, generator.loaded().parts);
+        if (time == 0.0) watch = std::make_unique<Watch>(generator.loaded());
         watch->observe(states);
       };
     }
     std::vector<double> cpu = {cpu_seconds()}, in_use;
     cpu.reserve(request.scenes + 1), in_use.reserve(request.scenes);  // or they grow themselves
     generator.generate(request, options, [&](Generator::Result&& result) {
-      judge_scene(result.scene, request, generator.loaded().parts, expect, outcome);
+      judge_scene(result.scene, generator.loaded(), expect, outcome);
       if (watch) {
         outcome.energy = std::max(outcome.energy, watch->energy_gain());
         if (!watch->finite()) outcome.failures.push_back("velocity not finite");

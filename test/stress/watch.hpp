@@ -1,8 +1,7 @@
 /// What a scene's energy, momentum and speeds were while it ran, from the states a trace hands over.
 #pragma once
 
-#include "bin_scenes/part/part_model.hpp"
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
 #include <string>
@@ -12,8 +11,8 @@ namespace bin_scenes::stress {
 
 class Watch {
  public:
-  /// `parts` by part line; both must live as long as the watch looks.
-  Watch(const Request& request, const std::vector<PartModelPtr>& parts) : request_(request), parts_(parts) {}
+  /// `loaded` must live as long as the watch.
+  explicit Watch(const LoadedRequest& loaded) : request_(loaded.request), parts_(loaded.parts) {}
 
   /// One sample, the first at time 0. Parts that have not entered yet have no pose.
   void observe(const std::vector<BodyState>& states);

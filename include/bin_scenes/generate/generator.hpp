@@ -59,7 +59,7 @@ class Generator {
 
 /// Estimated bytes of a request; throws an input Error with the figure if it exceeds request.memory_budget. Without
 /// parts (not loaded yet) only counts and settings of the request are used. Images count for one scene.
-double estimate_memory(const Request& request, const std::vector<PartModelPtr>& parts);
+double estimate_memory(const LoadedRequest& loaded);
 /// How many scenes' images fit into the memory that `estimate` leaves of the budget, the first included.
 std::size_t scenes_seen_at_once(const Request& request, double estimate);
 

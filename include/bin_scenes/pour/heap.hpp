@@ -61,7 +61,7 @@ class Heap {
 
   /// Simulates until the heap rests, or for Pour::limit, from now on; with Request::seconds for exactly that time.
   /// Returns whether all parts rest. Throws Error(cancelled) if a hook asks for it; the heap can then be changed,
-  /// looked at, or settled further.
+  /// observed, or settled further.
   bool settle(const RunHooks& hooks = {});
 
   /// As it is now: ids, poses, states, and of the last settle() simulated_s, wall_s, steps, finish, profile. Quality

@@ -37,7 +37,7 @@ class Rain {
 
   /// Something that is in the bin. `settled`: slow enough to count as heap; parts that still fall are only avoided.
   void add(const Cover& cover, const Pose& pose, bool settled);
-  /// Seeded pose of the model frame: turned uniformly among the ways round that fit between the walls; of `tries`
+  /// Seeded pose of the model frame: turned uniformly among the orientations that fit between the walls; of `tries`
   /// uniform places between them the lowest, with the lowest point drop_height above the heap. None if no try ends
   /// below the rim, or all end high above parts that still fall.
   std::optional<Pose> place(const PartModel& part, const Cover& shape, Random& random, int tries);
