@@ -104,7 +104,7 @@ float effort_of_tower(const World& world, const Heap& heap) {
 }
 
 int effort_of_layers(const World& world, float layers) {
-  const float thin = stiff_enough(world, layers, world.thinnest, world.settings.thin_part_sag);
+  const float thin = stiff_enough(world, layers, world.least_thickness, world.settings.thin_part_sag);
   return std::max(1, static_cast<int>(std::ceil(std::max(thin, effort_of_weights(world, layers)))));
 }
 

@@ -66,8 +66,11 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
     w.bodies.push_back(make_body(*w.shapes[index], index, bin));
     place(w, w.bodies.size() - 1, {def.bin.pose, {}});
   }
-  w.smallest_size = w.thinnest = std::numeric_limits<float>::max();
-  for (const BodyDef& body : def.bodies) w.thinnest = std::min(w.thinnest, w.shapes[body.part]->thickness);
+  w.smallest_size = w.thinnest = w.least_thickness = std::numeric_limits<float>::max();
+  for (const BodyDef& body : def.bodies) {
+    w.thinnest = std::min(w.thinnest, w.shapes[body.part]->wall);
+    w.least_thickness = std::min(w.least_thickness, w.shapes[body.part]->thickness);
+  }
   for (const Shape* s : w.shapes) w.smallest_size = std::min(w.smallest_size, s->size);
   w.cold_steps = w.settings.cold_steps;
   w.cuts =

@@ -63,7 +63,7 @@ TEST(Effort, AHeapOfThinPartsGetsMoreWork) {
     const Vec3f size(0.05f, 0.03f, thickness);
     const Shape shape = box_shape(part, size.cast<double>(), 0.2 * thickness);
     World world = world_of_boxes(shape, 20);
-    world.thinnest = shape.thickness;
+    world.least_thickness = shape.thickness;
     world.whole_step = whole_step;
     for (int i = 0; i < 20; ++i) world.bodies[i].x = size.cwiseProduct(Vec3f(i % 5, 0, i / 5 + 0.5f));
     take_phase(world, phases::press);
@@ -129,7 +129,7 @@ TEST(Effort, WhatLiesUnderHeavierPartsGetsMoreWork) {
   const Shape shape = box_shape(part, Vec3::Constant(edge));
   const auto effort = [&](float ratio, bool heavy_above) {
     World world = world_of_boxes(shape, 2);
-    world.thinnest = shape.thickness;
+    world.least_thickness = shape.thickness;
     world.whole_step = 0.0025f;
     world.settings.sub_steps = 2;
     for (int i = 0; i < 2; ++i) world.bodies[i].x = edge * Vec3f(0, 0, i + 0.5f);

@@ -2,6 +2,7 @@
 #include "bin_scenes/part/part_model.hpp"
 #include "part/closed_forms.hpp"
 #include "part/shapes.hpp"
+#include "solver/sphere/make_world.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -47,6 +48,27 @@ TEST(NodesOnCurves, AreNoMoreWhereTheyLeanLittle) {
   EXPECT_LT(sphere::make_shape(*drum, 200, 1000, 0.01).fine.nodes.size(), 2000u);
 }
 
+// Steps are cut by it: by half of it, twice as many were cut while pins were poured.
+TEST(Wall, OfASlenderPartIsHowThickItIs) {
+  const double radius = 1e-3;
+  const PartModelPtr pin = PartModel::from_mesh(prism_mesh(radius, 0.06, 64), "pin");
+  const sphere::Shape shape = sphere::make_shape(*pin, 200, 1000, 0.01);
+  EXPECT_NEAR(shape.wall, 2.0 * radius, 0.005 * radius);
+  EXPECT_NEAR(shape.thickness, radius, 0.03 * radius);
+  WorldDef def;
+  def.parts = {pin};
+  def.bodies.resize(1);
+  const auto world = sphere::make_world(def, {}, [&](const PartModelPtr&) -> const sphere::Shape& { return shape; });
+  EXPECT_EQ(world.thinnest, shape.wall);
+  EXPECT_EQ(world.least_thickness, shape.thickness);
+}
+
+TEST(Wall, OfABlockIsNoMoreThanItsThickness) {
+  const PartModelPtr block = PartModel::from_mesh(box_mesh(Vec3(0.05, 0.04, 0.03)), "block");
+  const sphere::Shape shape = sphere::make_shape(*block, 50, 200, 0.02);
+  EXPECT_EQ(shape.wall, shape.thickness);
+}
+
 TEST(ShapeFromTheCache, IsTheOneThatWasMade) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("bin_scenes_shape_" + std::to_string(getpid()));
@@ -62,6 +84,7 @@ TEST(ShapeFromTheCache, IsTheOneThatWasMade) {
   EXPECT_GT(made.fine.nodes.size(), made.coarse.nodes.size());
   expect_same(made.coarse, read.coarse);
   expect_same(made.fine, read.fine);
+  EXPECT_EQ(read.wall, made.wall);
   // Other numbers of nodes are another shape.
   EXPECT_GT(sphere::make_shape(*other, 50, 4000, 0.02).fine.nodes.size(), made.fine.nodes.size());
   fs::remove_all(folder);
