@@ -113,6 +113,13 @@ double size_at_contacts(const PartModel& part) {
 /// / diagonal. Contacts are found half way through a step: with 0.08, a part that falls 2 m onto an edge meets the
 /// plate elsewhere than in shorter steps, and is thrown aside by 13 % of its speed.
 constexpr double widest_wall = 0.04;
+constexpr double of_a_rod =
+    1.5;  ///< wall / (2 volume / area), at least: 2 of a rod, 1 of a sheet, whose steps it leaves
+
+double wall_of(const PartModel& part, double measured, double thickness) {
+  return measured < of_a_rod * thickness ? thickness
+                                         : std::max(thickness, std::min(measured, widest_wall * part.diagonal()));
+}
 
 Flag coarsened_flag(const PartModel& part, const FieldOptions& asked, const DistanceField& field) {
   const auto text = [](double value) {
@@ -160,7 +167,7 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell,
   Prepared prepared = cached<Prepared>("nodes", key, [&] { return prepare(part, coarse, fine); });
   shape.coarse = std::move(prepared.coarse);
   shape.fine = std::move(prepared.fine);
-  shape.wall = std::max(shape.thickness, static_cast<float>(std::min(prepared.wall, widest_wall * part.diagonal())));
+  shape.wall = static_cast<float>(wall_of(part, prepared.wall, 2.0 * mass.volume / mass.area));
 
   const DistanceField& field = made_field.get();
   shape.field.origin = (field.origin - mass.center).cast<float>();

@@ -16,7 +16,7 @@ struct Shape {
   float radius = 0;     ///< largest node distance from the centre of mass
   float size = 0;       ///< m that lengths at contacts follow from: the diagonal, at most 50 thicknesses
   float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
-  float wall = 0;       ///< m: of a slender part its wall_thickness(), up to twice `thickness`; else `thickness`
+  float wall = 0;       ///< m: of a slender rod its wall_thickness(), up to twice `thickness`; else `thickness`
   float volume = 0;
   Mat3f unit_inertia = Mat3f::Identity();  ///< at mass 1, body frame
   std::vector<Flag> flags;                 ///< what the user should know of it
