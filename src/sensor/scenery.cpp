@@ -249,7 +249,10 @@ struct Scenery::State {
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
   static double floor_distance(const Ray& ray) { return -ray.origin.z() / ray.direction.z(); }  // 0 / 0 is no number
   static bool within(const Ray& ray, double distance) { return distance >= ray.near && distance <= ray.far; }
-  Hit hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const;
+  Hit hit_of(const Ray& ray, std::uint32_t body, std::uint32_t triangle, double about) const;
+  Hit floor_hit(const Ray& ray) const;
+  /// Number of the body whose face it is; none: no body has it.
+  std::uint32_t body_of(std::uint32_t face) const;
 };
 
 Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache)
@@ -283,23 +286,40 @@ Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& 
 Scenery::~Scenery() = default;
 Scenery::Scenery(Scenery&&) noexcept = default;
 
-/// Distance and normal of what Embree names, from the triangle's plane.
-Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const {
+/// Distance and normal from the triangle's plane.
+Hit Scenery::State::hit_of(const Ray& ray, std::uint32_t number, std::uint32_t triangle, double about) const {
   Hit hit;
-  const Body& body = bodies[packet.hit.instID[0][lane]];
-  hit.triangle = packet.hit.primID[lane];
+  const Body& body = bodies[number];
+  hit.triangle = triangle;
   const Plane& plane = body.tree->planes[hit.triangle];
   const Vec3 normal = body.turn * plane.normal;
   const double rise = normal.dot(ray.direction);
   hit.distance = (plane.offset + normal.dot(body.pose.position - ray.origin)) / rise;
   // Of a triangle seen edge on, the plane says nothing; what single precision found does.
-  const double single = packet.ray.tfar[lane];
-  if (!(std::abs(hit.distance - single) <= 1e-4 * single)) hit.distance = single;
+  if (!(std::abs(hit.distance - about) <= 1e-4 * about)) hit.distance = about;
   hit.normal = rise > 0.0 ? Vec3(-normal) : normal;
   hit.label = body.label;
   hit.line = body.line;
-  hit.body = packet.hit.instID[0][lane];
+  hit.body = number;
   return hit;
+}
+
+Hit Scenery::State::floor_hit(const Ray& ray) const {
+  return {floor_distance(ray), ray.direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), 0, -1, 0, of_the_floor};
+}
+
+std::uint32_t Scenery::State::body_of(std::uint32_t face) const {
+  const auto after = std::upper_bound(bodies.begin(), bodies.end(), face,
+                                      [](std::uint32_t f, const Body& body) { return f < body.first_face; });
+  return static_cast<std::uint32_t>(after - bodies.begin() - 1);
+}
+
+Hit Scenery::hit(const Ray& ray, std::uint32_t face, double about) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (face == no_face) return {nan, Vec3::Constant(nan), 0, -1, 0, State::of_the_floor};
+  if (face == floor_face) return state_->floor_hit(ray);
+  const std::uint32_t body = state_->body_of(face);
+  return state_->hit_of(ray, body, face - state_->bodies[body].first_face, about);
 }
 
 Vec3 Scenery::smooth_normal(const Hit& hit, const Vec3& point) const {
@@ -335,17 +355,16 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kin
         valid[lane] = 0;
         continue;
       }
-      hits[i] = {nan, Vec3::Constant(nan), 0, -1, 0, State::of_the_floor};
+      hits[i] = hit(rays[i], no_face, nan);
       if (!state_->hits_floor(rays[i])) continue;
-      hits[i].distance = State::floor_distance(rays[i]);
-      hits[i].normal = rays[i].direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());
+      hits[i] = state_->floor_hit(rays[i]);
       packet.ray.tfar[lane] = static_cast<float>(hits[i].distance);
     }
     rtcIntersect8(valid, state_->scene, &context, &packet);
     for (int lane = 0; lane < lanes; ++lane) {
       if (!valid[lane] || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
       const std::size_t i = first + static_cast<std::size_t>(lane);
-      hits[i] = state_->hit_of(rays[i], packet, lane);
+      hits[i] = state_->hit_of(rays[i], packet.hit.instID[0][lane], packet.hit.primID[lane], packet.ray.tfar[lane]);
     }
   }
 }
@@ -394,13 +413,10 @@ Scenery::Body Scenery::body(std::size_t index) const {
 
 Scenery::Face Scenery::face(std::uint32_t face) const {
   if (face >= floor_face) return {};
-  const std::vector<State::Body>& all = state_->bodies;
-  const auto after = std::upper_bound(all.begin(), all.end(), face,
-                                      [](std::uint32_t f, const State::Body& body) { return f < body.first_face; });
-  const State::Body& body = *std::prev(after);
+  const std::uint32_t number = state_->body_of(face);
+  const State::Body& body = state_->bodies[number];
   const std::uint32_t triangle = face - body.first_face;
-  return {static_cast<std::uint32_t>(after - all.begin() - 1), triangle, body.turn * body.tree->planes[triangle].normal,
-          body.tree->outermost[triangle] != 0};
+  return {number, triangle, body.turn * body.tree->planes[triangle].normal, body.tree->outermost[triangle] != 0};
 }
 
 std::uint32_t Scenery::face_of(const Hit& hit) const {

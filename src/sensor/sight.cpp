@@ -10,7 +10,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double cell_size = 4.0;     // pixels of the light
+constexpr double cell_size = 2.0;     // pixels of the light
 constexpr double off_surface = 1e-5;  // m: rays begin so far above a surface (models/illumination.hpp)
 constexpr std::uint32_t nobody = ~0u, bent = ~0u;
 

@@ -51,6 +51,8 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       rays_(view.lens),
       sight_(scenery, setup.projector, setup.projector_pose),
+      spots_(scenery, view.lens, view.pose, setup.near, setup.far),
+      shades_(scenery, setup.projector, setup.projector_pose, 0.0, std::numeric_limits<double>::infinity()),
       turn_(view.pose.orientation.toRotationMatrix()),
       codes_(view.depth.size()),
       columns_(view.depth.size()),
@@ -111,8 +113,7 @@ void StructuredLight::light_row(std::size_t row) {
     points[x] = {point, turn_ * p.normal, view_.line[i],
                  true,  view_.label[i],   sight_.clear(point, face, number == Scenery::floor_face)};
   }
-  light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
-        width);
+  light(source(), view_.pose.position, points.data(), lit.data(), width);
   for (std::size_t x = 0; x < width; ++x) {
     const std::size_t i = row * width + x;
     codes_[i] = lit[x].code;

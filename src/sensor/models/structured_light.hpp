@@ -24,6 +24,7 @@
 #include "sensor/models/triangulation.hpp"
 #include "sensor/pixel_rays.hpp"
 #include "sensor/sight.hpp"
+#include "sensor/spots.hpp"
 
 #include <memory>
 #include <vector>
@@ -68,6 +69,7 @@ class StructuredLight {
   /// Channels of the indirect light, for a white of 1; after them, the images.
   enum Channel { white, cosine, sine, channels };
 
+  LightSource source() const { return {scenery_, setup_.projector, setup_.projector_pose, surfaces_, &shades_}; }
   void light_row(std::size_t row);
   void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
@@ -96,7 +98,8 @@ class StructuredLight {
   Triangulation triangulation_;
   PixelRays rays_;
   ClearSight sight_;
-  Mat3 turn_;  ///< of the camera
+  SpotDrawing spots_, shades_;  ///< of the camera, of the projector
+  Mat3 turn_;                   ///< of the camera
 
   // Of the light that falls on what each pixel's centre sees, row-major.
   std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside

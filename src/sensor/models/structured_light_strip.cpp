@@ -118,20 +118,39 @@ double StructuredLight::Strip::hidden_step(const Pixel& pixel) const {
   return largest;
 }
 
-/// What cells see, each asked by a ray through its middle.
-std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std::vector<Spot>& spots) const {
-  const View& view = model_.view_;
-  std::vector<Ray> rays(spots.size());
-  std::vector<Hit> hits(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    const Vec3 middle = model_.rays_.at(spots[i].index % width_, spots[i].index / width_);
-    const Vec3 offset(cells::across(spots[i].cell) / view.lens.fx, cells::down(spots[i].cell) / view.lens.fy, 0.0);
-    rays[i] = {view.pose.position, model_.turn_ * (middle + offset), model_.setup_.near, model_.setup_.far};
+/// What a ray through the middle of each cell meets first.
+void StructuredLight::Strip::first_hits(const std::vector<Place>& places, const std::vector<Ray>& rays,
+                                        std::vector<Hit>& hits) const {
+  std::vector<Spot> spots(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [index, cell] = places[i];
+    spots[i].u = static_cast<double>(index % width_) + cells::across(cell);
+    spots[i].v = static_cast<double>(index / width_) + cells::down(cell);
+    spots[i].near = 1.0 / model_.setup_.far;
   }
-  model_.scenery_.first_hits(rays.data(), hits.data(), rays.size());
-  std::vector<SeenPoint> points(spots.size());
-  std::vector<Lit> lit(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
+  if (!model_.spots_.draw(spots.data(), spots.size())) {
+    model_.scenery_.first_hits(rays.data(), hits.data(), rays.size());
+    return;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    hits[i] = model_.scenery_.hit(rays[i], spots[i].face, 1.0 / spots[i].near);
+}
+
+/// What cells see and how it is lit.
+std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std::vector<Place>& places) const {
+  const View& view = model_.view_;
+  std::vector<Ray> rays(places.size());
+  std::vector<Hit> hits(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [index, cell] = places[i];
+    const Vec3 offset(cells::across(cell) / view.lens.fx, cells::down(cell) / view.lens.fy, 0.0);
+    const Vec3 ray = model_.rays_.at(index % width_, index / width_) + offset;
+    rays[i] = {view.pose.position, model_.turn_ * ray, model_.setup_.near, model_.setup_.far};
+  }
+  first_hits(places, rays, hits);
+  std::vector<SeenPoint> points(places.size());
+  std::vector<Lit> lit(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
     const Hit& hit = hits[i];
     const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
     const std::uint32_t face = model_.scenery_.face_of(hit);
@@ -139,10 +158,9 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
                  hit.line,  face != Scenery::no_face,
                  hit.label, model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
   }
-  light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
-        points.data(), lit.data(), lit.size());
-  std::vector<Seen> seen(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
+  light(model_.source(), view.pose.position, points.data(), lit.data(), lit.size());
+  std::vector<Seen> seen(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
     Surface own;
     const SeenPoint& p = points[i];
     const Surface& surface = p.hit ? model_.surfaces_.at(p.line, p.label, p.position, own) : own;
@@ -244,7 +262,7 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
       }
     }
   }
-  std::vector<Spot> corners;
+  std::vector<Place> corners;
   for (const std::size_t index : maybe) {
     for (const int cell : cells::corners) corners.push_back({index, cell});
   }
@@ -316,13 +334,13 @@ void StructuredLight::Strip::set_phases(Cells& own) const {
 
 /// Cells asked by rays; the corners of pixels are known.
 void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixels) {
-  std::vector<Spot> spots;
+  std::vector<Place> places;
   for (const Uneven* const pixel : pixels) {
     for (int k = 0; k < per_pixel; ++k) {
-      if (!cells::is_corner(k)) spots.push_back({pixel->index, k});
+      if (!cells::is_corner(k)) places.push_back({pixel->index, k});
     }
   }
-  const std::vector<Seen> others = cast(spots);
+  const std::vector<Seen> others = cast(places);
   std::size_t next = 0;
   for (const Uneven* const pixel : pixels) {
     std::array<Seen, per_pixel> seen;
