@@ -222,7 +222,9 @@ struct Scenery::State {
     Mat3 turn = Mat3::Identity();  // of the pose
   };
   RTCScene scene = nullptr;
-  std::vector<Body> bodies;                           // by Embree's number of the instance
+  std::vector<Body> bodies;  // by Embree's number of the instance
+  static constexpr std::uint32_t faces_a_step = 64;
+  std::vector<std::uint32_t> body_at;                 // of each 64th face
   std::vector<std::int64_t> of_part;                  // index into bodies by index into Scene::parts; -1: not there
   bool floor = false;                                 // endless, z = 0
   static constexpr std::uint32_t of_the_floor = ~0u;  // Hit::body
@@ -242,6 +244,9 @@ struct Scenery::State {
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(bodies.size()));
     rtcReleaseGeometry(instance);
+    const auto number = static_cast<std::uint32_t>(bodies.size());
+    const std::size_t end = first_face + tree->planes.size();
+    while (body_at.size() * faces_a_step < end) body_at.push_back(number);
     bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, part, first_face,
                       pose.orientation.toRotationMatrix()});
   }
@@ -309,9 +314,9 @@ Hit Scenery::State::floor_hit(const Ray& ray) const {
 }
 
 std::uint32_t Scenery::State::body_of(std::uint32_t face) const {
-  const auto after = std::upper_bound(bodies.begin(), bodies.end(), face,
-                                      [](std::uint32_t f, const Body& body) { return f < body.first_face; });
-  return static_cast<std::uint32_t>(after - bodies.begin() - 1);
+  std::uint32_t number = body_at[face / faces_a_step];
+  while (number + 1 < bodies.size() && bodies[number + 1].first_face <= face) ++number;
+  return number;
 }
 
 Hit Scenery::hit(const Ray& ray, std::uint32_t face, double about) const {
@@ -412,7 +417,7 @@ Scenery::Body Scenery::body(std::size_t index) const {
 }
 
 Scenery::Face Scenery::face(std::uint32_t face) const {
-  if (face >= floor_face) return {};
+  if (face >= floor_face) return {no_face, 0, Vec3::Zero(), false, face == floor_face};
   const std::uint32_t number = state_->body_of(face);
   const State::Body& body = state_->bodies[number];
   const std::uint32_t triangle = face - body.first_face;

@@ -98,6 +98,7 @@ class Scenery {
     std::uint32_t body = no_face, triangle = 0;
     Vec3 normal = Vec3::Zero();  ///< outward, bin frame
     bool outermost = false;      ///< all of the body lies behind its plane
+    bool on_floor = false;
   };
   Face face(std::uint32_t face) const;
   /// The face that a ray hit.

@@ -1,6 +1,9 @@
+/// How much light of a projector a surface sends to an eye, and which points lie in shadow. Rays are asked where
+/// neither clear sight nor a drawing tells.
 #include "sensor/models/illumination.hpp"
 
 #include "sensor/models/facets.hpp"
+#include "sensor/sight.hpp"
 #include "sensor/spots.hpp"
 
 #include <algorithm>
@@ -54,19 +57,20 @@ Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
 namespace {
 
 /// Sets all but what is reflected. False: no light can come to the point, whatever lies between.
-bool falls_on(const LightSource& source, const Mat3& turn, const SeenPoint& p, Lit& lit) {
+/// @param there  the point in the light's frame
+/// @param plain  the light's lens does not distort
+bool falls_on(const LightSource& source, const SeenPoint& p, const Vec3& there, bool plain, Lit& lit) {
   lit = {};
   if (!p.hit) return false;
   lit.code = Validity::outside;
   const Lens& lens = source.lens;
-  const Vec3 point = turn * (p.position - source.pose.position);
   Eigen::Vector2d pixel;
-  if (lens.distorts() || !(point.z() > 0.0)) {
-    const auto projected = lens.project(point);
+  if (!plain || !(there.z() > 0.0)) {
+    const auto projected = lens.project(there);
     if (!projected) return false;
     pixel = *projected;
   } else {
-    const double x = point.x() / point.z(), y = point.y() / point.z();
+    const double x = there.x() / there.z(), y = there.y() / there.z();
     pixel = {lens.fx * x + lens.skew * y + lens.cx, lens.fy * y + lens.cy};
   }
   lit.column = pixel.x();
@@ -115,13 +119,19 @@ void light_seen_from(const LightSource& source, const EyeOf& eye_of, const SeenP
     lit[i].reflected = reflected(source.surfaces.at(p.line, p.label, p.position, own), p.normal,
                                  (light - p.position) / lit[i].distance, (eye_of(i) - p.position).normalized());
   };
+  const bool plain = !source.lens.distorts();
+  std::uint32_t number = Scenery::no_face;
+  Scenery::Face face;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!falls_on(source, turn, points[i], lit[i])) continue;
-    if (points[i].clear) {
+    const SeenPoint& p = points[i];
+    const Vec3 there = turn * (p.position - light);
+    if (!falls_on(source, p, there, plain, lit[i])) continue;
+    if (p.face != number) face = source.scenery.face(number = p.face);
+    if (source.sight && source.sight->clear(p.position, there, {lit[i].column, lit[i].row}, face)) {
       shine(i);
       continue;
     }
-    rays.push_back(ray_between(points[i].position, points[i].normal, light));
+    rays.push_back(ray_between(p.position, p.normal, light));
     asked.push_back(i);
   }
   const std::vector<std::uint8_t> blocked = shaded(source, turn, rays, kind);

@@ -8,6 +8,7 @@
 
 namespace bin_scenes {
 
+class ClearSight;
 class SpotDrawing;
 
 /// Light that a surface sends to an eye, over that which a white matte surface sends that faces the light: a matte
@@ -29,8 +30,8 @@ struct SeenPoint {
   Vec3 position, normal;  ///< the normal turned towards the eye
   std::int32_t line = -1;
   bool hit = false;
-  std::uint16_t label = 0;  ///< of the part whose texture it has
-  bool clear = false;       ///< nothing lies between it and the light: no ray needs to be asked
+  std::uint16_t label = 0;                ///< of the part whose texture it has
+  std::uint32_t face = Scenery::no_face;  ///< no_face: not known
 };
 
 SeenPoint seen_point(const View& view, std::size_t pixel);
@@ -48,7 +49,9 @@ struct LightSource {
   const Lens& lens;
   const Pose& pose;
   const Surfaces& surfaces;
-  const SpotDrawing* shades = nullptr;  ///< of all depths from the light: spares rays to points that are many
+  // What spares rays to points.
+  const ClearSight* sight = nullptr;    ///< of the light: where the face is known
+  const SpotDrawing* shades = nullptr;  ///< of all depths from the light: where points are many
 };
 
 /// Light of a projector at points seen from an eye.

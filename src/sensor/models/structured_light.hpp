@@ -63,14 +63,22 @@ class StructuredLight {
   struct Fringe {
     double mean, amplitude;  ///< A and B, shares of the full well
   };
+  struct Received {
+    double column = 0.0;
+    Fringe fringe{0.0, 0.0};
+    bool mixed = false;
+  };
   class Strip;
   struct Blend;
+  class Normals;
 
   /// Channels of the indirect light, for a white of 1; after them, the images.
   enum Channel { white, cosine, sine, channels };
 
-  LightSource source() const { return {scenery_, setup_.projector, setup_.projector_pose, surfaces_, &shades_}; }
-  void light_row(std::size_t row);
+  LightSource source() const {
+    return {scenery_, setup_.projector, setup_.projector_pose, surfaces_, &sight_, &shades_};
+  }
+  void light_rows(std::size_t first, std::size_t last);
   void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
@@ -85,6 +93,9 @@ class StructuredLight {
   bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
+  bool blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const;
+  void tell(const Pixel& pixel, const Received& got, Normals& normals, Measurement& out) const;
+  void measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const;
   template <class Work>
   void in_strips(const Work& work) const;
   void deliver(Measurement& out, const Pixel& pixel, double column) const;
