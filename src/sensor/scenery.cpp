@@ -5,13 +5,9 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "sensor/bin_mesh.hpp"
-#include "sensor/fronts.hpp"
-
-#include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
+#include "sensor/scenery_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,22 +17,6 @@
 namespace bin_scenes {
 
 namespace {
-
-/// The instruction set is fixed, so that all processors that have it compute the same bits; those without it compute
-/// the same bits among themselves. Embree's own setting `threads` stays unset, as it limits the threads of the whole
-/// process.
-RTCDevice device() {
-  static const RTCDevice shared = rtcNewDevice(__builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse4.2");
-  if (!shared) throw environment_error("Embree gives no device", "sensors", "use a processor with SSE 4.2");
-  return shared;
-}
-
-/// On one thread: how many there are must not decide how a tree is built, and the order of triangles in it decides
-/// between two that are hit at the same place.
-void commit(RTCScene scene) {
-  tbb::task_arena alone(1);
-  alone.execute([&] { rtcCommitScene(scene); });
-}
 
 void set_transform(RTCGeometry instance, const Pose& pose) {
   const Mat3 turn = pose.orientation.toRotationMatrix();
@@ -98,89 +78,6 @@ void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::s
   }
 }
 
-/// At each corner the mean, by area, of the normals of those faces around it that are nearly in line with its own.
-struct Corners {
-  std::array<Vec3, 3> normals;
-  bool even = true;  ///< all three are the face's own
-};
-std::vector<Corners> smooth_corners(const Mesh& mesh) {
-  const double in_line = std::cos(35.0 * M_PI / 180.0);
-  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
-  std::vector<Vec3> areas;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t vertex : mesh.triangles[t]) around[vertex].push_back(t);
-    areas.push_back(mesh.area_vector(t));
-  }
-  std::vector<Corners> corners(mesh.triangles.size());
-  for (std::size_t t = 0; t < corners.size(); ++t) {
-    const Vec3 own = areas[t].normalized();
-    for (std::size_t k = 0; k < 3; ++k) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t other : around[mesh.triangles[t][k]])
-        if (areas[other].dot(own) >= in_line * areas[other].norm()) sum += areas[other];
-      corners[t].normals[k] = sum.norm() > 0.0 ? Vec3(sum.normalized()) : own;
-      corners[t].even = corners[t].even && corners[t].normals[k].dot(own) > 1.0 - 1e-9;
-    }
-  }
-  return corners;
-}
-
-/// A mesh and its search tree.
-struct MeshTree {
-  PartModelPtr owner;  // none: `own` is the mesh
-  Mesh own;
-  RTCScene embree = nullptr;
-  std::vector<Scenery::Plane> planes;  // of each triangle
-  std::vector<char> outermost;         // whether no corner of the mesh lies before it
-  bool closed = false;
-  /// Smooth normals of the corners of each triangle; made when they are asked for first.
-  const std::vector<Corners>& corners() const {
-    std::call_once(once_, [this] { corners_ = smooth_corners(mesh()); });
-    return corners_;
-  }
-
-  const Mesh& mesh() const { return owner ? owner->mesh() : own; }
-
-  MeshTree(PartModelPtr model, Mesh alone) : owner(std::move(model)), own(std::move(alone)) {
-    embree = rtcNewScene(device());
-    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
-    const Mesh& m = mesh();
-    BIN_SCENES_ASSERT(indices_in_range(m));
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                3 * sizeof(float), m.vertices.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), m.triangles.size()));
-    if (!corners || !indices) {
-      throw environment_error("no memory for the triangles of a mesh", "sensors", "free memory, or use coarser meshes");
-    }
-    for (const Vec3& v : m.vertices) {
-      for (int k = 0; k < 3; ++k) *corners++ = static_cast<float>(v[k]);
-    }
-    planes.reserve(m.triangles.size());
-    for (const Triangle& t : m.triangles) {
-      indices = std::copy(t.begin(), t.end(), indices);
-      const Vec3& a = m.vertices[t[0]];
-      const Vec3 normal = (m.vertices[t[1]] - a).cross(m.vertices[t[2]] - a).normalized();
-      planes.push_back({normal, normal.dot(a)});
-    }
-    closed = shows_fronts_only(m);
-    outermost = outermost_triangles(m);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(embree, geometry);
-    rtcReleaseGeometry(geometry);
-    commit(embree);
-  }
-  ~MeshTree() { rtcReleaseScene(embree); }
-  MeshTree(const MeshTree&) = delete;
-  MeshTree& operator=(const MeshTree&) = delete;
-
- private:
-  mutable std::once_flag once_;
-  mutable std::vector<Corners> corners_;
-};
-using MeshTreePtr = std::shared_ptr<const MeshTree>;
-
 }  // namespace
 
 struct SceneryCache::State {
@@ -238,7 +135,7 @@ struct Scenery::State {
         bodies.empty() ? 0 : bodies.back().first_face + static_cast<std::uint32_t>(bodies.back().tree->planes.size());
     const std::int64_t part = label ? static_cast<std::int64_t>(of_part.size()) - 1 : -1;
     BIN_SCENES_ASSERT(is_rigid(pose));
-    const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    const RTCGeometry instance = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, tree->embree);
     set_transform(instance, pose);
     rtcCommitGeometry(instance);
@@ -264,7 +161,7 @@ Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& 
     : state_(std::make_unique<State>()) {
   const Bin& bin = loaded.request.bin;
   State& s = *state_;
-  s.scene = rtcNewScene(device());
+  s.scene = rtcNewScene(embree_device());
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
   s.floor = bin.kind == Bin::Kind::floor;
   if (bin.kind == Bin::Kind::mesh && loaded.bin_model) {
@@ -331,7 +228,7 @@ Vec3 Scenery::smooth_normal(const Hit& hit, const Vec3& point) const {
   const bool of_floor = state_->bodies.empty() || hit.body == State::of_the_floor;
   if (of_floor) return hit.normal;
   const State::Body& body = state_->bodies[hit.body];
-  const Corners& corners = body.tree->corners()[hit.triangle];
+  const CornerNormals& corners = body.tree->corners()[hit.triangle];
   if (corners.even) return hit.normal;
   const Mesh& mesh = body.tree->mesh();
   const Triangle& t = mesh.triangles[hit.triangle];
