@@ -4,6 +4,7 @@
 
 #include "core/in_parallel.hpp"
 #include "sensor/pixel_rays.hpp"
+#include "sensor/projection.hpp"
 #include "sensor/spans.hpp"
 
 #include <bitset>
@@ -15,18 +16,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int band_rows = 16;  // one band's pixels stay in the processor's cache
-
-/// A mesh as the camera sees it.
-struct Body {
-  Scenery::Body placed;
-  Mat3 turn;   // mesh to camera
-  Vec3 place;  // m
-  std::vector<ImageCorner> corners;
-  bool one_sided = false;  // all that is seen of it faces the camera
-  int first_band = 0;
-  std::vector<std::vector<std::uint32_t>> bands;  // triangles
-};
+constexpr int band_rows = Projection::band_rows;
+using Body = Projection::Body;
 
 class Drawing {
  public:
@@ -38,6 +29,7 @@ class Drawing {
         height_over_floor_(pose.position.z()),
         nearest_(1.0 / near),
         farthest_(1.0 / far),
+        projection_(lens, near, far, 0.0),
         bodies_(scenery.body_count()),
         silhouettes_(scenery.part_count()) {
     view_.lens = lens;
@@ -51,9 +43,7 @@ class Drawing {
 
  private:
   struct Band;
-  bool place(Body& body, const Pose& mesh_in_camera, bool whole) const;
   void frame(const Body& body, Silhouette& silhouette) const;
-  void sort_into_bands(Body& body) const;
   void draw_band(int band);
   void draw_triangle(Band& band, const Body& body, std::uint32_t triangle, Silhouette* silhouette) const;
   void draw_floor(Band& band) const;
@@ -71,6 +61,7 @@ class Drawing {
   Mat3 turn_;
   double height_over_floor_;
   double nearest_, farthest_;  // 1 / depth
+  Projection projection_;
   std::vector<Body> bodies_;
   View view_;
   std::vector<Silhouette> silhouettes_;
@@ -102,27 +93,6 @@ void set_bits(Silhouette& s, int row, int first, int last) {
   }
 }
 
-/// Projects the corners. False: the mesh reaches through the plane of the lens, or is not as whole as it has to be.
-bool Drawing::place(Body& body, const Pose& mesh_in_camera, bool whole) const {
-  const Mesh& mesh = *body.placed.mesh;
-  body.turn = mesh_in_camera.orientation.toRotationMatrix();
-  body.place = mesh_in_camera.position;
-  body.corners.reserve(mesh.vertices.size());
-  double closest = std::numeric_limits<double>::infinity(), remotest = -closest;
-  for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 p = body.turn * vertex + body.place;
-    closest = std::min(closest, p.z());
-    remotest = std::max(remotest, p.z());
-    const double near = 1.0 / p.z();
-    body.corners.push_back({lens_.fx * p.x() * near + lens_.cx, lens_.fy * p.y() * near + lens_.cy, near});
-  }
-  const bool out = closest * farthest_ > 1.0 || remotest * nearest_ < 1.0;
-  if (out) body.corners.clear();
-  const bool in_range = closest * nearest_ > 1.0 && remotest * farthest_ < 1.0;
-  body.one_sided = in_range && body.placed.closed;
-  return out || in_range || (!whole && closest > 1e-6);
-}
-
 /// The rectangle of the image that a body can cover.
 void Drawing::frame(const Body& body, Silhouette& s) const {
   double left = 1e300, right = -left, top = left, bottom = -left;
@@ -141,32 +111,6 @@ void Drawing::frame(const Body& body, Silhouette& s) const {
   s.bits.assign(s.words_per_row() * static_cast<std::size_t>(s.height), 0);
 }
 
-/// Leaves out triangles that face away, where those are hidden, and those between pixel centres.
-void Drawing::sort_into_bands(Body& body) const {
-  if (body.corners.empty()) return;
-  double top = 1e300, bottom = -top;
-  for (const ImageCorner& corner : body.corners) top = std::min(top, corner.v), bottom = std::max(bottom, corner.v);
-  const double end = lens_.height - 1.0, right_end = lens_.width - 1.0;
-  if (bottom < -edge || top > end + edge) return;
-  body.first_band = down(std::max(top, 0.0)) / band_rows;
-  body.bands.resize(static_cast<std::size_t>(down(std::min(bottom + 1.0, end)) / band_rows - body.first_band + 1));
-  const std::vector<Triangle>& triangles = body.placed.mesh->triangles;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const ImageCorner &a = body.corners[triangles[t][0]], &b = body.corners[triangles[t][1]],
-                      &c = body.corners[triangles[t][2]];
-    const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);  // seen from outside: negative
-    if (body.one_sided ? !(area < 0.0) : !(area != 0.0)) continue;
-    const double high = std::min(a.v, std::min(b.v, c.v)), low = std::max(a.v, std::max(b.v, c.v));
-    const double left = std::min(a.u, std::min(b.u, c.u)), right = std::max(a.u, std::max(b.u, c.u));
-    if (low < -edge || high > end + edge || right < -edge || left > right_end + edge) continue;
-    if (up(std::max(left - edge, 0.0)) > down(std::min(right + edge, right_end))) continue;
-    const int first = up(std::max(high - edge, 0.0)), last = down(std::min(low + edge, end));
-    if (first > last) continue;
-    for (int band = first / band_rows; band <= last / band_rows; ++band)
-      body.bands[static_cast<std::size_t>(band - body.first_band)].push_back(t);
-  }
-}
-
 bool Drawing::place_bodies(bool for_silhouettes) {
   const Pose bin_in_camera = view_.pose.inverse();
   std::vector<char> fits(bodies_.size(), 0);
@@ -174,9 +118,8 @@ bool Drawing::place_bodies(bool for_silhouettes) {
     Body& body = bodies_[i];
     body.placed = scenery_.body(i);
     const bool part = body.placed.part >= 0;
-    fits[i] = place(body, bin_in_camera * body.placed.pose, for_silhouettes && part);
+    fits[i] = projection_.place(body, bin_in_camera * body.placed.pose, for_silhouettes && part);
     if (!fits[i]) return;
-    sort_into_bands(body);
     if (for_silhouettes && part) frame(body, silhouettes_[static_cast<std::size_t>(body.placed.part)]);
   });
   return std::find(fits.begin(), fits.end(), 0) == fits.end();
@@ -233,7 +176,7 @@ void Drawing::draw_band(int index) {
         body.placed.part < 0 || silhouettes_[static_cast<std::size_t>(body.placed.part)].bits.empty()
             ? nullptr
             : &silhouettes_[static_cast<std::size_t>(body.placed.part)];
-    for (const std::uint32_t t : body.bands[own]) draw_triangle(band, body, t, silhouette);
+    for (const Projection::Covering& c : body.bands[own]) draw_triangle(band, body, c.triangle, silhouette);
   }
   if (scenery_.on_floor()) draw_floor(band);
   show(band);

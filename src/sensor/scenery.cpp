@@ -5,13 +5,9 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "sensor/bin_mesh.hpp"
-#include "sensor/fronts.hpp"
-
-#include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
+#include "sensor/scenery_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,22 +17,6 @@
 namespace bin_scenes {
 
 namespace {
-
-/// The instruction set is fixed, so that all processors that have it compute the same bits; those without it compute
-/// the same bits among themselves. Embree's own setting `threads` stays unset, as it limits the threads of the whole
-/// process.
-RTCDevice device() {
-  static const RTCDevice shared = rtcNewDevice(__builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse4.2");
-  if (!shared) throw environment_error("Embree gives no device", "sensors", "use a processor with SSE 4.2");
-  return shared;
-}
-
-/// On one thread: how many there are must not decide how a tree is built, and the order of triangles in it decides
-/// between two that are hit at the same place.
-void commit(RTCScene scene) {
-  tbb::task_arena alone(1);
-  alone.execute([&] { rtcCommitScene(scene); });
-}
 
 void set_transform(RTCGeometry instance, const Pose& pose) {
   const Mat3 turn = pose.orientation.toRotationMatrix();
@@ -98,89 +78,6 @@ void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::s
   }
 }
 
-/// At each corner the mean, by area, of the normals of those faces around it that are nearly in line with its own.
-struct Corners {
-  std::array<Vec3, 3> normals;
-  bool even = true;  ///< all three are the face's own
-};
-std::vector<Corners> smooth_corners(const Mesh& mesh) {
-  const double in_line = std::cos(35.0 * M_PI / 180.0);
-  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
-  std::vector<Vec3> areas;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t vertex : mesh.triangles[t]) around[vertex].push_back(t);
-    areas.push_back(mesh.area_vector(t));
-  }
-  std::vector<Corners> corners(mesh.triangles.size());
-  for (std::size_t t = 0; t < corners.size(); ++t) {
-    const Vec3 own = areas[t].normalized();
-    for (std::size_t k = 0; k < 3; ++k) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t other : around[mesh.triangles[t][k]])
-        if (areas[other].dot(own) >= in_line * areas[other].norm()) sum += areas[other];
-      corners[t].normals[k] = sum.norm() > 0.0 ? Vec3(sum.normalized()) : own;
-      corners[t].even = corners[t].even && corners[t].normals[k].dot(own) > 1.0 - 1e-9;
-    }
-  }
-  return corners;
-}
-
-/// A mesh and its search tree.
-struct MeshTree {
-  PartModelPtr owner;  // none: `own` is the mesh
-  Mesh own;
-  RTCScene embree = nullptr;
-  std::vector<Scenery::Plane> planes;  // of each triangle
-  std::vector<char> outermost;         // whether no corner of the mesh lies before it
-  bool closed = false;
-  /// Smooth normals of the corners of each triangle; made when they are asked for first.
-  const std::vector<Corners>& corners() const {
-    std::call_once(once_, [this] { corners_ = smooth_corners(mesh()); });
-    return corners_;
-  }
-
-  const Mesh& mesh() const { return owner ? owner->mesh() : own; }
-
-  MeshTree(PartModelPtr model, Mesh alone) : owner(std::move(model)), own(std::move(alone)) {
-    embree = rtcNewScene(device());
-    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
-    const Mesh& m = mesh();
-    BIN_SCENES_ASSERT(indices_in_range(m));
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                3 * sizeof(float), m.vertices.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), m.triangles.size()));
-    if (!corners || !indices) {
-      throw environment_error("no memory for the triangles of a mesh", "sensors", "free memory, or use coarser meshes");
-    }
-    for (const Vec3& v : m.vertices) {
-      for (int k = 0; k < 3; ++k) *corners++ = static_cast<float>(v[k]);
-    }
-    planes.reserve(m.triangles.size());
-    for (const Triangle& t : m.triangles) {
-      indices = std::copy(t.begin(), t.end(), indices);
-      const Vec3& a = m.vertices[t[0]];
-      const Vec3 normal = (m.vertices[t[1]] - a).cross(m.vertices[t[2]] - a).normalized();
-      planes.push_back({normal, normal.dot(a)});
-    }
-    closed = shows_fronts_only(m);
-    outermost = outermost_triangles(m);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(embree, geometry);
-    rtcReleaseGeometry(geometry);
-    commit(embree);
-  }
-  ~MeshTree() { rtcReleaseScene(embree); }
-  MeshTree(const MeshTree&) = delete;
-  MeshTree& operator=(const MeshTree&) = delete;
-
- private:
-  mutable std::once_flag once_;
-  mutable std::vector<Corners> corners_;
-};
-using MeshTreePtr = std::shared_ptr<const MeshTree>;
-
 }  // namespace
 
 struct SceneryCache::State {
@@ -222,7 +119,9 @@ struct Scenery::State {
     Mat3 turn = Mat3::Identity();  // of the pose
   };
   RTCScene scene = nullptr;
-  std::vector<Body> bodies;                           // by Embree's number of the instance
+  std::vector<Body> bodies;  // by Embree's number of the instance
+  static constexpr std::uint32_t faces_a_step = 64;
+  std::vector<std::uint32_t> body_at;                 // of each 64th face
   std::vector<std::int64_t> of_part;                  // index into bodies by index into Scene::parts; -1: not there
   bool floor = false;                                 // endless, z = 0
   static constexpr std::uint32_t of_the_floor = ~0u;  // Hit::body
@@ -236,12 +135,15 @@ struct Scenery::State {
         bodies.empty() ? 0 : bodies.back().first_face + static_cast<std::uint32_t>(bodies.back().tree->planes.size());
     const std::int64_t part = label ? static_cast<std::int64_t>(of_part.size()) - 1 : -1;
     BIN_SCENES_ASSERT(is_rigid(pose));
-    const RTCGeometry instance = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    const RTCGeometry instance = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, tree->embree);
     set_transform(instance, pose);
     rtcCommitGeometry(instance);
     rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(bodies.size()));
     rtcReleaseGeometry(instance);
+    const auto number = static_cast<std::uint32_t>(bodies.size());
+    const std::size_t end = first_face + tree->planes.size();
+    while (body_at.size() * faces_a_step < end) body_at.push_back(number);
     bodies.push_back({std::move(tree), std::move(model), pose, label, line, id, part, first_face,
                       pose.orientation.toRotationMatrix()});
   }
@@ -249,14 +151,17 @@ struct Scenery::State {
   bool hits_floor(const Ray& ray) const { return floor && usable(ray) && within(ray, floor_distance(ray)); }
   static double floor_distance(const Ray& ray) { return -ray.origin.z() / ray.direction.z(); }  // 0 / 0 is no number
   static bool within(const Ray& ray, double distance) { return distance >= ray.near && distance <= ray.far; }
-  Hit hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const;
+  Hit hit_of(const Ray& ray, std::uint32_t body, std::uint32_t triangle, double about) const;
+  Hit floor_hit(const Ray& ray) const;
+  /// Number of the body whose face it is; none: no body has it.
+  std::uint32_t body_of(std::uint32_t face) const;
 };
 
 Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& cache)
     : state_(std::make_unique<State>()) {
   const Bin& bin = loaded.request.bin;
   State& s = *state_;
-  s.scene = rtcNewScene(device());
+  s.scene = rtcNewScene(embree_device());
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
   s.floor = bin.kind == Bin::Kind::floor;
   if (bin.kind == Bin::Kind::mesh && loaded.bin_model) {
@@ -283,30 +188,47 @@ Scenery::Scenery(const Scene& scene, const LoadedRequest& loaded, SceneryCache& 
 Scenery::~Scenery() = default;
 Scenery::Scenery(Scenery&&) noexcept = default;
 
-/// Distance and normal of what Embree names, from the triangle's plane.
-Hit Scenery::State::hit_of(const Ray& ray, const RTCRayHit8& packet, int lane) const {
+/// Distance and normal from the triangle's plane.
+Hit Scenery::State::hit_of(const Ray& ray, std::uint32_t number, std::uint32_t triangle, double about) const {
   Hit hit;
-  const Body& body = bodies[packet.hit.instID[0][lane]];
-  hit.triangle = packet.hit.primID[lane];
+  const Body& body = bodies[number];
+  hit.triangle = triangle;
   const Plane& plane = body.tree->planes[hit.triangle];
   const Vec3 normal = body.turn * plane.normal;
   const double rise = normal.dot(ray.direction);
   hit.distance = (plane.offset + normal.dot(body.pose.position - ray.origin)) / rise;
   // Of a triangle seen edge on, the plane says nothing; what single precision found does.
-  const double single = packet.ray.tfar[lane];
-  if (!(std::abs(hit.distance - single) <= 1e-4 * single)) hit.distance = single;
+  if (!(std::abs(hit.distance - about) <= 1e-4 * about)) hit.distance = about;
   hit.normal = rise > 0.0 ? Vec3(-normal) : normal;
   hit.label = body.label;
   hit.line = body.line;
-  hit.body = packet.hit.instID[0][lane];
+  hit.body = number;
   return hit;
+}
+
+Hit Scenery::State::floor_hit(const Ray& ray) const {
+  return {floor_distance(ray), ray.direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ()), 0, -1, 0, of_the_floor};
+}
+
+std::uint32_t Scenery::State::body_of(std::uint32_t face) const {
+  std::uint32_t number = body_at[face / faces_a_step];
+  while (number + 1 < bodies.size() && bodies[number + 1].first_face <= face) ++number;
+  return number;
+}
+
+Hit Scenery::hit(const Ray& ray, std::uint32_t face, double about) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (face == no_face) return {nan, Vec3::Constant(nan), 0, -1, 0, State::of_the_floor};
+  if (face == floor_face) return state_->floor_hit(ray);
+  const std::uint32_t body = state_->body_of(face);
+  return state_->hit_of(ray, body, face - state_->bodies[body].first_face, about);
 }
 
 Vec3 Scenery::smooth_normal(const Hit& hit, const Vec3& point) const {
   const bool of_floor = state_->bodies.empty() || hit.body == State::of_the_floor;
   if (of_floor) return hit.normal;
   const State::Body& body = state_->bodies[hit.body];
-  const Corners& corners = body.tree->corners()[hit.triangle];
+  const CornerNormals& corners = body.tree->corners()[hit.triangle];
   if (corners.even) return hit.normal;
   const Mesh& mesh = body.tree->mesh();
   const Triangle& t = mesh.triangles[hit.triangle];
@@ -335,17 +257,16 @@ void Scenery::first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kin
         valid[lane] = 0;
         continue;
       }
-      hits[i] = {nan, Vec3::Constant(nan), 0, -1, 0, State::of_the_floor};
+      hits[i] = hit(rays[i], no_face, nan);
       if (!state_->hits_floor(rays[i])) continue;
-      hits[i].distance = State::floor_distance(rays[i]);
-      hits[i].normal = rays[i].direction.z() < 0.0 ? Vec3::UnitZ() : Vec3(-Vec3::UnitZ());
+      hits[i] = state_->floor_hit(rays[i]);
       packet.ray.tfar[lane] = static_cast<float>(hits[i].distance);
     }
     rtcIntersect8(valid, state_->scene, &context, &packet);
     for (int lane = 0; lane < lanes; ++lane) {
       if (!valid[lane] || packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
       const std::size_t i = first + static_cast<std::size_t>(lane);
-      hits[i] = state_->hit_of(rays[i], packet, lane);
+      hits[i] = state_->hit_of(rays[i], packet.hit.instID[0][lane], packet.hit.primID[lane], packet.ray.tfar[lane]);
     }
   }
 }
@@ -393,14 +314,11 @@ Scenery::Body Scenery::body(std::size_t index) const {
 }
 
 Scenery::Face Scenery::face(std::uint32_t face) const {
-  if (face >= floor_face) return {};
-  const std::vector<State::Body>& all = state_->bodies;
-  const auto after = std::upper_bound(all.begin(), all.end(), face,
-                                      [](std::uint32_t f, const State::Body& body) { return f < body.first_face; });
-  const State::Body& body = *std::prev(after);
+  if (face >= floor_face) return {no_face, 0, Vec3::Zero(), false, face == floor_face};
+  const std::uint32_t number = state_->body_of(face);
+  const State::Body& body = state_->bodies[number];
   const std::uint32_t triangle = face - body.first_face;
-  return {static_cast<std::uint32_t>(after - all.begin() - 1), triangle, body.turn * body.tree->planes[triangle].normal,
-          body.tree->outermost[triangle] != 0};
+  return {number, triangle, body.turn * body.tree->planes[triangle].normal, body.tree->outermost[triangle] != 0};
 }
 
 std::uint32_t Scenery::face_of(const Hit& hit) const {

@@ -10,7 +10,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double cell_size = 4.0;     // pixels of the light
+constexpr double cell_size = 2.0;     // pixels of the light
 constexpr double off_surface = 1e-5;  // m: rays begin so far above a surface (models/illumination.hpp)
 constexpr std::uint32_t nobody = ~0u, bent = ~0u;
 
@@ -142,16 +142,14 @@ void ClearSight::mark_rows(const Seen& seen, std::uint32_t t, std::uint32_t body
   }
 }
 
-bool ClearSight::clear(const Vec3& point, const Scenery::Face& face, bool on_floor) const {
-  if (cells_.empty()) return false;
-  const Vec3 p = turn_ * (point - origin_);
-  if (!(p.z() > 0.0)) return false;
-  const double u = (lens_.fx * p.x() / p.z() + lens_.cx + 0.5) / cell_size,
-               v = (lens_.fy * p.y() / p.z() + lens_.cy + 0.5) / cell_size;
+bool ClearSight::clear(const Vec3& point, const Vec3& there, const Eigen::Vector2d& pixel,
+                       const Scenery::Face& face) const {
+  if (cells_.empty() || !(there.z() > 0.0)) return false;
+  const double u = (pixel.x() + 0.5) * (1.0 / cell_size), v = (pixel.y() + 0.5) * (1.0 / cell_size);
   if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return false;
   const Cell& cell = cells_[static_cast<std::size_t>(v) * columns_ + static_cast<std::size_t>(u)];
-  const double depth = p.z() + 2.0 * off_surface;  // what comes nearer than this may shade the point
-  if (on_floor) return cell.first * depth < 1.0;
+  const double depth = there.z() + 2.0 * off_surface;  // what comes nearer than this may shade the point
+  if (face.on_floor) return cell.first * depth < 1.0;
   if (cell.body != face.body || face.normal.dot(origin_ - point) <= 0.0) return false;
   if (scenery_.on_floor() && point.z() < off_surface) return false;
   return (face.outermost || cell.plane != bent) && cell.second * depth < 1.0;

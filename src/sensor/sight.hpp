@@ -17,7 +17,8 @@ class ClearSight {
   ClearSight(const Scenery& scenery, const Lens& light, const Pose& pose);
 
   /// Whether nothing lies between the light and a point of a face, or of the floor. False: a ray has to be asked.
-  bool clear(const Vec3& point, const Scenery::Face& face, bool on_floor) const;
+  /// @param there, pixel  the point in the light's frame and field
+  bool clear(const Vec3& point, const Vec3& there, const Eigen::Vector2d& pixel, const Scenery::Face& face) const;
 
  private:
   struct Cell {

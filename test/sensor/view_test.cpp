@@ -145,7 +145,8 @@ TEST(View, WhatClearSightSparesNoRayIsBlocked) {
     const Pose camera = at(0, 0, 0.9, Quat(0, 1, 0, 0)), light = at(0.15, 0, 0.9, turned(M_PI - 0.05, Vec3(1, 0.2, 0)));
     const Lens lens = Lens::from_fov(200, 160, 0.6);
     const View view = render(scenery, lens, camera, 0.05, 10.0);
-    const ClearSight sight(scenery, Lens::from_fov(600, 400, 0.9), light);
+    const Lens field = Lens::from_fov(600, 400, 0.9);
+    const ClearSight sight(scenery, field, light);
     std::size_t spared = 0, lit = 0;
     for (std::size_t i = 0; i < view.depth.size(); ++i) {
       if (std::isnan(view.depth[i])) continue;
@@ -157,7 +158,10 @@ TEST(View, WhatClearSightSparesNoRayIsBlocked) {
       std::uint8_t blocked = 0;
       scenery.blocked(&ray, &blocked, 1);
       lit += blocked == 0;
-      if (!sight.clear(point, scenery.face(view.face[i]), view.face[i] == Scenery::floor_face)) continue;
+      const Vec3 there = light.inverse() * point;
+      if (!sight.clear(point, there, field.project(there).value_or(Eigen::Vector2d(-1.0, -1.0)),
+                       scenery.face(view.face[i])))
+        continue;
       ++spared;
       ASSERT_EQ(blocked, 0) << i % 200 << " " << i / 200 << " " << static_cast<int>(kind);
     }

@@ -54,6 +54,8 @@ class Scenery {
   enum class Rays { side_by_side, scattered };
   /// First hit of each of `count` rays.
   void first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind = Rays::side_by_side) const;
+  /// What a ray hits whose face is known already. @param about  nearly its distance
+  Hit hit(const Ray& ray, std::uint32_t face, double about) const;
   /// Normal at a point that was hit, of the surface that the triangles stand for: it turns evenly across edges at which
   /// faces meet in less than 35 degrees. Towards the side that was hit.
   Vec3 smooth_normal(const Hit& hit, const Vec3& point) const;
@@ -96,6 +98,7 @@ class Scenery {
     std::uint32_t body = no_face, triangle = 0;
     Vec3 normal = Vec3::Zero();  ///< outward, bin frame
     bool outermost = false;      ///< all of the body lies behind its plane
+    bool on_floor = false;
   };
   Face face(std::uint32_t face) const;
   /// The face that a ray hit.

@@ -1,10 +1,14 @@
+/// How much light of a projector a surface sends to an eye, and which points lie in shadow. Rays are asked where
+/// neither clear sight nor a drawing tells.
 #include "sensor/models/illumination.hpp"
 
 #include "sensor/models/facets.hpp"
+#include "sensor/sight.hpp"
+#include "sensor/spots.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 namespace bin_scenes {
 
@@ -52,51 +56,85 @@ Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point) {
 
 namespace {
 
+/// Sets all but what is reflected. False: no light can come to the point, whatever lies between.
+/// @param there  the point in the light's frame
+/// @param plain  the light's lens does not distort
+bool falls_on(const LightSource& source, const SeenPoint& p, const Vec3& there, bool plain, Lit& lit) {
+  lit = {};
+  if (!p.hit) return false;
+  lit.code = Validity::outside;
+  const Lens& lens = source.lens;
+  Eigen::Vector2d pixel;
+  if (!plain || !(there.z() > 0.0)) {
+    const auto projected = lens.project(there);
+    if (!projected) return false;
+    pixel = *projected;
+  } else {
+    const double x = there.x() / there.z(), y = there.y() / there.z();
+    pixel = {lens.fx * x + lens.skew * y + lens.cx, lens.fy * y + lens.cy};
+  }
+  lit.column = pixel.x();
+  lit.row = pixel.y();
+  lit.distance = (source.pose.position - p.position).norm();
+  if (!lens.inside(pixel)) return false;
+  lit.code = Validity::shadow;
+  return p.normal.dot(source.pose.position - p.position) > 0.0;  // else the camera sees the other side
+}
+
+/// Whether something lies between the light and where each ray begins.
+std::vector<std::uint8_t> shaded(const LightSource& source, const Mat3& turn, const std::vector<Ray>& rays,
+                                 Scenery::Rays kind) {
+  std::vector<std::uint8_t> blocked(rays.size());
+  if (source.shades) {
+    std::vector<Spot> spots(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Vec3 p = turn * (rays[i].origin - source.pose.position);
+      spots[i].near = 1.0 / p.z();
+      spots[i].u = source.lens.fx * p.x() * spots[i].near + source.lens.cx;
+      spots[i].v = source.lens.fy * p.y() * spots[i].near + source.lens.cy;
+    }
+    if (source.shades->draw(spots.data(), spots.size())) {
+      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = spots[i].face != Scenery::no_face;
+      return blocked;
+    }
+  }
+  source.scenery.blocked(rays.data(), blocked.data(), rays.size(), kind);
+  return blocked;
+}
+
 /// @param eye_of  by number of the point
 template <class EyeOf>
-void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& pose, const EyeOf& eye_of,
-                     const Surfaces& surfaces, const SeenPoint* points, Lit* lit, std::size_t count,
-                     Scenery::Rays kind) {
-  const Mat3 turn = pose.orientation.toRotationMatrix().transpose();
+void light_seen_from(const LightSource& source, const EyeOf& eye_of, const SeenPoint* points, Lit* lit,
+                     std::size_t count, Scenery::Rays kind) {
+  const Vec3& light = source.pose.position;
+  const Mat3 turn = source.pose.orientation.toRotationMatrix().transpose();
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
   rays.reserve(count);
   asked.reserve(count);
-  const bool distorts = projector.distorts();
-  const auto project = [&](const Vec3& point) -> std::optional<Eigen::Vector2d> {
-    if (distorts || !(point.z() > 0.0)) return projector.project(point);
-    const double x = point.x() / point.z(), y = point.y() / point.z();
-    return Eigen::Vector2d(projector.fx * x + projector.skew * y + projector.cx, projector.fy * y + projector.cy);
-  };
   const auto shine = [&](std::size_t i) {
     const SeenPoint& p = points[i];
     Surface own;
     lit[i].code = Validity::valid;
-    lit[i].reflected = reflected(surfaces.at(p.line, p.label, p.position, own), p.normal,
-                                 (pose.position - p.position) / lit[i].distance, (eye_of(i) - p.position).normalized());
+    lit[i].reflected = reflected(source.surfaces.at(p.line, p.label, p.position, own), p.normal,
+                                 (light - p.position) / lit[i].distance, (eye_of(i) - p.position).normalized());
   };
+  const bool plain = !source.lens.distorts();
+  std::uint32_t number = Scenery::no_face;
+  Scenery::Face face;
   for (std::size_t i = 0; i < count; ++i) {
     const SeenPoint& p = points[i];
-    lit[i] = {};
-    if (!p.hit) continue;
-    lit[i].code = Validity::outside;
-    const auto pixel = project(turn * (p.position - pose.position));
-    if (!pixel) continue;
-    lit[i].column = pixel->x();
-    lit[i].row = pixel->y();
-    lit[i].distance = (pose.position - p.position).norm();
-    if (!projector.inside(*pixel)) continue;
-    lit[i].code = Validity::shadow;
-    if (!(p.normal.dot(pose.position - p.position) > 0.0)) continue;  // the camera sees the other side
-    if (p.clear) {
+    const Vec3 there = turn * (p.position - light);
+    if (!falls_on(source, p, there, plain, lit[i])) continue;
+    if (p.face != number) face = source.scenery.face(number = p.face);
+    if (source.sight && source.sight->clear(p.position, there, {lit[i].column, lit[i].row}, face)) {
       shine(i);
       continue;
     }
-    rays.push_back(ray_between(p.position, p.normal, pose.position));
+    rays.push_back(ray_between(p.position, p.normal, light));
     asked.push_back(i);
   }
-  std::vector<std::uint8_t> blocked(rays.size());
-  scenery.blocked(rays.data(), blocked.data(), rays.size(), kind);
+  const std::vector<std::uint8_t> blocked = shaded(source, turn, rays, kind);
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (!blocked[k]) shine(asked[k]);
   }
@@ -104,18 +142,14 @@ void light_seen_from(const Scenery& scenery, const Lens& projector, const Pose& 
 
 }  // namespace
 
-void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
-           const SeenPoint* points, Lit* lit, std::size_t count) {
+void light(const LightSource& source, const Vec3& eye, const SeenPoint* points, Lit* lit, std::size_t count) {
   light_seen_from(
-      scenery, projector, pose, [&](std::size_t) { return eye; }, surfaces, points, lit, count,
-      Scenery::Rays::side_by_side);
+      source, [&](std::size_t) { return eye; }, points, lit, count, Scenery::Rays::side_by_side);
 }
 
-void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces,
-           const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) {
+void light(const LightSource& source, const Vec3* eyes, const SeenPoint* points, Lit* lit, std::size_t count) {
   light_seen_from(
-      scenery, projector, pose, [&](std::size_t i) { return eyes[i]; }, surfaces, points, lit, count,
-      Scenery::Rays::scattered);
+      source, [&](std::size_t i) { return eyes[i]; }, points, lit, count, Scenery::Rays::scattered);
 }
 
 double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const std::vector<double>& depths,

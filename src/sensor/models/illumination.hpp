@@ -8,6 +8,9 @@
 
 namespace bin_scenes {
 
+class ClearSight;
+class SpotDrawing;
+
 /// Light that a surface sends to an eye, over that which a white matte surface sends that faces the light: a matte
 /// share and a lobe of facets (facets.hpp). Over the hemisphere it sends back its albedo. All directions are unit and
 /// point away from the surface. 0 where one of them lies behind it.
@@ -27,8 +30,8 @@ struct SeenPoint {
   Vec3 position, normal;  ///< the normal turned towards the eye
   std::int32_t line = -1;
   bool hit = false;
-  std::uint16_t label = 0;  ///< of the part whose texture it has
-  bool clear = false;       ///< nothing lies between it and the light: no ray needs to be asked
+  std::uint16_t label = 0;                ///< of the part whose texture it has
+  std::uint32_t face = Scenery::no_face;  ///< no_face: not known
 };
 
 SeenPoint seen_point(const View& view, std::size_t pixel);
@@ -40,13 +43,22 @@ struct Lit {
   double reflected = 0.0;             ///< as above; 0 unless the code is valid
 };
 
-/// Light of a projector at points seen from an eye. Shadows are those of the true meshes.
-void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Vec3& eye, const Surfaces& surfaces,
-           const SeenPoint* points, Lit* lit, std::size_t count);
+/// What lights a scene. Shadows are those of the true meshes.
+struct LightSource {
+  const Scenery& scenery;
+  const Lens& lens;
+  const Pose& pose;
+  const Surfaces& surfaces;
+  // What spares rays to points.
+  const ClearSight* sight = nullptr;    ///< of the light: where the face is known
+  const SpotDrawing* shades = nullptr;  ///< of all depths from the light: where points are many
+};
+
+/// Light of a projector at points seen from an eye.
+void light(const LightSource& source, const Vec3& eye, const SeenPoint* points, Lit* lit, std::size_t count);
 
 /// The same for an eye of its own each.
-void light(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces,
-           const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count);
+void light(const LightSource& source, const Vec3* eyes, const SeenPoint* points, Lit* lit, std::size_t count);
 
 /// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a
 /// surface shade itself.

@@ -145,7 +145,7 @@ ProjectorLamp::ProjectorLamp(const Scenery& scenery, const Lens& projector, cons
 }
 
 void ProjectorLamp::light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const {
-  bin_scenes::light(scenery_, projector_, pose_, surfaces_, points, eyes, lit, count);
+  bin_scenes::light({scenery_, projector_, pose_, surfaces_}, eyes, points, lit, count);
 }
 
 Vec3 ProjectorLamp::slope(const Vec3& point, double column) const {

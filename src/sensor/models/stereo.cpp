@@ -111,7 +111,7 @@ std::vector<Lit> Stereo::lit(const View& view) const {
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
     std::vector<SeenPoint> points(width);
     for (std::size_t x = 0; x < width; ++x) points[x] = seen_point(view, row * width + x);
-    light(scenery_, setup_.projector, setup_.projector_pose, view.pose.position, surfaces_, points.data(),
+    light({scenery_, setup_.projector, setup_.projector_pose, surfaces_}, view.pose.position, points.data(),
           &all[row * width], width);
   });
   return all;

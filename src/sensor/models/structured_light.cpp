@@ -22,8 +22,10 @@ bool textured(const Surfaces& surfaces) {
                                                    [](const Surface& line) { return line.texture.any(); });
 }
 
+}  // namespace
+
 /// Normally distributed numbers, drawn in pairs.
-class Normals {
+class StructuredLight::Normals {
  public:
   explicit Normals(const Random& random) : random_(random) {}
   double next() {
@@ -38,8 +40,6 @@ class Normals {
   bool spare_ = false;
 };
 
-}  // namespace
-
 StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
                                  const Random& random)
     : scenery_(scenery),
@@ -51,13 +51,18 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       rays_(view.lens),
       sight_(scenery, setup.projector, setup.projector_pose),
+      spots_(scenery, view.lens, view.pose, setup.near, setup.far),
+      shades_(scenery, setup.projector, setup.projector_pose, 0.0, std::numeric_limits<double>::infinity()),
       turn_(view.pose.orientation.toRotationMatrix()),
       codes_(view.depth.size()),
       columns_(view.depth.size()),
       whites_(view.depth.size()),
       planes_(view.depth.size()),
       worn_(textured(surfaces) ? view.depth.size() : 0) {
-  in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) { light_row(row); });
+  constexpr std::size_t rows = 8;  // points enough to draw what shades them
+  const auto height = static_cast<std::size_t>(view_.lens.height);
+  in_parallel((height + rows - 1) / rows,
+              [&](std::size_t k) { light_rows(k * rows, std::min((k + 1) * rows, height)); });
   for (const double exposure : setup.imager.exposures)
     scales_.insert(scales_.begin(), exposure / setup.imager.exposure);
   if (scales_.empty()) scales_ = {1.0};
@@ -95,32 +100,29 @@ void StructuredLight::add_paths(const std::vector<Path>& paths, const Vec3* step
   }
 }
 
-void StructuredLight::light_row(std::size_t row) {
+/// @param first, last  rows, last + 1
+void StructuredLight::light_rows(std::size_t first, std::size_t last) {
   const auto width = static_cast<std::size_t>(view_.lens.width);
-  std::vector<SeenPoint> points(width);
-  std::vector<Lit> lit(width);
-  std::uint32_t number = Scenery::no_face;
-  Scenery::Face face;
-  for (std::size_t x = 0; x < width; ++x) {
-    const std::size_t i = row * width + x;
-    const Pixel p = pixel(x, row);
+  const std::size_t origin = first * width, count = (last - first) * width;
+  std::vector<SeenPoint> points(count);
+  std::vector<Lit> lit(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = origin + k;
+    const Pixel p = pixel(k % width, first + k / width);
     planes_[i] = view_.depth[i] * p.normal.dot(p.ray);
     if (std::isnan(view_.depth[i])) continue;
-    if (view_.face[i] != number) face = scenery_.face(number = view_.face[i]);
     const Vec3 point = view_.pose.position + turn_ * (view_.depth[i] * p.ray);
-    points[x] = {point, turn_ * p.normal, view_.line[i],
-                 true,  view_.label[i],   sight_.clear(point, face, number == Scenery::floor_face)};
+    points[k] = {point, turn_ * p.normal, view_.line[i], true, view_.label[i], view_.face[i]};
   }
-  light(scenery_, setup_.projector, setup_.projector_pose, view_.pose.position, surfaces_, points.data(), lit.data(),
-        width);
-  for (std::size_t x = 0; x < width; ++x) {
-    const std::size_t i = row * width + x;
-    codes_[i] = lit[x].code;
-    columns_[i] = lit[x].column;
-    whites_[i] = lit[x].reflected / std::max(lit[x].distance * lit[x].distance, 1e-12);
+  light(source(), view_.pose.position, points.data(), lit.data(), count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = origin + k;
+    codes_[i] = lit[k].code;
+    columns_[i] = lit[k].column;
+    whites_[i] = lit[k].reflected / std::max(lit[k].distance * lit[k].distance, 1e-12);
     Surface own;
-    if (!worn_.empty() && points[x].hit)
-      worn_[i] = diffuse_share(surfaces_.at(points[x].line, points[x].label, points[x].position, own));
+    if (!worn_.empty() && points[k].hit)
+      worn_[i] = diffuse_share(surfaces_.at(points[k].line, points[k].label, points[k].position, own));
   }
 }
 
@@ -229,67 +231,79 @@ bool StructuredLight::too_dark(const float* indirect) const {
   return amplitude + 6.0 * fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))) < setup_.settings.min_modulation;
 }
 
+/// The light of a pixel near an edge. False: it is told already what becomes of the pixel.
+bool StructuredLight::blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const {
+  const Blend blend = strip.blend(pixel, [](const Strip::Cells&, const Strip::Values&) {});
+  if (blend.outside) out.validity[pixel.index] = Validity::outside;
+  if (blend.outside || (codes_[pixel.index] == Validity::shadow && blend.white <= 0.0)) return false;
+  got.mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
+  const double period = setup_.settings.period, turn = 2.0 * M_PI / period;
+  const double phase = std::atan2(blend.sine, blend.cosine) / turn;
+  got.column = phase + period * std::round((blend.column - phase) / period);
+  got.fringe = {setup_.imager.ambient * blend.diffuse + gain_ * blend.white * fringes_.mean(),
+                gain_ * fringes_.amplitude() * std::hypot(blend.sine, blend.cosine)};
+  return true;
+}
+
+/// The noise of what is received, and what is told of the pixel.
+void StructuredLight::tell(const Pixel& pixel, const Received& got, Normals& normals, Measurement& out) const {
+  Validity& validity = out.validity[pixel.index];
+  out.intensity[pixel.index] = static_cast<float>(std::min(got.fringe.mean, 1.0));
+  const double scale = scale_for(got.fringe, got.column);
+  const Fringe f{scale * got.fringe.mean, scale * got.fringe.amplitude};
+  const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
+  // The amplitude's noise matters where it may fall below the threshold.
+  double amplitude = f.amplitude;
+  const double spread = fringes_.amplitude_sigma(sigma);
+  out.snr[pixel.index] = static_cast<float>(f.amplitude / spread);
+  if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread)
+    amplitude += spread * normals.next();
+  if (got.mixed) {
+    validity = Validity::mixed;
+  } else if (saturates(f, got.column)) {
+    validity = Validity::saturated;
+  } else if (amplitude < setup_.settings.min_modulation) {
+    validity = codes_[pixel.index] == Validity::shadow ? Validity::shadow : Validity::dark;
+  } else {
+    deliver(out, pixel, got.column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);
+  }
+}
+
+void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const {
+  const auto width = static_cast<std::size_t>(view_.lens.width);
+  std::vector<float> images(static_cast<std::size_t>(fringes_.images()));
+  Normals normals(random.of_piece(row));
+  for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+    const Validity code = out.validity[i] = codes_[i];
+    const bool near_edge = strip.near_edge(i);
+    float indirect[channels] = {};
+    const bool twice = indirect_ && indirect_->at(i, channels, indirect);
+    if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
+    const Pixel p = pixel(i - row * width, row);
+    if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
+      out.intensity[i] = static_cast<float>(std::min(ambient(i) + gain_ * indirect[white] * fringes_.mean(), 1.0));
+      continue;
+    }
+    if (twice && (code != Validity::valid || indirect[white] > turns_bits * whites_[i])) {
+      Random draw = random.of_piece(view_.depth.size() + i);
+      read(strip, p, images, draw, out);
+      continue;
+    }
+    Received got;
+    if (!near_edge) {
+      got = {columns_[i], fringe(p)};
+    } else if (!blended(strip, p, got, out)) {
+      continue;
+    }
+    if (twice) add_phasor(indirect, got.column, got.fringe);
+    tell(p, got, normals, out);
+  }
+}
+
 Measurement StructuredLight::analytic(const Random& random) const {
   Measurement out(view_.depth.size());
-  const double turn = 2.0 * M_PI / setup_.settings.period;
   in_strips([&](const Strip& strip, int first, int last) {
-    for (int row = first; row < last; ++row) {
-      std::vector<float> images(static_cast<std::size_t>(fringes_.images()));
-      Normals normals(random.of_piece(static_cast<std::size_t>(row)));
-      for (int x = 0; x < view_.lens.width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(row) * view_.lens.width + static_cast<std::size_t>(x);
-        const Validity code = out.validity[i] = codes_[i];
-        const bool near_edge = strip.near_edge(i);
-        float indirect[channels] = {};
-        const bool twice = indirect_ && indirect_->at(i, channels, indirect);
-        if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
-        const Pixel p = pixel(static_cast<std::size_t>(x), static_cast<std::size_t>(row));
-        if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
-          out.intensity[i] = static_cast<float>(std::min(ambient(i) + gain_ * indirect[white] * fringes_.mean(), 1.0));
-          continue;
-        }
-        if (twice && (code != Validity::valid || indirect[white] > turns_bits * whites_[i])) {
-          Random draw = random.of_piece(view_.depth.size() + i);
-          read(strip, p, images, draw, out);
-          continue;
-        }
-        double column = columns_[i];
-        Fringe f{0.0, 0.0};
-        bool mixed = false;
-        if (near_edge) {
-          const Blend blend = strip.blend(p, [](const Strip::Cells&, const Strip::Values&) {});
-          if (blend.outside) out.validity[i] = Validity::outside;
-          if (blend.outside || (code == Validity::shadow && blend.white <= 0.0)) continue;
-          mixed = blend.off_share > Blend::tolerated && setup_.settings.mixed == MixedPixels::remove;
-          const double phase = std::atan2(blend.sine, blend.cosine) / turn, period = setup_.settings.period;
-          column = phase + period * std::round((blend.column - phase) / period);
-          f = {setup_.imager.ambient * blend.diffuse + gain_ * blend.white * fringes_.mean(),
-               gain_ * fringes_.amplitude() * std::hypot(blend.sine, blend.cosine)};
-        } else {
-          f = fringe(p);
-        }
-        if (twice) add_phasor(indirect, column, f);
-        out.intensity[i] = static_cast<float>(std::min(f.mean, 1.0));
-        const double scale = scale_for(f, column);
-        f = {scale * f.mean, scale * f.amplitude};
-        const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
-        // The amplitude's noise matters where it may fall below the threshold.
-        double amplitude = f.amplitude;
-        const double spread = fringes_.amplitude_sigma(sigma);
-        out.snr[i] = static_cast<float>(f.amplitude / spread);
-        if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread)
-          amplitude += spread * normals.next();
-        if (mixed) {
-          out.validity[i] = Validity::mixed;
-        } else if (saturates(f, column)) {
-          out.validity[i] = Validity::saturated;
-        } else if (amplitude < setup_.settings.min_modulation) {
-          out.validity[i] = code == Validity::shadow ? code : Validity::dark;
-        } else {
-          deliver(out, p, column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);
-        }
-      }
-    }
+    for (int row = first; row < last; ++row) measure_row(strip, static_cast<std::size_t>(row), random, out);
   });
   return out;
 }

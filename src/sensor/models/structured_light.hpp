@@ -24,6 +24,7 @@
 #include "sensor/models/triangulation.hpp"
 #include "sensor/pixel_rays.hpp"
 #include "sensor/sight.hpp"
+#include "sensor/spots.hpp"
 
 #include <memory>
 #include <vector>
@@ -62,13 +63,22 @@ class StructuredLight {
   struct Fringe {
     double mean, amplitude;  ///< A and B, shares of the full well
   };
+  struct Received {
+    double column = 0.0;
+    Fringe fringe{0.0, 0.0};
+    bool mixed = false;
+  };
   class Strip;
   struct Blend;
+  class Normals;
 
   /// Channels of the indirect light, for a white of 1; after them, the images.
   enum Channel { white, cosine, sine, channels };
 
-  void light_row(std::size_t row);
+  LightSource source() const {
+    return {scenery_, setup_.projector, setup_.projector_pose, surfaces_, &sight_, &shades_};
+  }
+  void light_rows(std::size_t first, std::size_t last);
   void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
@@ -83,6 +93,9 @@ class StructuredLight {
   bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
+  bool blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const;
+  void tell(const Pixel& pixel, const Received& got, Normals& normals, Measurement& out) const;
+  void measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const;
   template <class Work>
   void in_strips(const Work& work) const;
   void deliver(Measurement& out, const Pixel& pixel, double column) const;
@@ -96,7 +109,8 @@ class StructuredLight {
   Triangulation triangulation_;
   PixelRays rays_;
   ClearSight sight_;
-  Mat3 turn_;  ///< of the camera
+  SpotDrawing spots_, shades_;  ///< of the camera, of the projector
+  Mat3 turn_;                   ///< of the camera
 
   // Of the light that falls on what each pixel's centre sees, row-major.
   std::vector<Validity> codes_;  ///< valid, nothing, shadow or outside

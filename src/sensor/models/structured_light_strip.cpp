@@ -1,4 +1,4 @@
-/// Finds the pixels of some rows that see more than one face or light, asks their cells by rays, and sums the light.
+/// Finds the pixels of some rows that see more than one face or light; structured_light_cells.cpp has their cells.
 /// Rows are done in strips, so that memory does not grow with the image.
 #include "sensor/models/structured_light_strip.hpp"
 
@@ -118,39 +118,6 @@ double StructuredLight::Strip::hidden_step(const Pixel& pixel) const {
   return largest;
 }
 
-/// What cells see, each asked by a ray through its middle.
-std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std::vector<Spot>& spots) const {
-  const View& view = model_.view_;
-  std::vector<Ray> rays(spots.size());
-  std::vector<Hit> hits(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    const Vec3 middle = model_.rays_.at(spots[i].index % width_, spots[i].index / width_);
-    const Vec3 offset(cells::across(spots[i].cell) / view.lens.fx, cells::down(spots[i].cell) / view.lens.fy, 0.0);
-    rays[i] = {view.pose.position, model_.turn_ * (middle + offset), model_.setup_.near, model_.setup_.far};
-  }
-  model_.scenery_.first_hits(rays.data(), hits.data(), rays.size());
-  std::vector<SeenPoint> points(spots.size());
-  std::vector<Lit> lit(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    const Hit& hit = hits[i];
-    const Vec3 point = rays[i].origin + hit.distance * rays[i].direction;
-    const std::uint32_t face = model_.scenery_.face_of(hit);
-    points[i] = {point,     hit.normal,
-                 hit.line,  face != Scenery::no_face,
-                 hit.label, model_.sight_.clear(point, model_.scenery_.face(face), face == Scenery::floor_face)};
-  }
-  light(model_.scenery_, model_.setup_.projector, model_.setup_.projector_pose, view.pose.position, model_.surfaces_,
-        points.data(), lit.data(), lit.size());
-  std::vector<Seen> seen(spots.size());
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    Surface own;
-    const SeenPoint& p = points[i];
-    const Surface& surface = p.hit ? model_.surfaces_.at(p.line, p.label, p.position, own) : own;
-    seen[i] = {hits[i].distance, lit[i], hits[i].line, diffuse_share(surface)};
-  }
-  return seen;
-}
-
 /// What noise hides is even.
 StructuredLight::Strip::Kind StructuredLight::Strip::kind_of(const Pixel& pixel, const Seen* corners) const {
   const Lens& lens = model_.view_.lens;
@@ -244,7 +211,7 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
       }
     }
   }
-  std::vector<Spot> corners;
+  std::vector<Place> corners;
   for (const std::size_t index : maybe) {
     for (const int cell : cells::corners) corners.push_back({index, cell});
   }
@@ -254,6 +221,7 @@ std::vector<StructuredLight::Strip::Uneven> StructuredLight::Strip::uneven_pixel
     const Pixel pixel = model_.pixel(maybe[i] % width_, maybe[i] / width_);
     const Seen* const own = &seen[4 * i];
     const Kind kind = kind_of(pixel, own);
+    if (kind == Kind::even && reach_ == 0) continue;
     (kind == Kind::even ? even : uneven).push_back({maybe[i], kind, {own[0], own[1], own[2], own[3]}});
   }
   if (reach_ > 0) add_beside(from, to, even, uneven);
@@ -302,105 +270,6 @@ float StructuredLight::Strip::off_face(const Pixel& pixel, int right, int down, 
   const auto plane = static_cast<float>(pixel.plane), step = static_cast<float>(model_.setup_.settings.edge_step);
   const Values here = middle + across * across_ + along * down_;
   return ((cells.depth * here - plane).abs() < step * here.abs()).select(Values::Zero(), weight).sum();
-}
-
-void StructuredLight::Strip::set_phases(Cells& own) const {
-  const double turn = 2.0 * M_PI / model_.setup_.settings.period;
-  for (int k = 0; k < per_pixel; ++k) {
-    own.cosine[k] = own.sine[k] = 0.0f;
-    if (own.white[k] <= 0.0f) continue;
-    own.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
-    own.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
-  }
-}
-
-/// Cells asked by rays; the corners of pixels are known.
-void StructuredLight::Strip::add_crossed(const std::vector<const Uneven*>& pixels) {
-  std::vector<Spot> spots;
-  for (const Uneven* const pixel : pixels) {
-    for (int k = 0; k < per_pixel; ++k) {
-      if (!cells::is_corner(k)) spots.push_back({pixel->index, k});
-    }
-  }
-  const std::vector<Seen> others = cast(spots);
-  std::size_t next = 0;
-  for (const Uneven* const pixel : pixels) {
-    std::array<Seen, per_pixel> seen;
-    int corner = 0;
-    for (int k = 0; k < per_pixel; ++k) seen[k] = cells::is_corner(k) ? pixel->corners[corner++] : others[next++];
-    add_seen(pixel->index, seen);
-  }
-}
-
-/// Cells of a pixel that will be removed as mixed: each sees what its corner does.
-void StructuredLight::Strip::add_mixed(const Uneven& pixel) {
-  std::array<Seen, per_pixel> seen;
-  for (int k = 0; k < per_pixel; ++k) {
-    seen[k] = pixel.corners[(cells::across(k) > 0.0 ? 1u : 0u) + (cells::down(k) > 0.0 ? 2u : 0u)];
-  }
-  add_seen(pixel.index, seen);
-}
-
-void StructuredLight::Strip::add_seen(std::size_t index, const std::array<Seen, per_pixel>& seen) {
-  Cells own;
-  for (int k = 0; k < per_pixel; ++k) {
-    const Seen& s = seen[k];
-    const bool lit = s.lit.code == Validity::valid;
-    own.column[k] = static_cast<float>(s.lit.column);
-    own.white[k] = lit ? static_cast<float>(s.lit.reflected / (s.lit.distance * s.lit.distance)) : 0.0f;
-    own.depth[k] = static_cast<float>(s.depth);
-    own.outside = own.outside || s.lit.code == Validity::outside;
-    if (s.lit.code == Validity::nothing) continue;
-    own.diffuse += static_cast<float>(s.diffuse) / per_pixel;
-  }
-  add(index, own);
-}
-
-/// Cells of one face in even light.
-StructuredLight::Strip::Cells StructuredLight::Strip::flat(const Pixel& pixel, const Vec2& slope) const {
-  const Lens& lens = model_.view_.lens;
-  const std::size_t index = pixel.index;
-  Cells own;
-  own.diffuse = static_cast<float>(model_.diffuse(index));
-  own.outside = model_.codes_[index] == Validity::outside;
-  for (int k = 0; k < per_pixel; ++k) {
-    const double u = cells::across(k), v = cells::down(k);
-    const double here = pixel.normal.dot(pixel.ray + Vec3(u / lens.fx, v / lens.fy, 0.0));
-    own.column[k] = static_cast<float>(model_.columns_[index] + slope.x() * u + slope.y() * v);
-    own.white[k] = model_.codes_[index] == Validity::valid ? static_cast<float>(model_.whites_[index]) : 0.0f;
-    own.depth[k] = static_cast<float>(pixel.plane / here);
-  }
-  return own;
-}
-
-void StructuredLight::Strip::add_flat(std::size_t index) {
-  const Pixel pixel = model_.pixel(index % width_, index / width_);
-  Cells own = flat(pixel, model_.slope(pixel));
-  add(index, own);
-}
-
-/// Cells of faces that bend gently: their columns leave those of the centre's face towards each corner's.
-void StructuredLight::Strip::add_bent(const Uneven& bent) {
-  const Pixel pixel = model_.pixel(bent.index % width_, bent.index / width_);
-  const Vec2 slope = model_.slope(pixel);
-  Cells own = flat(pixel, slope);
-  for (int k = 0; k < per_pixel; ++k) {
-    const double u = cells::across(k), v = cells::down(k);
-    const int corner = (u > 0.0 ? 1 : 0) + (v > 0.0 ? 2 : 0), at = cells::corners[corner];
-    const Seen& there = bent.corners[static_cast<std::size_t>(corner)];
-    const double flat = model_.columns_[bent.index] + slope.x() * cells::across(at) + slope.y() * cells::down(at);
-    const double share =
-        std::sqrt((u * u + v * v) / (cells::across(at) * cells::across(at) + cells::down(at) * cells::down(at)));
-    own.column[k] += static_cast<float>(share * (there.lit.column - flat));
-  }
-  add(bent.index, own);
-}
-
-void StructuredLight::Strip::add(std::size_t index, Cells& own) {
-  set_phases(own);
-  own.white.maxCoeff(&own.brightest);
-  cells_of_[index - origin_] = static_cast<std::int32_t>(cells_.size());
-  cells_.push_back(own);
 }
 
 }  // namespace bin_scenes

@@ -39,7 +39,7 @@ class StructuredLight::Strip {
   Blend blend(const Pixel& pixel, const Use& use) const;
 
  private:
-  struct Spot {
+  struct Place {
     std::size_t index;  ///< pixel
     int cell;
   };
@@ -56,7 +56,8 @@ class StructuredLight::Strip {
   bool differ(std::size_t a, std::size_t b) const;
   bool differs(int x, int y) const;
   double hidden_step(const Pixel& pixel) const;
-  std::vector<Seen> cast(const std::vector<Spot>& spots) const;
+  void first_hits(const std::vector<Place>& places, const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
+  std::vector<Seen> cast(const std::vector<Place>& places) const;
   /// How the corner cells of a pixel lie to its face.
   enum class Kind { even, beside, bent, mixed, crossed };
   struct Uneven {

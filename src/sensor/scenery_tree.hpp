@@ -1,0 +1,54 @@
+/// A mesh and its search tree in Embree, with what its triangles tell: made once a model.
+#pragma once
+
+#include "bin_scenes/sensor/scenery.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace bin_scenes {
+
+/// The instruction set is fixed, so that all processors that have it compute the same bits; those without it compute
+/// the same bits among themselves. Embree's own setting `threads` stays unset, as it limits the threads of the whole
+/// process.
+RTCDevice embree_device();
+
+/// On one thread: how many there are must not decide how a tree is built, and the order of triangles in it decides
+/// between two that are hit at the same place.
+void commit(RTCScene scene);
+
+/// At each corner the mean, by area, of the normals of those faces around it that are nearly in line with its own.
+struct CornerNormals {
+  std::array<Vec3, 3> normals;
+  bool even = true;  ///< all three are the face's own
+};
+
+/// A mesh and its search tree.
+struct MeshTree {
+  PartModelPtr owner;  // none: `own` is the mesh
+  Mesh own;
+  RTCScene embree = nullptr;
+  std::vector<Scenery::Plane> planes;  // of each triangle
+  std::vector<char> outermost;         // whether no corner of the mesh lies before it
+  bool closed = false;
+  /// Smooth normals of the corners of each triangle; made when they are asked for first.
+  const std::vector<CornerNormals>& corners() const;
+
+  const Mesh& mesh() const { return owner ? owner->mesh() : own; }
+
+  MeshTree(PartModelPtr model, Mesh alone);
+  ~MeshTree() { rtcReleaseScene(embree); }
+  MeshTree(const MeshTree&) = delete;
+  MeshTree& operator=(const MeshTree&) = delete;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::vector<CornerNormals> corners_;
+};
+using MeshTreePtr = std::shared_ptr<const MeshTree>;
+
+}  // namespace bin_scenes
