@@ -64,7 +64,7 @@ Row packing(const std::string& name, std::size_t count, double friction, std::ui
   Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
   request.pour.drop_height = 0.5 * d;
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
-  const Scene scene = pour({request, parts}, *solver_of(request, parts), {0}).front();
+  const Scene scene = pour({request, parts}, *solver_of({request, parts}), {0}).front();
   std::vector<Vec3> centers;
   std::vector<double> heights;
   for (const ScenePart& part : scene.parts) {
@@ -126,7 +126,7 @@ Row repose(const std::string& name, std::size_t count, double friction, std::uin
   const double width = 28.0 * d;
   Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
   const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
-  const std::unique_ptr<Solver> solver = solver_of(request, parts);
+  const std::unique_ptr<Solver> solver = solver_of({request, parts});
   WorldDef def = world_of({request, parts});
   std::vector<BodyState> starts(count);
   add_bed(def, width, friction, starts);
@@ -265,7 +265,7 @@ std::unique_ptr<Solver> made(const std::string& name, double time_step) {
   choose_solver(request, name);
   request.solver.sphere.time_step = request.solver.bullet.time_step = time_step;
   request.solver.bullet.sleeping = false;
-  return solver_of(request, {});
+  return solver_of({request, {}});
 }
 
 void simbenchmark(Run& out) {

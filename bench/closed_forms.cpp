@@ -102,7 +102,7 @@ Row measured(const Form& form, const std::string& solver) {
   if (form.ball) request.solver.thesis.voxels = 1;
   const auto work = [&] {
     Lab::Count count;
-    const Errors errors = form.measure([&] { return Lab(solver_of(request, {}), &count); });
+    const Errors errors = form.measure([&] { return Lab(solver_of({request, {}}), &count); });
     Row row;
     for (std::size_t i = 0; i < errors.size(); ++i) row.measure(form.quantities[i].name, errors[i]);
     return row.info("step_s", count.seconds / static_cast<double>(count.steps));

@@ -35,7 +35,7 @@ Heap heap_at_rest(std::size_t count, const std::string& path) {
   const std::vector<PartModelPtr> parts = load_parts(heap.request);
   if (!std::filesystem::exists(path)) {
     std::string reason;
-    const std::unique_ptr<Solver> solver = make_solver(heap.request, parts, reason);
+    const std::unique_ptr<Solver> solver = make_solver({heap.request, parts}, reason);
     write_text(path, scene_json(pour({heap.request, parts}, *solver, {0}).front(), heap.request));
   }
   Aabb box;
@@ -75,7 +75,7 @@ Row step_row(const Heap& heap, const std::string& solver_name, std::size_t per_w
   request.parts[0].count = heap.rest.size() * per_world;
   const std::vector<PartModelPtr> parts = load_parts(request);
   std::string reason;
-  const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+  const std::unique_ptr<Solver> solver = make_solver({request, parts}, reason);
   const std::vector<WorldId> ids = add_worlds(*solver, world_of({request, parts}), heap, per_world, worlds);
   const auto bodies = static_cast<double>(request.parts[0].count * worlds);
   const int steps = bodies > 8192 ? 2 : bodies > 512 ? 4 : 8;

@@ -26,7 +26,7 @@ const Case cases[] = {{"pour", phases::pour, 1.15},
 /// Device time of each pass a step, all worlds together; contacts and pairs are those of a world.
 Row measured(const Request& request, const std::vector<ScenePart>& heap, const Case& of, std::size_t worlds) {
   const std::vector<PartModelPtr> parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = solver_of(request, parts);
+  const std::unique_ptr<Solver> solver = solver_of({request, parts});
   std::vector<WorldId> ids;
   for (std::size_t w = 0; w < worlds; ++w) {
     ids.push_back(solver->add_world(world_of({request, parts})));
@@ -68,7 +68,7 @@ void run(Run& out) {
   const std::string path = out.scratch() + "/heap.json";
   isolated([&] {
     const std::vector<PartModelPtr> models = load_parts(request);
-    write_text(path, scene_json(pour({request, models}, *solver_of(request, models), {0}).front(), request));
+    write_text(path, scene_json(pour({request, models}, *solver_of({request, models}), {0}).front(), request));
     return Row();
   });
   const std::vector<ScenePart> heap = read_scene_json(path).parts;

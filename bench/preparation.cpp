@@ -34,7 +34,7 @@ Isolated prepare(const std::string& part, const std::string& solver_name, const 
     choose_solver(request, solver_name);
     const Clock clock;
     const std::vector<PartModelPtr> parts = load_parts(request);
-    solver_of(request, parts)->add_world(world_of({request, parts}));
+    solver_of({request, parts})->add_world(world_of({request, parts}));
     return Row()
         .info("triangles", parts[0]->mesh().triangles.size())
         .info("built_warm", PartModel::work().built)

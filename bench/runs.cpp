@@ -64,9 +64,9 @@ std::vector<PartModelPtr> load_parts(const Request& request) {
   return parts;
 }
 
-std::unique_ptr<Solver> solver_of(const Request& request, const std::vector<PartModelPtr>& parts) {
+std::unique_ptr<Solver> solver_of(const LoadedRequest& loaded) {
   std::string reason;
-  return make_solver(request, parts, reason);
+  return make_solver(loaded, reason);
 }
 
 namespace {
@@ -76,7 +76,7 @@ void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& 
   next.pour.pattern = Pour::Pattern::given;
   next.seconds = 0.5;
   for (const ScenePart& part : scene.parts) next.parts[0].poses.push_back(part.pose);
-  scene.report.drift = drift(scene, pour({next, parts}, *solver_of(next, parts), {scene.index}).front(), parts);
+  scene.report.drift = drift(scene, pour({next, parts}, *solver_of({next, parts}), {scene.index}).front(), parts);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
   const Clock clock;
   out.parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = make ? make() : solver_of(request, out.parts);
+  const std::unique_ptr<Solver> solver = make ? make() : solver_of({request, out.parts});
   out.scene = std::move(pour({request, out.parts}, *solver, {request.first}).front());
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();
@@ -97,7 +97,7 @@ Poured pour_timed(const Request& request, const MakeSolver& make) {
 void warm_up(const Request& request) {
   isolated([&] {
     const std::vector<PartModelPtr> parts = load_parts(request);
-    solver_of(request, parts)->add_world(world_of({request, parts}));
+    solver_of({request, parts})->add_world(world_of({request, parts}));
     return Row();
   });
 }

@@ -35,7 +35,7 @@ std::string stages_of(const Profile& profile, double scale = 1.0);
 /// Models of the request's part lines.
 std::vector<PartModelPtr> load_parts(const Request& request);
 /// The request's solver for them.
-std::unique_ptr<Solver> solver_of(const Request& request, const std::vector<PartModelPtr>& parts);
+std::unique_ptr<Solver> solver_of(const LoadedRequest& loaded);
 /// A solver that no request can name; none: the request's.
 using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 

@@ -15,7 +15,7 @@ Row timed(Request request, std::size_t scenes) {
   std::iota(indices.begin(), indices.end(), std::size_t{0});
   double simulation_s = 0.0;
   {
-    const std::unique_ptr<Solver> solver = solver_of(request, parts);
+    const std::unique_ptr<Solver> solver = solver_of({request, parts});
     pour({request, parts}, *solver, {scenes});  // another scene: programs are compiled, buffers have their size
     const Clock clock;
     pour({request, parts}, *solver, indices);

@@ -100,7 +100,7 @@ struct Generator::State {
     }
     StageTimer timer(prepared.spent, "prepare");
     reporter.phase("prepare", request.first, request.part_count());
-    prepared.solver = make_solver(request, models.loaded().parts, prepared.solver_reason);
+    prepared.solver = make_solver({request, models.loaded().parts}, prepared.solver_reason);
     return prepared;
   }
 

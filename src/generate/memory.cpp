@@ -161,7 +161,7 @@ double estimate_memory(const LoadedRequest& loaded) {
   const double overlaps = overlap_bytes(loaded, 1.1 * request.memory_budget) * std::min(scenes, at_once);
   const double pixels = image_bytes(request);
   double models = 0.0;
-  const std::size_t nodes = field_nodes_that_fit(request, parts);
+  const std::size_t nodes = field_nodes_that_fit({request, parts});
   for (const PartModelPtr& part : std::set<PartModelPtr>(parts.begin(), parts.end()))
     models += model_bytes(request, *part, nodes);
   const bool thesis =

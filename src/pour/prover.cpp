@@ -279,7 +279,7 @@ struct Prover::State {
     if (request.solver.preset == SolverSettings::Preset::thesis)
       request.solver.preset = SolverSettings::Preset::standard;
     std::string reason;
-    solver = make_solver(request, loaded.parts, reason);
+    solver = make_solver({request, loaded.parts}, reason);
   }
 
   const std::vector<GripperBody>& bodies_of(std::size_t gripper, const Request& request) {

@@ -149,18 +149,18 @@ bool looks_at(const Aabb& room, const Lens& lens, const Pose& pose, double far) 
 
 /// Camera, projector and laser in turn.
 void check_place(const std::string& what, const std::string& where, const Vec3& position, const Aabb& room,
-                 const Request& request, const std::vector<PartModelPtr>& parts) {
+                 const LoadedRequest& loaded) {
   if (!room.empty() && position.z() <= room.lower.z()) {
     refuse("the " + what + " stands " + std::to_string(room.lower.z() - position.z()) + " m below the floor", where,
            "give it a pose with positive z");
   }
-  if (in_wall(request.bin, position)) {
+  if (in_wall(loaded.request.bin, position)) {
     refuse("the " + what + " stands inside the bin's wall", where, "move it out of the wall, or above the rim");
   }
-  for (std::size_t line = 0; line < parts.size(); ++line) {
-    for (std::size_t i = 0; i < request.parts[line].poses.size(); ++i) {
-      const Vec3 here = request.parts[line].poses[i].inverse() * position;
-      if (here.norm() > 1e3 || !parts[line]->query().inside(here)) continue;
+  for (std::size_t line = 0; line < loaded.parts.size(); ++line) {
+    for (std::size_t i = 0; i < loaded.request.parts[line].poses.size(); ++i) {
+      const Vec3 here = loaded.request.parts[line].poses[i].inverse() * position;
+      if (here.norm() > 1e3 || !loaded.parts[line]->query().inside(here)) continue;
       refuse("the " + what + " stands inside part " + std::to_string(i) + " of parts[" + std::to_string(line) + "]",
              where, "move it out of the part");
     }
@@ -177,10 +177,9 @@ void check_lens(const std::string& what, const std::string& where, const Lens& l
   }
 }
 
-void check_sensor(const Sensor& sensor, const Request& request, const Aabb* bounds,
-                  const std::vector<PartModelPtr>& parts) {
+void check_sensor(const Sensor& sensor, const LoadedRequest& loaded, const Aabb* bounds) {
   const std::string where = "sensors: " + sensor.name;
-  const Aabb room = room_of(request.bin, bounds);
+  const Aabb room = room_of(loaded.request.bin, bounds);
   const auto looks = [&](const std::string& what, const Lens& lens, const Pose& pose) {
     check_lens(what, where, lens);
     if (!room.empty() && !looks_at(room, lens, pose, sensor.far)) {
@@ -188,10 +187,10 @@ void check_sensor(const Sensor& sensor, const Request& request, const Aabb* boun
              "z of its frame points forward; turn it, or leave its pose out");
     }
   };
-  check_place("camera", where, sensor.pose->position, room, request, parts);
+  check_place("camera", where, sensor.pose->position, room, loaded);
   looks("camera", lens_of(sensor), *sensor.pose);
   const SensorModel& model = sensor_model(sensor.model);
-  for (const auto& [what, pose] : light_of(sensor)) check_place(what, where, pose.position, room, request, parts);
+  for (const auto& [what, pose] : light_of(sensor)) check_place(what, where, pose.position, room, loaded);
   if (model.projector) looks("projector", lens_of(sensor.projector), *sensor.projector.pose);
   if (model.laser && !room.empty() && !sheet_meets(room, sensor)) {
     refuse("the laser looks away from the bin", where,
@@ -270,7 +269,7 @@ std::vector<Sensor> resolved_sensors(const LoadedRequest& loaded) {
   std::vector<Sensor> sensors;
   for (const Sensor& sensor : request.sensors) {
     sensors.push_back(resolved(sensor, request.bin, bin_model ? &bounds : nullptr));
-    check_sensor(sensors.back(), request, bin_model ? &bounds : nullptr, loaded.parts);
+    check_sensor(sensors.back(), loaded, bin_model ? &bounds : nullptr);
   }
   return sensors;
 }

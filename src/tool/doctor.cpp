@@ -103,7 +103,7 @@ void test_solver(const char* name, SolverType type, SolverSettings::Preset prese
     request.parts[0].poses = {start};
     const std::vector<PartModelPtr> parts = {box(cube_edge)};
     std::string reason;
-    const std::unique_ptr<Solver> solver = make_solver(request, parts, reason);
+    const std::unique_ptr<Solver> solver = make_solver({request, parts}, reason);
     const Scene scene = pour({request, parts}, *solver, {0}).at(0);
     const double error = std::abs(scene.parts.at(0).pose.position.z() - 0.5 * cube_edge);
     std::ostringstream found;

@@ -78,16 +78,16 @@ TEST(Memory, FieldsOfManyModelsShareHalfOfTheBudget) {
     r.parts.push_back(request(1).parts[0]);
   }
   const double full = estimate_memory({r, boxes});
-  const std::size_t most = field_nodes_that_fit(r, boxes);
+  const std::size_t most = field_nodes_that_fit({r, boxes});
   EXPECT_GT(most, 8'000'000u);
   r.memory_budget = 0.5 * full;
-  const std::size_t nodes = field_nodes_that_fit(r, boxes);
+  const std::size_t nodes = field_nodes_that_fit({r, boxes});
   EXPECT_NEAR(static_cast<double>(nodes * boxes.size() * sizeof(float)), 0.5 * r.memory_budget, 1e-4 * full);
   EXPECT_LE(estimate_memory({r, boxes}), r.memory_budget);
   boxes.resize(120, boxes[0]);
   r.parts.resize(120, r.parts[0]);
   r.scenes = 1000;
-  EXPECT_EQ(field_nodes_that_fit(r, boxes), nodes) << "the same model again, and more scenes, change nothing";
+  EXPECT_EQ(field_nodes_that_fit({r, boxes}), nodes) << "the same model again, and more scenes, change nothing";
   r.memory_budget = 0.02 * full;
   EXPECT_THROW(estimate_memory({r, boxes}), Error);
 }
@@ -103,7 +103,7 @@ TEST(Memory, ACoarserFieldIsTold) {
     r.parts.push_back(request(1).parts[0]);
   }
   std::string reason;
-  const Heap heap({r, boxes}, make_solver(r, boxes, reason));
+  const Heap heap({r, boxes}, make_solver({r, boxes}, reason));
   const auto flags = heap.scene().report.flags;
   const auto coarsened = [](const Flag& flag) { return flag.code == "field_coarsened"; };
   ASSERT_EQ(std::count_if(flags.begin(), flags.end(), coarsened), 1);

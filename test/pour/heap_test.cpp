@@ -45,7 +45,7 @@ Heap heap_of(const Kind& kind, const PartModelPtr& part, std::size_t count, cons
   request.parts[0].poses = poses;
   if (!poses.empty()) request.pour.pattern = Pour::Pattern::given;
   std::string reason;
-  return Heap({request, {part}}, make_solver(request, {part}, reason));
+  return Heap({request, {part}}, make_solver({request, {part}}, reason));
 }
 
 /// Cubes on each other, at the given places.

@@ -36,7 +36,7 @@ class MotionTest : public ::testing::TestWithParam<SolverType> {
   /// Runs it, and follows the first part.
   Scene run() {
     std::string reason;
-    const auto solver = make_solver(request, parts, reason);
+    const auto solver = make_solver({request, parts}, reason);
     RunHooks hooks;
     hooks.trace_rate = 200.0;
     hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
@@ -83,7 +83,7 @@ TEST(MotionRefused, ByASolverThatCannotMoveAnything) {
   request.bin.motion.shake = Vec3(0.01, 0, 0);
   request.solver.preset = SolverSettings::Preset::thesis;
   std::string reason;
-  const auto solver = make_solver(request, parts, reason);
+  const auto solver = make_solver({request, parts}, reason);
   double simulated = 0.0;
   RunHooks hooks;
   hooks.trace_rate = 200.0;

@@ -133,7 +133,7 @@ TEST(Pour, SetTimeIsKeptExactly) {
       request.solver.type = type;
       request.solver.sphere.device = SphereSettings::Device::cpu;
       std::string reason;
-      const auto solver = make_solver(request, {small_box()}, reason);
+      const auto solver = make_solver({request, {small_box()}}, reason);
       const Scene scene = pour({request, {small_box()}}, *solver, {0})[0];
       EXPECT_NEAR(scene.report.simulated_s, seconds, 1e-12) << name_of(type);
       EXPECT_NEAR(scene.parts[0].pose.position.x(), seconds, 1e-6) << "at 1 m/s";

@@ -35,7 +35,7 @@ Request angles(std::size_t count, Device device) {
 
 std::unique_ptr<Solver> solver_of(const Request& request) {
   std::string reason;
-  return make_solver(request, {angle()}, reason);
+  return make_solver({request, {angle()}}, reason);
 }
 
 /// Scenes by their hash, and how many steps each took.

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/report.hpp"
 #include "bin_scenes/scene/request.hpp"
 
@@ -171,11 +171,10 @@ class Solver {
 
 /// Most nodes of a distance field: those of all models together may take half of memory_budget. It depends on nothing
 /// but the budget and how many models there are, so that a scene is the same in every job and on every machine.
-std::size_t field_nodes_that_fit(const Request& request, const std::vector<PartModelPtr>& parts);
+std::size_t field_nodes_that_fit(const LoadedRequest& loaded);
 
 /// The solver of a request. SolverType::automatic chooses by device, part and count from measured costs; the cause is
 /// appended to `reason`.
-std::unique_ptr<Solver> make_solver(const Request& request, const std::vector<PartModelPtr>& parts,
-                                    std::string& reason);
+std::unique_ptr<Solver> make_solver(const LoadedRequest& loaded, std::string& reason);
 
 }  // namespace bin_scenes

@@ -243,7 +243,7 @@ TEST(HeldOthers, OtherSolversSayThatTheyCannot) {
   request.solver.type = SolverType::bullet;
   std::string reason;
   const PartModelPtr part = box(block_size);
-  Lab lab(make_solver(request, {part}, reason));
+  Lab lab(make_solver({request, {part}}, reason));
   lab.place(part, Vec3(0, 0, 0.01));
   lab.begin(phases::press);
   const auto problem = [&](const auto& call) {

@@ -53,7 +53,7 @@ TEST(DeviceChoice, SoftwareOpenGlIsNoGpu) {
   std::string reason;
   Request request;
   request.parts.emplace_back();
-  const auto solver = make_solver(request, {}, reason);
+  const auto solver = make_solver({request, {}}, reason);
   EXPECT_EQ(solver->device().find("llvmpipe"), std::string::npos);
   EXPECT_NE(reason.find("on the CPU: "), std::string::npos) << reason;
 }
