@@ -27,8 +27,8 @@ shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, 
 shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
 src/sensor/sensor_keys.hpp visit, src/sensor/models/indirect_field.cpp IndirectField, src/sensor/models/interreflection.cpp gather,
 src/sensor/models/laser_line.cpp line_at, src/sensor/models/sheet_glow.cpp follow, src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
-src/solver/sphere/passes/contact_rows.cpp set_lane, src/solver/sphere/passes/find_pairs.cpp find_pairs,
-src/solver/sphere_gl/batch.cpp add, src/solver/thesis/memory.cpp lay_out, src/solver/thesis/twin.cpp detect"""
+src/solver/sphere/passes/contact_rows.cpp set_lane,
+src/solver/thesis/memory.cpp lay_out, src/solver/thesis/twin.cpp detect"""
 
 
 def bare(text):

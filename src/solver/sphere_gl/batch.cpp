@@ -126,12 +126,7 @@ void Batch::make_room() {
   bound_ = false;
 }
 
-Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress) {
-  const Slot slot = slots_.take(1);
-  if (slot >= regions_.size()) {
-    regions_.resize(slot + 1);
-    host_worlds_.resize(slot + 1);
-  }
+void Batch::take_region(Slot slot, const sphere::World& world) {
   Region& r = regions_[slot];
   r.bodies = world.bodies.size();
   r.large = r.bodies > capacity_.group_bodies ? large_world(world, slot) : LargeWorld{};
@@ -146,13 +141,23 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   r.first_plane = plane_arena_.take(r.planes);
   r.first_pair = pair_arena_.take(r.capacity);
   r.first_row = row_arena_.take(r.rows);
+  const bool shares = capacity_.share_impacts && r.large.bodies == 0;
+  r.sharing_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(false)) : 0;
+  r.impact_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(true)) : 0;
+}
+
+Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress) {
+  const Slot slot = slots_.take(1);
+  if (slot >= regions_.size()) {
+    regions_.resize(slot + 1);
+    host_worlds_.resize(slot + 1);
+  }
+  take_region(slot, world);
+  const Region& r = regions_[slot];
   const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
   settings_block_.candidates = candidates;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
-  const bool shares = capacity_.share_impacts && r.large.bodies == 0;
-  r.sharing_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(false)) : 0;
-  r.impact_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(true)) : 0;
   make_room();
   if (r.large.bodies > 0) {
     if (!large_) large_ = std::make_unique<LargePasses>(capacity_);
@@ -171,24 +176,29 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
     bodies.push_back(to_gpu(b, shapes_.index_of(*world.shapes[b.shape]), static_cast<gpu::uint>(slot)));
   bodies_.upload(r.first_body, bodies.data(), bodies.size());
   upload_states(slot, world);
-
-  ManifoldImage image = to_gpu(world, static_cast<gpu::uint>(r.first_body));
-  ranges_.upload(r.first_body, image.ranges.data(), r.bodies);
-  pairs_.upload(2 * r.first_pair, image.pairs.data(), image.pairs.size());
-  manifolds_.upload(r.first_pair, image.manifolds.data(), image.manifolds.size());
-  const std::size_t free = r.capacity - image.pairs.size();
-  std::vector<gpu::uint> slots(free);
-  for (std::size_t i = 0; i < free; ++i) slots[i] = static_cast<gpu::uint>(r.capacity - 1 - i);
-  free_.upload(r.first_pair, slots.data(), free);
-  progress = {};
-  progress.pairs = static_cast<gpu::uint>(image.pairs.size());
-  progress.free_slots = static_cast<gpu::uint>(free);
-  contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
+  progress = upload_pairs(slot, world);
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
   upload_progress({{slot, progress}});
   return slot;
+}
+
+gpu::SphereProgress Batch::upload_pairs(Slot slot, const sphere::World& world) {
+  const Region& r = regions_[slot];
+  ManifoldImage image = to_gpu(world, static_cast<gpu::uint>(r.first_body));
+  ranges_.upload(r.first_body, image.ranges.data(), r.bodies);
+  pairs_.upload(2 * r.first_pair, image.pairs.data(), image.pairs.size());
+  manifolds_.upload(r.first_pair, image.manifolds.data(), image.manifolds.size());
+  contacts_.upload(SPHERE_MAX_CONTACTS * r.first_pair, image.contacts.data(), image.contacts.size());
+  const std::size_t free = r.capacity - image.pairs.size();
+  std::vector<gpu::uint> slots(free);
+  for (std::size_t i = 0; i < free; ++i) slots[i] = static_cast<gpu::uint>(r.capacity - 1 - i);
+  free_.upload(r.first_pair, slots.data(), free);
+  gpu::SphereProgress progress{};
+  progress.pairs = static_cast<gpu::uint>(image.pairs.size());
+  progress.free_slots = static_cast<gpu::uint>(free);
+  return progress;
 }
 
 void Batch::upload_world(Slot slot) {

@@ -102,6 +102,10 @@ class Batch {
   void bind() const;
   void bind_first() const;
   void step_at_turn();
+  /// Places in all lists.
+  void take_region(Slot slot, const sphere::World& world);
+  /// Pairs with their manifolds and contacts; returns where a world stands that has them.
+  gpu::SphereProgress upload_pairs(Slot slot, const sphere::World& world);
   unsigned sub_steps(const Region& r) const;
 
   std::vector<Region> regions_;

@@ -175,6 +175,45 @@ bool near_ground(const World& world, const Bounds& box) {
   return false;
 }
 
+Manifold manifold_between(const World& world, std::uint32_t a, std::uint32_t b) {
+  Manifold m;
+  m.a = a;
+  m.b = b;
+  const Body& body = world.bodies[a];
+  const float friction = b == ground ? world.ground_friction : world.bodies[b].friction;
+  const float restitution = b == ground ? world.ground_restitution : world.bodies[b].restitution;
+  m.friction = std::sqrt(body.friction * friction);
+  m.restitution = std::max(body.restitution, restitution);
+  return m;
+}
+
+/// Merges the sorted pairs with the manifolds of the last step: forces and recyclable contacts live on under the same
+/// key.
+void adopt(World& world, const std::vector<Pair>& found) {
+  world.previous.swap(world.manifolds);
+  world.manifolds.clear();
+  std::size_t old = 0;
+  const auto keep_sleeping = [&](Manifold& m) {
+    const bool a_waits = world.bodies[m.a].present && !world.bodies[m.a].moves();
+    const bool b_waits = m.b == ground || (world.bodies[m.b].present && !world.bodies[m.b].moves());
+    if (a_waits && b_waits) {
+      world.manifolds.push_back(std::move(m));
+      ++world.counters.pairs_asleep;
+    }
+  };
+  for (const auto& [a, b] : found) {
+    stop_if_cancelled();
+    while (old < world.previous.size() &&
+           std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
+      keep_sleeping(world.previous[old++]);
+    if (old < world.previous.size() && world.previous[old].a == a && world.previous[old].b == b)
+      world.manifolds.push_back(std::move(world.previous[old++]));
+    else
+      world.manifolds.push_back(manifold_between(world, a, b));
+  }
+  while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
+}
+
 }  // namespace
 
 /// Sort and sweep along x over upright boxes, eight at a time, in strips along y, then oriented boxes: on a wide floor
@@ -220,39 +259,7 @@ void find_pairs(World& world) {
     sweep(all_entries, all_boxes, all_lanes, begin, end, meeting);
   });
   sort_pairs(found, world.bodies.size());
-
-  // Merge with the manifolds of the last step: forces and recyclable contacts live on under the same key.
-  world.previous.swap(world.manifolds);
-  world.manifolds.clear();
-  std::size_t old = 0;
-  const auto keep_sleeping = [&](Manifold& m) {
-    const bool a_waits = world.bodies[m.a].present && !world.bodies[m.a].moves();
-    const bool b_waits = m.b == ground || (world.bodies[m.b].present && !world.bodies[m.b].moves());
-    if (a_waits && b_waits) {
-      world.manifolds.push_back(std::move(m));
-      ++world.counters.pairs_asleep;
-    }
-  };
-  for (const auto& [a, b] : found) {
-    stop_if_cancelled();
-    while (old < world.previous.size() &&
-           std::make_pair(world.previous[old].a, world.previous[old].b) < std::make_pair(a, b))
-      keep_sleeping(world.previous[old++]);
-    if (old < world.previous.size() && world.previous[old].a == a && world.previous[old].b == b) {
-      world.manifolds.push_back(std::move(world.previous[old++]));
-      continue;
-    }
-    Manifold m;
-    m.a = a;
-    m.b = b;
-    const Body& body = world.bodies[a];
-    const float friction = b == ground ? world.ground_friction : world.bodies[b].friction;
-    const float restitution = b == ground ? world.ground_restitution : world.bodies[b].restitution;
-    m.friction = std::sqrt(body.friction * friction);
-    m.restitution = std::max(body.restitution, restitution);
-    world.manifolds.push_back(std::move(m));
-  }
-  while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
+  adopt(world, found);
 }
 
 }  // namespace bin_scenes::sphere
