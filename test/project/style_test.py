@@ -28,7 +28,7 @@ shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
 src/sensor/sensor_keys.hpp visit, src/sensor/models/indirect_field.cpp IndirectField, src/sensor/models/interreflection.cpp gather,
 src/sensor/models/laser_line.cpp line_at, src/sensor/models/sheet_glow.cpp follow, src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
 src/solver/sphere/passes/contact_rows.cpp set_lane,
-src/solver/thesis/memory.cpp lay_out, src/solver/thesis/twin.cpp detect"""
+src/solver/thesis/twin.cpp detect"""
 
 
 def bare(text):

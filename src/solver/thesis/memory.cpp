@@ -69,6 +69,20 @@ void lay_grid(const World& world, const ThesisSettings& settings, double horizon
   out.grid = {word(cells[0]), word(cells[1]), word(cells[2]), 0};
 }
 
+/// What a batch takes from the request and from how much there is. dt: s, of a sub-step.
+void set_settings(Memory& m, const ThesisSettings& settings, const Capacity& capacity, double dt, std::size_t moving) {
+  m.settings.bias = static_cast<float>(settings.bias / dt);
+  m.settings.slop = static_cast<float>(settings.slop);
+  m.settings.modified_normals = settings.modified_normals ? 1 : 0;
+  m.settings.bodies = word(m.bodies.size());
+  m.settings.spheres = word(m.spheres.size());
+  m.settings.moving_spheres = word(moving);
+  m.settings.capacity = word(capacity.contacts);
+  m.settings.slots = word(std::max(least_slots, slots_of(moving, capacity)));
+  m.settings.neighbour_slots = word(capacity.neighbours);
+  m.settings.iterations = word(static_cast<std::size_t>(settings.iterations));
+}
+
 }  // namespace
 
 Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& settings, const Capacity& capacity,
@@ -131,18 +145,9 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
   for (gpu::ThesisBody& body : m.bodies)
     if (body.inverse_inertia.w == 0.0f) body.range.x += word(moving);
 
+  set_settings(m, settings, capacity, dt, moving);
   m.settings.time_step = static_cast<float>(share * dt);
-  m.settings.bias = static_cast<float>(settings.bias / dt);
-  m.settings.slop = static_cast<float>(settings.slop);
-  m.settings.modified_normals = settings.modified_normals ? 1 : 0;
-  m.settings.bodies = word(m.bodies.size());
-  m.settings.spheres = word(m.spheres.size());
-  m.settings.moving_spheres = word(moving);
   m.settings.cells = word(cells);
-  m.settings.capacity = word(capacity.contacts);
-  m.settings.slots = word(std::max(least_slots, slots_of(moving, capacity)));
-  m.settings.neighbour_slots = word(capacity.neighbours);
-  m.settings.iterations = word(static_cast<std::size_t>(settings.iterations));
   m.needs.resize(worlds.size());
   return m;
 }
