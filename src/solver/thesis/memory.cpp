@@ -69,6 +69,20 @@ void lay_grid(const World& world, const ThesisSettings& settings, double horizon
   out.grid = {word(cells[0]), word(cells[1]), word(cells[2]), 0};
 }
 
+/// A world's grid from `first_cell` on, and its sheets; returns how many cells it has. dt: s, of a sub-step.
+std::size_t add_world(Memory& m, const World& world, const ThesisSettings& settings, double horizon, double dt,
+                      std::size_t first_cell) {
+  gpu::ThesisWorld out{};
+  const double rest = settings.rest_velocity > 0.0 ? settings.rest_velocity : 2.0 * world.gravity.norm() * dt;
+  out.gravity = vec4(world.gravity, rest);
+  lay_grid(world, settings, horizon, out);
+  out.grid.w = word(first_cell);
+  out.sheets = {word(m.sheets.size()), word(world.sheets.size()), 0, 0};
+  m.sheets.insert(m.sheets.end(), world.sheets.begin(), world.sheets.end());
+  m.worlds.push_back(out);
+  return std::size_t{out.grid.x} * out.grid.y * out.grid.z;
+}
+
 /// What a batch takes from the request and from how much there is. dt: s, of a sub-step.
 void set_settings(Memory& m, const ThesisSettings& settings, const Capacity& capacity, double dt, std::size_t moving) {
   m.settings.bias = static_cast<float>(settings.bias / dt);
@@ -94,15 +108,7 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
   std::size_t cells = 0;
   for (std::size_t w = 0; w < worlds.size(); ++w) {
     const World& world = *worlds[w];
-    gpu::ThesisWorld out{};
-    const double rest = settings.rest_velocity > 0.0 ? settings.rest_velocity : 2.0 * world.gravity.norm() * dt;
-    out.gravity = vec4(world.gravity, rest);
-    lay_grid(world, settings, horizon, out);
-    out.grid.w = word(cells);
-    cells += std::size_t{out.grid.x} * out.grid.y * out.grid.z;
-    out.sheets = {word(m.sheets.size()), word(world.sheets.size()), 0, 0};
-    m.sheets.insert(m.sheets.end(), world.sheets.begin(), world.sheets.end());
-    m.worlds.push_back(out);
+    cells += add_world(m, world, settings, horizon, dt, cells);
 
     std::vector<std::size_t> first_shape;
     const auto add_shape = [&](const std::vector<Sphere>& spheres) {
