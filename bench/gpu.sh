@@ -92,8 +92,8 @@ small=1 bench stability 30 --filter thesis_tables --rows table=stability
 # The thesis's 512 teapots, 600 steps stage by stage, then its other tables. Exit code 1: they are set apart, as they
 # overlap, which is that method's way.
 # shellcheck disable=SC2016  # the inner shell expands them
-step teapots 90 bash -c '"$@" || (( $? == 1 ))' - "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite \
-  --seconds 6 --set solver.thesis.iterations=5 --verbose ${small:+--set "parts[0].count=16"}
+step teapots 90 bash -c '"$@" || (( $? == 1 ))' - \
+  "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite --seconds 6 --set solver.thesis.iterations=5 --verbose ${small:+--set "parts[0].count=16"}
 for table in spheres_per_body static_spheres; do
   bench "$table" 40 --filter thesis_tables --rows "table=$table"
 done

@@ -64,6 +64,7 @@ Row measured(const Request& request, const std::vector<ScenePart>& heap, const C
 void run(Run& out) {
   const std::size_t parts = out.quick() ? 12 : 256;
   Request request = bin_of("conrod", parts);
+  request.bin.inner_size = Vec3(0.40, 0.30, 0.20);  // m, as in config/conrods.yaml
   choose_solver(request, "sphere");
   const std::string path = out.scratch() + "/heap.json";
   isolated([&] {

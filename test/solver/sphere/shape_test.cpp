@@ -69,6 +69,12 @@ TEST(Wall, OfABlockIsNoMoreThanItsThickness) {
   EXPECT_EQ(shape.wall, shape.thickness);
 }
 
+TEST(Wall, OfASheetIsNoMoreThanItsThickness) {
+  const PartModelPtr sheet = PartModel::from_mesh(box_mesh(Vec3(0.05, 0.04, 0.0006)), "sheet");
+  const sphere::Shape shape = sphere::make_shape(*sheet, 50, 200, 0.02);
+  EXPECT_EQ(shape.wall, shape.thickness);
+}
+
 TEST(ShapeFromTheCache, IsTheOneThatWasMade) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("bin_scenes_shape_" + std::to_string(getpid()));
