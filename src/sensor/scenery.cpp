@@ -228,18 +228,10 @@ Vec3 Scenery::smooth_normal(const Hit& hit, const Vec3& point) const {
   const bool of_floor = state_->bodies.empty() || hit.body == State::of_the_floor;
   if (of_floor) return hit.normal;
   const State::Body& body = state_->bodies[hit.body];
-  const CornerNormals& corners = body.tree->corners()[hit.triangle];
-  if (corners.even) return hit.normal;
-  const Mesh& mesh = body.tree->mesh();
-  const Triangle& t = mesh.triangles[hit.triangle];
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const SmoothNormals& smooth = body.tree->smooth_normals()[hit.triangle];
+  if (smooth.even) return hit.normal;
   const Vec3 here = body.turn.transpose() * (point - body.pose.position);
-  const Vec3 twice = (b - a).cross(c - a);
-  const double all = twice.squaredNorm();
-  if (!(all > 0.0)) return hit.normal;
-  const double of_b = twice.dot((here - a).cross(c - a)) / all, of_c = twice.dot((b - a).cross(here - a)) / all;
-  const Vec3 smooth = (1.0 - of_b - of_c) * corners.normals[0] + of_b * corners.normals[1] + of_c * corners.normals[2];
-  const Vec3 normal = (body.turn * smooth).normalized();
+  const Vec3 normal = (body.turn * smooth.at(here)).normalized();
   return normal.dot(hit.normal) < 0.0 ? Vec3(-normal) : normal;
 }
 

@@ -26,7 +26,21 @@ void commit(RTCScene scene) {
 
 namespace {
 
-std::vector<CornerNormals> smooth_corners(const Mesh& mesh) {
+/// @param normals  at the corners
+SmoothNormals between(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<Vec3, 3>& normals) {
+  const Vec3 ab = b - a, ac = c - a, twice = ab.cross(ac);
+  const double all = twice.squaredNorm();
+  if (!(all > 0.0)) return {};
+  // Shares of b and c at a point grow along the plane across the edge on the other side.
+  const Vec3 of_b = ac.cross(twice) / all, of_c = twice.cross(ab) / all;
+  SmoothNormals smooth;
+  smooth.slope = (normals[1] - normals[0]) * of_b.transpose() + (normals[2] - normals[0]) * of_c.transpose();
+  smooth.at_origin = normals[0] - smooth.slope * a;
+  smooth.even = false;
+  return smooth;
+}
+
+std::vector<SmoothNormals> smooth_normals_of(const Mesh& mesh) {
   const double in_line = std::cos(35.0 * M_PI / 180.0);
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   std::vector<Vec3> areas;
@@ -34,18 +48,23 @@ std::vector<CornerNormals> smooth_corners(const Mesh& mesh) {
     for (const std::uint32_t vertex : mesh.triangles[t]) around[vertex].push_back(t);
     areas.push_back(mesh.area_vector(t));
   }
-  std::vector<CornerNormals> corners(mesh.triangles.size());
-  for (std::size_t t = 0; t < corners.size(); ++t) {
+  std::vector<SmoothNormals> smooth(mesh.triangles.size());
+  for (std::size_t t = 0; t < smooth.size(); ++t) {
     const Vec3 own = areas[t].normalized();
+    const Triangle& corners = mesh.triangles[t];
+    std::array<Vec3, 3> normals;
+    bool even = true;
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t other : around[mesh.triangles[t][k]])
+      for (const std::uint32_t other : around[corners[k]])
         if (areas[other].dot(own) >= in_line * areas[other].norm()) sum += areas[other];
-      corners[t].normals[k] = sum.norm() > 0.0 ? Vec3(sum.normalized()) : own;
-      corners[t].even = corners[t].even && corners[t].normals[k].dot(own) > 1.0 - 1e-9;
+      normals[k] = sum.norm() > 0.0 ? Vec3(sum.normalized()) : own;
+      even = even && normals[k].dot(own) > 1.0 - 1e-9;
     }
+    if (!even)
+      smooth[t] = between(mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]], normals);
   }
-  return corners;
+  return smooth;
 }
 
 }  // namespace
@@ -81,9 +100,9 @@ MeshTree::MeshTree(PartModelPtr model, Mesh alone) : owner(std::move(model)), ow
   commit(embree);
 }
 
-const std::vector<CornerNormals>& MeshTree::corners() const {
-  std::call_once(once_, [this] { corners_ = smooth_corners(mesh()); });
-  return corners_;
+const std::vector<SmoothNormals>& MeshTree::smooth_normals() const {
+  std::call_once(once_, [this] { smooth_ = smooth_normals_of(mesh()); });
+  return smooth_;
 }
 
 }  // namespace bin_scenes

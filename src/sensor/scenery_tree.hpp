@@ -21,10 +21,13 @@ RTCDevice embree_device();
 /// between two that are hit at the same place.
 void commit(RTCScene scene);
 
-/// At each corner the mean, by area, of the normals of those faces around it that are nearly in line with its own.
-struct CornerNormals {
-  std::array<Vec3, 3> normals;
-  bool even = true;  ///< all three are the face's own
+/// Normals of a triangle that stands for a bent surface: even between those of its corners, each of which is the mean,
+/// by area, of the faces around it that are nearly in line with its own. All in the mesh's frame.
+struct SmoothNormals {
+  Vec3 at_origin = Vec3::Zero();
+  Mat3 slope = Mat3::Zero();  ///< 1/m
+  bool even = true;           ///< everywhere the face's own
+  Vec3 at(const Vec3& point) const { return at_origin + slope * point; }
 };
 
 /// A mesh and its search tree.
@@ -35,8 +38,8 @@ struct MeshTree {
   std::vector<Scenery::Plane> planes;  // of each triangle
   std::vector<char> outermost;         // whether no corner of the mesh lies before it
   bool closed = false;
-  /// Smooth normals of the corners of each triangle; made when they are asked for first.
-  const std::vector<CornerNormals>& corners() const;
+  /// Of each triangle; made when they are asked for first.
+  const std::vector<SmoothNormals>& smooth_normals() const;
 
   const Mesh& mesh() const { return owner ? owner->mesh() : own; }
 
@@ -47,7 +50,7 @@ struct MeshTree {
 
  private:
   mutable std::once_flag once_;
-  mutable std::vector<CornerNormals> corners_;
+  mutable std::vector<SmoothNormals> smooth_;
 };
 using MeshTreePtr = std::shared_ptr<const MeshTree>;
 

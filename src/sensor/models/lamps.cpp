@@ -1,6 +1,7 @@
 #include "sensor/models/lamps.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"
+#include "sensor/models/unit_circle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +54,8 @@ void Lamps::sample_flat(const Flat& flat, double share, const Vec3& from, double
   Vec3 point = flat.middle;
   if (flat.ring) {
     const double inner = flat.width * flat.width, outer = flat.height * flat.height;
-    const double radius = std::sqrt(inner + u * (outer - inner)), turn = 2.0 * M_PI * v;
-    point += radius * std::cos(turn) * flat.x + radius * std::sin(turn) * flat.y;
+    const Eigen::Vector2d disc = std::sqrt(inner + u * (outer - inner)) * on_unit_circle(v);
+    point += disc.x() * flat.x + disc.y() * flat.y;
   } else {
     point += (u - 0.5) * flat.width * flat.x + (v - 0.5) * flat.height * flat.y;
   }
@@ -95,20 +96,32 @@ void Lamps::sample_one(std::size_t lamp, double share, const Vec3& from, double 
   if (out.density > 0.0) out.light = sky.at(out.direction) / out.density;
 }
 
+double Lamps::distance_to(const Flat& flat, const Vec3& origin, const Vec3& direction) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const double cosine = -flat.normal.dot(direction);
+  if (!(cosine > 0.0)) return none;
+  const double distance = flat.normal.dot(origin - flat.middle) / cosine;
+  if (!(distance > 0.0)) return none;
+  const Vec3 place = origin + distance * direction - flat.middle;
+  const double x = place.dot(flat.x), y = place.dot(flat.y), square = x * x + y * y;
+  const bool inside = flat.ring ? square >= flat.width * flat.width && square <= flat.height * flat.height
+                                : std::abs(x) <= 0.5 * flat.width && std::abs(y) <= 0.5 * flat.height;
+  return inside ? distance : none;
+}
+
+bool Lamps::flat_ahead(const Vec3& origin, const Vec3& direction, Met weight) const {
+  return weight != Met::unsampled && std::any_of(flats_.begin(), flats_.end(), [&](const Flat& flat) {
+           return !std::isnan(distance_to(flat, origin, direction));
+         });
+}
+
 Rgb Lamps::met(const Vec3& origin, const Vec3& direction, double reach, Met weight, double density) const {
   Rgb sum = Rgb::Zero();
   for (std::size_t i = 0; weight != Met::unsampled && i < flats_.size(); ++i) {
     const Flat& flat = flats_[i];
-    const double cosine = -flat.normal.dot(direction);
-    if (!(cosine > 0.0)) continue;
-    const double distance = flat.normal.dot(origin - flat.middle) / cosine;
-    if (!(distance > 0.0 && distance < reach)) continue;
-    const Vec3 place = origin + distance * direction - flat.middle;
-    const double x = place.dot(flat.x), y = place.dot(flat.y), square = x * x + y * y;
-    const bool inside = flat.ring ? square >= flat.width * flat.width && square <= flat.height * flat.height
-                                  : std::abs(x) <= 0.5 * flat.width && std::abs(y) <= 0.5 * flat.height;
-    if (!inside) continue;
-    const double drawn = shares_[i] * distance * distance / (flat.area * cosine);
+    const double distance = distance_to(flat, origin, direction);
+    if (!(distance < reach)) continue;
+    const double drawn = shares_[i] * distance * distance / (flat.area * -flat.normal.dot(direction));
     sum += (weight == Met::all ? 1.0 : density / (density + drawn)) * flat.radiance;
   }
   if (!std::isinf(reach)) return sum;

@@ -42,7 +42,12 @@ class Lamps {
   Rgb met(const Vec3& origin, const Vec3& direction, double reach, Met weight, double density) const;
 
   bool any_sampled() const { return !shares_.empty(); }
-  bool any_dome() const { return !domes_.empty(); }
+  /// Whether met() counts anything with that weight.
+  bool any_met(Met weight) const { return any_behind_all(weight) || (weight != Met::unsampled && !flats_.empty()); }
+  /// The same of lamps that lie behind all surfaces.
+  bool any_behind_all(Met weight) const { return !domes_.empty() || (weight != Met::unsampled && !skies_.empty()); }
+  /// The same of lamps that have a place: whether a ray runs into one, whatever lies between.
+  bool flat_ahead(const Vec3& origin, const Vec3& direction, Met weight) const;
   /// Radiance of a white matte plate that nothing shades.
   Rgb on_plate(const Vec3& point, const Vec3& normal) const;
 
@@ -63,6 +68,8 @@ class Lamps {
     Pose pose;
     Rgb radiance;
   };
+  /// m along a ray of unit direction to where it meets the lamp's front; NaN: it does not.
+  static double distance_to(const Flat& flat, const Vec3& origin, const Vec3& direction);
   /// With the share of samples that choose it.
   void sample_one(std::size_t lamp, double share, const Vec3& from, double u, double v, Sample& out) const;
   void sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const;

@@ -1,6 +1,7 @@
 #include "sensor/models/lobe.hpp"
 
 #include "sensor/models/illumination.hpp"
+#include "sensor/models/unit_circle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +37,8 @@ Lobe::Lobe(const Surface& surface, const Vec3& normal, const Vec3& to_eye)
 }
 
 Vec3 Lobe::matte(double u, double v) const {
-  const double radius = std::sqrt(u), turn = 2.0 * M_PI * v;
-  return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(std::max(0.0, 1.0 - u))};
+  const Eigen::Vector2d disc = std::sqrt(u) * on_unit_circle(v);
+  return {disc.x(), disc.y(), std::sqrt(std::max(0.0, 1.0 - u))};
 }
 
 /// By a facet that the eye sees (Heitz 2018, "Sampling the GGX distribution of visible normals").
@@ -47,9 +48,10 @@ Vec3 Lobe::mirrored(double u, double v) const {
   const Vec3 along =
       stretched.z() < 0.9999 ? Vec3(Vec3::UnitZ().cross(stretched).normalized()) : Vec3(frame_about(stretched).col(0));
   const Vec3 up = stretched.cross(along);
-  const double radius = std::sqrt(u), turn = 2.0 * M_PI * v, x = radius * std::cos(turn);
+  const Eigen::Vector2d disc = std::sqrt(u) * on_unit_circle(v);
+  const double x = disc.x();
   const double s = 0.5 * (1.0 + stretched.z());
-  const double y = (1.0 - s) * std::sqrt(std::max(0.0, 1.0 - x * x)) + s * radius * std::sin(turn);
+  const double y = (1.0 - s) * std::sqrt(std::max(0.0, 1.0 - x * x)) + s * disc.y();
   const Vec3 seen = x * along + y * up + std::sqrt(std::max(0.0, 1.0 - x * x - y * y)) * stretched;
   const Vec3 facet = Vec3(widths_.along * seen.x(), widths_.across * seen.y(), std::max(1e-9, seen.z())).normalized();
   return 2.0 * eye_.dot(facet) * facet - eye_;
@@ -58,9 +60,10 @@ Vec3 Lobe::mirrored(double u, double v) const {
 double Lobe::density(const Vec3& local) const {
   const double matte = local.z() / M_PI;
   if (share_ <= 0.0) return matte;
-  const Vec3 half = (local + eye_).normalized();
+  const Vec3 half = local + eye_;  // not unit: bend is times its square
   const double bend = Vec3(half.x() / widths_.along, half.y() / widths_.across, half.z()).squaredNorm();
-  const double facets = 1.0 / (M_PI * widths_.along * widths_.across * bend * bend), c = eye_.z();
+  const double square = half.squaredNorm(), c = eye_.z();
+  const double facets = square * square / (M_PI * widths_.along * widths_.across * bend * bend);
   const double slant = Vec3(widths_.along * eye_.x(), widths_.across * eye_.y(), c).norm();
   const double seen = 2.0 * c / (c + slant);
   return (1.0 - share_) * matte + share_ * seen * facets / (4.0 * c);

@@ -1,4 +1,5 @@
-/// All paths of a few pixels go from surface to surface together: Embree takes rays in eights.
+/// What a row's paths see first is drawn. From there all paths of a few pixels go from surface to surface together:
+/// Embree takes rays in eights.
 #include "sensor/models/path_tracer.hpp"
 
 #include <algorithm>
@@ -47,9 +48,18 @@ Surfaces softened(Surfaces surfaces) {
 
 }  // namespace
 
+/// A row of pixels, and what all their paths see first.
+struct PathTracer::Row {
+  std::size_t index = 0;
+  std::vector<std::array<Scramble, all_pairs>> scrambles;  // by pixel
+  std::vector<Spot> spots;                                 // by pixel and sample
+  bool drawn = false;
+};
+
 struct PathTracer::Block {
+  const Row* row = nullptr;
+  std::size_t first = 0;      // pixel of the row
   std::vector<Rgb> radiance;  // by pixel
-  std::vector<std::array<Scramble, all_pairs>> scrambles;
   std::vector<Vertex> vertices, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
@@ -61,11 +71,12 @@ struct PathTracer::Block {
   std::vector<Asked> asked;
   struct Followed {
     const Vertex* from;
-    bool mirrors;
+    bool mirrors, onward;
     Lobe::Sample sample;
     Rgb weight;
   };
-  std::vector<Followed> followed;
+  std::vector<Followed> followed, outward;  // outward: only whether something lies there has to be known
+  std::vector<Ray> outward_rays;
 };
 
 PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces,
@@ -74,7 +85,6 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       lens_(lens),
       pose_(pose),
       turn_(pose.orientation.toRotationMatrix()),
-      rays_(lens),
       surfaces_(surfaces),
       soft_(softened(surfaces)),
       lamps_(lamps),
@@ -82,16 +92,21 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       key_(key),
       follow_(static_cast<std::uint32_t>(std::max(setup.samples / 2, 1))),
       onward_(static_cast<std::uint32_t>(std::max(setup.samples / 4, 1))),
+      ask_from_(static_cast<std::uint32_t>(setup.samples) - follow_),
+      spots_(scenery, lens, pose, setup.near, setup.far),
       net_(sobol(setup.samples)) {}
 
-std::vector<Rgb> PathTracer::row(std::size_t row) const {
+std::vector<Rgb> PathTracer::row(std::size_t index) const {
   const auto width = static_cast<std::size_t>(lens_.width);
-  thread_local Block block;  // keeps its memory
+  thread_local Row row;  // both keep their memory
+  thread_local Block block;
+  begin(row, index);
+  see(row);
   std::vector<Rgb> radiance;
   radiance.reserve(width);
   for (std::size_t first = 0; first < width; first += block_pixels) {
-    start(block, row, first, std::min(block_pixels, width - first));
-    trace_first(block, row, first);
+    begin(block, row, first, std::min(block_pixels, width - first));
+    add_seen(block);
     for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) {
       ask_lamps(block, bounce);
       follow_lobes(block, bounce);
@@ -101,12 +116,12 @@ std::vector<Rgb> PathTracer::row(std::size_t row) const {
   return radiance;
 }
 
-void PathTracer::start(Block& block, std::size_t row, std::size_t first, std::size_t count) const {
-  block.radiance.assign(count, Rgb::Zero());
-  block.scrambles.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    Random random = key_.of_piece(row * static_cast<std::size_t>(lens_.width) + first + i);
-    for (Scramble& scramble : block.scrambles[i]) {
+void PathTracer::begin(Row& row, std::size_t index) const {
+  row.index = index;
+  row.scrambles.resize(static_cast<std::size_t>(lens_.width));
+  for (std::size_t i = 0; i < row.scrambles.size(); ++i) {
+    Random random = key_.of_piece(index * row.scrambles.size() + i);
+    for (Scramble& scramble : row.scrambles[i]) {
       const std::uint64_t both = random.next();
       scramble.x = static_cast<std::uint32_t>(both), scramble.y = static_cast<std::uint32_t>(both >> 32);
       scramble.order = static_cast<std::uint32_t>(random.below(static_cast<std::uint64_t>(setup_.samples)));
@@ -115,34 +130,61 @@ void PathTracer::start(Block& block, std::size_t row, std::size_t first, std::si
 }
 
 /// The points of a pixel in an order of its own: the same net, and so are its first quarter and any other.
-Eigen::Vector2d PathTracer::drawn(const Block& block, std::uint32_t pixel, int pair, std::uint32_t sample) const {
-  const Scramble& scramble = block.scrambles[pixel][static_cast<std::size_t>(pair)];
+Eigen::Vector2d PathTracer::drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const {
+  const Scramble& scramble = row.scrambles[column][static_cast<std::size_t>(pair)];
   const auto& point = net_[sample ^ scramble.order];
   return {(point[0] ^ scramble.x) * 0x1p-32, (point[1] ^ scramble.y) * 0x1p-32};
 }
 
-void PathTracer::trace_first(Block& block, std::size_t row, std::size_t first) const {
-  const auto samples = static_cast<std::uint32_t>(setup_.samples);
-  const bool plain = !lens_.distorts() && lens_.skew == 0.0;
-  const auto count = static_cast<std::uint32_t>(block.radiance.size());
-  block.rays.clear();
-  for (std::uint32_t pixel = 0; pixel < count; ++pixel) {
-    for (std::uint32_t s = 0; s < samples; ++s) {
-      Eigen::Vector2d at = drawn(block, pixel, place, s) - Eigen::Vector2d(0.5, 0.5);
+Eigen::Vector2d PathTracer::drawn(const Block& block, const Vertex& vertex, int pair) const {
+  return drawn(*block.row, block.first + vertex.pixel, pair, vertex.sample);
+}
+
+void PathTracer::see(Row& row) const {
+  row.spots.clear();
+  for (std::size_t column = 0; column < row.scrambles.size(); ++column) {
+    for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(setup_.samples); ++s) {
+      Eigen::Vector2d at = drawn(row, column, place, s) - Eigen::Vector2d(0.5, 0.5);
       if (setup_.blur > 0.0) {
-        const Eigen::Vector2d normal = drawn(block, pixel, blurred, s);
+        const Eigen::Vector2d normal = drawn(row, column, blurred, s);
         const double radius = setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())),
                      turn = 2.0 * M_PI * normal.y();
         at += Eigen::Vector2d(radius * std::cos(turn), radius * std::sin(turn));
       }
-      const std::size_t column = first + pixel;
-      const Vec3 ray = plain ? Vec3(rays_.at(column, row) + Vec3(at.x() / lens_.fx, at.y() / lens_.fy, 0.0))
-                             : lens_.ray(static_cast<double>(column) + at.x(), static_cast<double>(row) + at.y());
-      block.rays.push_back({pose_.position, turn_ * ray, setup_.near, setup_.far});
+      Spot spot;
+      spot.u = static_cast<double>(column) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
+      spot.near = 1.0 / setup_.far;
+      row.spots.push_back(spot);
     }
   }
-  block.hits.resize(block.rays.size());
-  scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size());
+  row.drawn = spots_.draw(row.spots.data(), row.spots.size());
+}
+
+/// Rays to what is seen first, and what they hit.
+void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::size_t count) const {
+  const auto samples = static_cast<std::size_t>(setup_.samples);
+  const bool plain = !lens_.distorts() && lens_.skew == 0.0;
+  block.row = &row;
+  block.first = first;
+  block.radiance.assign(count, Rgb::Zero());
+  block.rays.clear();
+  block.hits.resize(count * samples);
+  for (std::size_t i = 0; i < block.hits.size(); ++i) {
+    const Spot& spot = row.spots[first * samples + i];
+    const Vec3 ray =
+        plain ? Vec3((spot.u - lens_.cx) / lens_.fx, (spot.v - lens_.cy) / lens_.fy, 1.0) : lens_.ray(spot.u, spot.v);
+    block.rays.push_back({pose_.position, turn_ * ray, setup_.near, setup_.far});
+    if (!row.drawn) continue;
+    if (lens_.inside({spot.u, spot.v}))
+      block.hits[i] = scenery_.hit(block.rays[i], spot.face, 1.0 / spot.near);
+    else  // blur reaches beyond what is drawn
+      scenery_.first_hits(&block.rays[i], &block.hits[i], 1);
+  }
+  if (!row.drawn) scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size());
+}
+
+void PathTracer::add_seen(Block& block) const {
+  const auto samples = static_cast<std::uint32_t>(setup_.samples);
   block.vertices.clear();
   for (std::uint32_t i = 0; i < block.rays.size(); ++i) {
     const Ray& ray = block.rays[i];
@@ -177,10 +219,11 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
   block.rays.clear();
   block.asked.clear();
   const int pairs = first_surface + bounce * pairs_of_surface;
-  const double followed = static_cast<double>(follow_) / setup_.samples;
+  const double times = bounce == 0 ? static_cast<double>(setup_.samples) / (setup_.samples - ask_from_) : 1.0;
   for (const Vertex& v : block.vertices) {
-    const Eigen::Vector2d at = drawn(block, v.pixel, pairs + on_lamp, v.sample);
-    const double choice = drawn(block, v.pixel, pairs + which_lamp, v.sample).x();
+    if (!asks(v, bounce)) continue;
+    const Eigen::Vector2d at = drawn(block, v, pairs + on_lamp);
+    const double choice = drawn(block, v, pairs + which_lamp).x();
     const Lamps::Sample lamp = lamps_.sample(v.position, choice, at.x(), at.y());
     if (!(v.face.dot(lamp.direction) > 0.0 && (lamp.light > 0.0).any())) continue;
     Surface own;
@@ -190,8 +233,8 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
     double share = 1.0;
     if (lamp.density > 0.0 && setup_.by == Setup::By::lobe) continue;
     if (lamp.density > 0.0 && setup_.by == Setup::By::both && mirrors(surface, bounce))
-      share = lamp.density / (lamp.density + followed * Lobe(surface, v.normal, v.to_eye).density_of(lamp.direction));
-    const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (share / M_PI);
+      share = lamp.density / (lamp.density + Lobe(surface, v.normal, v.to_eye).density_of(lamp.direction));
+    const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (times * share / M_PI);
     block.asked.push_back({v.pixel, light});
     block.rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
   }
@@ -202,43 +245,62 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
     if (!block.blocked[i]) block.radiance[block.asked[i].pixel] += block.asked[i].light;
 }
 
+/// Of lamps that a ray meets which left along a lobe.
+Lamps::Met PathTracer::weight_of(bool mirrors) const {
+  if (setup_.by == Setup::By::lobe) return Lamps::Met::all;
+  return mirrors && setup_.by == Setup::By::both ? Lamps::Met::shared : Lamps::Met::unsampled;
+}
+
 void PathTracer::follow_lobes(Block& block, int bounce) const {
   const bool more = bounce < setup_.bounces;
   const int pair = first_surface + bounce * pairs_of_surface + along_lobe;
-  block.rays.clear();
-  block.followed.clear();
+  const double times = bounce == 0 ? static_cast<double>(setup_.samples) / follow_ : 1.0;
+  block.rays.clear(), block.followed.clear();
+  block.outward_rays.clear(), block.outward.clear();
   for (const Vertex& v : block.vertices) {
-    if (v.sample >= follow_) continue;
+    if (!follows(v, bounce)) continue;
+    const bool onward = more && v.sample < onward_;
     Surface own;
     const Surface& surface = surface_of(v, bounce, own);
-    const bool finds_lamps = lamps_.any_dome() || mirrors(surface, bounce) || setup_.by == Setup::By::lobe;
-    if (!finds_lamps && !(more && v.sample < onward_)) continue;
-    const Eigen::Vector2d at = drawn(block, v.pixel, pair, v.sample);
+    const bool mirrors = this->mirrors(surface, bounce);
+    const Lamps::Met weight = weight_of(mirrors);
+    if (!onward && !lamps_.any_met(weight)) continue;
+    const Eigen::Vector2d at = drawn(block, v, pair);
     const Lobe::Sample sample = Lobe(surface, v.normal, v.to_eye).at(at.x(), at.y());
     if (!(sample.factor > 0.0 && v.face.dot(sample.direction) > 0.0)) continue;
-    const double times = bounce == 0 ? static_cast<double>(setup_.samples) / follow_ : 1.0;
-    const Rgb weight = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
-    block.followed.push_back({&v, mirrors(surface, bounce), sample, weight});
-    block.rays.push_back({ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9});
+    const Ray ray = {ray_between(v.position, v.face, v.position).origin, sample.direction, 0.0, 1e9};
+    const bool lamp_ahead = lamps_.flat_ahead(ray.origin, ray.direction, weight);
+    if (!onward && !lamp_ahead && !lamps_.any_behind_all(weight)) continue;
+    const Rgb path = times * v.weight * in_colour(surface, sample.matte, sample.factor - sample.matte);
+    const bool hits = onward || lamp_ahead;
+    (hits ? block.followed : block.outward).push_back({&v, mirrors, onward, sample, path});
+    (hits ? block.rays : block.outward_rays).push_back(ray);
   }
-  block.hits.resize(block.rays.size());
+  find_ends(block, bounce == 0 ? static_cast<double>(follow_) / onward_ : 1.0);
+}
+
+/// Where paths end that follow lobes: the lamps that they meet there, and the surfaces from which they go on.
+/// @param times  how much more those count that go on
+void PathTracer::find_ends(Block& block, double times) const {
+  const auto add = [&](const Block::Followed& path, const Ray& ray, double reach) {
+    block.radiance[path.from->pixel] +=
+        path.weight * lamps_.met(ray.origin, ray.direction, reach, weight_of(path.mirrors), path.sample.density);
+  };
+  block.blocked.resize(block.outward.size());
+  scenery_.blocked(block.outward_rays.data(), block.blocked.data(), block.outward.size(), Scenery::Rays::scattered);
+  for (std::size_t i = 0; i < block.outward.size(); ++i)
+    if (!block.blocked[i]) add(block.outward[i], block.outward_rays[i], infinite);
+  block.hits.resize(block.followed.size());
   scenery_.first_hits(block.rays.data(), block.hits.data(), block.rays.size(), Scenery::Rays::scattered);
   block.next.clear();
   for (std::size_t i = 0; i < block.followed.size(); ++i) {
     const Block::Followed& path = block.followed[i];
-    const Vertex& v = *path.from;
-    Lamps::Met weight = path.mirrors ? Lamps::Met::shared : Lamps::Met::unsampled;
-    if (setup_.by == Setup::By::lamps) weight = Lamps::Met::unsampled;
-    if (setup_.by == Setup::By::lobe) weight = Lamps::Met::all;
-    const double reach = std::isnan(block.hits[i].distance) ? infinite : block.hits[i].distance;
-    const double density = path.sample.density * follow_ / setup_.samples;  // beside one point on a lamp a path
-    block.radiance[v.pixel] +=
-        path.weight * lamps_.met(block.rays[i].origin, path.sample.direction, reach, weight, density);
-    if (!more || v.sample >= onward_) continue;
-    Vertex vertex = v;
+    const double reach = block.hits[i].distance;
+    add(path, block.rays[i], std::isnan(reach) ? infinite : reach);
+    if (!path.onward) continue;
+    Vertex vertex = *path.from;
     vertex.to_eye = -path.sample.direction;
-    vertex.weight = path.weight;
-    if (bounce == 0) vertex.weight *= static_cast<double>(follow_) / onward_;
+    vertex.weight = times * path.weight;
     add_vertex(block.next, block.rays[i], block.hits[i], vertex);
   }
   std::swap(block.vertices, block.next);

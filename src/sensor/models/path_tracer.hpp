@@ -8,15 +8,16 @@
 /// light transport").
 ///
 /// Points that are drawn fill their squares evenly (Sobol's, each digit flipped by a key of the pixel), so that images
-/// depend on seed, scene, sensor and pixel alone. Half of a pixel's paths follow the lobe of what it sees, and half of
-/// those go on to further surfaces; they count two and four times. Light from there varies slowly.
+/// depend on seed, scene, sensor and pixel alone. At what a pixel sees, half of its paths draw a point on a lamp and
+/// the others follow the lobe; half of these go on to further surfaces, where each does both. What they find counts two
+/// and four times: light from there varies slowly.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/lamps.hpp"
 #include "sensor/models/lobe.hpp"
-#include "sensor/pixel_rays.hpp"
+#include "sensor/spots.hpp"
 
 #include <array>
 #include <cstdint>
@@ -51,28 +52,37 @@ class PathTracer {
   struct Scramble {
     std::uint32_t order, x, y;
   };
+  struct Row;
   struct Block;
 
   const Surface& surface_of(const Vertex& vertex, int bounce, Surface& own) const;
   bool mirrors(const Surface& surface, int bounce) const { return bounce == 0 && surface.gloss > 0.0; }
-  Eigen::Vector2d drawn(const Block& block, std::uint32_t pixel, int pair, std::uint32_t sample) const;
-  void start(Block& block, std::size_t row, std::size_t first, std::size_t count) const;
-  void trace_first(Block& block, std::size_t row, std::size_t first) const;
+  bool asks(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample >= ask_from_; }
+  bool follows(const Vertex& vertex, int bounce) const { return bounce > 0 || vertex.sample < follow_; }
+  Eigen::Vector2d drawn(const Row& row, std::size_t column, int pair, std::uint32_t sample) const;
+  Eigen::Vector2d drawn(const Block& block, const Vertex& vertex, int pair) const;
+  void begin(Row& row, std::size_t index) const;
+  void see(Row& row) const;
+  void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
+  void add_seen(Block& block) const;
   void ask_lamps(Block& block, int bounce) const;
   void follow_lobes(Block& block, int bounce) const;
+  void find_ends(Block& block, double times) const;
+  Lamps::Met weight_of(bool mirrors) const;
   void add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const;
 
   const Scenery& scenery_;
   Lens lens_;
   Pose pose_;
   Mat3 turn_;
-  PixelRays rays_;
   const Surfaces& surfaces_;
   Surfaces soft_;  ///< those of surfaces that are not seen themselves
   const Lamps& lamps_;
   Setup setup_;
   Random key_;
-  std::uint32_t follow_, onward_;  ///< so many paths of a pixel follow the lobe of what it sees, and go on
+  /// Of a pixel's paths so many follow the lobe of what it sees, and go on; from that number on they ask lamps there.
+  std::uint32_t follow_, onward_, ask_from_;
+  SpotDrawing spots_;
   std::vector<std::array<std::uint32_t, 2>> net_;  ///< points of the unit square, times 2^32
 };
 

@@ -3,6 +3,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "sensor/models/image_stage.hpp"
+#include "sensor/models/unit_circle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -136,6 +137,39 @@ TEST(Image, WaysToFindLampsAgree) {
         EXPECT_LT(error, 0.05 * mean);  // or it could not fail
       }
     }
+  }
+}
+
+/// A lens that distorts by nothing to speak of has its first hits by rays.
+TEST(Image, WhatIsDrawnIsWhatRaysMeet) {
+  Targets targets = plate({0.7, 0.3, 0.3}, 0.5);
+  targets.add(ball_target(0.1, 3), {Vec3(0.02, 0.03, 0.9), Quat::Identity()}, {0.9, 0.0, 0.4});
+  targets.add(box_target({0.1, 0.1, 0.2}), {Vec3(-0.12, -0.1, 0.9), Quat(0.9, 0.3, 0.2, 0.1).normalized()});
+  const Sensor sensor = camera({dome(0.5), flat(ImageLamp::Type::ring, Vec3::Zero())}, 64, 48, 0.4);
+  const Scenery scenery = targets.scenery();
+  const Lamps lamps(sensor);
+  Lens drawn = lens_of(sensor), cast = drawn;
+  cast.distortion[0] = 1e-13;
+  for (const double blur : {0.0, 0.8}) {
+    PathTracer::Setup setup;
+    setup.blur = blur;
+    const auto tracer = [&](const Lens& lens) {
+      return PathTracer(scenery, lens, *sensor.pose, targets.surfaces(), lamps, setup, Random(5, 0, Stream::sensor));
+    };
+    const PathTracer a = tracer(drawn), b = tracer(cast);
+    for (std::size_t row = 0; row < 48; ++row) {
+      const std::vector<Rgb> x = a.row(row), y = b.row(row);
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i][0], y[i][0], 1e-7 * y[i][0]) << row << " " << i;
+    }
+  }
+}
+
+TEST(Image, PointsOfTheUnitCircle) {
+  for (int i = 0; i <= 100000; ++i) {
+    const double share = i * 1e-5;
+    const Eigen::Vector2d at = on_unit_circle(share);
+    ASSERT_NEAR(at.x(), std::cos(2.0 * M_PI * share), 1e-15) << share;
+    ASSERT_NEAR(at.y(), std::sin(2.0 * M_PI * share), 1e-15) << share;
   }
 }
 
