@@ -84,15 +84,6 @@ INLINE bool press(IN(View) view, IN(vec3) point, IN(WayOut) way, IN(Cone) cone, 
   return true;
 }
 
-INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
-  WayOut way;
-  way.away = away;
-  way.distance = distance;
-  way.number = 0u;
-  way.kind = kind;
-  return way;
-}
-
 // A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
 // presses along the normal of both edges, and two such nodes, one on each, would hold each other like a wedge.
 INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) away) {
@@ -240,12 +231,6 @@ INLINE bool node_may_touch(IN(View) view, float distance) {
   return distance < view.margin + sag_of(view.samples);
 }
 
-// What is to be offered: where a sample is, in the field's frame, and what the field is there.
-struct Touch {
-  vec3 point, gradient;
-  float distance;
-};
-
 // Slides the node to where it is deepest; returns whether it is to be offered.
 INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
   slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch.point, touch.gradient, touch.distance);
@@ -266,15 +251,14 @@ INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
 // offered.
 INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
-  bool lowest = descend(view.field, p.point, q.point, p.gradient, q.gradient, min(p.distance, q.distance), touch.point,
-                        touch.gradient, touch.distance);
+  bool lowest = descend(view.field, p, q, touch);
   for (int end = 0; end < 2; ++end) {
     if (!lowest) {
       touch = p;
       if (end == 1) touch = q;
       if (!may_cross(view, edge, touch.distance)) continue;
     }
-    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch.point, touch.gradient, touch.distance);
+    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch);
     if (!lowest && !crossed) continue;
     if (touch.distance >= view.margin) return false;
     bool presses = crossed && press(view, touch.point, way_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,
