@@ -20,10 +20,10 @@ INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float dist
   float least = 0.25f * field.cell, t = 0.0f, before = distance;
   bool inside = distance < 0.0f;
   while (t < reach) {
-    float way = max(abs(before), least);
-    t += way;
+    float stride = max(abs(before), least);
+    t += stride;
     float now = sample_field(field, point + t * along);
-    if (now >= 0.0f && inside) return t - way * now / (now - before);
+    if (now >= 0.0f && inside) return t - stride * now / (now - before);
     inside = inside || now < 0.0f;
     before = now;
   }
@@ -160,15 +160,15 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
 INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) cone, uint feature) {
   bool deep = distance < -2.0f * view.field.cell;
   vec3 back = -(view.to_field.rotation * middle_of(cone)), away;
-  float way = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
-  if (way < 0.0f) return;
+  float behind = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
+  if (behind < 0.0f) return;
   if (deep) {
-    float ahead = way_out(view.field, point, -back, distance, way);
-    if (ahead >= 0.0f && ahead < way) return;
+    float ahead = way_out(view.field, point, -back, distance, behind);
+    if (ahead >= 0.0f && ahead < behind) return;
   }
-  sample_field(view.field, point + way * back, away);
-  float behind = -way * dot(back, away);
-  if (behind <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, behind), cone, feature);
+  sample_field(view.field, point + behind * back, away);
+  float apart = -behind * dot(back, away);
+  if (apart <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, apart), cone, feature);
 }
 
 // The nearest of the ways out that are exact, where there are such, or that of the field.
@@ -191,8 +191,8 @@ INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, floa
 INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
-  vec3 way = view.drift + cross(view.twist, point), place = point, gradient = away;
-  float size = length(way), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
+  vec3 drift = view.drift + cross(view.twist, point), place = point, gradient = away;
+  float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
   float apart = distance;
   bool advances = abs(distance) <= error || (distance > 0.0f && distance - error < size);
   Walls walls;
@@ -206,15 +206,15 @@ INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance,
     if (!advances) break;
     WayOut near = nearest_way(walls, ways, gradient, apart);
     bool meets = near.distance <= 0.0f;
-    if (i == 0 && (meets || near.distance + dot(near.away, way) >= 0.0f)) break;
+    if (i == 0 && (meets || near.distance + dot(near.away, drift) >= 0.0f)) break;
     if (!meets && done >= size) {
       if (apart >= view.margin) return;
-      view.ahead = way;
+      view.ahead = drift;
       break;
     }
     advances = !meets && i + 2 < most_advances;
     done = advances ? min(done + max(near.distance, least), size) : 0.0f;
-    place = point + (done > 0.0f ? done / size : 0.0f) * way;
+    place = point + (done > 0.0f ? done / size : 0.0f) * drift;
     apart = sample_field(view.field, place, gradient);
   }
   bool creased = walls.count > 0u;
@@ -237,7 +237,7 @@ INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
   return touch.distance < view.margin;
 }
 
-// By the distances of its ends: it falls by no more than the way.
+// By the distances of its ends: it falls by no more than its length.
 INLINE bool edge_may_touch(IN(View) view, IN(Edge) edge, float distance_p, float distance_q) {
   return 0.5f * (distance_p + distance_q - length_of(edge)) < view.margin;
 }

@@ -362,9 +362,9 @@ void position(Memory& m) {
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
     gpu::ThesisState& state = m.states[b];
-    V way = dt * v(state.velocity);
-    if (m.neighbour_counts[b] == 0) way -= 0.5f * dt * dt * v(world_of(m, static_cast<gpu::uint>(b)).gravity);
-    state.position = pack(v(state.position) + way);
+    V displacement = dt * v(state.velocity);
+    if (m.neighbour_counts[b] == 0) displacement -= 0.5f * dt * dt * v(world_of(m, static_cast<gpu::uint>(b)).gravity);
+    state.position = pack(v(state.position) + displacement);
 
     const V inverse = v(m.bodies[b].inverse_inertia);
     const Q old = q(state.orientation);

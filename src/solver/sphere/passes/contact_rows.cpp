@@ -170,7 +170,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
 BIN_SCENES_WIDE
 void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
                     std::vector<ContactRows>& rows) {
-  const Ways ways = ways_of(bundle, motions);
+  const Displacements moved = displacements_of(bundle, motions);
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     if (!bundle.refreshed[lane]) continue;
     const Manifold& m = world.manifolds[bundle.manifold[lane]];
@@ -192,7 +192,7 @@ void refresh_levers(const World& world, const std::vector<Motion>& motions, Bund
   const Velocities velocities = velocities_of(bundle, motions);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     set_masses(bundle, velocities.inverse_mass_a + velocities.inverse_mass_b, rows[i]);
-    rows[i].separation = bundle.refreshed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
+    rows[i].separation = bundle.refreshed ? rows[i].gap - moved.along(rows[i]) : rows[i].separation;
   }
 }
 
