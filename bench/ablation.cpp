@@ -116,9 +116,8 @@ Row key(const Mechanism& mechanism, const std::string& part) {
 
 Row scenes_row(Run& out, const Mechanism& mechanism, const std::string& part) {
   Request request = bin_of(part, out.quick() ? 8 : parts);
-  choose_solver(request, "sphere");
   request.drift_check = true;
-  warm_up(request);
+  warm_up(request, "sphere");
   Variant variant;
   mechanism.take_away(variant);
   const MakeSolver make = [&] { return make_sphere_solver(request.solver.sphere, variant); };

@@ -63,16 +63,16 @@ Row packing(const std::string& name, std::size_t count, double friction, std::ui
   const double width = 13.0 * d * std::cbrt(static_cast<double>(count) / 2000.0), away = 3.0 / 13.0 * width;
   Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
   request.pour.drop_height = 0.5 * d;
-  const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
-  const Scene scene = pour({request, parts}, *solver_of({request, parts}), {0}).front();
+  const LoadedRequest all{request, {testing::sphere(radius)}};
+  const Scene scene = pour(all, *solver_of(all), {0}).front();
   std::vector<Vec3> centers;
   std::vector<double> heights;
   for (const ScenePart& part : scene.parts) {
-    centers.push_back(part.pose * parts[0]->mass().center);
+    centers.push_back(part.pose * all.parts[0]->mass().center);
     heights.push_back(centers.back().z());
   }
   const double surface = quantile(heights, 0.98), side = 0.5 * width - away;
-  const double ball = std::cbrt(parts[0]->mass().volume * 0.75 / M_PI);  // of the same volume as the mesh
+  const double ball = std::cbrt(all.parts[0]->mass().volume * 0.75 / M_PI);  // of the same volume as the mesh
   return Row()
       .measure("value", filled(centers, ball, Vec3(-side, -side, away), Vec3(side, side, surface - away)))
       .exact("scenes", 1)
@@ -125,9 +125,9 @@ Row repose(const std::string& name, std::size_t count, double friction, std::uin
   const Clock clock;
   const double width = 28.0 * d;
   Request request = balls_in_box(name, count, Vec3(width, width, 0.6), friction, seed);
-  const std::vector<PartModelPtr> parts = {testing::sphere(radius)};
-  const std::unique_ptr<Solver> solver = solver_of({request, parts});
-  WorldDef def = world_of({request, parts});
+  const LoadedRequest all{request, {testing::sphere(radius)}};
+  const std::unique_ptr<Solver> solver = solver_of(all);
+  WorldDef def = world_of(all);
   std::vector<BodyState> starts(count);
   add_bed(def, width, friction, starts);
   const WorldId world = solver->add_world(def);
@@ -282,10 +282,8 @@ void simbenchmark(Run& out) {
 
 const Registration of_balls{
     "balls", "packing of equal balls and slope of their heaps", {"form", "friction", "solver", "time_step_s"}, balls};
-const Registration of_simbenchmark{"simbenchmark",
-                                   "SimBenchmark's cube of balls: overlap and CPU time",
-                                   {"scene", "solver", "time_step_s"},
-                                   simbenchmark};
+const Registration of_simbenchmark{
+    "simbenchmark", "SimBenchmark's cube: overlap and CPU time", {"scene", "solver", "time_step_s"}, simbenchmark};
 
 }  // namespace
 }  // namespace bin_scenes::bench

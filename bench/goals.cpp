@@ -105,8 +105,7 @@ void pile_row(Run& out, const Pile& pile, const std::string& solver, int seeds, 
   Request request = request_of(out, pile);
   const Row key = Row::keys("part", pile.part, "bodies", request.parts[0].count, "solver", solver, "sleeping", "yes");
   if (!out.wanted(key)) return;
-  choose_solver(request, "sphere");
-  warm_up(request);
+  warm_up(request, "sphere");
   choose_solver(request, solver);
   heap_row(out, key, request, Run::pieces(pile.part), seeds, {120.0, judged});
 }
@@ -133,8 +132,7 @@ void made_part_row(Run& out, const std::string& name, const Write& write, const 
   request.parts[0].model = "part.obj";
   request.parts[0].path = folder + "/part.obj";
   request.bin.inner_size = size;
-  choose_solver(request, "sphere");
-  warm_up(request);
+  warm_up(request, "sphere");
   heap_row(out, Row(key).exact("pieces", pieces), request, folder + "/pieces.obj", seeds, {limit_cpu_s, seeds});
 }
 
@@ -169,9 +167,8 @@ void finish_rows(Run& out, const Pile& bin) {
     const Row key =
         Row::keys("part", bin.part, "bodies", request.parts[0].count, "solver", solver, "finish", name_of(finish));
     if (!out.wanted(key)) continue;
-    choose_solver(request, solver);
     request.pour.finish = finish;
-    warm_up(request);
+    warm_up(request, solver);
     heap_row(out, key, request, Run::pieces(bin.part), bin.judged, {120.0, bin.judged});
   }
 }
@@ -182,10 +179,8 @@ void finish(Run& out) {
                        {"gear_spur", 3, 40, small_bin},
                        {"clip_spring", 3, 40, small_bin},
                        {"bolt_hex", 3, 40, small_bin}};
-  for (const Pile& bin : bins) {
-    finish_rows(out, bin);
-    if (out.quick()) return;
-  }
+  if (out.quick()) return finish_rows(out, bins[0]);
+  for (const Pile& bin : bins) finish_rows(out, bin);
 }
 
 /// Scene time, memory and the errors of the final scene.
@@ -198,28 +193,23 @@ void scenes(Run& out) {
         if (!out.wanted(key)) continue;
         const bool bullet = solver == "bullet", many = count > 256 || (count > 64 && bullet);
         Request request = bin_of(part, count);
-        choose_solver(request, solver);
-        warm_up(request);
+        warm_up(request, solver);
         const Judged how{out.quick() ? 20.0 : bullet ? 600.0 : 150.0, 0};
         const int seeds = out.quick() || many ? 1 : 3;
         out.row(Row(key).append(joined(judged_scenes(out.scratch(), request, {}, {}, how, seeds))));
       }
 }
 
-const Registration of_samples{"goals",
-                              "150 parts of every shape, 40 of some, and deep bins, against the goals and the referee",
-                              {"part", "bodies", "solver", "sleeping"},
-                              samples};
+const Registration of_samples{
+    "goals", "every part, in deep bins too: goals and referee", {"part", "bodies", "solver", "sleeping"}, samples};
 const Registration of_unseen{
     "unseen", "150 parts drawn from a seed against the goals", {"part", "bodies", "solver"}, unseen};
 const Registration of_thin{
     "thin", "150 thin parts in a deep bin against the goals", {"part", "bodies", "solver"}, thin};
 const Registration of_finish{
     "finish", "what each finish of a pour costs and leaves", {"part", "bodies", "solver", "finish"}, finish};
-const Registration of_scenes{"scenes",
-                             "time, memory and errors of whole scenes: three parts, both solvers, 64 to 512",
-                             {"part", "bodies", "solver", "sleeping"},
-                             scenes};
+const Registration of_scenes{
+    "scenes", "time, memory and errors of scenes of 64 to 512 parts", {"part", "bodies", "solver", "sleeping"}, scenes};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 namespace bin_scenes::bench {
@@ -19,7 +18,7 @@ namespace {
 
 constexpr const char* part = "channel_u";
 
-/// `count` parts at rest on an endless floor; kept in `path`, made if missing.
+/// `count` parts at rest on an endless floor.
 struct Heap {
   Request request;
   std::vector<BodyState> rest;
@@ -32,18 +31,13 @@ Heap heap_at_rest(std::size_t count, const std::string& path) {
   heap.request.bin = Bin();
   heap.request.bin.kind = Bin::Kind::floor;
   choose_solver(heap.request, "sphere");
-  const std::vector<PartModelPtr> parts = load_parts(heap.request);
-  if (!std::filesystem::exists(path)) {
-    std::string reason;
-    const std::unique_ptr<Solver> solver = make_solver({heap.request, parts}, reason);
-    write_text(path, scene_json(pour({heap.request, parts}, *solver, {0}).front(), heap.request));
-  }
+  pour_into(path, heap.request);
   Aabb box;
   for (const ScenePart& p : read_scene_json(path).parts) {
     heap.rest.push_back({p.pose, {}});
     box.extend(p.pose.position);
   }
-  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * parts.front()->diagonal();
+  heap.width = std::max(box.size().x(), box.size().y()) + 3.0 * loaded(heap.request).parts.front()->diagonal();
   return heap;
 }
 
@@ -73,10 +67,9 @@ Row step_row(const Heap& heap, const std::string& solver_name, std::size_t per_w
   Request request = heap.request;
   choose_solver(request, solver_name);
   request.parts[0].count = heap.rest.size() * per_world;
-  const std::vector<PartModelPtr> parts = load_parts(request);
-  std::string reason;
-  const std::unique_ptr<Solver> solver = make_solver({request, parts}, reason);
-  const std::vector<WorldId> ids = add_worlds(*solver, world_of({request, parts}), heap, per_world, worlds);
+  const LoadedRequest all = loaded(request);
+  const std::unique_ptr<Solver> solver = solver_of(all);
+  const std::vector<WorldId> ids = add_worlds(*solver, world_of(all), heap, per_world, worlds);
   const auto bodies = static_cast<double>(request.parts[0].count * worlds);
   const int steps = bodies > 8192 ? 2 : bodies > 512 ? 4 : 8;
   solver->advance(ids, steps * solver->step_size());
@@ -153,14 +146,10 @@ void curve(Run& out, const std::string& solver, const std::string& over, const H
 
 void run(Run& out) {
   const bool quick = out.quick();
-  const auto heap_of = [&](std::size_t count) {
-    const std::string path = out.scratch() + "/heap_" + std::to_string(count) + ".json";
-    isolated([&] { return heap_at_rest(count, path), Row(); });
-    return heap_at_rest(count, path);
-  };
   std::vector<std::string> solvers = {"sphere", "sphere/gpu"};
   if (!quick) solvers.insert(solvers.end(), {"bullet", "sphere/thesis"});
-  const Heap large = heap_of(quick ? 16 : 64), small = heap_of(16);
+  const std::string path = out.scratch() + "/heap.json";
+  const Heap large = heap_at_rest(quick ? 16 : 64, path), small = heap_at_rest(16, path);
   std::vector<Point> of_parts, of_worlds;
   for (std::size_t heaps = 1; heaps <= (quick ? 4u : 1024u); heaps *= heaps < 64 ? 2 : 4)
     of_parts.push_back({heaps, 1});

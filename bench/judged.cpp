@@ -17,11 +17,11 @@ constexpr double referee_limit_cpu_s = 600.0;  ///< 2000 steps of a heap of part
 
 /// The referee's figures of a scene. Its quantile is the sample that the share falls on: of 40 parts the second worst.
 Row referee_row(const std::string& path, const Request& request, const std::string& pieces) {
-  const std::vector<PartModelPtr> parts = load_parts(request);
+  const LoadedRequest all = loaded(request);
   const Scene scene = read_scene_json(path);
   const std::vector<Pieces> exact = {read_pieces(pieces, millimetre)};
-  const Overlap overlap = referee_overlap(scene, {request, parts}, exact);
-  const Drift drift = referee_drift(scene, {request, parts}, exact);
+  const Overlap overlap = referee_overlap(scene, all, exact);
+  const Drift drift = referee_drift(scene, all, exact);
   const auto of = [](std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
     const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size()));
@@ -51,7 +51,7 @@ Row judged_scene(const std::string& scratch, const Request& request, const std::
   Isolated poured = isolated(
       [&] {
         const Poured result = pour_timed(request, make);
-        write_text(path, scene_json(result.scene, request));
+        write_text(path, scene_json(result.scene, result.loaded));
         return figures_of(result);
       },
       how.limit_cpu_s);
@@ -74,13 +74,6 @@ std::vector<Row> judged_scenes(const std::string& scratch, Request request, cons
     if (scenes.back().at("scenes").empty()) break;
   }
   return scenes;
-}
-
-MakeSolver stock_bullet_on(const std::string& pieces, StockBullet settings) {
-  return [pieces, settings]() mutable {
-    settings.pieces = {read_pieces(pieces, millimetre)};
-    return make_stock_bullet(settings);
-  };
 }
 
 }  // namespace bin_scenes::bench

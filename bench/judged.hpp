@@ -1,7 +1,6 @@
 /// A scene poured by any solver, and what the referee says of it.
 #pragma once
 
-#include "peers/stock_bullet.hpp"
 #include "runs.hpp"
 
 #include <string>
@@ -22,8 +21,5 @@ struct Judged {
 /// @param make  the solver that pours instead of the request's, or none
 std::vector<Row> judged_scenes(const std::string& scratch, Request request, const std::string& pieces,
                                const MakeSolver& make, Judged how, int seeds);
-
-/// Makes stock Bullet, on the exact convex pieces of that folder.
-MakeSolver stock_bullet_on(const std::string& pieces, StockBullet settings);
 
 }  // namespace bin_scenes::bench

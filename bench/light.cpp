@@ -68,11 +68,8 @@ Errors errors_of(const View& view, const Measurement& measured, const Structured
 }
 
 void groove_row(Run& out, const std::string& name, const Surface& surface, double period, int bounces, bool decoded) {
-  const Row key = Row()
-                      .key("surface", name)
-                      .key("period_px", period)
-                      .key("bounces", bounces)
-                      .key("fidelity", decoded ? "decoded" : "analytic");
+  const Row key =
+      Row::keys("surface", name, "period_px", period, "bounces", bounces, "fidelity", decoded ? "decoded" : "analytic");
   if (!out.wanted(key)) return;
   Targets targets = test::groove(surface, 0.75, 0.057, 0.3);
   const StructuredLight::Setup setup = projector_of(period, bounces);

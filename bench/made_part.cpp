@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 namespace bin_scenes::bench {
@@ -183,12 +184,9 @@ Prisms spring() {
   return coil;
 }
 
-struct Thin {
-  const char* name;
-  Prisms (*make)();
-};
-constexpr Thin thin[] = {{"sheet", sheet}, {"disc", disc}, {"lattice", lattice},     {"comb", comb},
-                         {"frame", frame}, {"tube", tube}, {"wire_ring", wire_ring}, {"spring", spring}};
+const std::map<std::string, Prisms (*)()> thin = {{"sheet", sheet},         {"disc", disc},    {"lattice", lattice},
+                                                  {"comb", comb},           {"frame", frame},  {"tube", tube},
+                                                  {"wire_ring", wire_ring}, {"spring", spring}};
 
 }  // namespace
 
@@ -210,14 +208,14 @@ int write_random_part(const std::string& folder, std::uint64_t seed) {
 
 std::vector<std::string> thin_parts() {
   std::vector<std::string> names;
-  for (const Thin& part : thin) names.push_back(part.name);
+  for (const auto& [name, make] : thin) names.push_back(name);
   return names;
 }
 
 int write_thin_part(const std::string& folder, const std::string& name) {
-  for (const Thin& part : thin)
-    if (part.name == name) return write_pieces(folder, part.make());
-  throw input_error("no thin part of this name", name, "see bench/made_part.hpp");
+  const auto found = thin.find(name);
+  if (found == thin.end()) throw input_error("no thin part of this name", name, "see bench/made_part.hpp");
+  return write_pieces(folder, found->second());
 }
 
 }  // namespace bin_scenes::bench

@@ -23,10 +23,6 @@ int complain(const std::string& message, ErrorKind kind) {
   return static_cast<int>(kind);
 }
 
-void list(const std::vector<Benchmark>& all) {
-  for (const Benchmark& benchmark : all) std::printf("%-18s %s\n", benchmark.name.c_str(), benchmark.about.c_str());
-}
-
 int run_all(const std::vector<Benchmark>& chosen, Run::Options options, const std::string& arguments) {
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
@@ -70,7 +66,8 @@ int main_of(int argc, char** argv) {
   const Selection chosen = selected(benchmarks(), filter);
   int code = exit_done;
   for (const Error& unknown : chosen.unknown) code = complain(unknown.what(), unknown.kind());  // the rest is run
-  if (list_only) list(chosen.benchmarks);
+  for (const Benchmark& one : chosen.benchmarks)
+    if (list_only) std::printf("%-18s %s\n", one.name.c_str(), one.about.c_str());
   if (list_only || chosen.benchmarks.empty()) return code;
   check_rows(chosen.benchmarks, options.rows);
   if (options.out.empty()) options.out = results + "/" + device_slug();

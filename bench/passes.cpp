@@ -23,13 +23,13 @@ const Case cases[] = {{"pour", phases::pour, 1.15},
                       {"press", phases::press, 1.0},
                       {"probe", phases::probe, 1.0}};
 
-/// Device time of each pass a step, all worlds together; contacts and pairs are those of a world.
+/// Device time of each pass a step, all worlds together.
 Row measured(const Request& request, const std::vector<ScenePart>& heap, const Case& of, std::size_t worlds) {
-  const std::vector<PartModelPtr> parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = solver_of({request, parts});
+  const LoadedRequest all = loaded(request);
+  const std::unique_ptr<Solver> solver = solver_of(all);
   std::vector<WorldId> ids;
   for (std::size_t w = 0; w < worlds; ++w) {
-    ids.push_back(solver->add_world(world_of({request, parts})));
+    ids.push_back(solver->add_world(world_of(all)));
     solver->set_phase(ids.back(), of.phase);
     for (std::size_t i = 0; i < heap.size(); ++i) {
       BodyState state{heap[i].pose, {}};
@@ -44,21 +44,15 @@ Row measured(const Request& request, const std::vector<ScenePart>& heap, const C
   solver->advance(ids, timed * solver->step_size());
   const double wall_us = 1e6 * clock.wall_s();
   const Profile spent = solver->profile().since(start);
-  const auto count = [&](const char* name) {
-    const auto found = spent.counters.find(name);
-    return found == spent.counters.end() ? 0.0 : static_cast<double>(found->second);
-  };
-  const double world_steps = count("steps"), steps = world_steps / static_cast<double>(worlds);
+  const auto world_steps = static_cast<double>(spent.counters.at("steps"));
+  const double steps = world_steps / static_cast<double>(worlds);
   Row row;
   row.measure("step_us", wall_us / steps).measure("world_us", wall_us / world_steps);
   for (const char* pass : {"find_pairs", "find_contacts", "color_manifolds", "solve", "update_sleep"}) {
     const auto stage = spent.stages_ms.find(pass);
     if (stage != spent.stages_ms.end()) row.measure(std::string(pass) + "_us", 1e3 * stage->second / steps);
   }
-  return row.exact("found_anew", (count("pairs") - count("pairs_recycled")) / world_steps)
-      .exact("contacts", count("contacts") / world_steps)
-      .exact("colors", count("colors") / world_steps)
-      .info("device", solver->device());
+  return row.info("device", solver->device());
 }
 
 void run(Run& out) {
@@ -67,11 +61,7 @@ void run(Run& out) {
   request.bin.inner_size = Vec3(0.40, 0.30, 0.20);  // m, as in config/conrods.yaml
   choose_solver(request, "sphere");
   const std::string path = out.scratch() + "/heap.json";
-  isolated([&] {
-    const std::vector<PartModelPtr> models = load_parts(request);
-    write_text(path, scene_json(pour({request, models}, *solver_of({request, models}), {0}).front(), request));
-    return Row();
-  });
+  pour_into(path, request);
   const std::vector<ScenePart> heap = read_scene_json(path).parts;
   choose_solver(request, "sphere/gpu");
   const std::vector<std::size_t> few = {1, 2}, many = {1, 8, 66, 264, 528};

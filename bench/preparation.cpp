@@ -33,10 +33,10 @@ Isolated prepare(const std::string& part, const std::string& solver_name, const 
     Request request = bin_of(part, 1);
     choose_solver(request, solver_name);
     const Clock clock;
-    const std::vector<PartModelPtr> parts = load_parts(request);
-    solver_of({request, parts})->add_world(world_of({request, parts}));
+    const LoadedRequest all = loaded(request);
+    solver_of(all)->add_world(world_of(all));
     return Row()
-        .info("triangles", parts[0]->mesh().triangles.size())
+        .info("triangles", all.parts[0]->mesh().triangles.size())
         .info("built_warm", PartModel::work().built)
         .measure("s", clock.wall_s())
         .measure("cpu_s", clock.cpu_s());

@@ -19,7 +19,7 @@ namespace bin_scenes::bench {
 
 namespace {
 
-// Lengths in units of the scaled world, in which a part's diagonal is 1: Bullet's constants are made for that.
+// Lengths in units of the scaled world.
 constexpr double breaking_threshold = 0.001;  ///< the default of 0.02 keeps contacts that are none and rattles the pile
 constexpr double wall = 4.0;                  ///< thickness of floor and walls
 constexpr double time_step = 0.00025;         ///< s

@@ -3,6 +3,7 @@
 #include "runs.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "framework/benchmark.hpp"
 
 #include <cmath>
@@ -54,14 +55,14 @@ std::string stages_of(const Profile& profile, double scale) {
   return out;
 }
 
-std::vector<PartModelPtr> load_parts(const Request& request) {
-  std::vector<PartModelPtr> parts;
+LoadedRequest loaded(const Request& request) {
+  LoadedRequest out{request};
   for (const PartLine& line : request.parts) {
     LoadOptions options;
     options.unit = line.unit;
-    parts.push_back(PartModel::load(line.path, options));
+    out.parts.push_back(PartModel::load(line.path, options));
   }
-  return parts;
+  return out;
 }
 
 std::unique_ptr<Solver> solver_of(const LoadedRequest& loaded) {
@@ -69,14 +70,22 @@ std::unique_ptr<Solver> solver_of(const LoadedRequest& loaded) {
   return make_solver(loaded, reason);
 }
 
+void pour_into(const std::string& path, const Request& request) {
+  isolated([&] {
+    const LoadedRequest all = loaded(request);
+    write_text(path, scene_json(pour(all, *solver_of(all), {0}).front(), all));
+    return Row();
+  });
+}
+
 namespace {
 
 /// Of a scene of one part line: half a second more, by the request's own solver.
-void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& parts) {
-  next.pour.pattern = Pour::Pattern::given;
-  next.seconds = 0.5;
-  for (const ScenePart& part : scene.parts) next.parts[0].poses.push_back(part.pose);
-  scene.report.drift = drift(scene, pour({next, parts}, *solver_of({next, parts}), {scene.index}).front(), parts);
+void measure_drift(Scene& scene, LoadedRequest next) {
+  next.request.pour.pattern = Pour::Pattern::given;
+  next.request.seconds = 0.5;
+  for (const ScenePart& part : scene.parts) next.request.parts[0].poses.push_back(part.pose);
+  scene.report.drift = drift(scene, pour(next, *solver_of(next), {scene.index}).front(), next.parts);
 }
 
 }  // namespace
@@ -84,27 +93,32 @@ void measure_drift(Scene& scene, Request next, const std::vector<PartModelPtr>& 
 Poured pour_timed(const Request& request, const MakeSolver& make) {
   Poured out;
   const Clock clock;
-  out.parts = load_parts(request);
-  const std::unique_ptr<Solver> solver = make ? make() : solver_of({request, out.parts});
-  out.scene = std::move(pour({request, out.parts}, *solver, {request.first}).front());
+  out.loaded = loaded(request);
+  const std::unique_ptr<Solver> solver = make ? make() : solver_of(out.loaded);
+  out.scene = std::move(pour(out.loaded, *solver, {request.first}).front());
   out.scene_s = clock.wall_s();
   out.cpu_s = clock.cpu_s();
-  judge(out.scene, {request, out.parts});
-  if (request.drift_check) measure_drift(out.scene, request, out.parts);
+  judge(out.scene, out.loaded);
+  if (request.drift_check) measure_drift(out.scene, out.loaded);
   return out;
 }
 
 void warm_up(const Request& request) {
   isolated([&] {
-    const std::vector<PartModelPtr> parts = load_parts(request);
-    solver_of({request, parts})->add_world(world_of({request, parts}));
+    const LoadedRequest all = loaded(request);
+    solver_of(all)->add_world(world_of(all));
     return Row();
   });
 }
 
+void warm_up(Request& request, const std::string& solver) {
+  choose_solver(request, solver);
+  warm_up(request);
+}
+
 Row figures_of(const Poured& poured) {
   const Report& report = poured.scene.report;
-  const double diagonal = poured.parts.front()->diagonal();
+  const double diagonal = poured.loaded.parts.front()->diagonal();
   const Profile& profile = report.profile;
   Row row;
   row.measure("scene_s", poured.scene_s)

@@ -32,17 +32,18 @@ class Clock {
 /// "coloring 1.2; step 812": the stages that take more than a hundredth of the time, in ms times `scale`.
 std::string stages_of(const Profile& profile, double scale = 1.0);
 
-/// Models of the request's part lines.
-std::vector<PartModelPtr> load_parts(const Request& request);
-/// The request's solver for them.
+/// The request with the models of its part lines, and the solver that it names.
+LoadedRequest loaded(const Request& request);
 std::unique_ptr<Solver> solver_of(const LoadedRequest& loaded);
+/// Pours one scene, in a process of its own, and writes it to a scene.json.
+void pour_into(const std::string& path, const Request& request);
 /// A solver that no request can name; none: the request's.
 using MakeSolver = std::function<std::unique_ptr<Solver>()>;
 
 /// One judged scene, timed from request to final poses: judging comes after.
 struct Poured {
   Scene scene;
-  std::vector<PartModelPtr> parts;
+  LoadedRequest loaded;
   double scene_s = 0.0;  ///< wall seconds; models are cached on disk after the first time
   double cpu_s = 0.0;    ///< of all threads, in that time: what a busy machine falsifies less
 };
@@ -50,6 +51,8 @@ Poured pour_timed(const Request& request, const MakeSolver& make = {});
 
 /// Makes what the request needs of its parts, so that it is in the cache when a scene is timed.
 void warm_up(const Request& request);
+/// The same after choosing the solver.
+void warm_up(Request& request, const std::string& solver);
 
 /// Scene time, errors on the true mesh as a share of the part's diagonal, rest, stage times.
 Row figures_of(const Poured& poured);

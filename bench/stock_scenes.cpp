@@ -37,7 +37,7 @@ void make(const std::string& file, const std::string& out, std::size_t scenes) {
   request.pour.pattern = Pour::Pattern::grid;
   request.seconds = 10.0;
   for (PartLine& line : request.parts) line.friction = 100.0;
-  const LoadedRequest loaded{request, load_parts(request)};
+  const LoadedRequest loaded = bench::loaded(request);
   SensorRig rig;
   for (std::size_t i = 0; i < scenes; ++i) {
     Heap heap(loaded, make_stock_bullet(as_published(loaded.parts)), i);

@@ -227,10 +227,8 @@ void run(Run& out) {
   stability_table(out);
 }
 
-const Registration registration{"thesis_tables",
-                                "the thesis's tables again, stage by stage, beside its figures",
-                                {"table", "setting", "cube_m"},
-                                run};
+const Registration registration{
+    "thesis_tables", "the thesis's tables beside its figures", {"table", "setting", "cube_m"}, run};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -41,9 +41,9 @@ struct Mark {
 /// stopped when all is known, or after `given_up` simulated seconds.
 Row bullet_row(const Request& request, const std::string& pieces, double as_long) {
   const Clock clock;
-  const std::vector<PartModelPtr> parts = load_parts(request);
+  const LoadedRequest all = loaded(request);
   StockBullet settings;
-  settings.pieces = {shapes_of(*parts.front(), request, pieces)};
+  settings.pieces = {shapes_of(*all.parts.front(), request, pieces)};
   const std::size_t shapes = settings.pieces.front().size();
   std::optional<Mark> slow, asleep, same;
   Mark now;
@@ -63,7 +63,7 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
   RunHooks hooks;
   hooks.cancel = &known;
   try {
-    pour({request, parts}, *make_stock_bullet(settings), {request.first}, hooks);
+    pour(all, *make_stock_bullet(settings), {request.first}, hooks);
   } catch (const Error& stopped) {
     if (stopped.kind() != ErrorKind::cancelled) throw;
   }
@@ -83,8 +83,7 @@ Row bullet_row(const Request& request, const std::string& pieces, double as_long
 
 /// CPU and wall seconds of a scene by that preset.
 Row own_row(Request request, const std::string& solver, const std::string& prefix) {
-  choose_solver(request, solver);
-  warm_up(request);
+  warm_up(request, solver);
   const Row figures = isolated([&] { return figures_of(pour_timed(request)); }).row;
   Row row = Row().status(figures.at("status"));
   for (const char* figure : {"cpu_s", "scene_s", "simulated_s"}) row.measure(prefix + figure, figures.number(figure));
@@ -119,10 +118,8 @@ void part_row(Run& out, const std::string& part, bool has_pieces) {
 }
 
 void run(Run& out) {
-  for (const char* part : exact) {
-    part_row(out, part, true);
-    if (out.quick()) return;
-  }
+  if (out.quick()) return part_row(out, exact[0], true);
+  for (const char* part : exact) part_row(out, part, true);
   for (const char* part : decomposed) part_row(out, part, false);
 }
 

@@ -92,7 +92,6 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   int ends[2];
   if (::pipe(ends) != 0) throw environment_error(std::strerror(errno), "pipe", "close some files");
   const double before_mb = resident_mb();
-  const auto begin = std::chrono::steady_clock::now();
   const pid_t pid = ::fork();
   if (pid < 0) throw environment_error(std::strerror(errno), "fork", "free some memory");
   if (pid == 0) {
@@ -108,14 +107,12 @@ Isolated isolated(const std::function<Row()>& work, double limit_cpu_s) {
   int status = 0;
   rusage usage{};
   ::wait4(pid, &status, 0, &usage);
-  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.peak_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
   result.added_mb = std::max(0.0, result.peak_mb - before_mb);
-  result.cpu_s = cpu_seconds_of(usage);
   const bool whole = unpack(text, result.row);
   result.good = whole && in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (!in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
-    result.row = Row().status("stopped after " + Row::text(result.cpu_s) + " s of CPU time");
+    result.row = Row().status("stopped after " + Row::text(cpu_seconds_of(usage)) + " s of CPU time");
   else if (WIFSIGNALED(status))
     result.row = Row().status(std::string("crashed: ") + ::strsignal(WTERMSIG(status)));
   else if (!whole)

@@ -13,8 +13,6 @@ struct Isolated {
   bool good = false;
   double peak_mb = 0.0;   ///< largest resident set (MB = 1e6 byte)
   double added_mb = 0.0;  ///< of it, what the work added to what the process started with
-  double cpu_s = 0.0;     ///< user and system time of all threads
-  double wall_s = 0.0;
 };
 
 /// Forks and runs `work` there. An exception, a crash, or more than `limit_cpu_s` seconds of CPU time (or thirty times

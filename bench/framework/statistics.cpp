@@ -6,9 +6,7 @@
 
 namespace bin_scenes::bench {
 
-namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
 
 double quantile(std::vector<double> samples, double q) {
   if (samples.empty()) return nan;

@@ -168,8 +168,8 @@ struct SphereSamples {
   uvec4 clusters;    // first, count; z: edges from there on are creases
   uvec4 blocks;      // of edges, behind them: first of the table and of the lists (four words each), blocks along x, and
                      // of a layer along x and y
-  vec4 size;         // radius of the nodes, longest edge piece, mean way between neighbours on faces, and by how much a
-                     // curved face may bulge between its nodes (m)
+  vec4 size;         // radius of the nodes, longest edge piece, mean distance between neighbours on faces, and by how
+                     // much a curved face may bulge between its nodes (m)
 };
 
 struct SphereShape {

@@ -111,7 +111,7 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
     for (const Sensor& sensor : result.scene.sensors)
       write_text((base / (sensor.name + "_grasps.npy")).string(), grasps_npy(*result.grasps, sensor, loaded.request));
   }
-  write_text((base / "scene.json").string(), scene_json(result.scene, loaded.request, result.images, loaded.parts));
+  write_text((base / "scene.json").string(), scene_json(result.scene, loaded, result.images));
 }
 
 WholeFolders::~WholeFolders() {

@@ -28,17 +28,17 @@ struct Acting {
 
 /// Above where it lies by `raise`, and a little beside: of equal parts exactly above each other all edges would only
 /// touch.
-Pose nudged(const PlacedPart& part, const Vec3& way, double raise, double size) {
+Pose nudged(const PlacedPart& part, const Vec3& direction, double raise, double size) {
   const Vec3 center = part.box.center();
-  const Quat turn(Eigen::AngleAxisd(1e-4, way));
-  const Vec3 moved = raise * way + 1e-5 * size * way.unitOrthogonal();
+  const Quat turn(Eigen::AngleAxisd(1e-4, direction));
+  const Vec3 moved = raise * direction + 1e-5 * size * direction.unitOrthogonal();
   return {center + turn * (part.pose.position - center) + moved, (turn * part.pose.orientation).normalized()};
 }
 
-/// Whether a line from the part's surface along the way enters the other one, farther than `from`. A quick yes.
-bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit, double from) {
+/// Whether a line from the part's surface along the direction enters the other one, farther than `from`. A quick yes.
+bool stands_over(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit, double from) {
   const Pose into = other.pose.inverse();
-  const Vec3 along = into.orientation * way;
+  const Vec3 along = into.orientation * direction;
   for (const Vec3& top : part.tops)
     for (const Passage& passage : passages(*other.mesh, into * top, along, from))
       if (passage.distance < limit && other.mesh->mesh().area_vector(passage.triangle).dot(along) < 0.0) return true;
@@ -94,18 +94,19 @@ double mass_of(const PartLine& line, const PartModel& model) {
 namespace {
 
 /// Whether the part only grazes what it meets after `free`: moved aside a little it passes.
-bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Vec3& way, double free, double limit) {
+bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Vec3& direction, double free,
+            double limit) {
   const double play = side_play * std::min(part.box.diagonal(), other.box.diagonal());
   double aside = 0.0;
   while (free > 0.0) {
-    const Pose met{pose.position + (free + play) * way, pose.orientation};
+    const Pose met{pose.position + (free + play) * direction, pose.orientation};
     const Penetration overlap = penetration(*part.mesh, met, *other.mesh, other.pose);
-    if (overlap.depth <= 0.0 || overlap.direction.dot(way) > supports) return false;
+    if (overlap.depth <= 0.0 || overlap.direction.dot(direction) > supports) return false;
     const double step = overlap.depth + 0.1 * play;
     aside += step;
     if (aside > play) return false;
     pose.position -= step * overlap.direction;
-    free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
+    free = free_distance(*part.mesh, pose, *other.mesh, other.pose, direction, limit);
     if (free >= limit) return true;
   }
   return false;
@@ -113,27 +114,27 @@ bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Ve
 
 }  // namespace
 
-bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit) {
+bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit) {
   Aabb swept = part.box;
-  swept.extend(Vec3(part.box.lower + limit * way));
-  swept.extend(Vec3(part.box.upper + limit * way));
+  swept.extend(Vec3(part.box.lower + limit * direction));
+  swept.extend(Vec3(part.box.upper + limit * direction));
   if (!swept.overlaps(other.box)) return false;
   const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
-  if (stands_over(other, part, way, limit, 2e-3 * smaller)) return true;
+  if (stands_over(other, part, direction, limit, 2e-3 * smaller)) return true;
   // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
   // along each other when the overlap is taken out and a gripper gives way a little; only what is still in the way then
   // counts.
   for (const double raise : {1e-5, 2e-4, 2e-3}) {
-    const Pose pose = nudged(part, way, raise * smaller, smaller);
-    const double free = free_way(*part.mesh, pose, *other.mesh, other.pose, way, limit);
-    if (free > 0.0) return free < limit && !grazes(other, part, pose, way, free, limit);
+    const Pose pose = nudged(part, direction, raise * smaller, smaller);
+    const double free = free_distance(*part.mesh, pose, *other.mesh, other.pose, direction, limit);
+    if (free > 0.0) return free < limit && !grazes(other, part, pose, direction, free, limit);
     const Penetration overlap = penetration(*part.mesh, pose, *other.mesh, other.pose);
     // The other one, to be moved up out of the part, lies on it.
-    if (overlap.depth > most_overlap * smaller || overlap.direction.dot(way) > supports) return true;
+    if (overlap.depth > most_overlap * smaller || overlap.direction.dot(direction) > supports) return true;
     for (const double play : {1e-6, side_play}) {
       Pose apart = pose;
       apart.position -= (overlap.depth + play * smaller) * overlap.direction;
-      const double then = free_way(*part.mesh, apart, *other.mesh, other.pose, way, limit);
+      const double then = free_distance(*part.mesh, apart, *other.mesh, other.pose, direction, limit);
       if (then >= limit) return false;
       if (then > most_overlap * smaller) return true;
     }

@@ -12,8 +12,8 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
 /// Fills in the depths, and returns the order. A part that nobody can free, and what it blocks, is not in it.
 std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed);
 
-/// Whether `other` is in the way of `part` as it goes along `way` (unit) up to `limit` (m).
-bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& way, double limit);
+/// Whether `other` is in the way of `part` as it goes along `direction` (unit) up to `limit` (m).
+bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit);
 
 double mass_of(const PartLine& line, const PartModel& model);
 

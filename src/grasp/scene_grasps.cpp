@@ -88,9 +88,10 @@ class Attempt {
       return;
     if (check(closing_sweeps(gripper_, grasp.width, gripper_.clearance), SceneGrasp::Obstacle::closing, grasp)) return;
     if (cosine > std::cos(upright)) return;
-    const Vec3 way = grasp.pose.orientation.conjugate() * (std::max(0.0, above) * placed_.up());
+    const Vec3 lift = grasp.pose.orientation.conjugate() * (std::max(0.0, above) * placed_.up());
     std::vector<Sweep> lifted;
-    for (const Sweep& body : closed_shape(gripper_, grasp.width, gripper_.clearance)) lifted.push_back(body.moved(way));
+    for (const Sweep& body : closed_shape(gripper_, grasp.width, gripper_.clearance))
+      lifted.push_back(body.moved(lift));
     check(lifted, SceneGrasp::Obstacle::lift, grasp);
   }
 

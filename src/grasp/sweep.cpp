@@ -27,10 +27,10 @@ Sweep Sweep::cylinder(const Pose& pose, double radius, double low, double high) 
   return sweep;
 }
 
-Sweep Sweep::moved(const Vec3& way) const {
+Sweep Sweep::moved(const Vec3& displacement) const {
   Sweep sweep = *this;
-  sweep.center_ += 0.5 * way;
-  sweep.add(0.5 * way);
+  sweep.center_ += 0.5 * displacement;
+  sweep.add(0.5 * displacement);
   sweep.finish();
   return sweep;
 }

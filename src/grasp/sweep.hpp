@@ -16,8 +16,8 @@ class Sweep {
   Sweep(const Pose& pose, const Vec3& center, const Vec3& half);
   /// An eight-sided prism around a cylinder about the frame's z, from z = low to high.
   static Sweep cylinder(const Pose& pose, double radius, double low, double high);
-  /// The same body moved along `way` as well.
-  Sweep moved(const Vec3& way) const;
+  /// The same body moved by `displacement` as well.
+  Sweep moved(const Vec3& displacement) const;
   /// The same body with the pose in front.
   Sweep placed(const Pose& pose) const;
 
@@ -28,7 +28,7 @@ class Sweep {
   bool meets(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
  private:
-  static constexpr int most = 6;  // segments: an octagon's four, a prism's one, a way's one
+  static constexpr int most = 6;  // segments: an octagon's four, a prism's one, a displacement's one
   Sweep() = default;
   void add(const Vec3& half);
   void finish();

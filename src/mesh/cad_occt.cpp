@@ -236,7 +236,7 @@ std::string listed(const std::vector<Named>& solids) {
   return solids.size() > most ? names + " and " + std::to_string(solids.size() - most) + " more" : names;
 }
 
-/// Whether a way leads from each solid to each other over solids that touch.
+/// Whether a path leads from each solid to each other over solids that touch.
 bool hang_together(const std::vector<Named>& solids, double tolerance) {
   std::vector<Bnd_Box> boxes(solids.size());
   for (std::size_t i = 0; i < solids.size(); ++i) {

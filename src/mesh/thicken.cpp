@@ -26,7 +26,7 @@ void thicken(Mesh& mesh, double thickness) {
   const std::vector<Triangle> sheet = mesh.triangles;
   mesh.vertices.resize(2 * count);
   for (std::size_t v = 0; v < count; ++v) {
-    // Mean cosine between the faces around and the way of the vertex: the face moves by it per unit of that way.
+    // Mean cosine between the faces around and the displacement of the vertex: the face moves by it per unit of that.
     const double cosine = total[v] > 0.0 ? std::max(0.5, towards[v] / total[v]) : 1.0;
     const Vec3 offset = 0.5 * thickness / cosine * normal[v];
     mesh.vertices[count + v] = mesh.vertices[v] - offset;

@@ -254,15 +254,15 @@ Report report_of(const Json& json) {
 
 }  // namespace
 
-std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images,
-                       const std::vector<PartModelPtr>& parts) {
+std::string scene_json(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images) {
+  const Request& request = loaded.request;
   Json json = {{"format", scene_format}, {"seed", scene.seed}, {"index", scene.index}, {"bin", json_of(request.bin)}};
   json["gravity"] = json_of(request.gravity);
   json["request_sha256"] = request.text_sha256;
   json["sensors"] = Json::array();
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
     json["sensors"].push_back(json_of(scene.sensors[i]));
-    if (i < images.size()) json["sensors"].back()["truth"] = truth_of(scene, images[i], parts);
+    if (i < images.size()) json["sensors"].back()["truth"] = truth_of(scene, images[i], loaded.parts);
   }
   for (std::size_t line = 0; line < scene.model_sha256.size() && line < request.parts.size(); ++line) {
     json["models"].push_back(model_of(request.parts[line], scene.model_sha256[line]));

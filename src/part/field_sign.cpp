@@ -118,8 +118,8 @@ class RegionSigns {
  public:
   RegionSigns(DistanceField& field, const MeshQuery& query) : field_(field), query_(query) {}
 
-  /// The sign can only change across the surface, and the straight way between two nodes meets no surface if their
-  /// distances add up to more than its length. Nodes joined by such ways form regions; one winding number settles a
+  /// The sign can only change across the surface, and the straight line between two nodes meets no surface if their
+  /// distances add up to more than its length. Nodes joined by such lines form regions; one winding number settles a
   /// region.
   void apply() {
     std::vector<std::uint8_t> seen(field_.values.size(), 0);

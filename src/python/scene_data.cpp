@@ -64,7 +64,7 @@ std::string SceneData::json() const {
     copy.total = image.total;
     copy.silhouettes = image.silhouettes;
   }
-  return scene_json(scene, loaded->request, seen, loaded->parts);
+  return scene_json(scene, *loaded, seen);
 }
 
 std::string SceneData::grasps_json() const {
@@ -74,7 +74,7 @@ std::string SceneData::grasps_json() const {
 std::string SceneData::report_json() const {
   Scene alone;
   alone.report = scene.report;
-  return scene_json(alone, Request());
+  return scene_json(alone, {});
 }
 
 }  // namespace bin_scenes::python

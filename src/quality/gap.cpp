@@ -1,5 +1,5 @@
-/// Drops each resting part along gravity onto its neighbours and the bin, by free_way(). A neighbour that it overlaps
-/// counts as support by the direction of the overlap.
+/// Drops each resting part along gravity onto its neighbours and the bin, by free_distance(). A neighbour that it
+/// overlaps counts as support by the direction of the overlap.
 #include "gap.hpp"
 
 #include "core/in_parallel.hpp"
@@ -81,8 +81,8 @@ class Falls {
           shadow.lower.z() - other.upper.z() > best || overlap(i, *at)) {
         continue;
       }
-      best =
-          free_way(*placed_[i].query, placed_[i].part->pose, *placed_[*at].query, placed_[*at].part->pose, down_, best);
+      best = free_distance(*placed_[i].query, placed_[i].part->pose, *placed_[*at].query, placed_[*at].part->pose,
+                           down_, best);
     }
     return best;
   }
@@ -109,7 +109,7 @@ class Falls {
     for (int k = 0; k < ways_out; ++k) {
       pose.position += out + slack * out.normalized();
       const Penetration left = penetration(*a.query, pose, *b.query, b.part->pose);
-      if (left.depth <= 0.0) return free_way(*a.query, pose, *b.query, b.part->pose, down_, limit);
+      if (left.depth <= 0.0) return free_distance(*a.query, pose, *b.query, b.part->pose, down_, limit);
       out = -left.depth * left.direction;
       if (leads_up(out)) break;
     }
@@ -136,8 +136,8 @@ class Falls {
       if (leads_up(out)) return 0.0;
       pose.position += out - clear * p.diagonal * found.direction;
     }
-    return bin_mesh_ ? free_way(*p.query, pose, *bin_mesh_, bin_.pose, down_, best)
-                     : free_way(*p.query, pose, *walls_, {}, down_, best);
+    return bin_mesh_ ? free_distance(*p.query, pose, *bin_mesh_, bin_.pose, down_, best)
+                     : free_distance(*p.query, pose, *walls_, {}, down_, best);
   }
 
   const std::vector<Placed>& placed_;

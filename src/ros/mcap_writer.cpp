@@ -71,7 +71,7 @@ void write_mcap(const std::string& path, McapProfile profile, const Scene& scene
   one.scenes = 1;
   one.first = scene.index;
   file.attach("request.yaml", "application/yaml", time, write_request(one));
-  file.attach("scene.json", "application/json", time, scene_json(scene, loaded.request, images, loaded.parts));
+  file.attach("scene.json", "application/json", time, scene_json(scene, loaded, images));
   file.add_metadata("bin_scenes", facts(scene, loaded.request));
   describe_profile(file, profile);
   file.close();

@@ -104,10 +104,10 @@ TEST(StockBullet, BodiesFallAsGalileiSays) {
   const Vec3 before = start.pose * box.part->mass().center;
   solver->advance({world}, 0.5);
   const BodyState end = solver->states(world)[0];
-  const Vec3 way = end.pose * box.part->mass().center - before;
-  EXPECT_NEAR(way.x(), 0.15, 1e-4);
-  EXPECT_NEAR(way.y(), 0.0, 1e-4);
-  EXPECT_NEAR(way.z(), -0.5 * 9.81 * 0.25, 0.5 * 9.81 * 0.5 * 0.001 * 1.1);  // first order in the step
+  const Vec3 displacement = end.pose * box.part->mass().center - before;
+  EXPECT_NEAR(displacement.x(), 0.15, 1e-4);
+  EXPECT_NEAR(displacement.y(), 0.0, 1e-4);
+  EXPECT_NEAR(displacement.z(), -0.5 * 9.81 * 0.25, 0.5 * 9.81 * 0.5 * 0.001 * 1.1);  // first order in the step
   EXPECT_NEAR(2.0 * std::atan2(end.pose.orientation.z(), end.pose.orientation.w()), 1.0, 1e-3);
 }
 

@@ -22,7 +22,7 @@ TEST(Statistics, WassersteinOfShiftedSamplesIsTheShift) {
 }
 
 TEST(Statistics, WassersteinOfSamplesOfDifferentSize) {
-  // {0, 1} twice over is the same distribution; one point against two costs the mean way to them.
+  // {0, 1} twice over is the same distribution; one point against two costs the mean distance to them.
   EXPECT_DOUBLE_EQ(wasserstein({0, 1}, {0, 0, 1, 1}), 0.0);
   EXPECT_DOUBLE_EQ(wasserstein({0}, {1, 3}), 2.0);
   EXPECT_NEAR(wasserstein({0, 0, 3}, {0, 3}), 0.5, 1e-12) << "a sixth of the mass moves by 3";

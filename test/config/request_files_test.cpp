@@ -87,7 +87,7 @@ TEST_F(ConfigTest, APartOfAnEarlierSceneIsKnownByItsBytesWhereverItLies) {
   Request made;
   made.parts.emplace_back();
   made.parts[0].model = "bolt.stl";
-  put("scene.json", scene_json(scene, made));
+  put("scene.json", scene_json(scene, {made}));
   const std::string given = "pour: {pattern: given, scene: " + (dir / "scene.json").string() + "}\n";
   put("deeper/twin.stl", "solid bolt");
   EXPECT_EQ(read(given + "parts: [{model: deeper/twin.stl}]").parts[0].poses.size(), 1u);
@@ -98,7 +98,7 @@ TEST_F(ConfigTest, APartOfAnEarlierSceneIsKnownByItsBytesWhereverItLies) {
 
   // A scene of somebody else tells no bytes: its names have to do.
   scene.model_sha256.clear();
-  put("scene.json", scene_json(scene, made));
+  put("scene.json", scene_json(scene, {made}));
   EXPECT_EQ(read_request((dir / "deeper/request.yaml").string()).parts[0].poses.size(), 1u);
 }
 

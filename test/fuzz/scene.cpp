@@ -16,10 +16,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   may_refuse([&] {
     const Scene scene = read(reinterpret_cast<const char*>(data), size);
-    Request request;
-    request.parts.resize(scene.model_sha256.size());
-    const std::string written = scene_json(scene, request);
-    if (scene_json(read(written.data(), written.size()), request) != written)
+    LoadedRequest loaded;
+    loaded.request.parts.resize(scene.model_sha256.size());
+    const std::string written = scene_json(scene, loaded);
+    if (scene_json(read(written.data(), written.size()), loaded) != written)
       found("a scene that changes when it is written and read");
   });
   return 0;

@@ -40,15 +40,15 @@ TEST(Sweep, AgreesWithClippingOfTriangles) {
   int met = 0;
   for (int i = 0; i < 20000; ++i) {
     const Pose pose{point(0.5), random.orientation()};
-    const Vec3 half = point(1.0).cwiseAbs() + Vec3::Constant(0.05), way = point(1.0);
+    const Vec3 half = point(1.0).cwiseAbs() + Vec3::Constant(0.05), displacement = point(1.0);
     std::vector<Vec3> halves;
     for (int k = 0; k < 3; ++k) halves.push_back(pose.orientation * (half[k] * Vec3::Unit(k)));
     Sweep sweep(pose, Vec3::Zero(), half);
     Vec3 center = pose.position;
     if (i % 2) {
-      sweep = sweep.moved(way);
-      halves.push_back(0.5 * way);
-      center += 0.5 * way;
+      sweep = sweep.moved(displacement);
+      halves.push_back(0.5 * displacement);
+      center += 0.5 * displacement;
     }
     const Vec3 a = point(2.5), b = point(2.5), c = point(2.5);
     const bool expected = meets_by_clipping(center, halves, {a, b, c});

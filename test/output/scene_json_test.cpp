@@ -15,7 +15,7 @@ Request request() {
 
 TEST_F(SceneJson, ReadsBackBitForBit) {
   const Scene scene = small_scene();
-  write_text(path("scene.json"), scene_json(scene, request()));
+  write_text(path("scene.json"), scene_json(scene, {request()}));
   const Scene back = read_scene_json(path("scene.json"));
   EXPECT_EQ(back.seed, scene.seed);
   EXPECT_EQ(back.index, scene.index);
@@ -39,7 +39,7 @@ TEST_F(SceneJson, ReadsBackBitForBit) {
 }
 
 TEST_F(SceneJson, HasTheNamesOthersRelyOn) {
-  const auto json = nlohmann::json::parse(scene_json(small_scene(), request()));
+  const auto json = nlohmann::json::parse(scene_json(small_scene(), {request()}));
   EXPECT_EQ(json.at("format"), "bin_scenes/1");
   EXPECT_EQ(json.at("request_sha256"), "abc");
   EXPECT_EQ(json.at("bin").at("inner_size").size(), 3u);
@@ -70,7 +70,7 @@ TEST_F(SceneJson, TellsWhatItsModelsWereByTheirBytes) {
   r.parts.resize(2);
   r.parts[0].model = "bolt.stl";
   r.parts[1].model = "../nut.stl";
-  write_text(path("scene.json"), scene_json(scene, r));
+  write_text(path("scene.json"), scene_json(scene, {r}));
   EXPECT_EQ(nlohmann::json::parse(text("scene.json")).at("models").at(1),
             nlohmann::json({{"model", "../nut.stl"}, {"sha256", "a1"}}));
   EXPECT_EQ(read_scene_json(path("scene.json")).model_sha256, scene.model_sha256);
@@ -91,7 +91,7 @@ TEST_F(SceneJson, TellsHowItsModelsWereRead) {
   r.parts[0].thickness = 0.001;
   r.parts[0].solid = "bolt";
   r.parts[0].tessellation = {1e-4, 0.1};
-  const auto json = nlohmann::json::parse(scene_json(scene, r));
+  const auto json = nlohmann::json::parse(scene_json(scene, {r}));
   EXPECT_EQ(json.at("models").at(0), nlohmann::json({{"model", "bolt.step"},
                                                      {"sha256", "b0"},
                                                      {"unit", "mm"},
@@ -108,7 +108,7 @@ TEST_F(SceneJson, APartWithoutAPoseStaysWithoutOne) {
   Scene scene = small_scene();
   scene.parts[1].pose = Pose::none();
   scene.parts[1].state = PartState::not_poured;
-  write_text(path("scene.json"), scene_json(scene, request()));
+  write_text(path("scene.json"), scene_json(scene, {request()}));
   const auto json = nlohmann::json::parse(text("scene.json"));
   EXPECT_TRUE(json.at("parts").at(1).at("pose").is_null());
   EXPECT_EQ(json.at("parts").at(1).at("id"), 1);

@@ -54,10 +54,10 @@ TEST(ExtremePoints, ReachAsFarAsAllInEveryDirection) {
     const std::vector<Vec3> extreme = extreme_points(mesh.vertices);
     EXPECT_LE(extreme.size(), mesh.vertices.size());
     for (int k = 0; k < 200; ++k) {
-      const Vec3 way = random.orientation() * Vec3::UnitX();
+      const Vec3 direction = random.orientation() * Vec3::UnitX();
       const auto reach = [&](const std::vector<Vec3>& points) {
         double most = -1.0;
-        for (const Vec3& x : points) most = std::max(most, way.dot(x));
+        for (const Vec3& x : points) most = std::max(most, direction.dot(x));
         return most;
       };
       EXPECT_EQ(reach(extreme), reach(mesh.vertices));

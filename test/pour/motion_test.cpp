@@ -122,11 +122,11 @@ TEST_P(MotionTest, ABlockOnATiltedFloorSlidesBeyondTheAngleOfFrictionAlone) {
     times.clear();
     const Scene scene = run();
     EXPECT_TRUE(scene.report.at_rest);
-    const double way = scene.parts[0].pose.position.x();
+    const double distance = scene.parts[0].pose.position.x();
     if (degrees < 26.0)
-      EXPECT_LT(std::abs(way), 1e-3);
+      EXPECT_LT(std::abs(distance), 1e-3);
     else
-      EXPECT_GT(way, 0.05);
+      EXPECT_GT(distance, 0.05);
   }
 }
 

@@ -50,8 +50,8 @@ TEST(Pour, RestMeansRest) {
   const Scene later = poured(again, {3})[0];
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
     const Vec3 center = small_box()->mass().center;
-    const double way = (later.parts[i].pose * center - scene.parts[i].pose * center).norm();
-    EXPECT_LT(way, 0.01 * small_box()->diagonal()) << i;
+    const double distance = (later.parts[i].pose * center - scene.parts[i].pose * center).norm();
+    EXPECT_LT(distance, 0.01 * small_box()->diagonal()) << i;
   }
 }
 

@@ -22,13 +22,12 @@ TIDY_FLAGS = ["-std=c++17", "-Iinclude", "-Isrc", "-Ishaders", "-isystem", "/usr
 MOST_PARAMETERS, MOST_LINES = 7, 60
 # Functions above a limit that others are at work on: a name goes when it is split.
 LARGE = """
-shaders/shared/sphere/edge.h descend, shaders/shared/sphere/edge.h ways_out_at_edge,
 shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
 shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
 src/sensor/sensor_keys.hpp visit, src/sensor/models/indirect_field.cpp IndirectField, src/sensor/models/interreflection.cpp gather,
-src/sensor/models/laser_line.cpp line_at, src/sensor/models/sheet_glow.cpp follow, src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
-src/solver/sphere/passes/contact_rows.cpp set_lane,
-src/solver/thesis/twin.cpp detect"""
+src/sensor/models/laser_line.cpp line_at, src/sensor/models/sheet_glow.cpp follow"""
+# Bullet prescribes its parameters.
+OF_A_LIBRARY = {"src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations"}
 
 
 def bare(text):
@@ -157,6 +156,8 @@ class Style(unittest.TestCase):
                 if given > MOST_PARAMETERS or lines > MOST_LINES and not path.startswith("test/"):
                     large.add(path + " " + name)
         self.assertGreater(count, 5000)
+        self.assertLessEqual(OF_A_LIBRARY, large)
+        large -= OF_A_LIBRARY
         self.assertEqual(large - pending, set(), "above %d parameters or %d lines" % (MOST_PARAMETERS, MOST_LINES))
         self.assertEqual(pending - large, set(), "these are small now: take them from LARGE")
 

@@ -55,32 +55,35 @@ TEST(Clearance, AgreesWithNearestPointsOfDenseSamples) {
 
 TEST(FreeWay, FacesCornersAndEdges) {
   const MeshQuery box(bar({1, 1, 1}).mesh), rod(bar({1, 0.1, 0.1}).mesh);
-  EXPECT_NEAR(free_way(box, {Vec3(0.3, 0.2, 1.25), turned(0.4, Vec3::UnitZ())}, box, {}, down, infinity), 0.25, 1e-12);
+  EXPECT_NEAR(free_distance(box, {Vec3(0.3, 0.2, 1.25), turned(0.4, Vec3::UnitZ())}, box, {}, down, infinity), 0.25,
+              1e-12);
   const Quat on_corner = Quat::FromTwoVectors(Vec3(1, 1, 1).normalized(), -Vec3::UnitZ());
-  EXPECT_NEAR(free_way(box, {Vec3(0.1, 0.2, 2), on_corner}, box, {}, down, infinity), 1.5 - std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(free_distance(box, {Vec3(0.1, 0.2, 2), on_corner}, box, {}, down, infinity), 1.5 - std::sqrt(0.75),
+              1e-12);
   const Quat edge_up = turned(M_PI / 4, Vec3::UnitX());
   const Pose across{Vec3(0, 0, 2.0 * std::sqrt(0.5) * 0.1 + 0.03), turned(M_PI / 2, Vec3::UnitZ()) * edge_up};
-  EXPECT_NEAR(free_way(rod, across, rod, {Vec3::Zero(), edge_up}, down, infinity), 0.03, 1e-12);
+  EXPECT_NEAR(free_distance(rod, across, rod, {Vec3::Zero(), edge_up}, down, infinity), 0.03, 1e-12);
 }
 
 TEST(FreeWay, NothingBelowBesideOrAbove) {
   const MeshQuery box(bar({1, 1, 1}).mesh);
-  EXPECT_EQ(free_way(box, {Vec3(0, 0, 2), Quat::Identity()}, box, {Vec3(1.1, 0, 0), Quat::Identity()}, down, 9.0), 9.0);
-  EXPECT_EQ(free_way(box, {}, box, {Vec3(0, 0, 2), Quat::Identity()}, down, 9.0), 9.0);
+  EXPECT_EQ(free_distance(box, {Vec3(0, 0, 2), Quat::Identity()}, box, {Vec3(1.1, 0, 0), Quat::Identity()}, down, 9.0),
+            9.0);
+  EXPECT_EQ(free_distance(box, {}, box, {Vec3(0, 0, 2), Quat::Identity()}, down, 9.0), 9.0);
 }
 
 TEST(FreeWay, AlongAnyDirectionAndThroughAHole) {
   const MeshQuery ring(test::ring(0.5, 0.3, 0.1, 24).mesh), rod(bar({0.2, 0.2, 1}).mesh);
-  EXPECT_EQ(free_way(rod, {Vec3(0, 0, 2), Quat::Identity()}, ring, {}, down, 9.0), 9.0);
+  EXPECT_EQ(free_distance(rod, {Vec3(0, 0, 2), Quat::Identity()}, ring, {}, down, 9.0), 9.0);
   const Quat turn = turned(1.0, Vec3(1, 2, 3));
   const Pose motion{Vec3(1, 2, 3), turn};
-  EXPECT_NEAR(free_way(rod, motion * Pose{Vec3(0.4, 0, 2), Quat::Identity()}, ring, motion, turn * down, 9.0), 1.45,
-              1e-12);
+  EXPECT_NEAR(free_distance(rod, motion * Pose{Vec3(0.4, 0, 2), Quat::Identity()}, ring, motion, turn * down, 9.0),
+              1.45, 1e-12);
 }
 
 TEST(FreeWay, OverlapAlongTheWayIsZero) {
   const MeshQuery box(bar({1, 1, 1}).mesh);
-  EXPECT_EQ(free_way(box, {Vec3(0.1, 0.2, 0.7), turned(0.3, Vec3(1, 1, 0))}, box, {}, down, 9.0), 0.0);
+  EXPECT_EQ(free_distance(box, {Vec3(0.1, 0.2, 0.7), turned(0.3, Vec3(1, 1, 0))}, box, {}, down, 9.0), 0.0);
 }
 
 }  // namespace

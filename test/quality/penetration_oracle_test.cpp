@@ -74,12 +74,12 @@ int for_random_overlaps(const std::vector<Case>& cases, int poses, Judge&& judge
         const Pose pa{Vec3(random.uniform(), 0, 0), random.orientation()};
         const Quat tilt(Eigen::AngleAxisd(1e-2 * random.uniform(), random.orientation() * Vec3::UnitX()));
         Pose pb{Vec3::Zero(), k % 4 == 3 ? pa.orientation * tilt : random.orientation()};
-        const Vec3 way = random.orientation() * Vec3::UnitX();
+        const Vec3 direction = random.orientation() * Vec3::UnitX();
         const Vec3 aside = random.orientation() * Vec3(0.5 * random.uniform(), 0, 0);
         const double goal = 0.02 * unit * random.uniform();
         double expected = 0.0;
         for (double s = 2.0; s > 0.0 && expected <= goal; s -= 0.004) {
-          pb.position = pa.position + aside + s * way;
+          pb.position = pa.position + aside + s * direction;
           expected = bullet_depth(a.bullet, pa, b.bullet, pb);
         }
         if (expected <= goal || expected > 0.02 * unit) continue;

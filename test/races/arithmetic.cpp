@@ -317,8 +317,8 @@ void compute_extended(const Instruction& i, Word* r) {
     case GLSLstd450Distance: {
       float sum = 0;
       for (Word k = 0; k < i.n; ++k) {
-        const float way = real(r[i.a + k]) - real(r[i.b + k]);
-        sum += way * way;
+        const float apart = real(r[i.a + k]) - real(r[i.b + k]);
+        sum += apart * apart;
       }
       r[i.to] = bits(std::sqrt(sum));
       return;

@@ -200,8 +200,8 @@ TEST(SphereMasses, AThousandTimesAsHeavyNeitherReboundsNorSqueezesOut) {
   }
 }
 
-// Found when they are in by the way of a step, contacts still have the normals of what touched; crossed edges err by up
-// to 8 degrees.
+// Found when they are in by the displacement of a step, contacts still have the normals of what touched; crossed edges
+// err by up to 8 degrees.
 TEST(SphereImpacts, FoundLateGoAlongTheNormalToWithinADegree) {
   sphere::Variant late;
   late.settings.speculation = false;
@@ -316,8 +316,8 @@ TEST(SphereSpin, IsLostToThePatchOfAContact) {
   EXPECT_NEAR(spin_lost(Lab(sphere_default.make()), sphere::Settings{}.patch_radius), 1.0, 0.02);
 }
 
-// Besides what its own corners take, each sub-step takes about as much as a corner of a polygon whose sides are the way
-// of the contact in a sub-step.
+// Besides what its own corners take, each sub-step takes about as much as a corner of a polygon whose sides are the
+// distance of the contact in a sub-step.
 TEST(SphereSpin, OfACoinOnItsRimIsLostAsThatOfItsPolygon) {
   double before = 0.0;
   for (const auto& [share, least, most] : {std::array{1.0, 0.35, 0.6}, {0.4, 0.45, 0.75}, {0.1, 0.9, 1.1}}) {

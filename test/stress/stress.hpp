@@ -36,7 +36,7 @@ struct Expect {
   bool traced = true;        ///< false: energy, momentum and speed are not looked at, scenes may run side by side
 };
 
-constexpr double stays = 0.02;  ///< way / diagonal in 0.5 s beyond which a part called resting was not
+constexpr double stays = 0.02;  ///< displacement / diagonal in 0.5 s beyond which a part called resting was not
 
 struct Case {
   std::string name;  ///< unique within its row
@@ -53,7 +53,7 @@ inline const char* const trembles = "trembles or creeps by more than rest allows
 inline const char* const restarted =
     "stands when the run goes on; the re-run begins without the contact forces that held it";
 inline const char* const impact =
-    "an impact turns each body about a lever that is up to a step's way off the one it is struck at";
+    "an impact turns each body about a lever that is up to a step's displacement off the one it is struck at";
 
 struct Row {
   std::string theme, name;

@@ -46,7 +46,7 @@ struct PartPick {
   int id = 0;
   double load = 0.0;            ///< N: what others press down on it; 0 also if the solver does not tell forces
   double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
-  Vec3 lift = Vec3::Zero();     ///< m, bin frame: the way up on which it leaves all others below it
+  Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement upwards by which it leaves all others below it
   std::vector<int> blocked_by;  ///< ids that are in the way of its lift or lie on it, ascending; -1: a bin's mesh
   int depth = -1;  ///< how many rounds of picking precede it; -1: it never comes free (a cycle, or a fixed part)
   std::size_t tilted = 0;  ///< grasps left out because their approach is tilted too far

@@ -20,9 +20,8 @@ namespace bin_scenes {
 /// part that was never poured. Only report.wall_s, report.stages_ms and report.counters may differ between two runs of
 /// a request on one class of device. `images` add a block `truth` to each sensor: per part its visible fraction, boxes
 /// and counts of pixels.
-/// @param parts  parts[line] are the models; only with images
-std::string scene_json(const Scene& scene, const Request& request, const std::vector<RangeImage>& images = {},
-                       const std::vector<PartModelPtr>& parts = {});
+/// @param loaded  its models are needed with images only
+std::string scene_json(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images = {});
 /// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
 Scene read_scene_json(const std::string& path);
 

@@ -26,8 +26,8 @@ Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& 
 
 /// Distance that a can move along `direction` (unit, bin frame) before it touches b, up to `limit`. 0 if their surfaces
 /// already intersect on that path.
-double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, const Vec3& direction,
-                double limit);
+double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b,
+                     const Vec3& direction, double limit);
 
 /// Fills report.penetration, report.gap, accepted and reasons of the scene from its poses and flags.
 ///

@@ -13,9 +13,9 @@ struct LiftProof {
     jammed,   ///< the same, while others pulled it down with more than its weight
     dragged   ///< it came, and others with it
   } outcome = Outcome::lifted;
-  double slip = 0.0;         ///< m: way of its centre of mass in the gripper, from when that held it; until it was lost
+  double slip = 0.0;         ///< m: of its centre of mass in the gripper, from when that held it; until it was lost
   double turn = 0.0;         ///< rad: likewise, of its turn
-  std::vector<int> dragged;  ///< ids of other parts that came up with it, by half of the way or more; ascending
+  std::vector<int> dragged;  ///< ids of other parts that came up with it, by half of the lift or more; ascending
   std::vector<int> moved;    ///< of those that moved by 5 % of their diagonal or turned by 0.1 rad; ascending
 };
 

@@ -156,7 +156,7 @@ struct ThesisSettings {
 struct SphereSettings {
   double time_step = 1.0 / 400.0;  ///< s, one collision detection each; larger = faster, thin parts interlock
   bool cut_steps = true;      ///< shorter steps for small or fast parts; false = such parts may pass through others
-  double step_fall = 1.8e-3;  ///< with cut_steps: way that the smallest part falls from rest in one step at most /
+  double step_fall = 1.8e-3;  ///< with cut_steps: distance that the smallest part falls from rest in one step at most /
                               ///< its diagonal; more = longer steps for small parts, which sink in further
   int sub_steps = 2;          ///< contact solves per time step; more = stiffer piles, linear cost
   double recycle = 1e-3;      ///< contacts of a pair are reused until it moved so far / diagonal of the smallest part,
@@ -206,7 +206,7 @@ struct Laser {
   double width_mm = 0.3;  ///< of the line on the surface (mm, between the points of 1/e^2); wider = more speckle noise
 };
 
-/// laser_line: how camera and laser move over the bin together; their poses are those at the middle of the way.
+/// laser_line: how camera and laser move over the bin together; their poses are those at the middle of their path.
 struct Scan {
   Vec3 direction = Vec3::UnitX();  ///< bin frame, any length
   double step = 0.0005;            ///< m between profiles

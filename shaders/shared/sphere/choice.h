@@ -6,8 +6,9 @@
 const float TWIN = 1e-3f;    // size: as near as that is the same contact
 const float ALIKE = 0.9f;    // cosine of normals of contacts that may hand their force on
 const float SOON = 1e-3f;    // size: a gap that may close before contacts are found anew
-const float STRIKE = 0.02f;  // way in a step / that for which contacts are kept: what strikes as fast is found anew;
-                             // with 0.05 two of ten heaps of channel_u turn by up to 1.9 degrees under the referee
+const float STRIKE = 0.02f;  // distance in a step / that for which contacts are kept: what strikes as fast is found
+                             // anew; with 0.05 two of ten heaps of channel_u turn by up to 1.9 degrees under the
+                             // referee
 
 INLINE float way_between(IN(vec3) on_a, IN(vec3) normal, IN(vec3) chosen_on_a, IN(vec3) chosen_normal, float size) {
   return length(on_a - chosen_on_a) + 0.3f * size * length(normal - chosen_normal);

@@ -52,12 +52,8 @@ INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point)
     bool crease = is_crease(other, e);
     if (!crease && !near) break;
     IN(Edge) edge = edge_at(other, e);
-    if (edge.sharp == 0u) continue;
-    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
-    float t = dot(w, v) / dot(v, v);
-    if (t * length_of(edge) < -flush || (t - 1.0f) * length_of(edge) > flush) continue;
-    vec3 off = w - t * v;
-    if (length(off) >= reach) continue;
+    vec3 along, off;
+    if (edge.sharp == 0u || !is_beside(other, edge, point, flush, along, off) || length(off) >= reach) continue;
     vec3 into_1 = bound_at(edge.cone, 0u), into_2 = bound_at(edge.cone, 1u);
     for (uint f = 0u; f < 2u; ++f) {
       vec3 into = into_1, opposite = into_2;
@@ -68,7 +64,7 @@ INLINE Walls walls_at_crease(IN(Samples) other, IN(Field) field, IN(vec3) point)
       vec3 out_of = opposite;
       if (!crease) out_of = -opposite;
       Wall wall;
-      wall.away = common_normal(v, into, out_of);
+      wall.away = common_normal(along, into, out_of);
       wall.distance = dot(off, wall.away);
       wall.creased = crease;
       wall.faced = crease || dot(off, into) >= -flush;

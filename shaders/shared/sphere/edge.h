@@ -12,20 +12,25 @@ INLINE bool is_crease(IN(Samples) samples, uint e) {
   return e >= first_crease(samples);
 }
 
+// Where a sample is, in the field's frame, and what the field is there.
+struct Touch {
+  vec3 point, gradient;
+  float distance;
+};
+
 // Deepest point of the field along the edge from p to q, whose ends both rise away from its inside; false if there is
-// none. `lowest_end`: of both ends' distances (m): what is no deeper needs no contact of its own.
-INLINE bool descend(IN(Field) field, IN(vec3) p, IN(vec3) q, IN(vec3) gradient_p, IN(vec3) gradient_q, float lowest_end,
-                    INOUT(vec3) point, INOUT(vec3) gradient, INOUT(float) distance) {
+// none, or if it is no deeper than an end: that needs no contact of its own.
+INLINE bool descend(IN(Field) field, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   // Regula falsi on the slope along the edge, which is monotonic where the other surface is convex.
-  vec3 along = q - p;
-  float s0 = dot(gradient_p, along), s1 = dot(gradient_q, along), t0 = 0.0f, t1 = 1.0f;
+  vec3 along = q.point - p.point;
+  float s0 = dot(p.gradient, along), s1 = dot(q.gradient, along), t0 = 0.0f, t1 = 1.0f;
   if (s0 >= 0.0f || s1 <= 0.0f) return false;
   for (int i = 0; i < 6; ++i) {
     // Halving every other time keeps the bracket shrinking where the slope jumps (the other part's sharp edge).
     float t = (i & 1) == 1 ? 0.5f * (t0 + t1) : t0 + (t1 - t0) * s0 / (s0 - s1);
-    point = p + t * along;
-    distance = sample_field(field, point, gradient);
-    float slope = dot(gradient, along);
+    touch.point = p.point + t * along;
+    touch.distance = sample_field(field, touch.point, touch.gradient);
+    float slope = dot(touch.gradient, along);
     if (slope < 0.0f) {
       t0 = t;
       s0 = slope;
@@ -35,7 +40,7 @@ INLINE bool descend(IN(Field) field, IN(vec3) p, IN(vec3) q, IN(vec3) gradient_p
     }
     if (t1 - t0 < 0.02f) break;
   }
-  return distance < lowest_end;
+  return touch.distance < min(p.distance, q.distance);
 }
 
 // Where the lines p + s u and r + t v are nearest, w = p - r; false where they are parallel to within a degree: nodes
@@ -65,12 +70,11 @@ INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
 }
 
 // Where the edge from p to q crosses one of the other part: depth and direction are those of the nearest such edge,
-// along the common normal of both, if both can be pressed along it. `point`, `gradient`, `distance` are the field's
-// answer, and are replaced; all is left as it was, and false, if there is none.
-INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(vec3) point,
-                        INOUT(vec3) gradient, INOUT(float) distance) {
-  vec3 u = q - p, from = point, out_of = gradient;
-  float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(distance), SPHERE_EDGE_REACH * field.cell);
+// along the common normal of both, if both can be pressed along it. `touch` is the field's answer, and is replaced; it
+// is left as it was, and false returned, if there is none.
+INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3) q, INOUT(Touch) touch) {
+  vec3 u = q - p, from = touch.point, out_of = touch.gradient;
+  float uu = dot(u, u), nearest = min(2.0f * field.cell + abs(touch.distance), SPHERE_EDGE_REACH * field.cell);
   bool found = false;
   Range list = edges_near(other, field, from);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
@@ -78,15 +82,15 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r;
     float s, t;
     if (!nearest_points(u, uu, v, p - r, s, t) || s < 0.0f || s > 1.0f || t < 0.0f || t > 1.0f) continue;
-    vec3 on_u = p + s * u, apart = on_u - (r + t * v);
-    float way = length(apart);
-    if (way >= nearest) continue;
+    vec3 on_u = p + s * u, between = on_u - (r + t * v);
+    float apart = length(between);
+    if (apart >= nearest) continue;
     vec3 normal = common_normal(u, v, out_of);
     if (!presses_between(edge, normal, out_of)) continue;
-    nearest = way;
-    point = on_u;
-    gradient = normal;
-    distance = dot(apart, normal);
+    nearest = apart;
+    touch.point = on_u;
+    touch.gradient = normal;
+    touch.distance = dot(between, normal);
     found = true;
   }
   return found;
@@ -105,11 +109,11 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
     vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
     float s, t;
     if (!nearest_points(direction, 1.0f, v, w, s, t) || abs(s) > field.cell || t < 0.0f || t > 1.0f) continue;
-    float way = length(w + s * direction - t * v);
-    if (way >= nearest) continue;
+    float apart = length(w + s * direction - t * v);
+    if (apart >= nearest) continue;
     vec3 across = common_normal(direction, v, away);
     if (!presses_between(edge, across, away)) continue;
-    nearest = way;
+    nearest = apart;
     normal = across;
     found = true;
   }
@@ -140,79 +144,101 @@ struct WayOut {
   uint kind;    // the normal of a face; a direction to an edge, which may lean; or either, as the field has it
 };
 
+INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
+  WayOut way;
+  way.away = away;
+  way.distance = distance;
+  way.number = 0u;
+  way.kind = kind;
+  return way;
+}
+
 // The shortest first.
 struct WaysOut {
   uint count;
   WayOut way[SPHERE_MAX_WAYS];
 };
 
-// The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
-// each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
-INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+// Sharp edges that a point is beside, as they are found.
+struct EdgesBeside {
+  WaysOut faces;                   // one of each face that meets there
+  float to_edge[SPHERE_MAX_WAYS];  // m, from the point to the edge that each face is of
+  WayOut outside;                  // by the nearest edge, for a point outside
+  float nearest;                   // m, to that edge
+};
+
+// Whether a point is beside an edge, and not past an end of it, where another edge is, or a corner that is not convex
+// all round. `along` the edge; `off`: from its line to the point.
+INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
+  along = node_at(samples, edge.b) - node_at(samples, edge.a);
+  vec3 from_end = point - node_at(samples, edge.a);
+  float t = dot(from_end, along) / dot(along, along);
+  off = from_end - t * along;
+  return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
+}
+
+// Adds the way out by a face, or takes the place of one of the same face by an edge farther away.
+INLINE void add_face(INOUT(EdgesBeside) found, IN(WayOut) face, float to_edge) {
   const float like = 0.95f;  // cosine of normals that count as of one face
-  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
-  // the face behind it.
-  float flush = 0.002f * field.cell;
-  WaysOut ways;
-  ways.count = 0u;
-  float way_of[SPHERE_MAX_WAYS];  // to the edge that each is of
-  float nearest = field.cell;
-  WayOut outside;
-  outside.away = vec3(0.0f, 0.0f, 0.0f);
-  outside.distance = 0.0f;
-  outside.number = 0u;
-  outside.kind = OF_A_FACE;
-  Range list = edges_near(other, field, point);
-  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
-    IN(Edge) edge = edge_at(other, listed_edge(other, k));
-    if (edge.sharp == 0u) continue;
-    vec3 r = node_at(other, edge.a), v = node_at(other, edge.b) - r, w = point - r;
-    float t = dot(w, v) / dot(v, v);
-    // Another edge's, or a corner's that is not convex all round.
-    if (t * length_of(edge) < -flush || (t - 1.0f) * length_of(edge) > flush) continue;
-    vec3 off = w - t * v;
-    float way = length(off);
-    if (way >= field.cell) continue;
-    vec3 into_1 = bound_at(edge.cone, 0u), into_2 = bound_at(edge.cone, 1u);
-    WayOut faces[2];
-    faces[0].away = common_normal(v, into_1, -into_2);
-    faces[1].away = common_normal(v, into_2, -into_1);
-    for (uint f = 0u; f < 2u; ++f) {
-      faces[f].distance = dot(off, faces[f].away);
-      faces[f].number = 0u;
-      faces[f].kind = OF_A_FACE;
-      uint i = 0u;
-      while (i < ways.count && dot(ways.way[i].away, faces[f].away) < like) ++i;
-      if (i == SPHERE_MAX_WAYS || (i < ways.count && way_of[i] <= way)) continue;
-      ways.way[i] = faces[f];
-      way_of[i] = way;
-      ways.count = max(ways.count, i + 1u);
-    }
-    if (way >= nearest) continue;
-    nearest = way;
-    if (faces[0].distance >= faces[1].distance && dot(off, into_1) >= 0.0f) {  // above a face
-      outside = faces[0];
-    } else if (faces[1].distance >= faces[0].distance && dot(off, into_2) >= 0.0f) {
-      outside = faces[1];
-    } else {
-      outside.away = unit(off);
-      if (way <= 0.0f) outside.away = unit(faces[0].away + faces[1].away);
-      outside.distance = way;
-      outside.kind = TO_AN_EDGE;
-    }
-  }
-  bool inside = true;
-  for (uint i = 0u; i < ways.count; ++i) inside = inside && ways.way[i].distance <= flush;
-  if (!inside) {
-    ways.way[0] = outside;
-    ways.count = 1u;
-    return ways;
-  }
+  uint i = 0u;
+  while (i < found.faces.count && dot(found.faces.way[i].away, face.away) < like) ++i;
+  if (i == SPHERE_MAX_WAYS || (i < found.faces.count && found.to_edge[i] <= to_edge)) return;
+  found.faces.way[i] = face;
+  found.to_edge[i] = to_edge;
+  found.faces.count = max(found.faces.count, i + 1u);
+}
+
+// Adds both faces of an edge that a point is `off` from.
+INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN(vec3) off) {
+  float to_edge = length(off);
+  vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
+  vec3 normal_1 = common_normal(along, into_1, -into_2), normal_2 = common_normal(along, into_2, -into_1);
+  WayOut face_1 = way_of(OF_A_FACE, normal_1, dot(off, normal_1));
+  WayOut face_2 = way_of(OF_A_FACE, normal_2, dot(off, normal_2));
+  add_face(found, face_1, to_edge);
+  add_face(found, face_2, to_edge);
+  if (to_edge >= found.nearest) return;
+  found.nearest = to_edge;
+  if (face_1.distance >= face_2.distance && dot(off, into_1) >= 0.0f)  // above a face
+    found.outside = face_1;
+  else if (face_2.distance >= face_1.distance && dot(off, into_2) >= 0.0f)
+    found.outside = face_2;
+  else
+    found.outside = way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(normal_1 + normal_2) : unit(off), to_edge);
+}
+
+INLINE void sort_by_length(INOUT(WaysOut) ways) {
   for (uint i = 1u; i < ways.count; ++i)
     for (uint k = i; k > 0u && ways.way[k].distance > ways.way[k - 1u].distance; --k) {
       WayOut longer = ways.way[k - 1u];
       ways.way[k - 1u] = ways.way[k];
       ways.way[k] = longer;
     }
-  return ways;
+}
+
+// The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
+// each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
+INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
+  // the face behind it.
+  float flush = 0.002f * field.cell;
+  EdgesBeside found;
+  found.faces.count = 0u;
+  found.nearest = field.cell;
+  found.outside = way_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
+  Range list = edges_near(other, field, point);
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    vec3 along, off;
+    if (edge.sharp == 0u || !is_beside(other, edge, point, flush, along, off) || length(off) >= field.cell) continue;
+    add_edge(found, edge.cone, along, off);
+  }
+  bool inside = true;
+  for (uint i = 0u; i < found.faces.count; ++i) inside = inside && found.faces.way[i].distance <= flush;
+  if (!inside) {
+    found.faces.way[0] = found.outside;
+    found.faces.count = 1u;
+  }
+  sort_by_length(found.faces);
+  return found.faces;
 }

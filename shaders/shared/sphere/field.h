@@ -2,7 +2,7 @@
 // ball), and behind it sample_field(field, point) and sample_field(field, point, gradient), by cell_at().
 
 // Where a point of a grid lies: values at the corners of its cell (m; x fastest, then y, then z), its place in the cell
-// (0 to 1), and the way to the grid from a point beyond it (m).
+// (0 to 1), and the distance to the grid from a point beyond it (m).
 struct Cell {
   float c0, c1, c2, c3, c4, c5, c6, c7;
   float u, v, w;
@@ -19,7 +19,7 @@ INLINE float value_in(IN(Cell) c) {
   return between(between(x0, x1, c.v), between(x2, x3, c.v), c.w);
 }
 
-// Beyond the grid: a lower bound, the way to the grid added.
+// Beyond the grid: a lower bound, the distance to the grid added.
 INLINE float bounded(IN(Cell) c, float value, float padding) {
   float beyond = max(value, c.outside + padding);
   return c.outside > 0.0f ? beyond : value;
@@ -44,8 +44,8 @@ INLINE float distance_in(IN(Cell) c, float cell, float padding, IN(vec3) point, 
 }
 
 INLINE float distance_to_ball(float radius, IN(vec3) point, OUT(vec3) gradient) {
-  float way = length(point);
+  float from_center = length(point);
   gradient = vec3(0.0f, 0.0f, 1.0f);
-  if (way > 0.0f) gradient = point / way;
-  return way - radius;
+  if (from_center > 0.0f) gradient = point / from_center;
+  return from_center - radius;
 }

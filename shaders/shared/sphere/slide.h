@@ -12,9 +12,9 @@ INLINE float distance_to_plane(IN(Plane) plane, float top, IN(vec3) p, OUT(vec3)
   if (!is_wall(plane) || (above <= 0.0f && face >= above)) return face;
   away = up;
   if (above <= 0.0f || face <= 0.0f) return above;
-  float way = sqrt(above * above + face * face);
-  away = (above * up + face * normal) / way;
-  return way;
+  float distance = sqrt(above * above + face * face);
+  away = (above * up + face * normal) / distance;
+  return distance;
 }
 
 // Distance (m, negative inside) and the direction out.
@@ -24,9 +24,9 @@ INLINE float distance_to(IN(Solid) solid, IN(vec3) p, OUT(vec3) away) {
 }
 
 // A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
-// way follows from the angle between the node's normal and the gradient of the depth, and from how fast the normals
-// turn (cone); the part's own field brings the point back to the surface. `point`, `gradient` and `distance` are the
-// node's own in the frame of the solid, and are replaced. `carry`: from the node's frame to the solid's.
+// distance follows from the angle between the node's normal and the gradient of the depth, and from how fast the
+// normals turn (cone); the part's own field brings the point back to the surface. `point`, `gradient` and `distance`
+// are the node's own in the frame of the solid, and are replaced. `carry`: from the node's frame to the solid's.
 INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node, IN(Solid) solid, INOUT(vec3) point,
                   INOUT(vec3) gradient, INOUT(float) distance) {
   const float flat_angle = 0.02f;  // rad: below it the node itself is deep enough
@@ -35,20 +35,20 @@ INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node
   if (bounds_of(cone) != SPHERE_AXIS || own.ball > 0.0f || face_spacing <= 0.0f) return;
   float spread = spread_of(cone);
   if (spread < flat_angle) return;
-  float way_per_angle = 2.0f * face_spacing / spread;
+  float distance_per_angle = 2.0f * face_spacing / spread;
   vec3 start = node_at(samples, node), x = start, normal = axis_of(cone);
   for (int i = 0; i < 6; ++i) {
     vec3 down = -turned_back(carry.rotation, gradient), across = down - dot(down, normal) * normal;
     float angle = length(across);
     if (angle < flat_angle || dot(down, normal) < 0.5f) return;
-    vec3 there = x + min(angle * way_per_angle, face_spacing) / angle * across, normal_there, slope;
+    vec3 there = x + min(angle * distance_per_angle, face_spacing) / angle * across, normal_there, slope;
     float off = sample_field(own, there, normal_there);
     there -= off * normal_there;
     vec3 carried = carry.rotation * there + carry.offset;
     float deeper = distance_to(solid, carried, slope);
     // Past the deepest point, over the rim of the face, or where another node stands.
     if (deeper >= distance || abs(sample_field(own, there)) > 0.1f * own.cell || length(there - start) > face_spacing) {
-      way_per_angle *= 0.5f;
+      distance_per_angle *= 0.5f;
       continue;
     }
     x = there;

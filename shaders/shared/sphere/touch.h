@@ -20,10 +20,10 @@ INLINE float way_out(IN(Field) field, IN(vec3) point, IN(vec3) along, float dist
   float least = 0.25f * field.cell, t = 0.0f, before = distance;
   bool inside = distance < 0.0f;
   while (t < reach) {
-    float way = max(abs(before), least);
-    t += way;
+    float stride = max(abs(before), least);
+    t += stride;
     float now = sample_field(field, point + t * along);
-    if (now >= 0.0f && inside) return t - way * now / (now - before);
+    if (now >= 0.0f && inside) return t - stride * now / (now - before);
     inside = inside || now < 0.0f;
     before = now;
   }
@@ -82,15 +82,6 @@ INLINE bool press(IN(View) view, IN(vec3) point, IN(WayOut) way, IN(Cone) cone, 
   if (!turns && left < FLUSH && bounds_of(cone) == SPHERE_AXIS) return false;
   emit_from(view, point, turns ? turned : way.away, turns, way.distance, feature + way.number * SPHERE_PLANE);
   return true;
-}
-
-INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
-  WayOut way;
-  way.away = away;
-  way.distance = distance;
-  way.number = 0u;
-  way.kind = kind;
-  return way;
 }
 
 // A face that leans against an edge of the sample is not what it presses where that crosses an edge of the face: it
@@ -169,15 +160,15 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
 INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) cone, uint feature) {
   bool deep = distance < -2.0f * view.field.cell;
   vec3 back = -(view.to_field.rotation * middle_of(cone)), away;
-  float way = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
-  if (way < 0.0f) return;
+  float behind = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
+  if (behind < 0.0f) return;
   if (deep) {
-    float ahead = way_out(view.field, point, -back, distance, way);
-    if (ahead >= 0.0f && ahead < way) return;
+    float ahead = way_out(view.field, point, -back, distance, behind);
+    if (ahead >= 0.0f && ahead < behind) return;
   }
-  sample_field(view.field, point + way * back, away);
-  float behind = -way * dot(back, away);
-  if (behind <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, behind), cone, feature);
+  sample_field(view.field, point + behind * back, away);
+  float apart = -behind * dot(back, away);
+  if (apart <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, apart), cone, feature);
 }
 
 // The nearest of the ways out that are exact, where there are such, or that of the field.
@@ -200,8 +191,8 @@ INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, floa
 INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
-  vec3 way = view.drift + cross(view.twist, point), place = point, gradient = away;
-  float size = length(way), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
+  vec3 drift = view.drift + cross(view.twist, point), place = point, gradient = away;
+  float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
   float apart = distance;
   bool advances = abs(distance) <= error || (distance > 0.0f && distance - error < size);
   Walls walls;
@@ -215,15 +206,15 @@ INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance,
     if (!advances) break;
     WayOut near = nearest_way(walls, ways, gradient, apart);
     bool meets = near.distance <= 0.0f;
-    if (i == 0 && (meets || near.distance + dot(near.away, way) >= 0.0f)) break;
+    if (i == 0 && (meets || near.distance + dot(near.away, drift) >= 0.0f)) break;
     if (!meets && done >= size) {
       if (apart >= view.margin) return;
-      view.ahead = way;
+      view.ahead = drift;
       break;
     }
     advances = !meets && i + 2 < most_advances;
     done = advances ? min(done + max(near.distance, least), size) : 0.0f;
-    place = point + (done > 0.0f ? done / size : 0.0f) * way;
+    place = point + (done > 0.0f ? done / size : 0.0f) * drift;
     apart = sample_field(view.field, place, gradient);
   }
   bool creased = walls.count > 0u;
@@ -240,19 +231,13 @@ INLINE bool node_may_touch(IN(View) view, float distance) {
   return distance < view.margin + sag_of(view.samples);
 }
 
-// What is to be offered: where a sample is, in the field's frame, and what the field is there.
-struct Touch {
-  vec3 point, gradient;
-  float distance;
-};
-
 // Slides the node to where it is deepest; returns whether it is to be offered.
 INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
   slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch.point, touch.gradient, touch.distance);
   return touch.distance < view.margin;
 }
 
-// By the distances of its ends: it falls by no more than the way.
+// By the distances of its ends: it falls by no more than its length.
 INLINE bool edge_may_touch(IN(View) view, IN(Edge) edge, float distance_p, float distance_q) {
   return 0.5f * (distance_p + distance_q - length_of(edge)) < view.margin;
 }
@@ -266,15 +251,14 @@ INLINE bool may_cross(IN(View) view, IN(Edge) edge, float distance) {
 // offered.
 INLINE bool touches_with_edge(IN(View) view, uint e, IN(Touch) p, IN(Touch) q, INOUT(Touch) touch) {
   IN(Edge) edge = edge_at(view.samples, e);
-  bool lowest = descend(view.field, p.point, q.point, p.gradient, q.gradient, min(p.distance, q.distance), touch.point,
-                        touch.gradient, touch.distance);
+  bool lowest = descend(view.field, p, q, touch);
   for (int end = 0; end < 2; ++end) {
     if (!lowest) {
       touch = p;
       if (end == 1) touch = q;
       if (!may_cross(view, edge, touch.distance)) continue;
     }
-    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch.point, touch.gradient, touch.distance);
+    bool crossed = cross_edges(view.other, view.field, p.point, q.point, touch);
     if (!lowest && !crossed) continue;
     if (touch.distance >= view.margin) return false;
     bool presses = crossed && press(view, touch.point, way_of(OF_A_FACE, touch.gradient, touch.distance), edge.cone,

@@ -110,10 +110,10 @@ void ContactSolver::begin() {
   const int count = m_tmpSolverContactConstraintPool.size();
   rows += static_cast<std::uint64_t>(count);
   contacts_.resize(static_cast<std::size_t>(count));
-  ways_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Way());
+  displacements_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Displacement());
   for (int b = 0; b < m_tmpSolverBodyPool.size(); ++b) {
     const Motion* motion = motion_of(m_tmpSolverBodyPool[b]);
-    if (motion) ways_[b] = {-motion->ahead_moved, -motion->ahead_turned, false};
+    if (motion) displacements_[b] = {-motion->ahead_moved, -motion->ahead_turned, false};
   }
   blocks_.clear();
   for (int c = 0; c < count; ++c) {
@@ -128,7 +128,7 @@ void ContactSolver::begin() {
     if (c == 0 || row.m_solverBodyIdA != m_tmpSolverContactConstraintPool[c - 1].m_solverBodyIdA ||
         row.m_solverBodyIdB != m_tmpSolverContactConstraintPool[c - 1].m_solverBodyIdB)
       blocks_.push_back(c);
-    ways_[row.m_solverBodyIdA].touches = ways_[row.m_solverBodyIdB].touches = true;
+    displacements_[row.m_solverBodyIdA].touches = displacements_[row.m_solverBodyIdB].touches = true;
   }
   blocks_.push_back(count);
 }
@@ -249,10 +249,10 @@ btScalar ContactSolver::solve_normal(int c, btScalar h, const Soft* soft) {
   btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
   btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
   btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-  const Way &wa = ways_[row.m_solverBodyIdA], &wb = ways_[row.m_solverBodyIdB];
-  const btScalar gap = contacts_[c].distance + row.m_contactNormal1.dot(wa.moved) +
-                       row.m_relpos1CrossNormal.dot(wa.turned) + row.m_contactNormal2.dot(wb.moved) +
-                       row.m_relpos2CrossNormal.dot(wb.turned);
+  const Displacement &moved_a = displacements_[row.m_solverBodyIdA], &moved_b = displacements_[row.m_solverBodyIdB];
+  const btScalar gap = contacts_[c].distance + row.m_contactNormal1.dot(moved_a.moved) +
+                       row.m_relpos1CrossNormal.dot(moved_a.turned) + row.m_contactNormal2.dot(moved_b.moved) +
+                       row.m_relpos2CrossNormal.dot(moved_b.turned);
   btScalar bias = 0, mass_share = 1, impulse_share = 0;
   if (gap > 0) {
     bias = gap / h;  // may close by the end of the sub-step, no further
@@ -295,8 +295,8 @@ void ContactSolver::move(btScalar h) {
   for (int b = 0; b < m_tmpSolverBodyPool.size(); ++b) {
     const btSolverBody& body = m_tmpSolverBodyPool[b];
     if (!body.m_originalBody) continue;
-    ways_[b].moved += (body.m_linearVelocity + body.m_deltaLinearVelocity) * h;
-    ways_[b].turned += (body.m_angularVelocity + body.m_deltaAngularVelocity) * h;
+    displacements_[b].moved += (body.m_linearVelocity + body.m_deltaLinearVelocity) * h;
+    displacements_[b].turned += (body.m_angularVelocity + body.m_deltaAngularVelocity) * h;
   }
 }
 
@@ -341,9 +341,9 @@ void ContactSolver::hand_over() {
     body.m_externalForceImpulse.setZero();  // already in the velocity, sub-step by sub-step
     Motion* motion = motion_of(body);
     if (!motion) continue;
-    motion->touches = ways_[b].touches;
-    motion->moved = motion->ahead_moved + ways_[b].moved;
-    motion->turned = motion->ahead_turned + ways_[b].turned;
+    motion->touches = displacements_[b].touches;
+    motion->moved = motion->ahead_moved + displacements_[b].moved;
+    motion->turned = motion->ahead_turned + displacements_[b].turned;
   }
 }
 

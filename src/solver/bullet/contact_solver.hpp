@@ -58,8 +58,8 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
     bool pushed;
     btScalar lasting;  ///< normal impulse that the sub-step began with
   };
-  /// Way and turn of a solver body from where it was at detection.
-  struct Way {
+  /// Displacement and turn of a solver body from where it was at detection.
+  struct Displacement {
     btVector3 moved{0, 0, 0}, turned{0, 0, 0};
     bool touches = false;
   };
@@ -87,7 +87,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   std::vector<Contact> contacts_;  ///< parallel to m_tmpSolverContactConstraintPool
   std::vector<int> blocks_;        ///< first contact of each run between the same two bodies, and their count
   std::vector<char> unconverged_, were_unconverged_;  ///< by body: a contact of it is, in this sweep and before it
-  std::vector<Way> ways_;                             ///< parallel to m_tmpSolverBodyPool
+  std::vector<Displacement> displacements_;           ///< parallel to m_tmpSolverBodyPool
 };
 
 }  // namespace bin_scenes::bullet

@@ -19,8 +19,8 @@ btQuaternion rotation(const btVector3& turn) {
   return btQuaternion(turn / angle, angle);
 }
 
-btTransform moved(const btTransform& from, const btVector3& way, const btQuaternion& turn) {
-  return btTransform((turn * from.getRotation()).normalized(), from.getOrigin() + way);
+btTransform moved(const btTransform& from, const btVector3& displacement, const btQuaternion& turn) {
+  return btTransform((turn * from.getRotation()).normalized(), from.getOrigin() + displacement);
 }
 
 Mat3 cross_matrix(const Vec3& v) {
@@ -108,10 +108,10 @@ void DynamicsWorld::integrateTransforms(btScalar dt) {
       continue;
     }
     // Gravity alone acts through the whole step, so the mean of the velocities carries a free body (exact parabola).
-    const btVector3 way =
+    const btVector3 displacement =
         motion.touches ? motion.moved : (motion.linear + body.getLinearVelocity()) * (btScalar(0.5) * dt);
     const btQuaternion turn = motion.touches ? rotation(motion.turned) : motion.turn;
-    body.proceedToTransform(moved(motion.start, way, turn));
+    body.proceedToTransform(moved(motion.start, displacement, turn));
   }
 }
 

@@ -16,9 +16,9 @@ struct Motion {
   btVector3 linear{0, 0, 0};                       ///< velocity at the start of the step
   btQuaternion turn{0, 0, 0, 1};                   ///< of torque-free motion over the step
   bool touches = false;                            ///< the contact solver moved it in this step:
-  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< by way and turn
+  btVector3 moved{0, 0, 0}, turned{0, 0, 0};       ///< by displacement and turn
   btTransform start = btTransform::getIdentity();  ///< pose at the start of the step
-  btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< way and turn to where its contacts are found
+  btVector3 ahead_moved{0, 0, 0}, ahead_turned{0, 0, 0};  ///< displacement and turn to where its contacts are found
 };
 
 /// None of walls and of what is fixed: Bullet has one solver body for all of these.

@@ -9,7 +9,7 @@ namespace bin_scenes::bullet {
 
 namespace {
 
-constexpr double same_way = 0.9;  ///< cosine; a sliver's normal says little, its corners all
+constexpr double same_direction = 0.9;  ///< cosine; a sliver's normal says little, its corners all
 
 struct Flat {
   Vec3 normal, point;
@@ -56,7 +56,7 @@ btConvexPolyhedron polyhedron_of(const Mesh& hull, double flat) {
   for (const Facet& f : facets) {
     const Triangle& triangle = hull.triangles[f.triangle];
     const auto known = std::find_if(faces.begin(), faces.end(), [&](const Flat& face) {
-      return face.normal.dot(f.normal) > same_way * f.area &&
+      return face.normal.dot(f.normal) > same_direction * f.area &&
              std::all_of(triangle.begin(), triangle.end(),
                          [&](std::uint32_t v) { return face.holds(hull.vertices[v], flat); });
     });

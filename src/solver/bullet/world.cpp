@@ -23,7 +23,7 @@ namespace {
 
 // Lengths in units of the scaled world: the median part's diagonal is 1.
 constexpr double contact_distance = 0.005;
-constexpr double step_length = 0.02;  ///< way of the fastest part in one cut of a step that has contacts
+constexpr double step_length = 0.02;  ///< displacement of the fastest part in one cut of a step that has contacts
 constexpr int fine_cuts = 16;         ///< no more for the sake of exactness alone
 constexpr int most_cuts = 512;        ///< no more for the sake of a part that would pass through another
 constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
@@ -33,7 +33,7 @@ constexpr double patch_radius = 1e-3;  ///< of the smallest part, as Settings::p
 constexpr double sleep_speed = 1e-3;   ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;    ///< rad/s, likewise of Pour::rest_turn
 constexpr double sleep_time = 0.5;     ///< s an island must stay below both
-constexpr double going_on = 5e-4;      ///< way or turn times radius at which a body wakes what it touches
+constexpr double going_on = 5e-4;      ///< displacement or turn times radius at which a body wakes what it touches
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
   return std::sqrt(a->getFriction() * b->getFriction());
@@ -296,7 +296,7 @@ void World::wake_touched() {
 int World::cuts(double dt) const {
   if (!settings_.cut_steps) return 1;
   const double fall = def_.gravity.norm() * scale_ * dt * dt;
-  double way = 0.0;  // of the fastest part, without what gravity adds
+  double distance = 0.0;  // of the fastest part, without what gravity adds
   bool moves = false;
   double thinnest = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_)
@@ -305,13 +305,13 @@ int World::cuts(double dt) const {
     if (!body->rigid || body->rigid->isStaticObject() || !body->rigid->isActive()) continue;
     const double speed =
         body->rigid->getLinearVelocity().length() + body->rigid->getAngularVelocity().length() * body->shape->radius;
-    if (std::isfinite(speed)) way = std::max(way, speed * dt);
+    if (std::isfinite(speed)) distance = std::max(distance, speed * dt);
     moves = true;
   }
   if (!moves) return 1;
   const auto whole = [](double ratio, int most) { return static_cast<int>(std::ceil(std::min<double>(ratio, most))); };
-  const int exact = world_.getDispatcher()->getNumManifolds() > 0 ? whole(way / step_length, fine_cuts) : 1;
-  return std::max({1, exact, whole((way + fall) / (0.5 * thinnest), most_cuts)});
+  const int exact = world_.getDispatcher()->getNumManifolds() > 0 ? whole(distance / step_length, fine_cuts) : 1;
+  return std::max({1, exact, whole((distance + fall) / (0.5 * thinnest), most_cuts)});
 }
 
 void World::advance(const Steps& steps) {

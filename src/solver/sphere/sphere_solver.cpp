@@ -32,13 +32,13 @@ struct Slot {
 
 int cuts_of_fast(const World& world) {
   if (!world.settings.cut_steps) return 1;
-  float way = 0.0f, turn = 0.0f;
+  float distance = 0.0f, turn = 0.0f;
   for (const Body& b : world.bodies) {
     if (!b.moves()) continue;
-    way = std::max(way, (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius) * world.whole_step);
+    distance = std::max(distance, (b.v.norm() + b.w.norm() * world.shapes[b.shape]->radius) * world.whole_step);
     turn = std::max(turn, b.w.norm() * world.whole_step);
   }
-  return static_cast<int>(cuts_of(way, turn, world.thinnest));
+  return static_cast<int>(cuts_of(distance, turn, world.thinnest));
 }
 
 void step_in_cuts(World& world) {

@@ -72,7 +72,7 @@ struct Settings {
                                ///< 0 = a part held at two points swings forever; higher = wheels stop
   float push_speed = 4.0f;  ///< d per second: largest speed that removes overlap, / refinement; higher = parts pop out
   float margin = 4e-3f;     ///< d: contacts are found up to this distance plus the path of one step; with half of it a
-                            ///< spike between others is thrown up by a hundredth of the way it fell
+                            ///< spike between others is thrown up by a hundredth of the height it fell
   float recycle = 1e-3f;    ///< d: contacts of a pair are reused until it has moved this far
   float coarse_recycle = 3e-3f;  ///< d: the same on coarse samples, where less precision is needed
   float probe_slip =
@@ -81,7 +81,7 @@ struct Settings {
   float restitution_speed = 0.05f;  ///< m/s: slower impacts do not bounce
   float rest_window = 0.1f;         ///< s: a body sleeps after staying within rest_move for this time
   float rest_move = 1e-4f;          ///< d: largest move of a body that may sleep
-  float touch_move = 5e-4f;  ///< d: the same where bodies sleep by touch, and way at which they wake others; less
+  float touch_move = 5e-4f;  ///< d: the same where bodies sleep by touch, and distance at which they wake others; less
                              ///< = a pick wakes more of the heap, more = what creeps is frozen
 
   // Switches of what no number turns off, on in every request.

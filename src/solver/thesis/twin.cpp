@@ -133,107 +133,139 @@ void reorder(Memory& m) {
   }
 }
 
-void detect(Memory& m) {
-  // Every sphere against every other: what a grid may save, it must not change.
-  struct Found {
-    float depth;
-    gpu::uint other, key;
-    V center, normal;
-    bool face, deep;
-    float radius, friction, restitution;
-  };
-  const auto face_of = [&](gpu::uint s) {
-    const gpu::vec4& normal = m.shapes[m.spheres[s].shape].normal;
-    return std::make_pair(V(q(m.states[m.spheres[s].body].orientation) * v(normal)), normal.w > 0.5f);
-  };
-  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s) {
-    const gpu::uint body = m.spheres[s].body;
-    const gpu::ThesisWorld& world = world_of(m, body);
-    const V p = v(m.centers[s]);
-    const float r = m.centers[s].w;
-    std::vector<Found> found;
-    for (gpu::uint o = 0; o < m.spheres.size(); ++o) {
-      const gpu::uint other = m.spheres[o].body;
-      if (other == body || m.bodies[other].range.z != m.bodies[body].range.z) continue;
-      const float depth = r + m.centers[o].w - (p - v(m.centers[o])).norm();
-      const auto [normal, face] = face_of(o);
+namespace {
+
+/// A sphere or a node of a sheet that a sphere overlaps.
+struct Found {
+  float depth;
+  gpu::uint other, key;  ///< of the sphere or node, and of its body or sheet
+  V center, normal;
+  bool face, deep;
+  float radius, friction, restitution;
+};
+
+/// Normal of a sphere's face, and whether it has one.
+std::pair<V, bool> face_of(const Memory& m, gpu::uint sphere) {
+  const gpu::vec4& normal = m.shapes[m.spheres[sphere].shape].normal;
+  return {q(m.states[m.spheres[sphere].body].orientation) * v(normal), normal.w > 0.5f};
+}
+
+/// Every sphere against every other: what a grid may save, it must not change.
+void find_spheres(const Memory& m, gpu::uint sphere, std::vector<Found>& found) {
+  const gpu::uint body = m.spheres[sphere].body;
+  const V p = v(m.centers[sphere]);
+  for (gpu::uint o = 0; o < m.spheres.size(); ++o) {
+    const gpu::uint other = m.spheres[o].body;
+    if (other == body || m.bodies[other].range.z != m.bodies[body].range.z) continue;
+    const float depth = m.centers[sphere].w + m.centers[o].w - (p - v(m.centers[o])).norm();
+    if (depth <= 0.0f) continue;
+    const auto [normal, face] = face_of(m, o);
+    found.push_back({depth, o, other, v(m.centers[o]), normal, face, false, m.centers[o].w, m.bodies[other].surface.x,
+                     m.bodies[other].surface.y});
+  }
+}
+
+/// The nodes of the k-th sheet of a world that a sphere reaches; of what is deep in it, the nearest alone.
+void find_nodes(const gpu::ThesisSheet& sheet, gpu::uint k, const gpu::vec4& sphere, std::vector<Found>& found) {
+  const float r = sphere.w, radius = sheet.origin.w, pitch = sheet.normal.w;
+  const V p = v(sphere), from = p - v(sheet.origin), n = v(sheet.normal);
+  const float height = from.dot(n), at_u = from.dot(v(sheet.u)), at_v = from.dot(v(sheet.v));
+  if (height >= r + radius || height <= -sheet.surface.z) return;
+  const bool deep = height < 0.5f * (r + radius);
+  const int reach = deep ? 0 : static_cast<int>(std::ceil((r + radius) / pitch));
+  for (int dv = -reach; dv <= reach; ++dv)
+    for (int du = -reach; du <= reach; ++du) {
+      const float node_u = (std::round(at_u / pitch) + static_cast<float>(du)) * pitch;
+      const float node_v = (std::round(at_v / pitch) + static_cast<float>(dv)) * pitch;
+      if (std::abs(node_u) > sheet.u.w || std::abs(node_v) > sheet.v.w) continue;
+      const V center = v(sheet.origin) + node_u * v(sheet.u) + node_v * v(sheet.v);
+      const float depth = r + radius - (deep ? height : (p - center).norm());
+      const gpu::uint code =
+          THESIS_NODE | k << 16 | static_cast<gpu::uint>(du + 128) << 8 | static_cast<gpu::uint>(dv + 128);
       if (depth > 0.0f)
-        found.push_back({depth, o, other, v(m.centers[o]), normal, face, false, m.centers[o].w,
-                         m.bodies[other].surface.x, m.bodies[other].surface.y});
+        found.push_back(
+            {depth, code, THESIS_NODE | k, center, n, true, deep, radius, sheet.surface.x, sheet.surface.y});
     }
-    for (gpu::uint k = 0; k < world.sheets.y; ++k) {
-      const gpu::ThesisSheet& sheet = m.sheets[world.sheets.x + k];
-      const float radius = sheet.origin.w, pitch = sheet.normal.w;
-      const V from = p - v(sheet.origin), n = v(sheet.normal);
-      const float height = from.dot(n), at_u = from.dot(v(sheet.u)), at_v = from.dot(v(sheet.v));
-      if (height >= r + radius || height <= -sheet.surface.z) continue;
-      const bool deep = height < 0.5f * (r + radius);
-      const int reach = deep ? 0 : static_cast<int>(std::ceil((r + radius) / pitch));
-      for (int dv = -reach; dv <= reach; ++dv)
-        for (int du = -reach; du <= reach; ++du) {
-          const float node_u = (std::round(at_u / pitch) + static_cast<float>(du)) * pitch;
-          const float node_v = (std::round(at_v / pitch) + static_cast<float>(dv)) * pitch;
-          if (std::abs(node_u) > sheet.u.w || std::abs(node_v) > sheet.v.w) continue;
-          const V center = v(sheet.origin) + node_u * v(sheet.u) + node_v * v(sheet.v);
-          const float depth = r + radius - (deep ? height : (p - center).norm());
-          const gpu::uint code =
-              THESIS_NODE | k << 16 | static_cast<gpu::uint>(du + 128) << 8 | static_cast<gpu::uint>(dv + 128);
-          if (depth > 0.0f)
-            found.push_back(
-                {depth, code, THESIS_NODE | k, center, n, true, deep, radius, sheet.surface.x, sheet.surface.y});
-        }
-    }
-    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      return a.depth != b.depth ? a.depth > b.depth : a.other < b.other;
-    });
+}
 
-    const std::size_t kept = std::min<std::size_t>(found.size(), m.settings.capacity);
-    m.contact_ranges[s] = {0, 0};
-    if (kept == 0) continue;
-    gpu::ThesisNeed& need = m.needs[m.bodies[body].range.z];
-    need.contacts = std::max(need.contacts, static_cast<gpu::uint>(found.size()));
-    if (found.size() > kept) m.status.overflow |= THESIS_CONTACT_OVERFLOW;
-    const gpu::uint first = m.status.slots;
-    m.status.slots += static_cast<gpu::uint>(kept);
-    if (m.status.slots > m.settings.slots) {
-      m.status.overflow |= THESIS_SLOT_OVERFLOW;
-      continue;
-    }
-    m.contact_ranges[s] = {first, static_cast<gpu::uint>(kept)};
-    m.touching_spheres[m.status.touching_spheres++] = s;
+/// The deepest first.
+std::vector<Found> overlaps_of(const Memory& m, gpu::uint sphere) {
+  std::vector<Found> found;
+  find_spheres(m, sphere, found);
+  const gpu::ThesisWorld& world = world_of(m, m.spheres[sphere].body);
+  for (gpu::uint k = 0; k < world.sheets.y; ++k) find_nodes(m.sheets[world.sheets.x + k], k, m.centers[sphere], found);
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return a.depth != b.depth ? a.depth > b.depth : a.other < b.other; });
+  return found;
+}
 
-    const auto [own_normal, own_face] = face_of(s);
-    for (std::size_t i = 0; i < kept; ++i) {
-      const Found& f = found[i];
-      const V line = (p - f.center).normalized();
-      V n = line;
-      if (m.settings.modified_normals) {
-        const V mean = (f.face ? f.normal : V::Zero().eval()) - (own_face ? own_normal : V::Zero().eval());
-        if (mean.norm() >= 0.5f && mean.normalized().dot(line) >= 0.5f) n = mean.normalized();
-      }
-      if (f.deep) n = f.normal;
-      const V point = f.deep ? V(p - n * r) : V(p - line * (r - 0.5f * f.depth));
-      const V arm = point - v(m.states[body].position);
+/// Slots for the contacts of a sphere, if enough are free. Notes how many were wanted.
+void reserve_slots(Memory& m, gpu::uint sphere, std::size_t wanted) {
+  const std::size_t kept = std::min<std::size_t>(wanted, m.settings.capacity);
+  m.contact_ranges[sphere] = {0, 0};
+  if (kept == 0) return;
+  gpu::ThesisNeed& need = m.needs[m.bodies[m.spheres[sphere].body].range.z];
+  need.contacts = std::max(need.contacts, static_cast<gpu::uint>(wanted));
+  if (wanted > kept) m.status.overflow |= THESIS_CONTACT_OVERFLOW;
+  const gpu::uint first = m.status.slots;
+  m.status.slots += static_cast<gpu::uint>(kept);
+  if (m.status.slots > m.settings.slots) {
+    m.status.overflow |= THESIS_SLOT_OVERFLOW;
+    return;
+  }
+  m.contact_ranges[sphere] = {first, static_cast<gpu::uint>(kept)};
+  m.touching_spheres[m.status.touching_spheres++] = sphere;
+}
 
-      const auto velocity_at = [&](gpu::uint b) {
-        return V(v(m.states[b].velocity) + v(m.states[b].spin).cross(point - v(m.states[b].position)));
-      };
-      V relative = velocity_at(body), fall = m.settings.time_step * v(world.gravity);
-      if (!(f.key & THESIS_NODE)) {
-        relative -= velocity_at(f.key);
-        if (m.bodies[f.key].inverse_inertia.w > 0.0f) fall.setZero();
-      }
-      const float approach = -n.dot(relative - fall);
-      const float restitution = std::max(m.bodies[body].surface.y, f.restitution);
-      const float bounce = approach <= world.gravity.w ? 0.0f : restitution * approach + n.dot(fall);
-      const float left = m.settings.slop * std::min(r, f.radius);
-      const float goal = std::max(bounce, m.settings.bias * std::max(0.0f, f.depth - left));
-      m.contacts[first + i] = {pack(n, f.depth),
-                               pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
-                               {f.other, f.key, 1, 0},
-                               pack(V::Zero()),
-                               pack(V::Zero(), goal)};
-    }
+/// `line`: direction between both centers, which modified normals turn towards those of the faces.
+V normal_of(const Memory& m, gpu::uint sphere, const Found& f, const V& line) {
+  if (f.deep) return f.normal;
+  if (!m.settings.modified_normals) return line;
+  const auto [own_normal, own_face] = face_of(m, sphere);
+  const V mean = (f.face ? f.normal : V::Zero().eval()) - (own_face ? own_normal : V::Zero().eval());
+  return mean.norm() >= 0.5f && mean.normalized().dot(line) >= 0.5f ? V(mean.normalized()) : line;
+}
+
+/// Speed along the normal at which the contact is to part: of its rebound, or of what lets overlap out.
+float goal_of(const Memory& m, gpu::uint sphere, const Found& f, const V& n, const V& point) {
+  const gpu::uint body = m.spheres[sphere].body;
+  const gpu::ThesisWorld& world = world_of(m, body);
+  const auto velocity_at = [&](gpu::uint b) {
+    return V(v(m.states[b].velocity) + v(m.states[b].spin).cross(point - v(m.states[b].position)));
+  };
+  V relative = velocity_at(body), fall = m.settings.time_step * v(world.gravity);
+  if (!(f.key & THESIS_NODE)) {
+    relative -= velocity_at(f.key);
+    if (m.bodies[f.key].inverse_inertia.w > 0.0f) fall.setZero();
+  }
+  const float approach = -n.dot(relative - fall);
+  const float restitution = std::max(m.bodies[body].surface.y, f.restitution);
+  const float bounce = approach <= world.gravity.w ? 0.0f : restitution * approach + n.dot(fall);
+  const float left = m.settings.slop * std::min(m.centers[sphere].w, f.radius);
+  return std::max(bounce, m.settings.bias * std::max(0.0f, f.depth - left));
+}
+
+gpu::ThesisContact contact_of(const Memory& m, gpu::uint sphere, const Found& f) {
+  const gpu::uint body = m.spheres[sphere].body;
+  const V p = v(m.centers[sphere]), line = (p - f.center).normalized(), n = normal_of(m, sphere, f, line);
+  const float r = m.centers[sphere].w;
+  const V point = f.deep ? V(p - n * r) : V(p - line * (r - 0.5f * f.depth));
+  const V arm = point - v(m.states[body].position);
+  return {pack(n, f.depth),
+          pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
+          {f.other, f.key, 1, 0},
+          pack(V::Zero()),
+          pack(V::Zero(), goal_of(m, sphere, f, n, point))};
+}
+
+}  // namespace
+
+void detect(Memory& m) {
+  for (gpu::uint s = 0; s < m.settings.moving_spheres; ++s) {
+    const std::vector<Found> found = overlaps_of(m, s);
+    reserve_slots(m, s, found.size());
+    for (gpu::uint i = 0; i < m.contact_ranges[s].count; ++i)
+      m.contacts[m.contact_ranges[s].first + i] = contact_of(m, s, found[i]);
   }
 }
 
@@ -330,9 +362,9 @@ void position(Memory& m) {
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     if (m.bodies[b].inverse_inertia.w == 0.0f) continue;
     gpu::ThesisState& state = m.states[b];
-    V way = dt * v(state.velocity);
-    if (m.neighbour_counts[b] == 0) way -= 0.5f * dt * dt * v(world_of(m, static_cast<gpu::uint>(b)).gravity);
-    state.position = pack(v(state.position) + way);
+    V displacement = dt * v(state.velocity);
+    if (m.neighbour_counts[b] == 0) displacement -= 0.5f * dt * dt * v(world_of(m, static_cast<gpu::uint>(b)).gravity);
+    state.position = pack(v(state.position) + displacement);
 
     const V inverse = v(m.bodies[b].inverse_inertia);
     const Q old = q(state.orientation);

@@ -125,10 +125,10 @@ TEST(CrossEdges, NormalsLieBetweenTheFacesOfTheOtherEdge) {
   const Shape shape = box_shape(part, size);
   const auto cross = [&](float rise, Vec3f& normal) {
     const Vec3f middle = at_edge(0, 0.05f * shape.field.cell), along = 0.002f * Vec3f(1, 0, rise);
-    Vec3f point = middle;
-    float distance = -0.05f * shape.field.cell;
-    normal = Vec3f::UnitZ();
-    return cross_edges(shape.fine, shape.field, middle - along, middle + along, point, normal, distance);
+    Touch touch{middle, Vec3f::UnitZ(), -0.05f * shape.field.cell};
+    const bool crosses = cross_edges(shape.fine, shape.field, middle - along, middle + along, touch);
+    normal = touch.gradient;
+    return crosses;
   };
   Vec3f normal;
   EXPECT_TRUE(cross(-0.4f, normal));

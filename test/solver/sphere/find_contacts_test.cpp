@@ -71,9 +71,9 @@ TEST(NarrowPhase, ContactsAreFoundWithinTheMarginAndTheWayOfAStep) {
   const Shape shape = box_shape(part, {0.06, 0.06, 0.06}, 0.005);
   World world = falling_cube(shape, 0, 0);
   const float dt = world.settings.time_step, kept = world.settings.margin * world.smallest_size;
-  const float way = world.gravity.norm() * dt * dt, rounding = 1e-6f;
+  const float fall = world.gravity.norm() * dt * dt, rounding = 1e-6f;
   for (const float speed : {0.0f, 0.05f}) {
-    const float reach = kept + way + speed * dt, half_way = 0.5f * speed * dt;  // contacts are those of half the step
+    const float reach = kept + fall + speed * dt, half_way = 0.5f * speed * dt;  // contacts are those of half the step
     world = falling_cube(shape, reach - rounding, speed);
     ASSERT_EQ(world.manifolds.size(), 1u);
     EXPECT_GE(world.manifolds[0].contacts.size(), 4u) << speed;
@@ -186,9 +186,9 @@ TEST(NarrowPhase, PlatesThatLieFlushArePushedApartSideways) {
         const Manifold& m = world.manifolds[0];
         Aabb span;
         for (const Contact& c : m.contacts) {
-          const Vec3f way = world.bodies[1].x + c.anchor_b - c.anchor_a;
+          const Vec3f apart = world.bodies[1].x + c.anchor_b - c.anchor_a;
           // The grid rounds off what lies within a cell of an edge.
-          EXPECT_NEAR(way.dot(c.normal), -overlap, 0.6f * shape.field.cell) << overlap << " " << up << " " << along;
+          EXPECT_NEAR(apart.dot(c.normal), -overlap, 0.6f * shape.field.cell) << overlap << " " << up << " " << along;
           EXPECT_GT(c.normal.x(), 0.9f) << overlap << " " << up << " " << along;
           span.extend(c.anchor_a.cast<double>());
         }
@@ -217,8 +217,8 @@ TEST(NarrowPhase, WhatIsDeepInsideIsPushedOutTheWayItCameIn) {
       EXPECT_GE(m.contacts.size(), 4u);
       for (const Contact& c : m.contacts) {
         EXPECT_GT(c.normal.x(), 0.999f);
-        const Vec3f way = world.bodies[1].x + c.anchor_b - c.anchor_a;
-        EXPECT_NEAR(way.dot(c.normal), -share * edge, 0.5f * shape.field.cell);
+        const Vec3f apart = world.bodies[1].x + c.anchor_b - c.anchor_a;
+        EXPECT_NEAR(apart.dot(c.normal), -share * edge, 0.5f * shape.field.cell);
       }
     }
   }

@@ -94,10 +94,10 @@ TEST_P(Held, FollowsTheHand) {
   plates.jaws.velocity = Vec3(0.05, 0.02, 0.1);
   plates.close();
   plates.lab.simulate(0.5);
-  const Vec3 way = 0.5 * plates.jaws.velocity;
-  EXPECT_LT((plates.lab.center(plates.first) - jaw - way).norm(), 1e-4);
+  const Vec3 displacement = 0.5 * plates.jaws.velocity;
+  EXPECT_LT((plates.lab.center(plates.first) - jaw - displacement).norm(), 1e-4);
   // Friction needs a moment to bring it up to that speed: v^2 / 2 a, a being what friction spares.
-  EXPECT_LT((plates.lab.center(plates.block) - block - way).norm(), 0.102 * 0.102 / (2.0 * 2.0 * g) + 2e-4);
+  EXPECT_LT((plates.lab.center(plates.block) - block - displacement).norm(), 0.102 * 0.102 / (2.0 * 2.0 * g) + 2e-4);
   EXPECT_LT((plates.lab.state(plates.block).velocity.linear - plates.jaws.velocity).norm(), 1e-3);
 }
 
@@ -171,11 +171,11 @@ TEST_P(Held, CupHoldsSidewaysWhatFrictionOfItsRingDoes) {
     const double force = share * mass * g / friction;
     Cup cup(lab(), Vec3(0, g, 0), force);
     cup.lab.simulate(0.5);
-    const double way = cup.lab.center(cup.block).y();
+    const double distance = cup.lab.center(cup.block).y();
     if (share < 1.0)
-      EXPECT_GT(way, 0.8 * 0.5 * 0.01 * g * 0.25);
+      EXPECT_GT(distance, 0.8 * 0.5 * 0.01 * g * 0.25);
     else
-      EXPECT_LT(way, 1e-4);
+      EXPECT_LT(distance, 1e-4);
   }
 }
 

@@ -37,9 +37,9 @@ SharpEdges edges_of(const Mesh& mesh) {
 }
 
 double distance(const Mesh& mesh, const SharpEdge& edge, const Vec3& point) {
-  const Vec3 &a = mesh.vertices[edge.a], way = mesh.vertices[edge.b] - a;
-  const double at = std::clamp((point - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-  return (point - a - at * way).norm();
+  const Vec3 &a = mesh.vertices[edge.a], along = mesh.vertices[edge.b] - a;
+  const double at = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (point - a - at * along).norm();
 }
 
 TEST(StraightenedEdges, StayWithinTheirLimitOfASmoothOutline) {

@@ -164,16 +164,16 @@ WorldBuilder block_on_slope(double angle, double friction, double tightness, dou
 }
 
 // The floor is a lattice of spheres, so a block rides up and down as it slides; with spheres that overlap by half
-// (tightness 0.5) the ripple is 0.13 r high and takes less than 1 % off the way. measures.md asks 0.5 %, of an
+// (tightness 0.5) the ripple is 0.13 r high and takes less than 1 % off the distance. measures.md asks 0.5 %, of an
 // analytic floor.
 TEST(ThesisPhysics, SlidesAsFarAsFrictionLets) {
-  const double v0 = 0.8, mu = 0.4, way = v0 * v0 / (2.0 * mu * g);
+  const double v0 = 0.8, mu = 0.4, distance = v0 * v0 / (2.0 * mu * g);
   const ThesisSettings settings = settings_with(0.5, 4);
   ThesisSolver solver(settings);
   const WorldId id = block_on_slope(0.0, mu, 0.5, v0).add(solver, settings);
   solver.advance({id}, 0.5);
   const BodyState state = solver.states(id)[0];
-  EXPECT_NEAR(state.pose.position.x(), way, 0.01 * way);
+  EXPECT_NEAR(state.pose.position.x(), distance, 0.01 * distance);
   EXPECT_LT(state.velocity.linear.norm(), 1e-3);
 }
 
@@ -186,12 +186,12 @@ TEST(ThesisPhysics, SticksBelowAndSlidesAboveTheAngleOfFriction) {
     ThesisSolver solver(settings);
     const WorldId id = block_on_slope(angle, mu, tightness, 0.0).add(solver, settings);
     const double t = solver.advance({id}, 0.5);
-    const double way = solver.states(id)[0].pose.position.x();
+    const double distance = solver.states(id)[0].pose.position.x();
     const double slide = 0.5 * g * (std::sin(angle) - mu * std::cos(angle)) * t * t;
     if (factor < 1.0) {
-      EXPECT_LT(std::abs(way), 5e-4);
+      EXPECT_LT(std::abs(distance), 5e-4);
     } else {
-      EXPECT_NEAR(way, slide, 0.03 * slide);
+      EXPECT_NEAR(distance, slide, 0.03 * slide);
     }
   }
 }

@@ -12,22 +12,33 @@ constexpr int shared_color = SPHERE_COLORS - 1;  ///< its manifolds found no col
 
 /// What a body does from the start of a step to the middle of its sub-steps (StepPlan::half_way).
 struct Ahead {
-  Vec3f way = Vec3f::Zero(), turn = Vec3f::Zero();  ///< m, rad
+  Vec3f moved = Vec3f::Zero(), turned = Vec3f::Zero();  ///< m, rad
 
   Ahead(float half_way, const Body* body) {
     if (!body || !body->moves()) return;
-    way = half_way * body->v;
-    turn = half_way * body->w;
+    moved = half_way * body->v;
+    turned = half_way * body->w;
   }
 };
 
-void set_lane(ContactRows& rows, int lane, Contact& c, const Body& a, const Body* b, const Ahead& ahead_a,
-              const Ahead& ahead_b, float warm) {
+/// Bodies of a manifold; b is null for the ground.
+struct Bodies {
+  const Body& a;
+  const Body* b;
+  Ahead ahead_a, ahead_b;
+
+  Bodies(float half_way, const Body& first, const Body* second)
+      : a(first), b(second), ahead_a(half_way, &first), ahead_b(half_way, second) {}
+};
+
+void set_lane(ContactRows& rows, int lane, Contact& c, const Bodies& bodies, float warm) {
+  const Body &a = bodies.a, *b = bodies.b;
   const bool field_of_a = c.feature >> 31;
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
   Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
   rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
-  go_half_way(field_of_a, ahead_a.way, ahead_a.turn, ahead_b.way, ahead_b.turn, ra, rb, c.normal);
+  const Ahead &ahead_a = bodies.ahead_a, &ahead_b = bodies.ahead_b;
+  go_half_way(field_of_a, ahead_a.moved, ahead_a.turned, ahead_b.moved, ahead_b.turned, ra, rb, c.normal);
   const Vec3f t1 = c.normal.unitOrthogonal();
   rows.normal.set(lane, c.normal);
   rows.tangent.set(lane, t1);
@@ -135,9 +146,9 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     bundle.tipping_arm[lane] = rolls ? 0.0f : world.settings.patch_radius * world.smallest_size;
     if (motions[bundle.a[lane]].inverse_mass() > 0) bundle.inverse_inertia_a.set(lane, a.world_inverse_inertia);
     if (b && motions[bundle.b[lane]].inverse_mass() > 0) bundle.inverse_inertia_b.set(lane, b->world_inverse_inertia);
-    const Ahead ahead_a(half_way, &a), ahead_b(half_way, b);
+    const Bodies bodies(half_way, a, b);
     for (std::uint32_t k = 0; k < m.contacts.size(); ++k)
-      set_lane(rows[bundle.first + k], lane, m.contacts[k], a, b, ahead_a, ahead_b, warm);
+      set_lane(rows[bundle.first + k], lane, m.contacts[k], bodies, warm);
   }
   const Velocities velocities = velocities_of(bundle, motions);
   const Vec3f& g = world.gravity;
@@ -159,7 +170,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
 BIN_SCENES_WIDE
 void refresh_levers(const World& world, const std::vector<Motion>& motions, Bundle& bundle,
                     std::vector<ContactRows>& rows) {
-  const Ways ways = ways_of(bundle, motions);
+  const Displacements moved = displacements_of(bundle, motions);
   for (int lane = 0; lane < bundle.lanes; ++lane) {
     if (!bundle.refreshed[lane]) continue;
     const Manifold& m = world.manifolds[bundle.manifold[lane]];
@@ -181,7 +192,7 @@ void refresh_levers(const World& world, const std::vector<Motion>& motions, Bund
   const Velocities velocities = velocities_of(bundle, motions);
   for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
     set_masses(bundle, velocities.inverse_mass_a + velocities.inverse_mass_b, rows[i]);
-    rows[i].separation = bundle.refreshed ? rows[i].gap - ways.along(rows[i]) : rows[i].separation;
+    rows[i].separation = bundle.refreshed ? rows[i].gap - moved.along(rows[i]) : rows[i].separation;
   }
 }
 

@@ -100,8 +100,8 @@ struct Velocities {
   }
 };
 
-/// Ways of a bundle's bodies since contacts were found.
-struct Ways {
+/// Displacements of a bundle's bodies since contacts were found.
+struct Displacements {
   LaneVec moved_a, turned_a, moved_b, turned_b;
 
   /// That b's point went away from a's along the normal (m), to first order in the turn.
@@ -142,7 +142,7 @@ inline Velocities velocities_of(const Bundle& bundle, const std::vector<Motion>&
   return out;
 }
 
-inline Ways ways_of(const Bundle& bundle, const std::vector<Motion>& motions) {
+inline Displacements displacements_of(const Bundle& bundle, const std::vector<Motion>& motions) {
   return {gather(bundle.a, motions, &Motion::moved), gather(bundle.a, motions, &Motion::turned),
           gather(bundle.b, motions, &Motion::moved), gather(bundle.b, motions, &Motion::turned)};
 }

@@ -66,14 +66,14 @@ bool strikes(const World& world, const Manifold& m, float least) {
   return std::any_of(m.contacts.begin(), m.contacts.end(), [&](const Contact& c) {
     if (c.normal_force > 0) return false;
     const Vec3f nearing = velocity(a, c.anchor_a) - (b ? velocity(*b, c.anchor_b) : Vec3f(Vec3f::Zero()));
-    const float way = world.settings.time_step * nearing.dot(normal_of(c, a, b));
-    return way > least && way > separation(c, a, b);
+    const float approach = world.settings.time_step * nearing.dot(normal_of(c, a, b));
+    return approach > least && approach > separation(c, a, b);
   });
 }
 
 /// Whether the pair has hardly moved since its contacts were found. What strikes is found anew: beside an edge the
-/// plane that it will meet turns with every bit of the way. The point where a ball touches stays below it, while one
-/// that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
+/// plane that it will meet turns with every bit of displacement. The point where a ball touches stays below it, while
+/// one that is kept turns with it: the ball would stand on what it has rolled over, which drives it on.
 bool recyclable(const World& world, const Manifold& m, const RelativePose& now, float size) {
   if (!m.found) return false;
   if (world.is_ball(world.bodies[m.a]) || (m.b != ground && world.is_ball(world.bodies[m.b]))) return false;
@@ -98,11 +98,11 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
   const float dt = world.settings.time_step;
   const Vec3f v = b ? Vec3f(b->v - a.v) : Vec3f(-a.v);
   const float spin = a.w.norm() * sa.radius + (b ? b->w.norm() * world.shapes[b->shape]->radius : 0.0f);
-  const float way = (v.norm() + spin + world.gravity.norm() * dt) * dt;
+  const float distance = (v.norm() + spin + world.gravity.norm() * dt) * dt;
   if (recyclable(world, m, pose, size)) {
     ++counters.pairs_recycled;
   } else {
-    const float margin = world.settings.margin * size + (world.settings.speculation ? way : 0.0f);
+    const float margin = world.settings.margin * size + (world.settings.speculation ? distance : 0.0f);
     const Placement there_a(world, a);
     const std::optional<Placement> there_b = b ? std::optional<Placement>({world, *b}) : std::nullopt;
     candidates.clear();
@@ -111,9 +111,10 @@ void find_contacts_of(const World& world, Manifold& m, Counters& counters) {
     else
       candidates_of_ground(world, m, there_a, margin, counters, candidates);
     if (candidates.empty()) ++counters.pairs_culled;
-    // What is fast may meet all that is within its way.
-    const float soon = world.settings.soonest_first ? SOON * size + std::max(0.0f, way - world.settings.margin * size)
-                                                    : std::numeric_limits<float>::infinity();
+    // What is fast may meet all within the distance that it moves.
+    const float soon = world.settings.soonest_first
+                           ? SOON * size + std::max(0.0f, distance - world.settings.margin * size)
+                           : std::numeric_limits<float>::infinity();
     reduce(candidates, m, size, soon, chosen);
     counters.dropped += candidates.size() - chosen.size();
     fresh.clear();

@@ -42,7 +42,7 @@ struct EntryLanes {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Way the surface of a body may move in one step, and the distance at which contacts are kept.
+/// Distance that the surface of a body may move in one step, and the distance at which contacts are kept.
 float reach(const World& world, const Body& b) {
   const float base = 0.5f * world.settings.margin * world.shapes[b.shape]->size;
   if (!b.moves()) return base;

@@ -64,12 +64,12 @@ void carry_forces(const Manifold& last, std::vector<Contact>& fresh, float near)
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     if (warm[i]) continue;
     std::size_t best = old.size();
-    float best_way = near;
+    float nearest = near;
     for (std::size_t k = 0; k < old.size(); ++k) {
-      const float way = (old[k].anchor_a - fresh[i].anchor_a).norm();
-      if (taken[k] || way > best_way || old[k].normal.dot(fresh[i].normal) < ALIKE) continue;
+      const float distance = (old[k].anchor_a - fresh[i].anchor_a).norm();
+      if (taken[k] || distance > nearest || old[k].normal.dot(fresh[i].normal) < ALIKE) continue;
       best = k;
-      best_way = way;
+      nearest = distance;
     }
     if (best < old.size()) take(i, best);
   }

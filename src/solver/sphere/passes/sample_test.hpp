@@ -16,7 +16,7 @@ struct View {
   const Field& field;
   const Carry &to_field, &to_a;  ///< to_a: from the field's frame to that of the pair's first body
   std::uint32_t side;            ///< SPHERE_SIDE_B: the field's frame is that of the first body
-  Vec3f drift, twist;            ///< way and turn of the samples over the field until the step ends (m, rad)
+  Vec3f drift, twist;            ///< displacement and turn of the samples over the field until the step ends (m, rad)
   float margin;                  ///< up to which distance (m)
   bool way_back;                 ///< Settings::way_back
   Candidates& found;             ///< what touches is added

@@ -288,8 +288,8 @@ void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle&
 
 /// How far apart contacts are, bodies having moved.
 void ContactSolver::observe_gaps(const Bundle& bundle) {
-  const Ways ways = ways_of(bundle, motions_);
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + ways.along(rows_[i]);
+  const Displacements moved = displacements_of(bundle, motions_);
+  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) rows_[i].gap = rows_[i].separation + moved.along(rows_[i]);
 }
 
 /// What a sweep begins a bundle with.

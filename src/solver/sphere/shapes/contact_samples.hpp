@@ -57,7 +57,7 @@ struct Samples {
   std::vector<Points<clusters_at_once>> cluster_points;  ///< their centres, eight at a time
   EdgeGrid edge_grid;                                    ///< make_shape() makes it, with the field
   float spacing = 0;                                     ///< longest edge piece (m)
-  float face_spacing = 0;                                ///< mean way between neighbours on faces (m)
+  float face_spacing = 0;                                ///< mean distance between neighbours on faces (m)
   float sag = 0;                                         ///< m by which a curved face may bulge between its nodes
   float radius = 0;  ///< of the nodes: 0 = points; a ball is one node of its own radius
 };

@@ -32,9 +32,9 @@ void for_each_block(const Samples& samples, const Edge& edge, const Field& field
   for (int z = lower[2]; z <= upper[2]; ++z)
     for (int y = lower[1]; y <= upper[1]; ++y)
       for (int x = lower[0]; x <= upper[0]; ++x) {
-        const Vec3f way = (Vec3f(x, y, z) + Vec3f::Constant(0.5f)) * EdgeGrid::block - a;
-        const float t = std::clamp(way.dot(along) / std::max(along.squaredNorm(), 1e-12f), 0.0f, 1.0f);
-        if ((way - t * along).squaredNorm() <= far * far) visit(x + count[0] * (y + count[1] * z));
+        const Vec3f from_a = (Vec3f(x, y, z) + Vec3f::Constant(0.5f)) * EdgeGrid::block - a;
+        const float t = std::clamp(from_a.dot(along) / std::max(along.squaredNorm(), 1e-12f), 0.0f, 1.0f);
+        if ((from_a - t * along).squaredNorm() <= far * far) visit(x + count[0] * (y + count[1] * z));
       }
 }
 

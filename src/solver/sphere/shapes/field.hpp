@@ -34,7 +34,7 @@ struct Field {
   int nx = 0, ny = 0, nz = 0;
   const float* values = nullptr;  ///< owned by the PartModel
 
-  /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the way to the grid added.
+  /// Distance (m, negative inside) and its gradient. Outside the grid: a lower bound, the distance to the grid added.
   float sample(const Vec3f& point, Vec3f& gradient) const;
   float sample(const Vec3f& point) const;
 };
@@ -45,7 +45,7 @@ inline float sample_field(const Field& field, const Vec3f& point, Vec3f& gradien
 inline float sample_field(const Field& field, const Vec3f& point) {
   return field.sample(point);
 }
-/// m: no way within the part is longer.
+/// m: no line within the part is longer.
 inline float span_of(const Field& f) {
   return f.ball > 0 ? 2 * f.ball : f.cell * Eigen::Vector3i(f.nx, f.ny, f.nz).cast<float>().norm();
 }

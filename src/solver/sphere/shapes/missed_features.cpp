@@ -36,12 +36,12 @@ class Feeling {
       in_grid_ = draft_.nodes.size();
     }
     const auto felt_by = [&](std::size_t i) {
-      constexpr double slid = 0.7;  // of the longest way of a node along its face: it may end early
-      const Vec3 way = x - draft_.nodes[i];
+      constexpr double slid = 0.7;  // of the longest displacement of a node along its face: it may end early
+      const Vec3 moved = x - draft_.nodes[i];
       const Vec3f& axis = draft_.cones[i].axis;
-      const double height = way.dot(out);
-      return height <= most_ || (height <= bulge(draft_.cones[i], face_spacing_) && way.norm() < slid * face_spacing_ &&
-                                 axis.cast<double>().dot(out) > 0.5);
+      const double height = moved.dot(out);
+      return height <= most_ || (height <= bulge(draft_.cones[i], face_spacing_) &&
+                                 moved.norm() < slid * face_spacing_ && axis.cast<double>().dot(out) > 0.5);
     };
     if (grid_.any_within(x, face_spacing_, felt_by)) return true;
     for (std::size_t i = in_grid_; i < draft_.nodes.size(); ++i)

@@ -104,8 +104,8 @@ class Straightener {
     if (sides[0].dot(run.first[0]) < least_cosine || sides[1].dot(run.first[1]) < least_cosine) return false;
     const Vec3 along = (b - a).normalized();
     return std::all_of(run.vertices.begin() + 1, run.vertices.end(), [&](std::uint32_t v) {
-      const Vec3 way = mesh_.vertices[v] - a;
-      return (way - way.dot(along) * along).norm() <= most_off_;
+      const Vec3 from_a = mesh_.vertices[v] - a;
+      return (from_a - from_a.dot(along) * along).norm() <= most_off_;
     });
   }
 

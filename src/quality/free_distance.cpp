@@ -67,8 +67,8 @@ double triangle_distance(const TrianglePoints& s, const TrianglePoints& t, const
 
 }  // namespace
 
-double free_way(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b, const Vec3& direction,
-                double limit) {
+double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b,
+                     const Vec3& direction, double limit) {
   if (a.mesh().empty() || b.mesh().empty()) return limit;
   // Both in a frame with z against the direction, where a box's shadow is its x and y.
   const Quat upright = Quat::FromTwoVectors(-direction, Vec3::UnitZ());
