@@ -8,6 +8,9 @@
 #define OUT(T) T&
 #define INOUT(T) T&
 #define INLINE inline
+#define MEMBER_LIST(T, list, most) T list[most];
+#define LANE_LIST(T, list, most)
+#define LISTED(member, list, i) member[i]
 #define AND &
 #define OR |
 #else
@@ -15,6 +18,11 @@
 #define OUT(T) out T
 #define INOUT(T) inout T
 #define INLINE
+// Lists that are indexed at run time: each invocation has its part of shared memory. Arrays of its own would lie in
+// local memory, or become ladders of conditions: those of find_contacts were two thirds of its instructions.
+#define MEMBER_LIST(T, list, most)
+#define LANE_LIST(T, list, most) shared T list[most * SPHERE_PAIR_GROUP];
+#define LISTED(member, list, i) list[(i) * SPHERE_PAIR_GROUP + gl_LocalInvocationIndex]
 // What is computed of a contact: in C++ of eight at once.
 #define Real float
 #define Real3 vec3

@@ -74,32 +74,41 @@ Touch touch_of(View view, uint node) {
   return touch;
 }
 
+// Of a node (a = b), or of an edge's ends. In a loop: compilers put all that is called in place.
+void touches_of(View view, uint a, uint b, out Touch p, out Touch q) {
+  p = q = Touch(vec3(0.0), vec3(0.0), 0.0);
+  for (uint end = 0u; end < (a == b ? 1u : 2u); ++end) {
+    p = q;
+    q = touch_of(view, end == 0u ? a : b);
+  }
+}
+
 // Before the long way: most edges end here.
 bool is_worth_testing(View view, uint e) {
   Edge edge = edge_at(view.samples, e);
-  Touch p = touch_of(view, edge.a), q = touch_of(view, edge.b);
+  Touch p, q;
+  touches_of(view, edge.a, edge.b, p, q);
   if (!edge_may_touch(view, edge, p.distance, q.distance)) return false;
   vec3 along = q.point - p.point;
   return dot(p.gradient, along) < 0.0 && dot(q.gradient, along) > 0.0 || may_cross(view, edge, p.distance) ||
          may_cross(view, edge, q.distance);
 }
 
-// Both kinds end in one call of offer(): compilers put it in place, and it is nearly all of the pass.
+// Both kinds end in one call of offer(), which is nearly all of the pass.
 void test_sample(View view, uint feature) {
   uint i = feature & ~SPHERE_EDGE;
-  Touch touch;
-  Cone cone;
-  bool offers;
-  if ((feature & SPHERE_EDGE) != 0u) {
-    Edge edge = edge_at(view.samples, i);
-    cone = edge.cone;
-    offers = touches_with_edge(view, i, touch_of(view, edge.a), touch_of(view, edge.b), touch);
+  bool of_edge = (feature & SPHERE_EDGE) != 0u, offers;
+  Edge edge = Edge(i, i, Cone(0u, 0u), 0.0, 0u);
+  if (of_edge) edge = edge_at(view.samples, i);
+  Touch p, touch;
+  touches_of(view, edge.a, edge.b, p, touch);
+  if (of_edge) {
+    offers = touches_with_edge(view, i, p, touch, touch);
   } else {
-    touch = touch_of(view, i);
-    cone = cone_at(view.samples, i);
+    edge.cone = cone_at(view.samples, i);
     offers = touches_with_node(view, i, touch);
   }
-  if (offers) offer(view, touch.point, touch.gradient, touch.distance, cone, feature);
+  if (offers) offer(view, touch, edge.cone, feature);
 }
 
 // Has the sample wait for the others; false if the queue is full.

@@ -16,26 +16,29 @@ struct Wall {
   bool faced;      // the point does not lie beyond a sharp edge of it
 };
 
+// An invocation has one such list at a time.
 struct Walls {
   uint count;
-  Wall wall[SPHERE_MAX_WALLS];
+  MEMBER_LIST(Wall, wall, SPHERE_MAX_WALLS)
 };
+LANE_LIST(Wall, wall_lists, SPHERE_MAX_WALLS)
+#define WALL(walls, i) LISTED(walls.wall, wall_lists, i)
 
 // Adds a wall or finds it; returns its number, or SPHERE_MAX_WALLS if there are too many.
 INLINE uint add_wall(INOUT(Walls) walls, IN(Wall) wall, float same) {
   const float like = 0.999f;  // cosine
   uint i = 0u;
   while (i < walls.count &&
-         (dot(walls.wall[i].away, wall.away) < like || abs(walls.wall[i].distance - wall.distance) > same))
+         (dot(WALL(walls, i).away, wall.away) < like || abs(WALL(walls, i).distance - wall.distance) > same))
     ++i;
   if (i == SPHERE_MAX_WALLS) return i;
   if (i == walls.count) {
-    walls.wall[i] = wall;
+    WALL(walls, i) = wall;
     ++walls.count;
     return i;
   }
-  walls.wall[i].creased = walls.wall[i].creased || wall.creased;
-  walls.wall[i].faced = walls.wall[i].faced && wall.faced;
+  WALL(walls, i).creased = WALL(walls, i).creased || wall.creased;
+  WALL(walls, i).faced = WALL(walls, i).faced && wall.faced;
   return i;
 }
 

@@ -153,19 +153,23 @@ INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
   return way;
 }
 
-// The shortest first.
+// The shortest first. An invocation has one such list at a time.
 struct WaysOut {
   uint count;
-  WayOut way[SPHERE_MAX_WAYS];
+  MEMBER_LIST(WayOut, way, SPHERE_MAX_WAYS)
 };
+LANE_LIST(WayOut, way_lists, SPHERE_MAX_WAYS)
+#define WAY(ways, i) LISTED(ways.way, way_lists, i)
 
 // Sharp edges that a point is beside, as they are found.
 struct EdgesBeside {
-  WaysOut faces;                   // one of each face that meets there
-  float to_edge[SPHERE_MAX_WAYS];  // m, from the point to the edge that each face is of
-  WayOut outside;                  // by the nearest edge, for a point outside
-  float nearest;                   // m, to that edge
+  WaysOut faces;                                // one of each face that meets there
+  MEMBER_LIST(float, to_edge, SPHERE_MAX_WAYS)  // m, from the point to the edge that each face is of
+  WayOut outside;                               // by the nearest edge, for a point outside
+  float nearest;                                // m, to that edge
 };
+LANE_LIST(float, to_edge_lists, SPHERE_MAX_WAYS)
+#define TO_EDGE(found, i) LISTED(found.to_edge, to_edge_lists, i)
 
 // Whether a point is beside an edge, and not past an end of it, where another edge is, or a corner that is not convex
 // all round. `along` the edge; `off`: from its line to the point.
@@ -181,10 +185,10 @@ INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float 
 INLINE void add_face(INOUT(EdgesBeside) found, IN(WayOut) face, float to_edge) {
   const float like = 0.95f;  // cosine of normals that count as of one face
   uint i = 0u;
-  while (i < found.faces.count && dot(found.faces.way[i].away, face.away) < like) ++i;
-  if (i == SPHERE_MAX_WAYS || (i < found.faces.count && found.to_edge[i] <= to_edge)) return;
-  found.faces.way[i] = face;
-  found.to_edge[i] = to_edge;
+  while (i < found.faces.count && dot(WAY(found.faces, i).away, face.away) < like) ++i;
+  if (i == SPHERE_MAX_WAYS || (i < found.faces.count && TO_EDGE(found, i) <= to_edge)) return;
+  WAY(found.faces, i) = face;
+  TO_EDGE(found, i) = to_edge;
   found.faces.count = max(found.faces.count, i + 1u);
 }
 
@@ -195,8 +199,7 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
   vec3 normal_1 = common_normal(along, into_1, -into_2), normal_2 = common_normal(along, into_2, -into_1);
   WayOut face_1 = way_of(OF_A_FACE, normal_1, dot(off, normal_1));
   WayOut face_2 = way_of(OF_A_FACE, normal_2, dot(off, normal_2));
-  add_face(found, face_1, to_edge);
-  add_face(found, face_2, to_edge);
+  for (int f = 0; f < 2; ++f) add_face(found, f == 0 ? face_1 : face_2, to_edge);
   if (to_edge >= found.nearest) return;
   found.nearest = to_edge;
   if (face_1.distance >= face_2.distance && dot(off, into_1) >= 0.0f)  // above a face
@@ -209,10 +212,10 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
 
 INLINE void sort_by_length(INOUT(WaysOut) ways) {
   for (uint i = 1u; i < ways.count; ++i)
-    for (uint k = i; k > 0u && ways.way[k].distance > ways.way[k - 1u].distance; --k) {
-      WayOut longer = ways.way[k - 1u];
-      ways.way[k - 1u] = ways.way[k];
-      ways.way[k] = longer;
+    for (uint k = i; k > 0u && WAY(ways, k).distance > WAY(ways, k - 1u).distance; --k) {
+      WayOut longer = WAY(ways, k - 1u);
+      WAY(ways, k - 1u) = WAY(ways, k);
+      WAY(ways, k) = longer;
     }
 }
 
@@ -234,9 +237,9 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
     add_edge(found, edge.cone, along, off);
   }
   bool inside = true;
-  for (uint i = 0u; i < found.faces.count; ++i) inside = inside && found.faces.way[i].distance <= flush;
+  for (uint i = 0u; i < found.faces.count; ++i) inside = inside && WAY(found.faces, i).distance <= flush;
   if (!inside) {
-    found.faces.way[0] = found.outside;
+    WAY(found.faces, 0) = found.outside;
     found.faces.count = 1u;
   }
   sort_by_length(found.faces);

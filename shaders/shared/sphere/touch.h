@@ -97,24 +97,6 @@ INLINE bool is_crossed(IN(View) view, IN(vec3) point, IN(Cone) cone, IN(vec3) aw
   return false;
 }
 
-// Near a sharp edge the ways out are exact, so that a sample whose normal cone fits none of them does not press there.
-// (A way past an edge, turned into the cone, held up parts that leant against the edge from the side.) Makes a
-// contact of the first way that fits, of each that fits if `all`. Returns whether any of the ways ends outside.
-INLINE bool offer_ways(IN(View) view, IN(vec3) point, IN(WaysOut) ways, bool all, IN(Cone) cone, uint feature) {
-  bool out_there = all;
-  for (uint i = 0u; i < ways.count; ++i) {
-    WayOut way = ways.way[i];
-    // Half a cell beyond is outside, unless this is a seam between shells that touch. A crease is none, but narrow.
-    if (!all &&
-        sample_field(view.field, point + (0.5f * view.field.cell - way.distance) * way.away) < 0.3f * view.field.cell)
-      continue;
-    out_there = true;
-    if (is_crossed(view, point, cone, way.away)) continue;
-    if (press(view, point, way, cone, feature) && !all) break;
-  }
-  return out_there;
-}
-
 // Of the walls of a crease each presses that is near, but for those out of which another face leads sooner: that of a
 // sharp edge beside them.
 INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
@@ -124,7 +106,7 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
   WayOut exit = way_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
   bool exits = false, leaves = false;
   for (uint i = 0u; i < walls.count; ++i) {
-    Wall wall = walls.wall[i];
+    Wall wall = WALL(walls, i);
     vec3 turned;
     if (wall.creased || !wall.faced || wall.distance > flush || wall.distance <= soonest) continue;
     if (!turn(view, cone, wall.away, NEARLY_ALL, turned)) continue;
@@ -134,52 +116,78 @@ INLINE WaysOut ways_in_crease(IN(View) view, IN(Walls) walls, IN(Cone) cone) {
     exits = true;
   }
   for (uint i = 0u; i < walls.count; ++i) {
-    Wall wall = walls.wall[i];
+    Wall wall = WALL(walls, i);
     if (!wall.faced || wall.distance >= view.margin || (!wall.creased && wall.distance <= flush)) continue;
     if (exits && wall.distance < min(soonest, 0.0f)) {
       leaves = true;
       continue;
     }
     if (ways.count == SPHERE_MAX_WAYS) break;
-    ways.way[ways.count] = way_of(OF_A_FACE, wall.away, wall.distance);
-    ways.way[ways.count].number = i;
+    WAY(ways, ways.count) = way_of(OF_A_FACE, wall.away, wall.distance);
+    WAY(ways, ways.count).number = i;
     ++ways.count;
   }
   if (leaves && ways.count < SPHERE_MAX_WAYS) {
-    ways.way[ways.count] = exit;
+    WAY(ways, ways.count) = exit;
     ++ways.count;
   }
   return ways;
 }
 
-// A sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts
+// For a sample that is inside, or as good as, and whose surface cannot be pressed against the nearest way out: of parts
 // that lie flush (two plates side by side on the floor) that is the face level with it, although it is deeper in behind
 // another. It goes back through its own body, along the middle of its cone, to the face it comes out of: for at most
 // four cells, or, deep inside, unless it would be out sooner the other way, for then it did not come in through that
-// face.
-INLINE void offer_back(IN(View) view, IN(vec3) point, float distance, IN(Cone) cone, uint feature) {
-  bool deep = distance < -2.0f * view.field.cell;
+// face. False if there is no such way.
+INLINE bool finds_way_back(IN(View) view, IN(Touch) at, IN(Cone) cone, OUT(WayOut) way) {
+  float cell = view.field.cell, behind = 0.0f, reach = 4.0f * cell;
+  if (!view.way_back || at.distance >= error_of(view.field)) return false;
+  bool deep = at.distance < -2.0f * cell;
+  if (deep) reach = span_of(view.field);
   vec3 back = -(view.to_field.rotation * middle_of(cone)), away;
-  float behind = way_out(view.field, point, back, distance, deep ? span_of(view.field) : 4.0f * view.field.cell);
-  if (behind < 0.0f) return;
-  if (deep) {
-    float ahead = way_out(view.field, point, -back, distance, behind);
-    if (ahead >= 0.0f && ahead < behind) return;
+  for (int turn = 0; turn < (deep ? 2 : 1); ++turn) {
+    float found = way_out(view.field, at.point, (turn == 0 ? 1.0f : -1.0f) * back, at.distance, reach);
+    if (turn == 0 ? found < 0.0f : found >= 0.0f && found < behind) return false;
+    if (turn == 0) behind = reach = found;
   }
-  sample_field(view.field, point + behind * back, away);
-  float apart = -behind * dot(back, away);
-  if (apart <= 0.0f) press(view, point, way_of(BY_THE_FIELD, away, apart), cone, feature);
+  sample_field(view.field, at.point + behind * back, away);
+  way = way_of(BY_THE_FIELD, away, -behind * dot(back, away));
+  return way.distance <= 0.0f;
+}
+
+// Makes a contact of the first way out that fits; in a crease, of each wall that does. Near a sharp edge the ways out
+// are exact, so that a sample whose normal cone fits none of them does not press there. (A way past an edge, turned
+// into the cone, held up parts that leant against the edge from the side.) Where none of them ends outside, the way is
+// the field's, or else the one back. In one loop: compilers put all that is called in place.
+INLINE void offer_ways(IN(View) view, IN(Touch) at, IN(WaysOut) ways, bool creased, IN(Cone) cone, uint feature) {
+  bool out_there = creased;
+  for (uint i = 0u; i < ways.count + 2u; ++i) {
+    bool exact = i < ways.count;
+    if (!exact && out_there) return;
+    WayOut way = way_of(BY_THE_FIELD, at.gradient, at.distance);
+    if (exact) {
+      way = WAY(ways, i);
+      // Half a cell beyond is outside, unless this is a seam between shells that touch. A crease is none, but narrow.
+      vec3 beyond = at.point + (0.5f * view.field.cell - way.distance) * way.away;
+      if (!creased && sample_field(view.field, beyond) < 0.3f * view.field.cell) continue;
+      out_there = true;
+      if (is_crossed(view, at.point, cone, way.away)) continue;
+    } else if (i > ways.count && !finds_way_back(view, at, cone, way)) {
+      return;
+    }
+    if (press(view, at.point, way, cone, feature) && !(exact && creased)) return;
+  }
 }
 
 // The nearest of the ways out that are exact, where there are such, or that of the field.
 INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, float distance) {
   WayOut least = way_of(BY_THE_FIELD, away, distance);
-  if (ways.count > 0u) least = ways.way[0];
+  if (ways.count > 0u) least = WAY(ways, 0);
   bool none = true;
   for (uint i = 0u; i < walls.count; ++i) {
-    if (!walls.wall[i].creased || (!none && walls.wall[i].distance >= least.distance)) continue;
-    least.away = walls.wall[i].away;
-    least.distance = walls.wall[i].distance;
+    if (!WALL(walls, i).creased || (!none && WALL(walls, i).distance >= least.distance)) continue;
+    least.away = WALL(walls, i).away;
+    least.distance = WALL(walls, i).distance;
     none = false;
   }
   return least;
@@ -188,42 +196,40 @@ INLINE WayOut nearest_way(IN(Walls) walls, IN(WaysOut) ways, IN(vec3) away, floa
 // What comes by an edge until the step ends is held by the face that it will stand before, and not where it is: the
 // plane across the edge would stop it there, a peg above the mouth of its hole. What meets something on its way is held
 // by that as it lies now.
-INLINE void offer(IN(View) given, IN(vec3) point, IN(vec3) away, float distance, IN(Cone) cone, uint feature) {
+INLINE void offer(IN(View) given, IN(Touch) touch, IN(Cone) cone, uint feature) {
   const int most_advances = 18;
   View view = given;
-  vec3 drift = view.drift + cross(view.twist, point), place = point, gradient = away;
+  Touch at = touch;
+  vec3 drift = view.drift + cross(view.twist, touch.point);
   float size = length(drift), least = 0.25f * view.field.cell, error = error_of(view.field), done = 0.0f;
-  float apart = distance;
-  bool advances = abs(distance) <= error || (distance > 0.0f && distance - error < size);
+  bool advances = abs(touch.distance) <= error || (touch.distance > 0.0f && touch.distance - error < size);
   Walls walls;
   WaysOut ways;
   walls.count = ways.count = 0u;
   for (int i = 0; i < most_advances && radius_of(view.samples) <= 0.0f; ++i) {
-    walls = walls_at_crease(view.other, view.field, place);
+    walls = walls_at_crease(view.other, view.field, at.point);
     ways.count = 0u;
     if (walls.count == 0u && (advances || bounds_of(cone) != 0u))
-      ways = ways_out_at_edge(view.other, view.field, place);
+      ways = ways_out_at_edge(view.other, view.field, at.point);
     if (!advances) break;
-    WayOut near = nearest_way(walls, ways, gradient, apart);
+    WayOut near = nearest_way(walls, ways, at.gradient, at.distance);
     bool meets = near.distance <= 0.0f;
     if (i == 0 && (meets || near.distance + dot(near.away, drift) >= 0.0f)) break;
     if (!meets && done >= size) {
-      if (apart >= view.margin) return;
+      if (at.distance >= view.margin) return;
       view.ahead = drift;
       break;
     }
     advances = !meets && i + 2 < most_advances;
     done = advances ? min(done + max(near.distance, least), size) : 0.0f;
-    place = point + (done > 0.0f ? done / size : 0.0f) * drift;
-    apart = sample_field(view.field, place, gradient);
+    at.point = touch.point + (done > 0.0f ? done / size : 0.0f) * drift;
+    at.distance = sample_field(view.field, at.point, at.gradient);
   }
   bool creased = walls.count > 0u;
   if (creased) ways = ways_in_crease(view, walls, cone);
   // Which of the faces of an edge what has no cone presses against is not known.
   if (bounds_of(cone) == 0u && !creased) ways.count = 0u;
-  if (offer_ways(view, place, ways, creased, cone, feature)) return;
-  if (press(view, place, way_of(BY_THE_FIELD, gradient, apart), cone, feature)) return;
-  if (view.way_back && apart < error) offer_back(view, place, apart, cone, feature);
+  offer_ways(view, at, ways, creased, cone, feature);
 }
 
 // Whether a node that the field is `distance` from may touch.

@@ -72,7 +72,7 @@ std::size_t test_cluster(const View& view, std::size_t index) {
       const auto number = static_cast<uint>(node);
       Touch touch = cluster.touch(node);
       if (touches_with_node(view, number, touch))
-        offer(view, touch.point, touch.gradient, touch.distance, cone_at(view.samples, number), number);
+        offer(view, touch, cone_at(view.samples, number), number);
     }
   for (uint e = samples.first_edge[index]; e < samples.first_edge[index + 1]; ++e) {
     const Edge& edge = samples.edges[e];
@@ -82,7 +82,7 @@ std::size_t test_cluster(const View& view, std::size_t index) {
     if (!edge_may_touch(view, edge, distance_a, distance_b)) continue;
     Touch touch;
     if (touches_with_edge(view, e, cluster.touch(edge.a), cluster.touch(edge.b), touch))
-      offer(view, touch.point, touch.gradient, touch.distance, edge.cone, e | SPHERE_EDGE);
+      offer(view, touch, edge.cone, e | SPHERE_EDGE);
   }
   return count;
 }
