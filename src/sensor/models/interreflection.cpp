@@ -117,22 +117,35 @@ Vec3 carried_back(const Vec3& slope, const SeenPoint& met, const Vec3& direction
   return slope - slope.dot(direction) / met.normal.dot(direction) * met.normal;
 }
 
+/// The same for the length of a way that goes on from where the ray ends.
+Vec3 longer_by(const Vec3& slope, const SeenPoint& met, const Vec3& direction) {
+  return carried_back(slope, met, direction) - met.normal / met.normal.dot(direction);
+}
+
 /// @param before  the batch whose rays ended where those of `batch` begin; none: they begin at the point that is seen
 void add_paths(const Lamp& lamp, const Batch& batch, const Batch* before, std::vector<Path>& paths) {
   for (std::size_t i = 0; i < batch.lit.size(); ++i) {
     const Lit& lit = batch.lit[i];
     if (lit.code != Validity::valid || !(lit.reflected > 0.0)) continue;
+    const SeenPoint& met = batch.met[i];
     const Vec3& direction = batch.samples[i].direction;
-    Vec3 slope = carried_back(lamp.slope(batch.met[i].position, lit.column), batch.met[i], direction);
+    Path path;
+    path.column = lit.column;
+    path.row = lit.row;
+    path.weight = batch.samples[i].factor * lit.reflected / (lit.distance * lit.distance);
+    path.slope = carried_back(lamp.slope(met.position, lit.column), met, direction);
     // A cone about the ray covers as much of the plane as a step beside the ray's origin does.
-    const double across = (slope - slope.dot(direction) * direction).norm();
-    const double spread = batch.angles[i] * batch.distances[i] * across;
+    path.spread = batch.angles[i] * batch.distances[i] * (path.slope - path.slope.dot(direction) * direction).norm();
+    path.length = lit.distance + batch.distances[i];
+    path.longer = longer_by(lamp.way(met.position), met, direction);
     if (before) {
       const std::size_t k = batch.onward_of[i];
-      slope = carried_back(slope, before->met[k], before->samples[k].direction);
+      const SeenPoint& first = before->met[k];
+      path.slope = carried_back(path.slope, first, before->samples[k].direction);
+      path.length += before->distances[k];
+      path.longer = longer_by(path.longer, first, before->samples[k].direction);
     }
-    const double weight = batch.samples[i].factor * lit.reflected / (lit.distance * lit.distance);
-    paths.push_back({lit.column, lit.row, weight, spread, slope});
+    paths.push_back(path);
   }
 }
 

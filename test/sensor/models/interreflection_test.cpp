@@ -25,6 +25,7 @@ class EvenLamp : public Lamp {
     }
   }
   Vec3 slope(const Vec3&, double) const override { return Vec3::Zero(); }
+  Vec3 way(const Vec3&) const override { return Vec3::Zero(); }
 };
 
 /// A box seen from within.
