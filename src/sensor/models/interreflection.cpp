@@ -111,6 +111,27 @@ struct Batch {
   }
 };
 
+/// Sends one ray on from each place that those of a batch met; together they fill the hemisphere as evenly. In another
+/// order, or where they go would depend on where they came from.
+void go_on(const Surfaces& surfaces, const Batch& first, Random key, Batch& second) {
+  const auto samples = static_cast<int>(first.met.size());
+  const Net onward(samples, key.of_piece(1));
+  const std::vector<int> order = shuffled(samples, key.of_piece(2));
+  for (std::size_t i = 0; i < first.met.size(); ++i) {
+    const SeenPoint& met = first.met[i];
+    const Lobe::Sample& before = first.samples[i];
+    if (!met.hit) continue;
+    const Eigen::Vector2d at = onward.at(order[i]);
+    Surface own;
+    const Surface& surface = surfaces.at(met.line, met.label, met.position, own);
+    second.samples.push_back(Lobe(surface, met.normal, -before.direction).at(at.x(), at.y()));
+    second.angles.push_back(1.0 / std::sqrt(std::sqrt(samples) * second.samples.back().density));
+    second.samples.back().factor *= before.factor;
+    second.from.push_back(met);
+    second.onward_of.push_back(i);
+  }
+}
+
 /// By which a quantity that grows by `slope` with the place of what a ray meets, on its plane, grows with the place
 /// where the ray begins.
 Vec3 carried_back(const Vec3& slope, const SeenPoint& met, const Vec3& direction) {
@@ -165,39 +186,23 @@ Vec3 ProjectorLamp::slope(const Vec3& point, double column) const {
   return (share_ - column * ahead_) / ahead_.dot(point - pose_.position);
 }
 
-bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, double too_near, Gathered& out) {
+bool gather(const LitScene& scene, const SeenPoint& point, const Vec3& eye, const Search& search, Random key,
+            Gathered& out) {
   out.paths.clear();
   thread_local Batch first;  // keeps its memory: it is asked for each node
   first.clear();
-  first.spread(surfaces, point, eye, samples, key.of_piece(0));
-  first.trace(scenery);
+  first.spread(scene.surfaces, point, eye, search.samples, key.of_piece(0));
+  first.trace(scene.scenery);
   out.nearness = first.nearness();
-  if (out.nearness >= too_near) return false;
-  first.light(lamp);
-  add_paths(lamp, first, nullptr, out.paths);
-  if (bounces < 2) return true;
-  // One ray goes on from each place met; together they fill the hemisphere as evenly. In another order, or where they
-  // go would depend on where they came from.
+  if (out.nearness >= search.too_near) return false;
+  first.light(scene.lamp);
+  add_paths(scene.lamp, first, nullptr, out.paths);
+  if (search.bounces < 2) return true;
   Batch second;
-  const Net onward(samples, key.of_piece(1));
-  const std::vector<int> order = shuffled(samples, key.of_piece(2));
-  for (std::size_t i = 0; i < first.met.size(); ++i) {
-    const SeenPoint& met = first.met[i];
-    const Lobe::Sample& before = first.samples[i];
-    if (!met.hit) continue;
-    const Eigen::Vector2d at = onward.at(order[i]);
-    Surface own;
-    const Surface& surface = surfaces.at(met.line, met.label, met.position, own);
-    second.samples.push_back(Lobe(surface, met.normal, -before.direction).at(at.x(), at.y()));
-    second.angles.push_back(1.0 / std::sqrt(std::sqrt(samples) * second.samples.back().density));
-    second.samples.back().factor *= before.factor;
-    second.from.push_back(met);
-    second.onward_of.push_back(i);
-  }
-  second.trace(scenery);
-  second.light(lamp);
-  add_paths(lamp, second, &first, out.paths);
+  go_on(scene.surfaces, first, key, second);
+  second.trace(scene.scenery);
+  second.light(scene.lamp);
+  add_paths(scene.lamp, second, &first, out.paths);
   return true;
 }
 

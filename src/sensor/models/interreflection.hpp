@@ -6,6 +6,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "sensor/models/illumination.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace bin_scenes {
@@ -51,12 +52,21 @@ struct Gathered {
   double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
 };
 
-/// @param samples  rays, as the surface takes light
-/// @param bounces  1: light that met one other surface; 2: those that met two as well
-/// @param key      of the random numbers of this point
-/// @param too_near  nearness (1/m) from which on nothing is lit
-/// @return false   it was too near
-bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, double too_near, Gathered& out);
+struct LitScene {
+  const Scenery& scenery;
+  const Surfaces& surfaces;
+  const Lamp& lamp;
+};
+
+struct Search {
+  int samples;  ///< rays, as the surface takes light
+  int bounces;  ///< 1: light that met one other surface; 2: that which met two as well
+  double too_near = std::numeric_limits<double>::infinity();  ///< 1/m, nearness from which on nothing is lit
+};
+
+/// @param key     of the random numbers of this point
+/// @return false  it was too near
+bool gather(const LitScene& scene, const SeenPoint& point, const Vec3& eye, const Search& search, Random key,
+            Gathered& out);
 
 }  // namespace bin_scenes

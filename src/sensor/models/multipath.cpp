@@ -17,11 +17,11 @@ Multipath::Multipath(const Scenery& scenery, const View& view, const Surfaces& s
     : view_(view),
       wave_(2.0 * M_PI * 1e6 * modulation / speed_of_light),
       lamp_(scenery, view.lens, view.pose, surfaces),
-      field_(scenery, view, surfaces, lamp_, setup, channels, channels, phasors(), rays) {}
+      field_({scenery, surfaces, lamp_}, view, setup, phasors(), rays) {}
 
 /// Ways are those from the light to the surface that a pixel sees.
-IndirectField::Respond Multipath::phasors() const {
-  return [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
+IndirectField::Pattern Multipath::phasors() const {
+  const auto add = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
     for (const Path& path : paths) {
       const double c = path.weight * std::cos(wave_ * path.length), s = path.weight * std::sin(wave_ * path.length);
       out[cosine] += static_cast<float>(c);
@@ -34,6 +34,7 @@ IndirectField::Respond Multipath::phasors() const {
       }
     }
   };
+  return {channels, channels, add};
 }
 
 std::complex<double> Multipath::at(std::size_t pixel) const {
