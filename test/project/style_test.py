@@ -25,7 +25,7 @@ LARGE = """
 shaders/shared/sphere/edge.h descend, shaders/shared/sphere/edge.h ways_out_at_edge,
 shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
 shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
-src/sensor/sensor_keys.hpp visit, src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
+src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations,
 src/solver/sphere/passes/contact_rows.cpp set_lane,
 src/solver/thesis/twin.cpp detect"""
 
