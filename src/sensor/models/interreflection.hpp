@@ -52,6 +52,7 @@ struct Gathered {
   double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
 };
 
+/// What rays meet, and what lights it.
 struct LitScene {
   const Scenery& scenery;
   const Surfaces& surfaces;
