@@ -21,8 +21,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
        at_least(0.0, 1.0)},
       s.albedo);
   v.field({"modulation", "MHz",
-           "of the light's brightness: mixes light of ways of different length; depth repeats each 150 m / it, which "
-           "further frequencies of a device tell apart",
+           "of the light; depth repeats after 150 m / it, which devices resolve by further frequencies",
            at_least(0.1, 10000.0)},
           s.modulation);
   v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
