@@ -87,15 +87,15 @@ std::array<Vec3, 7> positions(const Sensor& sensor, const std::array<double, 3>&
           Vec3(half.x(), half.y(), z[2])};
 }
 
+/// One ball after the other: they would light and shade each other.
 void measure_balls(const Sensor& sensor, SensorMetrics& m) {
   const std::array<Vec3, 7> places = positions(sensor, m.distances, 0.55);
-  Targets targets;
   const Mesh ball = ball_target(m.ball_radius, 5);
-  for (const Vec3& place : places) targets.add(ball, {place, Quat::Identity()}, {albedo, 0.0, 0.4});
-  const RangeImage image = shot(sensor, targets, 0);
   std::array<Vec3, 7> middles;
   for (int i = 0; i < 7; ++i) {
-    const BallFit fit = fit_ball(points_with(image, i + 1));
+    Targets targets;
+    targets.add(ball, {places[i], Quat::Identity()}, {albedo, 0.0, 0.4});
+    const BallFit fit = fit_ball(points_with(shot(sensor, targets, 0), 1));
     m.probing_form[i] = range_of(fit.residuals);
     m.probing_size[i] = 2.0 * (fit.radius - m.ball_radius);
     middles[i] = fit.middle;

@@ -186,8 +186,9 @@ void visit(Visitor& v, Views& views) {
   v.field({"target", "m", "what the views of the dome look at; [0, 0, 0] is the middle of the floor"}, views.target);
 }
 
+/// From where it sees, and how far.
 template <class Visitor>
-void visit(Visitor& v, Sensor& sensor) {
+void visit_view(Visitor& v, Sensor& sensor) {
   v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
   Word model{sensor.model, {}};
   for (const SensorModel* known : sensor_models()) model.known.emplace_back(known->name);
@@ -220,6 +221,11 @@ void visit(Visitor& v, Sensor& sensor) {
           sensor.pose_of);
   v.field({"near", "m", "nothing nearer is seen", above(0.0)}, sensor.near);
   v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
+}
+
+/// Devices beside the camera's lens.
+template <class Visitor>
+void visit_devices(Visitor& v, Sensor& sensor) {
   const std::string fidelity = users_of(&SensorModel::fidelity) +
                                "analytic draws noise and gaps from formulas; decoded makes the images and evaluates "
                                "them as a device does, several times slower";
@@ -233,6 +239,12 @@ void visit(Visitor& v, Sensor& sensor) {
   v.section({"scan", "", scan.c_str()}, sensor.scan);
   const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
   v.section({"imager", "", imager.c_str()}, sensor.imager);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Sensor& sensor) {
+  visit_view(v, sensor);
+  visit_devices(v, sensor);
   CalibrationSettings& calibration = sensor.settings.of<CalibrationSettings>();
   v.section({"calibration", "",
              "errors of it, drawn once from seed and sensor: K, baseline and pose of the request are what the device "

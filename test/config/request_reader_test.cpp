@@ -84,7 +84,7 @@ sensors:
     stereo: {baseline: 0.2, disparities: 256, window: 9, dots: 0.2, uniqueness: 5, max_difference: 2, min_texture: 2, speckle_size: 50,
              disparity_noise: 0.1, min_signal: 0.05}
     time_of_flight: {axial: 0.002, axial_growth: 0.003, axial_distance: 0.5, axial_angle: 0.0002, lateral: 0.7,
-                     lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03}
+                     lateral_angle: 0.03, albedo: 0.6, min_signal: 0.02, mixed: remove, edge_step: 0.03, modulation: 80}
 grippers: [{name: two, stroke: 0.07}]
 prove: 5
 accept: {penetration: 0.03, gap: 0.04, escaped: true}

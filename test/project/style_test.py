@@ -23,9 +23,7 @@ MOST_PARAMETERS, MOST_LINES = 7, 60
 # Functions above a limit that others are at work on: a name goes when it is split.
 LARGE = """
 shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
-shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt,
-src/sensor/sensor_keys.hpp visit, src/sensor/models/indirect_field.cpp IndirectField, src/sensor/models/interreflection.cpp gather,
-src/sensor/models/laser_line.cpp line_at, src/sensor/models/sheet_glow.cpp follow"""
+shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt"""
 # Bullet prescribes its parameters.
 OF_A_LIBRARY = {"src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations"}
 

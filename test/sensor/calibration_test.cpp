@@ -271,6 +271,10 @@ TEST(Calibration, PresetsErrAsTheirMakersState) {
   stated("structured_light_0.65m_590mm", 0.35, 0.2 / (0.5 * (870.0 + 2150.0)));
   stated("stereo_0.7m_1200mm", 0.05, 0.5 * 0.02);
   stated("stereo_1m_750mm", 0.16, 0.001);
+  // The mean length of a vector of three normal errors is sqrt(8 / pi) sigmas.
+  const CalibrationSettings fringes = sigma("structured_light_0.7m_750mm");
+  EXPECT_NEAR(std::sqrt(8.0 / M_PI) * fringes.position, 0.328e-3, 0.01e-3);
+  EXPECT_NEAR(std::sqrt(8.0 / M_PI) * fringes.rotation, 0.050 * M_PI / 180.0, 0.02e-3);
   EXPECT_TRUE(sigma("laser_line_0.5m_350mm").any());
   EXPECT_NEAR(2.0 * sigma("time_of_flight_1m_1500mm").range, 0.011 + 0.001 * 1.0, 1e-12);
   EXPECT_FALSE(sigma("ideal").any());

@@ -46,6 +46,19 @@ TEST(SensorMetrics, FlatnessIsThatOfThePlatesFace) {
   for (int i = 0; i < 7; ++i) EXPECT_LT(m.flatness[i], 1e-5) << i;
 }
 
+/// Each ball is measured alone: what it sends to another one would be measured as an error of the sensor.
+TEST(SensorMetrics, BallsDoNotLightEachOther) {
+  for (const char* model : {"structured_light", "time_of_flight"}) {
+    Sensor sensor = small(model);
+    sensor.bounces = 0;
+    const SensorMetrics once = measure_sensor(sensor);
+    sensor.bounces = 1;
+    const SensorMetrics twice = measure_sensor(sensor);
+    EXPECT_EQ(once.probing_form, twice.probing_form) << model;
+    EXPECT_EQ(once.sphere_spacing, twice.sphere_spacing) << model;
+  }
+}
+
 /// Predicted for the middle distance, facing.
 double predicted(const SensorMetrics& m, double albedo) {
   for (const PredictedSigma& p : m.predicted) {

@@ -207,11 +207,8 @@ TEST(Resolve, DepthIsCountedAsFinelyAsTheBinAllows) {
 }
 
 TEST(Resolve, IndirectLightIsAsTheModelHasItUnlessGiven) {
-  const std::pair<const char*, std::optional<int>> defaults[] = {{"ideal", std::nullopt},
-                                                                 {"structured_light", 1},
-                                                                 {"laser_line", 1},
-                                                                 {"stereo", 0},
-                                                                 {"time_of_flight", std::nullopt}};
+  const std::pair<const char*, std::optional<int>> defaults[] = {
+      {"ideal", std::nullopt}, {"structured_light", 1}, {"laser_line", 1}, {"stereo", 0}, {"time_of_flight", 1}};
   for (const auto& [model, bounces] : defaults) {
     Sensor sensor;
     sensor.model = model;

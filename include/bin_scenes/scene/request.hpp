@@ -242,9 +242,9 @@ struct Sensor {
   Scan scan;                   ///< laser_line
   ImagerSettings imager;       ///< structured_light, laser_line, stereo: the camera's chip
   ModelSettings settings;      ///< of the models, by type: settings.of<StereoSettings>()
-  std::optional<int> bounces;  ///< structured_light, laser_line, stereo, image: other surfaces that light may meet, 0
-                               ///< to 2; more = depth errs in corners and on shiny parts as real devices do, slower.
-                               ///< None: as the model has it (SensorModel::bounces)
+  std::optional<int> bounces;  ///< all models but ideal: other surfaces that light may meet, 0 to 2; more = depth errs
+                               ///< in corners and on shiny parts as real devices do, slower. None: as the model has it
+                               ///< (SensorModel::bounces)
   int indirect_samples = 16;   ///< rays for them at a node, one for some pixels, or 32 rays of a laser's fan; noise
                                ///< of indirect light falls with them
   bool noise = true;           ///< false: every random effect is off; geometry (shadow, field of view) stays

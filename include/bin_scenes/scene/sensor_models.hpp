@@ -79,7 +79,9 @@ struct TimeOfFlightSettings {
                                  ///< noise for all
   double min_signal = 0.01;      ///< share of a white facing surface's at 1 m below which nothing is measured (code 4)
   MixedPixels mixed = MixedPixels::keep;
-  double edge_step = 0.02;  ///< m: depth step inside a pixel's footprint from which on it is a mixed pixel
+  double edge_step = 0.02;    ///< m: depth step inside a pixel's footprint from which on it is a mixed pixel
+  double modulation = 200.0;  ///< MHz, of the light's brightness: by which light of several ways is mixed. Depth
+                              ///< repeats after 150 m / it; devices tell the turns apart by further frequencies
 };
 
 }  // namespace bin_scenes

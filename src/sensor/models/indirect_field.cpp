@@ -30,17 +30,14 @@ double narrowness(const Surface& surface) {
 
 }  // namespace
 
-IndirectField::IndirectField(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Lamp& lamp,
-                             const Setup& setup, int channels, int growing, const Respond& respond,
+IndirectField::IndirectField(const LitScene& scene, const View& view, const Setup& setup, const Pattern& pattern,
                              const Random& random)
-    : scenery_(scenery),
+    : scene_(scene),
       view_(view),
-      surfaces_(surfaces),
-      lamp_(lamp),
       setup_(setup),
-      channels_(channels),
-      growing_(growing),
-      respond_(respond),
+      channels_(pattern.channels),
+      growing_(pattern.growing),
+      respond_(pattern.respond),
       random_(random),
       width_(view.lens.width),
       height_(view.lens.height),
@@ -155,13 +152,13 @@ void IndirectField::divide(Nodes& out, int left, int top, int spacing, std::vect
     pixels.erase(pixels.begin(), rest == pixels.begin() ? rest + 1 : rest);
     const std::size_t middle = middle_of(same);
     const double size = spacing * view_.depth[middle] / view_.lens.fx;
-    const double dense = near_by * narrowness(surfaces_.of(own.line));
+    const double dense = near_by * narrowness(scene_.surfaces.of(own.line));
     const double too_near = spacing <= finest ? std::numeric_limits<double>::infinity() : 1.0 / (dense * size);
     const Face at = face(middle);
     const SeenPoint point{view_.pose * at.point.cast<double>(), view_.pose.orientation * at.normal.cast<double>(),
                           at.line, true, at.label};
-    if (gather(scenery_, lamp_, surfaces_, point, view_.pose.position, samples_at(spacing), setup_.bounces,
-               random_.of_piece(middle), too_near, light)) {
+    const Search search{samples_at(spacing), setup_.bounces, too_near};
+    if (gather(scene_, point, view_.pose.position, search, random_.of_piece(middle), light)) {
       add_node(out, middle, spacing, light);
       continue;
     }
@@ -194,9 +191,9 @@ void IndirectField::add_node(Nodes& out, std::size_t pixel, int spacing, const G
     respond_(light.paths, steps, &out.values[at]);
   }
   const double pixel_size = view_.depth[pixel] / view_.lens.fx;
-  const double reach =
-      std::clamp(averaged / narrowness(surfaces_.of(view_.line[pixel])) / std::max(light.nearness * pixel_size, 1e-9),
-                 1.5 * spacing, 1.5 * coarsest);
+  const double reach = std::clamp(
+      averaged / narrowness(scene_.surfaces.of(view_.line[pixel])) / std::max(light.nearness * pixel_size, 1e-9),
+      1.5 * spacing, 1.5 * coarsest);
   out.all.push_back({face(pixel), static_cast<float>(pixel % width_), static_cast<float>(pixel / width_),
                      static_cast<float>(reach), !light.paths.empty()});
 }

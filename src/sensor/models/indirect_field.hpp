@@ -22,13 +22,16 @@ class IndirectField {
   /// What a pattern makes of light by some paths: adds to the channels, which interpolation mixes, to as many by which
   /// they grow as the paths' ends move by steps[0] (m), and to as many for steps[1].
   using Respond = std::function<void(const std::vector<Path>& paths, const Vec3* steps, float* channels)>;
+  struct Pattern {
+    int channels;  ///< of `respond`
+    int growing;  ///< how many of them, the first ones, are followed between nodes as paths move with the pixel; others
+                  ///< are interpolated only
+    Respond respond;
+  };
 
-  /// Asks `lamp` and `respond` while it is made only.
-  /// @param channels  of `respond`
-  /// @param growing   how many of them, the first ones, are followed between nodes as paths move with the pixel;
-  ///                  others are interpolated only
-  IndirectField(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Lamp& lamp,
-                const Setup& setup, int channels, int growing, const Respond& respond, const Random& random);
+  /// Asks the lamp and the pattern's `respond` while it is made only.
+  IndirectField(const LitScene& scene, const View& view, const Setup& setup, const Pattern& pattern,
+                const Random& random);
 
   /// The first `count` channels of a pixel; false and zeros if there is no light.
   bool at(std::size_t pixel, int count, float* channels) const;
@@ -65,10 +68,8 @@ class IndirectField {
   template <class Work>
   void for_tiles(const Node& node, const Work& work) const;
 
-  const Scenery& scenery_;
+  LitScene scene_;
   const View& view_;
-  const Surfaces& surfaces_;
-  const Lamp& lamp_;
   Setup setup_;
   int channels_, growing_;
   const Respond& respond_;

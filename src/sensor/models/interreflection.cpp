@@ -111,10 +111,36 @@ struct Batch {
   }
 };
 
+/// Sends one ray on from each place that those of a batch met; together they fill the hemisphere as evenly. In another
+/// order, or where they go would depend on where they came from.
+void go_on(const Surfaces& surfaces, const Batch& first, Random key, Batch& second) {
+  const auto samples = static_cast<int>(first.met.size());
+  const Net onward(samples, key.of_piece(1));
+  const std::vector<int> order = shuffled(samples, key.of_piece(2));
+  for (std::size_t i = 0; i < first.met.size(); ++i) {
+    const SeenPoint& met = first.met[i];
+    const Lobe::Sample& before = first.samples[i];
+    if (!met.hit) continue;
+    const Eigen::Vector2d at = onward.at(order[i]);
+    Surface own;
+    const Surface& surface = surfaces.at(met.line, met.label, met.position, own);
+    second.samples.push_back(Lobe(surface, met.normal, -before.direction).at(at.x(), at.y()));
+    second.angles.push_back(1.0 / std::sqrt(std::sqrt(samples) * second.samples.back().density));
+    second.samples.back().factor *= before.factor;
+    second.from.push_back(met);
+    second.onward_of.push_back(i);
+  }
+}
+
 /// By which a quantity that grows by `slope` with the place of what a ray meets, on its plane, grows with the place
 /// where the ray begins.
 Vec3 carried_back(const Vec3& slope, const SeenPoint& met, const Vec3& direction) {
   return slope - slope.dot(direction) / met.normal.dot(direction) * met.normal;
+}
+
+/// The same for the length of a way that goes on from where the ray ends.
+Vec3 longer_by(const Vec3& slope, const SeenPoint& met, const Vec3& direction) {
+  return carried_back(slope, met, direction) - met.normal / met.normal.dot(direction);
 }
 
 /// @param before  the batch whose rays ended where those of `batch` begin; none: they begin at the point that is seen
@@ -122,17 +148,25 @@ void add_paths(const Lamp& lamp, const Batch& batch, const Batch* before, std::v
   for (std::size_t i = 0; i < batch.lit.size(); ++i) {
     const Lit& lit = batch.lit[i];
     if (lit.code != Validity::valid || !(lit.reflected > 0.0)) continue;
+    const SeenPoint& met = batch.met[i];
     const Vec3& direction = batch.samples[i].direction;
-    Vec3 slope = carried_back(lamp.slope(batch.met[i].position, lit.column), batch.met[i], direction);
+    Path path;
+    path.column = lit.column;
+    path.row = lit.row;
+    path.weight = batch.samples[i].factor * lit.reflected / (lit.distance * lit.distance);
+    path.slope = carried_back(lamp.slope(met.position, lit.column), met, direction);
     // A cone about the ray covers as much of the plane as a step beside the ray's origin does.
-    const double across = (slope - slope.dot(direction) * direction).norm();
-    const double spread = batch.angles[i] * batch.distances[i] * across;
+    path.spread = batch.angles[i] * batch.distances[i] * (path.slope - path.slope.dot(direction) * direction).norm();
+    path.length = lit.distance + batch.distances[i];
+    path.longer = longer_by(lamp.way(met.position), met, direction);
     if (before) {
       const std::size_t k = batch.onward_of[i];
-      slope = carried_back(slope, before->met[k], before->samples[k].direction);
+      const SeenPoint& first = before->met[k];
+      path.slope = carried_back(path.slope, first, before->samples[k].direction);
+      path.length += before->distances[k];
+      path.longer = longer_by(path.longer, first, before->samples[k].direction);
     }
-    const double weight = batch.samples[i].factor * lit.reflected / (lit.distance * lit.distance);
-    paths.push_back({lit.column, lit.row, weight, spread, slope});
+    paths.push_back(path);
   }
 }
 
@@ -152,39 +186,23 @@ Vec3 ProjectorLamp::slope(const Vec3& point, double column) const {
   return (share_ - column * ahead_) / ahead_.dot(point - pose_.position);
 }
 
-bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, double too_near, Gathered& out) {
+bool gather(const LitScene& scene, const SeenPoint& point, const Vec3& eye, const Search& search, Random key,
+            Gathered& out) {
   out.paths.clear();
   thread_local Batch first;  // keeps its memory: it is asked for each node
   first.clear();
-  first.spread(surfaces, point, eye, samples, key.of_piece(0));
-  first.trace(scenery);
+  first.spread(scene.surfaces, point, eye, search.samples, key.of_piece(0));
+  first.trace(scene.scenery);
   out.nearness = first.nearness();
-  if (out.nearness >= too_near) return false;
-  first.light(lamp);
-  add_paths(lamp, first, nullptr, out.paths);
-  if (bounces < 2) return true;
-  // One ray goes on from each place met; together they fill the hemisphere as evenly. In another order, or where they
-  // go would depend on where they came from.
+  if (out.nearness >= search.too_near) return false;
+  first.light(scene.lamp);
+  add_paths(scene.lamp, first, nullptr, out.paths);
+  if (search.bounces < 2) return true;
   Batch second;
-  const Net onward(samples, key.of_piece(1));
-  const std::vector<int> order = shuffled(samples, key.of_piece(2));
-  for (std::size_t i = 0; i < first.met.size(); ++i) {
-    const SeenPoint& met = first.met[i];
-    const Lobe::Sample& before = first.samples[i];
-    if (!met.hit) continue;
-    const Eigen::Vector2d at = onward.at(order[i]);
-    Surface own;
-    const Surface& surface = surfaces.at(met.line, met.label, met.position, own);
-    second.samples.push_back(Lobe(surface, met.normal, -before.direction).at(at.x(), at.y()));
-    second.angles.push_back(1.0 / std::sqrt(std::sqrt(samples) * second.samples.back().density));
-    second.samples.back().factor *= before.factor;
-    second.from.push_back(met);
-    second.onward_of.push_back(i);
-  }
-  second.trace(scenery);
-  second.light(lamp);
-  add_paths(lamp, second, &first, out.paths);
+  go_on(scene.surfaces, first, key, second);
+  second.trace(scene.scenery);
+  second.light(scene.lamp);
+  add_paths(scene.lamp, second, &first, out.paths);
   return true;
 }
 

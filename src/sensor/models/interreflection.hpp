@@ -6,6 +6,7 @@
 #include "bin_scenes/core/random.hpp"
 #include "sensor/models/illumination.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace bin_scenes {
@@ -18,6 +19,8 @@ class Lamp {
   virtual void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const = 0;
   /// By how much the column grows with a point's place (1/m).
   virtual Vec3 slope(const Vec3& point, double column) const = 0;
+  /// Unit, the way that its light goes at a point.
+  virtual Vec3 way(const Vec3& point) const = 0;
 };
 
 class ProjectorLamp : public Lamp {
@@ -25,6 +28,7 @@ class ProjectorLamp : public Lamp {
   ProjectorLamp(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces);
   void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const override;
   Vec3 slope(const Vec3& point, double column) const override;
+  Vec3 way(const Vec3& point) const override { return (point - pose_.position).normalized(); }
 
  private:
   const Scenery& scenery_;
@@ -39,6 +43,8 @@ struct Path {
   double weight;       ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
   double spread;       ///< columns that the sample stands for, from one side to the other
   Vec3 slope;          ///< by which the column grows as the point moves (1/m), direction and all planes kept
+  double length;       ///< m, from the lamp by way of the other surfaces to the point
+  Vec3 longer;         ///< by which the length grows in the same way
 };
 
 struct Gathered {
@@ -46,12 +52,22 @@ struct Gathered {
   double nearness = 0.0;    ///< 1/m, mean over the samples of 1 / distance to what they meet
 };
 
-/// @param samples  rays, as the surface takes light
-/// @param bounces  1: light that met one other surface; 2: those that met two as well
-/// @param key      of the random numbers of this point
-/// @param too_near  nearness (1/m) from which on nothing is lit
-/// @return false   it was too near
-bool gather(const Scenery& scenery, const Lamp& lamp, const Surfaces& surfaces, const SeenPoint& point, const Vec3& eye,
-            int samples, int bounces, Random key, double too_near, Gathered& out);
+/// What rays meet, and what lights it.
+struct LitScene {
+  const Scenery& scenery;
+  const Surfaces& surfaces;
+  const Lamp& lamp;
+};
+
+struct Search {
+  int samples;  ///< rays, as the surface takes light
+  int bounces;  ///< 1: light that met one other surface; 2: that which met two as well
+  double too_near = std::numeric_limits<double>::infinity();  ///< 1/m, nearness from which on nothing is lit
+};
+
+/// @param key     of the random numbers of this point
+/// @return false  it was too near
+bool gather(const LitScene& scene, const SeenPoint& point, const Vec3& eye, const Search& search, Random key,
+            Gathered& out);
 
 }  // namespace bin_scenes

@@ -82,8 +82,14 @@ class LaserLine {
     return setup_.camera.project(to_camera_ * (point - at.eye));
   }
   void find_lines(const Carriage& at, const std::vector<Hit>& hits, Lines& lines) const;
-  std::optional<Line> line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own, std::size_t a,
-                              double at_a, std::size_t b, double at_b) const;
+  /// Two rays of the fan and the samples that show where they meet a plane.
+  struct Span {
+    std::size_t a;
+    double at_a;
+    std::size_t b;
+    double at_b;
+  };
+  std::optional<Line> line_at(const Carriage& at, int sample, const Hit& hit, std::size_t own, const Span& span) const;
   void extend(const Carriage& at, const std::vector<Hit>& hits, std::size_t own, std::size_t next,
               std::vector<Line>& asked) const;
   void keep_lit(const Carriage& at, const std::vector<Line>& asked, std::vector<Line>& lines) const;

@@ -27,8 +27,7 @@ void LaserLine::follow(const Carriage& at, const std::vector<Hit>& hits, const R
                        hit.distance * way.norm() * angle});
   }
   const auto count = static_cast<std::size_t>(setup_.indirect.samples) * directions_.size() / 32;
-  glow.follow(scenery_, surfaces_, {at.eye, setup_.camera_pose.orientation}, at.laser, sources, count,
-              setup_.indirect.bounces, key);
+  glow.follow({at.eye, setup_.camera_pose.orientation}, at.laser, sources, count, setup_.indirect.bounces, key);
 }
 
 /// Where other surfaces' light is brightest beside the lines of a sample, the device may see one more. What lies there

@@ -74,8 +74,10 @@ double SheetGlow::Grid::most(double sample) const {
   return std::max(most_[row], most_[std::min(row + 1, most_.size() - 1)]);
 }
 
-SheetGlow::SheetGlow(const Camera& camera)
-    : camera_(camera),
+SheetGlow::SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Camera& camera)
+    : scenery_(scenery),
+      surfaces_(surfaces),
+      camera_(camera),
       samples_(camera.upright ? camera.lens.height : camera.lens.width),
       across_(camera.upright ? camera.lens.width : camera.lens.height),
       fine_(samples_, across_, 4, 1),
@@ -92,11 +94,10 @@ struct SheetGlow::Flight {
   Vec3 direction;
 };
 
-void SheetGlow::follow(const Scenery& scenery, const Surfaces& surfaces, const Pose& view, const Vec3& laser,
-                       const std::vector<Source>& sources, std::size_t count, int bounces, Random key) {
-  if (sources.empty()) return;
+/// Light that leaves each source as it came in.
+std::vector<SheetGlow::Flight> SheetGlow::take_off(const Vec3& laser, const std::vector<Source>& sources,
+                                                   std::size_t count, double shift) const {
   const double per_ray = static_cast<double>(sources.size()) / static_cast<double>(count);
-  const double shift = key.uniform();
   std::vector<Flight> flights(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Source& source = sources[static_cast<std::size_t>((static_cast<double>(i) + shift) * per_ray)];
@@ -108,41 +109,62 @@ void SheetGlow::follow(const Scenery& scenery, const Surfaces& surfaces, const P
                   0.0,
                   Vec3::Zero()};
   }
+  return flights;
+}
+
+/// Draws from the surfaces' lobes where light goes on.
+/// @param bounce  number of the surface that is met next, from 0
+/// @param shift   of all draws
+void SheetGlow::turn(std::vector<Flight>& flights, int bounce, const Eigen::Vector2d& shift) const {
+  const unsigned base_u = bounce == 0 ? 2 : 5, base_v = bounce == 0 ? 3 : 7;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    Flight& f = flights[i];
+    Surface own;
+    const Lobe lobe(surfaces_.at(f.from.line, f.from.label, f.from.position, own), f.from.normal, f.to_light);
+    const Lobe::Sample sample =
+        lobe.at(wrapped(shift.x() + reversed_digits(i, base_u)), wrapped(shift.y() + reversed_digits(i, base_v)));
+    f.flux *= sample.factor;
+    f.angle = 1.0 / std::sqrt(sample.density);
+    f.direction = sample.direction;
+  }
+}
+
+/// To the next surface; light that meets none is gone.
+void SheetGlow::fly(std::vector<Flight>& flights) const {
+  std::vector<Ray> rays(flights.size());
+  std::vector<Hit> hits(flights.size());
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    const Flight& f = flights[i];
+    const Vec3 start = ray_between(f.from.position, f.from.normal, f.from.position + f.direction).origin;
+    rays[i] = {start, f.direction, 0.0, 1e9};
+  }
+  scenery_.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);
+  std::vector<Flight> arrived;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (std::isnan(hits[i].distance) || !(flights[i].flux > 0.0)) continue;
+    Flight f = flights[i];
+    f.spread += hits[i].distance * f.angle;
+    f.from = {rays[i].origin + hits[i].distance * f.direction, hits[i].normal, hits[i].line, true, hits[i].label};
+    f.to_light = -f.direction;
+    arrived.push_back(f);
+  }
+  flights = std::move(arrived);
+}
+
+void SheetGlow::follow(const Pose& view, const Vec3& laser, const std::vector<Source>& sources, std::size_t count,
+                       int bounces, Random key) {
+  if (sources.empty()) return;
+  std::vector<Flight> flights = take_off(laser, sources, count, key.uniform());
   for (int bounce = 0; bounce < bounces; ++bounce) {
     const double u = key.uniform(), v = key.uniform();
-    std::vector<Ray> rays(flights.size());
-    std::vector<Hit> hits(flights.size());
-    const unsigned base = bounce == 0 ? 2 : 5;
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-      Flight& f = flights[i];
-      Surface own;
-      const Lobe lobe(surfaces.at(f.from.line, f.from.label, f.from.position, own), f.from.normal, f.to_light);
-      const Lobe::Sample sample =
-          lobe.at(wrapped(u + reversed_digits(i, base)), wrapped(v + reversed_digits(i, bounce == 0 ? 3 : 7)));
-      f.flux *= sample.factor;
-      f.angle = 1.0 / std::sqrt(sample.density);
-      f.direction = sample.direction;
-      const Vec3 start = ray_between(f.from.position, f.from.normal, f.from.position + f.direction).origin;
-      rays[i] = {start, f.direction, 0.0, 1e9};
-    }
-    scenery.first_hits(rays.data(), hits.data(), rays.size(), Scenery::Rays::scattered);
-    std::vector<Flight> arrived;
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-      if (std::isnan(hits[i].distance) || !(flights[i].flux > 0.0)) continue;
-      Flight f = flights[i];
-      f.spread += hits[i].distance * f.angle;
-      f.from = {rays[i].origin + hits[i].distance * f.direction, hits[i].normal, hits[i].line, true, hits[i].label};
-      f.to_light = -f.direction;
-      arrived.push_back(f);
-    }
-    flights = std::move(arrived);
-    show(scenery, surfaces, view, flights);
+    turn(flights, bounce, {u, v});
+    fly(flights);
+    show(view, flights);
   }
 }
 
 /// Adds what the camera sees of spots.
-void SheetGlow::show(const Scenery& scenery, const Surfaces& surfaces, const Pose& view,
-                     const std::vector<Flight>& flights) {
+void SheetGlow::show(const Pose& view, const std::vector<Flight>& flights) {
   struct Spot {
     double sample, across, along, wide, light;
   };
@@ -157,7 +179,7 @@ void SheetGlow::show(const Scenery& scenery, const Surfaces& surfaces, const Pos
     const Vec3 to_eye = (view.position - f.from.position).normalized();
     const double in = f.from.normal.dot(f.to_light);
     Surface own;
-    const Surface& surface = surfaces.at(f.from.line, f.from.label, f.from.position, own);
+    const Surface& surface = surfaces_.at(f.from.line, f.from.label, f.from.position, own);
     const double sent = reflected(surface, f.from.normal, f.to_light, to_eye);
     if (!(sent > 0.0)) continue;
     const double focal = camera_.upright ? camera_.lens.fx : camera_.lens.fy, size = point.z() / focal;
@@ -173,7 +195,7 @@ void SheetGlow::show(const Scenery& scenery, const Surfaces& surfaces, const Pos
     rays.push_back(ray_between(f.from.position, f.from.normal, view.position));
   }
   std::vector<std::uint8_t> hidden(rays.size());
-  scenery.blocked(rays.data(), hidden.data(), rays.size(), Scenery::Rays::scattered);
+  scenery_.blocked(rays.data(), hidden.data(), rays.size(), Scenery::Rays::scattered);
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Spot& s = spots[i];
     if (hidden[i]) continue;

@@ -30,14 +30,14 @@ class SheetGlow {
     double flux;   ///< of the sheet between this ray and the next: signal of a white surface that faces it * m^2
     double apart;  ///< m, to where the next ray passes
   };
-  explicit SheetGlow(const Camera& camera);
+  SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Camera& camera);
 
   /// Adds light of `count` rays from all sources.
   /// @param view     of the camera
   /// @param laser    from where the sources are lit
   /// @param bounces  other surfaces that light meets after the first one, at most
-  void follow(const Scenery& scenery, const Surfaces& surfaces, const Pose& view, const Vec3& laser,
-              const std::vector<Source>& sources, std::size_t count, int bounces, Random key);
+  void follow(const Pose& view, const Vec3& laser, const std::vector<Source>& sources, std::size_t count, int bounces,
+              Random key);
 
   /// Signal of a pixel (integers: its centre); 0 outside the image.
   double at(int sample, int across) const;
@@ -60,8 +60,14 @@ class SheetGlow {
     std::vector<double> shares_;
   };
   struct Flight;
-  void show(const Scenery& scenery, const Surfaces& surfaces, const Pose& view, const std::vector<Flight>& flights);
+  std::vector<Flight> take_off(const Vec3& laser, const std::vector<Source>& sources, std::size_t count,
+                               double shift) const;
+  void turn(std::vector<Flight>& flights, int bounce, const Eigen::Vector2d& shift) const;
+  void fly(std::vector<Flight>& flights) const;
+  void show(const Pose& view, const std::vector<Flight>& flights);
 
+  const Scenery& scenery_;
+  const Surfaces& surfaces_;
   Camera camera_;
   int samples_, across_;
   Grid fine_, coarse_;  ///< of narrow and of wide spots

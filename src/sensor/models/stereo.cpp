@@ -88,12 +88,10 @@ std::vector<float> Stereo::pattern() const {
 std::vector<float> Stereo::haze(const View& view, const Random& random) const {
   if (setup_.indirect.bounces == 0) return {};
   const ProjectorLamp lamp(scenery_, setup_.projector, setup_.projector_pose, surfaces_);
-  const IndirectField field(
-      scenery_, view, surfaces_, lamp, setup_.indirect, 1, 0,
-      [](const std::vector<Path>& paths, const Vec3*, float* white) {
-        for (const Path& path : paths) *white += static_cast<float>(path.weight);
-      },
-      random);
+  const IndirectField::Pattern even{1, 0, [](const std::vector<Path>& paths, const Vec3*, float* white) {
+                                      for (const Path& path : paths) *white += static_cast<float>(path.weight);
+                                    }};
+  const IndirectField field({scenery_, surfaces_, lamp}, view, setup_.indirect, even, random);
   std::vector<float> out(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {

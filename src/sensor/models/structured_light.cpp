@@ -69,12 +69,12 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
   gain_ = gain();
   if (setup.indirect.bounces == 0) return;
   const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
-  const IndirectField::Respond respond = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
-    add_paths(paths, steps, out);
-  };
   const int all = channels + fringes_.images();
-  indirect_ = std::make_unique<const IndirectField>(scenery, view, surfaces, lamp, setup.indirect, all,
-                                                    setup.only_analytic ? channels : all, respond, random);
+  const IndirectField::Pattern pattern{
+      all, setup.only_analytic ? channels : all,
+      [this](const std::vector<Path>& paths, const Vec3* steps, float* out) { add_paths(paths, steps, out); }};
+  indirect_ =
+      std::make_unique<const IndirectField>(LitScene{scenery, surfaces, lamp}, view, setup.indirect, pattern, random);
 }
 
 /// Fringes as a sum of phasors, Gray bits as sums of lit and dark. Each path stands for all columns of its sample.

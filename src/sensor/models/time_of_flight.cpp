@@ -1,14 +1,16 @@
-/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light. Noise is drawn along and
-/// across the ray.
+/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light, to which light by way of
+/// other surfaces is added. Noise is drawn along and across the ray.
 #include "sensor/models/time_of_flight.hpp"
 
 #include "core/in_parallel.hpp"
 #include "sensor/models/cells.hpp"
+#include "sensor/models/multipath.hpp"
 #include "sensor/models/time_of_flight_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -64,7 +66,8 @@ class Row {
       Sum sum;
       for (std::size_t k = 4 * x; k < 4 * x + 4; ++k) add(x, rays[k], hits[k], sum);
       for (; next < others.size() && others[next].pixel == x; ++next) add(x, more_rays[next], more_hits[next], sum);
-      if (sum.signal > 0.0) out[x].depth = sum.depth / sum.signal;
+      const std::size_t i = row_ * jitter.size() + x;
+      out[x].depth = sum.signal > 0.0 ? sum.depth / sum.signal : view_.depth[i];
       out[x].signal = sum.signal / (crossed[x] ? cells::per_pixel : 4);
       out[x].mixed = sum.farthest - sum.nearest > edge_step_;
     }
@@ -122,15 +125,29 @@ class Row {
   Mat3 turn_;
 };
 
+/// Light by way of other surfaces, where a pixel's centre sees: the camera measures the phase of the sum.
+/// @param ray  through the centre, z = 1
+void add(const Multipath& multipath, std::size_t pixel, const Vec3& ray, Returned& light) {
+  const std::complex<double> late = multipath.at(pixel);
+  if (late == 0.0) return;
+  const double slant2 = ray.squaredNorm();  // signals go with depth, not with distance
+  const std::complex<double> sum = light.signal + slant2 * late;
+  light.signal = std::abs(sum);
+  light.depth += multipath.range(std::arg(sum)) / std::sqrt(slant2);
+}
+
 }  // namespace
 
 Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfaces& surfaces,
-                           const TimeOfFlightSettings& s, bool noise, const DepthRange& range, const Random& random) {
+                           const TimeOfFlightSetup& setup, const Random& random, const Random& rays) {
+  const TimeOfFlightSettings& s = setup.settings;
+  std::optional<Multipath> multipath;
+  if (setup.indirect.bounces > 0) multipath.emplace(scenery, view, surfaces, setup.indirect, s.modulation, rays);
   Measurement out(view.depth.size());
   const auto width = static_cast<std::size_t>(view.lens.width);
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t y) {
     Random draw = random.of_piece(y);
-    const Row row(scenery, view, surfaces, y, range.near, range.far, s.edge_step);
+    const Row row(scenery, view, surfaces, y, setup.near, setup.far, s.edge_step);
     std::vector<double> incidence(width, 0.0);
     std::vector<Eigen::Vector2d> jitter(width, Eigen::Vector2d::Zero());
     for (std::size_t x = 0; x < width; ++x) {
@@ -139,16 +156,17 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
         const auto& n = view.normal[i];
         incidence[x] = std::acos(std::clamp(-Vec3(n[0], n[1], n[2]).dot(row.middle(x).normalized()), 0.0, 1.0));
       }
-      if (!noise) continue;
+      if (!setup.noise) continue;
       draw.normals(jitter[x].x(), jitter[x].y());
       jitter[x] *= lateral_sigma(s, incidence[x]);
     }
-    const std::vector<Returned> light = row.returned(jitter);
+    std::vector<Returned> light = row.returned(jitter);
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       double axial = 0.0, unused = 0.0;
-      if (noise) draw.normals(axial, unused);
+      if (setup.noise) draw.normals(axial, unused);
       if (std::isnan(view.depth[i])) continue;
+      if (multipath) add(*multipath, i, row.middle(x), light[x]);
       out.intensity[i] = static_cast<float>(std::min(light[x].signal, 1.0));
       if (light[x].signal < s.min_signal) {
         out.validity[i] = Validity::dark;
@@ -159,9 +177,9 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
         const double facing =
             light[x].signal * light[x].depth * light[x].depth / std::max(std::cos(incidence[x]), 1e-3);
         const double sigma = axial_sigma(s, light[x].depth, incidence[x], facing);
-        const double z = light[x].depth + (noise ? axial * sigma : 0.0);
+        const double z = light[x].depth + (setup.noise ? axial * sigma : 0.0);
         out.snr[i] = static_cast<float>(light[x].depth / sigma);
-        const bool in_range = z >= range.near && z <= range.far;
+        const bool in_range = z >= setup.near && z <= setup.far;
         out.validity[i] = in_range ? Validity::valid : Validity::nothing;
         if (in_range) out.depth[i] = z;
       }

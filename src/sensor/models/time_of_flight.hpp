@@ -1,21 +1,27 @@
-/// A time-of-flight camera: its light stands beside the lens, so nothing is in shadow; noise along the ray and across
-/// it (time_of_flight_noise.hpp), and pixels whose light comes back from two depths.
+/// A time-of-flight camera: its light stands at the lens, so nothing is in shadow; noise along the ray and across it
+/// (time_of_flight_noise.hpp), pixels whose light comes back from two depths, and light that comes late, by way of
+/// other surfaces (multipath.hpp).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/view.hpp"
 #include "sensor/models/illumination.hpp"
+#include "sensor/models/indirect_field.hpp"
 #include "sensor/models/measurement.hpp"
 
 namespace bin_scenes {
 
-/// Depths that a camera reports, m.
-struct DepthRange {
-  double near, far;
+struct TimeOfFlightSetup {
+  TimeOfFlightSettings settings;
+  bool noise = true;
+  double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
+  IndirectField::Setup indirect{};
 };
 
+/// @param random  of the noise
+/// @param rays    of the indirect light's samples
 Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfaces& surfaces,
-                           const TimeOfFlightSettings& settings, bool noise, const DepthRange& range,
-                           const Random& random);
+                           const TimeOfFlightSetup& setup, const Random& random,
+                           const Random& rays = Random(0, 0, Stream::sensor));
 
 }  // namespace bin_scenes

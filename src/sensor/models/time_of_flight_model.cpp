@@ -20,6 +20,10 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
       {"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = the same noise for all",
        at_least(0.0, 1.0)},
       s.albedo);
+  v.field({"modulation", "MHz",
+           "of the light; depth repeats after 150 m / it, which devices resolve by further frequencies",
+           at_least(0.1, 10000.0)},
+          s.modulation);
   v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
            above(0.0, 1.0)},
           s.min_signal);
@@ -32,8 +36,9 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
-  Measurement measured = time_of_flight(scenery, view, surfaces, sensor.settings.of<TimeOfFlightSettings>(),
-                                        sensor.noise, {sensor.near, sensor.far}, random_of(draw));
+  const TimeOfFlightSetup setup{sensor.settings.of<TimeOfFlightSettings>(), sensor.noise, sensor.near, sensor.far,
+                                indirect_of(sensor)};
+  Measurement measured = time_of_flight(scenery, view, surfaces, setup, random_of(draw), rays_of(draw));
   return image_of(std::move(view), std::move(measured));
 }
 
@@ -44,7 +49,10 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  return {"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
+  SensorModel m{"time_of_flight", "noise along the ray and across it", visit_keys, nullptr, nullptr, measured, sigma};
+  m.indirect = true;
+  m.bounces = 1;
+  return m;
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "sensor/models/interreflection.hpp"
 #include "sensor/models/facets.hpp"
-#include "sensor/models/lobe.hpp"
 #include "sensor/models/structured_light.hpp"
 #include "sensor/shot.hpp"
 #include "sensor/targets.hpp"
@@ -25,6 +24,7 @@ class EvenLamp : public Lamp {
     }
   }
   Vec3 slope(const Vec3&, double) const override { return Vec3::Zero(); }
+  Vec3 way(const Vec3&) const override { return Vec3::Zero(); }
 };
 
 /// A box seen from within.
@@ -45,7 +45,7 @@ double gathered(Targets& targets, int samples, int bounces) {
   double sum = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const SeenPoint point{places[i], -Vec3::UnitZ(), 0, true};
-    gather(scenery, EvenLamp(), targets.surfaces(), point, eye, samples, bounces, Random(1, i, Stream::sensor), 1e9,
+    gather({scenery, targets.surfaces(), EvenLamp()}, point, eye, {samples, bounces}, Random(1, i, Stream::sensor),
            light);
     for (const Path& path : light.paths) sum += path.weight / static_cast<double>(places.size());
   }
@@ -70,61 +70,6 @@ TEST(Interreflection, WhiteFurnace) {
   for (const Vec3& place : places) left += fresnel(-(eye - place).normalized().z(), 2.9114, 3.0893) / 3.0;
   EXPECT_NEAR(gathered(metal, 4096, 1), left, 0.01);
   EXPECT_NEAR(gathered(metal, 4096, 2), left + left * left, 0.05);
-}
-
-/// What is drawn is as dense as it says: the density integrates to the share of samples above the surface.
-TEST(Interreflection, SamplesFollowTheLobe) {
-  for (const double roughness : {0.15, 0.4, 0.9}) {
-    for (const double degrees : {0.0, 45.0, 80.0, 87.0}) {
-      const double t = degrees * M_PI / 180.0;
-      const Lobe lobe({0.8, 0.9, roughness}, Vec3::UnitZ(), Vec3(std::sin(t), 0.0, std::cos(t)));
-      constexpr int side = 300;
-      double sent = 0.0;
-      for (int i = 0; i < side; ++i) {
-        for (int k = 0; k < side; ++k) sent += lobe.at((i + 0.5) / side, (k + 0.5) / side).factor / (side * side);
-      }
-      EXPECT_NEAR(sent, 0.8, 0.008) << roughness << " " << degrees;
-    }
-  }
-}
-
-TEST(Interreflection, SamplesFollowTheLobeOfABrushedSurface) {
-  Surface surface{0.8, 0.9, 0.5};
-  surface.anisotropy = 0.8;
-  surface.along = Vec3(2.0, 1.0, 0.5);  // not in the surface
-  const Vec3 normal = Vec3(0.2, -0.1, 1.0).normalized(), x = normal.unitOrthogonal(), y = normal.cross(x);
-  for (const double degrees : {0.0, 45.0, 80.0}) {
-    for (const double turn : {0.0, 0.7, 1.4}) {
-      const double t = degrees * M_PI / 180.0;
-      const Vec3 eye = std::sin(t) * (std::cos(turn) * x + std::sin(turn) * y) + std::cos(t) * normal;
-      const Lobe lobe(surface, normal, eye);
-      constexpr int side = 300;
-      double sent = 0.0, beside = 0.0, drawn = 0.0;
-      for (int i = 0; i < side; ++i) {
-        for (int k = 0; k < side; ++k) {
-          const Lobe::Sample sample = lobe.at((i + 0.5) / side, (k + 0.5) / side);
-          sent += sample.factor / (side * side);
-          if (sample.factor > 0.0) {
-            ASSERT_NEAR(lobe.density_of(sample.direction), sample.density, 1e-9 * sample.density);
-            beside += (sample.direction.dot(x) > 0.3) / static_cast<double>(side * side);
-          }
-        }
-      }
-      EXPECT_NEAR(sent, 0.8, 0.01) << degrees << " " << turn;
-      // Directions of one half, by the density's own integral.
-      constexpr int rings = 600, sectors = 1200;
-      for (int i = 0; i < rings; ++i) {
-        const double s = (i + 0.5) / rings * 0.5 * M_PI;
-        for (int k = 0; k < sectors; ++k) {
-          const double p = (k + 0.5) / sectors * 2.0 * M_PI;
-          const Vec3 way = std::sin(s) * (std::cos(p) * x + std::sin(p) * y) + std::cos(s) * normal;
-          if (way.dot(x) > 0.3) drawn += lobe.density_of(way) * std::sin(s);
-        }
-      }
-      drawn *= (0.5 * M_PI / rings) * (2.0 * M_PI / sectors);
-      EXPECT_NEAR(beside, drawn, 0.004) << degrees << " " << turn;
-    }
-  }
 }
 
 /// Reflectance as a test of its own has it: a matte share and facets distributed by GGX, shadowed as Smith says, with
@@ -314,8 +259,8 @@ TEST(Interreflection, ShinyGrooveErrsAsIntegrated) {
       const Groove::Shift expected = groove.shift(point);
       if (expected.left < 0.5) continue;
       Gathered light;
-      gather(scenery, lamp, targets.surfaces(), seen, Vec3::Zero(), 4096, 1,
-             Random(1, static_cast<std::uint64_t>(i + 40), Stream::sensor), 1e9, light);
+      gather({scenery, targets.surfaces(), lamp}, seen, Vec3::Zero(), {4096, 1},
+             Random(1, static_cast<std::uint64_t>(i + 40), Stream::sensor), light);
       const std::complex<double> direct =
           std::polar(groove.white(point, seen.normal, Vec3::Zero()), turn * groove.column(point));
       std::complex<double> sum = direct;
@@ -365,7 +310,7 @@ TEST(Interreflection, IndirectLightGrowsWithAlbedoSquared) {
     const ProjectorLamp lamp(scenery, groove.setup.projector, groove.setup.projector_pose, targets.surfaces());
     const SeenPoint point{Vec3(0, 0, Groove::depth) + 0.01 * Groove::along(1), Groove::along(-1), 0, true};
     Gathered gathered;
-    gather(scenery, lamp, targets.surfaces(), point, Vec3::Zero(), 64, 1, Random(1, 0, Stream::sensor), 1e9, gathered);
+    gather({scenery, targets.surfaces(), lamp}, point, Vec3::Zero(), {64, 1}, Random(1, 0, Stream::sensor), gathered);
     light[i] = 0.0;
     for (const Path& path : gathered.paths) light[i] += path.weight;
   }

@@ -20,7 +20,7 @@ struct Shot {
 Shot shoot(Targets& targets, const TimeOfFlightSettings& settings, bool noise, std::uint64_t seed = 1) {
   const Scenery scenery = targets.scenery();
   Shot shot{render(scenery, Lens::from_fov(width, height, 0.5), Pose(), 0.05, 10.0), Measurement(0)};
-  shot.measured = time_of_flight(scenery, shot.view, targets.surfaces(), settings, noise, {0.05, 10.0},
+  shot.measured = time_of_flight(scenery, shot.view, targets.surfaces(), {settings, noise, 0.05, 10.0},
                                  Random(seed, 0, Stream::noise));
   return shot;
 }

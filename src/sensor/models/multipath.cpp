@@ -1,0 +1,49 @@
+#include "sensor/models/multipath.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace bin_scenes {
+
+namespace {
+
+constexpr double speed_of_light = 299792458.0;  // m/s
+enum Channel { cosine, sine, channels };
+
+}  // namespace
+
+Multipath::Multipath(const Scenery& scenery, const View& view, const Surfaces& surfaces,
+                     const IndirectField::Setup& setup, double modulation, const Random& rays)
+    : view_(view),
+      wave_(2.0 * M_PI * 1e6 * modulation / speed_of_light),
+      lamp_(scenery, view.lens, view.pose, surfaces),
+      field_({scenery, surfaces, lamp_}, view, setup, phasors(), rays) {}
+
+/// Ways are those from the light to the surface that a pixel sees.
+IndirectField::Pattern Multipath::phasors() const {
+  const auto add = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
+    for (const Path& path : paths) {
+      const double c = path.weight * std::cos(wave_ * path.length), s = path.weight * std::sin(wave_ * path.length);
+      out[cosine] += static_cast<float>(c);
+      out[sine] += static_cast<float>(s);
+      for (int axis = 0; axis < 2; ++axis) {
+        float* const growth = out + (1 + axis) * channels;
+        const double turn = wave_ * path.longer.dot(steps[axis]);
+        growth[cosine] -= static_cast<float>(turn * s);
+        growth[sine] += static_cast<float>(turn * c);
+      }
+    }
+  };
+  return {channels, channels, add};
+}
+
+std::complex<double> Multipath::at(std::size_t pixel) const {
+  float phasor[channels];
+  if (!field_.at(pixel, channels, phasor)) return 0.0;
+  const auto width = static_cast<std::size_t>(view_.lens.width);
+  const Vec3 ray = view_.lens.ray(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+  const double direct = view_.depth[pixel] * ray.norm();
+  return std::complex<double>(phasor[cosine], phasor[sine]) * std::polar(1.0, -wave_ * direct);
+}
+
+}  // namespace bin_scenes

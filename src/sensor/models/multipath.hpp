@@ -1,0 +1,35 @@
+/// Light that reaches a time-of-flight camera by way of other surfaces. It comes later than direct light, and the
+/// camera measures the phase of their sum: corners and what lies beside walls are measured too far (Fuchs 2010,
+/// "Multipath interference compensation in time-of-flight camera images"; Freedman et al. 2014, "SRA: fast removal of
+/// general multipath for ToF sensors").
+#pragma once
+
+#include "sensor/models/indirect_field.hpp"
+
+#include <complex>
+#include <cstddef>
+
+namespace bin_scenes {
+
+/// The camera's light stands at its lens and lights its image, no more.
+class Multipath {
+ public:
+  /// @param modulation  MHz
+  Multipath(const Scenery& scenery, const View& view, const Surfaces& surfaces, const IndirectField::Setup& setup,
+            double modulation, const Random& rays);
+
+  /// Of a pixel: as much as direct light has of reflected / distance^2, and the phase by which it comes later.
+  std::complex<double> at(std::size_t pixel) const;
+  /// Range (m) that a phase stands for.
+  double range(double phase) const { return 0.5 * phase / wave_; }
+
+ private:
+  IndirectField::Pattern phasors() const;
+
+  const View& view_;
+  double wave_;  ///< rad/m of light's way
+  ProjectorLamp lamp_;
+  IndirectField field_;
+};
+
+}  // namespace bin_scenes
