@@ -2,6 +2,7 @@
 /// islands; bodies that sleep one by one are frozen here.
 #include "world.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include "convert.hpp"
@@ -178,6 +179,7 @@ btTransform World::body_transform(const Body& body, const Pose& pose) const {
 }
 
 void World::insert(std::size_t index, const BodyState& state) {
+  BIN_SCENES_ASSERT(index < bodies_.size() && is_rigid(state.pose));
   Body& body = *bodies_[index];
   const bool driven = body.def->fixed && !(state.velocity.linear.isZero() && state.velocity.angular.isZero());
   if (driven && body.rigid && body.rigid->isKinematicObject()) {  // further on its path: its contacts stay
@@ -219,6 +221,7 @@ void World::insert(std::size_t index, const BodyState& state) {
 }
 
 void World::remove(std::size_t index) {
+  BIN_SCENES_ASSERT(index < bodies_.size());
   Body& body = *bodies_[index];
   if (!body.rigid) return;
   body.last = states()[index];

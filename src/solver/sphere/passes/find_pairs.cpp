@@ -1,5 +1,6 @@
 /// Sweeps upright boxes along strips, then tests oriented boxes. GPU forms: shaders/sphere/find_pairs.comp, and
 /// shaders/sphere/large for wide worlds.
+#include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/counting_sort.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -190,6 +191,7 @@ Manifold manifold_between(const World& world, std::uint32_t a, std::uint32_t b) 
 /// Merges the sorted pairs with the manifolds of the last step: forces and recyclable contacts live on under the same
 /// key.
 void adopt(World& world, const std::vector<Pair>& found) {
+  BIN_SCENES_ASSERT(manifolds_ascend(world));
   world.previous.swap(world.manifolds);
   world.manifolds.clear();
   std::size_t old = 0;
@@ -212,6 +214,7 @@ void adopt(World& world, const std::vector<Pair>& found) {
       world.manifolds.push_back(manifold_between(world, a, b));
   }
   while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
+  BIN_SCENES_ASSERT(manifolds_ascend(world));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// The solve of a step: sub-steps of soft contacts, Gauss-Seidel over bundles of eight contacts, a block of bodies that
 /// touch each other at a time. What a contact is there stands in shaders/shared/sphere/contact.h; GLSL: solve.comp,
 /// solve_body.h, solve_manifold.h.
+#include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/blocks.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -489,10 +490,12 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
 void solve(World& world) {
   static thread_local Blocks kept;  // for its memory alone
   Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
+  BIN_SCENES_ASSERT(colors_share_no_body(world));
   blocks.make(world);
   std::atomic<std::uint64_t> falling{0};
   for_each_in_parallel(blocks.count(), [&](std::size_t block) { falling += solve_block(world, blocks, block); });
   world.counters.free_steps += falling;
+  BIN_SCENES_ASSERT(orientations_are_unit(world));
 }
 
 }  // namespace bin_scenes::sphere
