@@ -318,8 +318,9 @@ void ContactSolver::note_sliding() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) slides_[i] &= speeds_[i] > slow;
 }
 
-/// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's
-/// way too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
+/// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops too early by
+/// half a sub-step's distance. What holds, rolls or swings keeps its energy with that speed, and would gain some with
+/// the mean.
 void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
   for_each_body([&](std::size_t i) {
