@@ -1,5 +1,6 @@
 #include "output/png.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 
@@ -60,6 +61,7 @@ Bytes encode(const Layout& layout, const std::uint8_t* rows) {
 }  // namespace
 
 Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>& samples) {
+  BIN_SCENES_ASSERT(samples.size() == static_cast<std::size_t>(width * channels) * static_cast<std::size_t>(height));
   const int colour = channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
   return encode({width, height, 8, colour, channels == 3 ? PNG_FILTER_SUB : PNG_FILTER_NONE,
                  static_cast<std::size_t>(width) * static_cast<std::size_t>(channels)},
@@ -67,6 +69,7 @@ Bytes png8(int width, int height, int channels, const std::vector<std::uint8_t>&
 }
 
 Bytes png16(int width, int height, const std::vector<std::uint16_t>& samples, int channels) {
+  BIN_SCENES_ASSERT(samples.size() == static_cast<std::size_t>(width * channels) * static_cast<std::size_t>(height));
   Bytes big_endian(2 * samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     big_endian[2 * i] = static_cast<std::uint8_t>(samples[i] >> 8);
@@ -90,6 +93,7 @@ Bytes png_of(int width, int height, const Picture& picture) {
 }
 
 Bytes png_of(const Palette& picture) {
+  BIN_SCENES_ASSERT(each_is(picture.pixels, [&](std::uint8_t pixel) { return pixel < picture.colours.size(); }));
   return encode({picture.width, picture.height, 8, PNG_COLOR_TYPE_PALETTE, PNG_FILTER_NONE,
                  static_cast<std::size_t>(picture.width), &picture.colours},
                 picture.pixels.data());

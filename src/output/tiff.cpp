@@ -1,5 +1,6 @@
 #include "output/tiff.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "core/read_file.hpp"
 
@@ -39,6 +40,8 @@ Number number_at(const std::string& bytes, std::size_t at) {
 
 /// `samples`: little-endian, as the header says.
 Bytes encode(int width, int height, int channels, int bits, const std::vector<std::uint8_t>& samples) {
+  BIN_SCENES_ASSERT(8 * samples.size() ==
+                    static_cast<std::size_t>(width * channels * bits) * static_cast<std::size_t>(height));
   uLongf size = compressBound(static_cast<uLong>(samples.size()));
   Bytes packed(size);
   if (compress2(packed.data(), &size, samples.data(), static_cast<uLong>(samples.size()), 1) != Z_OK)

@@ -2,6 +2,7 @@
 /// tells. Fields of the cloud stand in one table.
 #include "image_messages.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "frames.hpp"
@@ -45,6 +46,7 @@ sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& ima
   message.encoding = encoding;
   message.is_bigendian = false;
   message.step = static_cast<std::uint32_t>(message.width * sizeof(Pixel));
+  BIN_SCENES_ASSERT(pixels.empty() || pixels.size() == std::size_t{message.width} * message.height);
   message.data.resize(pixels.size() * sizeof(Pixel));
   if (!pixels.empty()) std::memcpy(message.data.data(), pixels.data(), message.data.size());
   return message;

@@ -1,14 +1,9 @@
 /// Keys of a request: read into their fields, refused with words, written back, documented.
-#include "bin_scenes/mesh/mesh_loader.hpp"
 #include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "config/config_fixture.hpp"
 #include "config/reference.hpp"
-
-#include <cstdio>
-#include <iterator>
-#include <map>
 
 namespace bin_scenes {
 namespace {
@@ -220,17 +215,6 @@ TEST_F(ConfigTest, ReadsEveryKeyIntoItsField) {
   EXPECT_EQ(r.memory_budget, 1e9);
 }
 
-TEST_F(ConfigTest, TheReferenceTellsTheRangeThatIsTaken) {
-  std::map<std::string, std::string> kinds;
-  for (const config::Entry& entry : config::reference()) kinds[entry.path] = entry.kind;
-  EXPECT_EQ(kinds["parts[].count"], "whole number in [1, 1000000]");
-  EXPECT_EQ(kinds["parts[].scale"], "number in (0, 1000000]");
-  EXPECT_EQ(kinds["seed"], "whole number, 0 or more");
-  EXPECT_EQ(kinds["sensors[].near"], "number above 0");
-  EXPECT_EQ(kinds["bin.inner_size"], "[x, y, z], each in (0, 1000]");
-  EXPECT_EQ(kinds["solver.type"], "auto | sphere | bullet");
-}
-
 TEST_F(ConfigTest, EveryKeyOfTheTableIsInTheRequestOfTheTestAbove) {
   const Request all = read(everything);
   const std::string written = write_request(all);
@@ -383,15 +367,6 @@ TEST_F(ConfigTest, TheHashCoversWhatDecidesTheScenesAndNothingElse) {
   EXPECT_NE(read(bolts, {"solver.thesis.radii=[0.1]"}).text_sha256, hash);
   put("bolt.stl", "solid other");
   EXPECT_NE(read(bolts).text_sha256, hash) << "the model itself has changed";
-}
-
-TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
-  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/request.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  char holes[64];
-  std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
-  EXPECT_NE(text.find(holes), std::string::npos);
-  EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
 }
 
 TEST_F(ConfigTest, ARefusedValueIsToldWithItsLine) {

@@ -95,7 +95,7 @@ inline Slide slide(Lab lab, double friction_of_bin = 0.45, double friction_of_bo
           std::abs(std::atan2(end.y(), end.x()) - std::atan2(0.6, 0.8)), lab.state(body).velocity.linear.norm()};
 }
 
-/// Way in one second of a flat box with mu = 0.5 on a slope, m. A tilted gravity stands for it; `heading` is the
+/// m that a flat box with mu = 0.5 slips down a slope in one second. A tilted gravity stands for it; `heading` is the
 /// direction down it, which must not matter.
 inline double slip(Lab lab, double angle, double heading, Phase phase = phases::pour) {
   lab.def().gravity =

@@ -2,6 +2,7 @@
 /// keeps collision detection, islands and rows.
 #include "contact_solver.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include "dynamics_world.hpp"
@@ -108,6 +109,7 @@ btScalar ContactSolver::solveGroupCacheFriendlyIterations(btCollisionObject**, i
 
 void ContactSolver::begin() {
   const int count = m_tmpSolverContactConstraintPool.size();
+  BIN_SCENES_ASSERT(m_tmpSolverContactFrictionConstraintPool.size() == 2 * count);
   rows += static_cast<std::uint64_t>(count);
   contacts_.resize(static_cast<std::size_t>(count));
   displacements_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Displacement());
@@ -131,6 +133,7 @@ void ContactSolver::begin() {
     displacements_[row.m_solverBodyIdA].touches = displacements_[row.m_solverBodyIdB].touches = true;
   }
   blocks_.push_back(count);
+  BIN_SCENES_ASSERT(count == 0 || ascends(blocks_));
 }
 
 /// A force may grow by half in a sub-step, and by what stops `speed`. Beyond, the impulse was that of an impact: it is

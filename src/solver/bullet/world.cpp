@@ -2,6 +2,7 @@
 /// islands; bodies that sleep one by one are frozen here.
 #include "world.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include "convert.hpp"
@@ -23,12 +24,9 @@ namespace {
 
 // Lengths in units of the scaled world: the median part's diagonal is 1.
 constexpr double contact_distance = 0.005;
-constexpr double step_length = 0.02;  ///< displacement of the fastest part in one cut of a step that has contacts
-constexpr int fine_cuts = 16;         ///< no more for the sake of exactness alone
-constexpr int most_cuts = 512;        ///< no more for the sake of a part that would pass through another
-constexpr double wall_size = 4.0;     ///< thickness of walls and floor: nothing gets through
-// Half the edge of an endless floor. At 3e5 the rounding of its contacts lets a box creep on a slope it should rest on.
-constexpr double endless = 1e4;
+constexpr double step_length = 0.02;   ///< displacement of the fastest part in one cut of a step that has contacts
+constexpr int fine_cuts = 16;          ///< no more for the sake of exactness alone
+constexpr int most_cuts = 512;         ///< no more for the sake of a part that would pass through another
 constexpr double patch_radius = 1e-3;  ///< of the smallest part, as Settings::patch_radius of the sphere solver
 constexpr double sleep_speed = 1e-3;   ///< units/s, a quarter of what Pour::rest_move allows by default
 constexpr double sleep_turn = 1e-2;    ///< rad/s, likewise of Pour::rest_turn
@@ -127,57 +125,13 @@ World::~World() {
   for (auto& wall : walls_) world_.removeRigidBody(wall.get());
 }
 
-void World::add_static(btCollisionShape* shape, const btTransform& pose) {
-  btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape);
-  info.m_startWorldTransform = pose;
-  info.m_friction = def_.bin.friction;
-  info.m_restitution = def_.bin.restitution;
-  walls_.push_back(std::make_unique<btRigidBody>(info));
-  world_.addRigidBody(walls_.back().get());
-}
-
-void World::add_walls(double wall_height) {
-  const auto box = [&](const Vec3& lower, const Vec3& upper) {
-    auto shape = std::make_unique<btConvexHullShape>();
-    for (int i = 0; i < 8; ++i)
-      shape->addPoint(
-          to_bt(Vec3((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(), (i & 4 ? upper : lower).z())), false);
-    shape->setMargin(0.0);
-    shape->recalcLocalAabb();
-    shape->initializePolyhedralFeatures();
-    add_static(shape.get(), btTransform::getIdentity());
-    wall_shapes_.push_back(std::move(shape));
-  };
-  switch (def_.bin.kind) {
-    case Bin::Kind::none:
-      return;
-    case Bin::Kind::floor:
-      box({-endless, -endless, -wall_size}, {endless, endless, 0});
-      return;
-    case Bin::Kind::mesh: {
-      bin_mesh_ = mesh_shape(def_.bin_model->mesh(), scale_);
-      add_static(bin_mesh_.shape.get(), to_bt(Pose{def_.bin.pose.position * scale_, def_.bin.pose.orientation}));
-      return;
-    }
-    case Bin::Kind::box: {
-      const double x = 0.5 * def_.bin.inner_size.x() * scale_, y = 0.5 * def_.bin.inner_size.y() * scale_;
-      const double z = std::max(wall_height, def_.bin.inner_size.z()) * scale_, t = wall_size;
-      box({-x - t, -y - t, -t}, {x + t, y + t, 0});
-      box({-x - t, -y - t, 0}, {-x, y + t, z});
-      box({x, -y - t, 0}, {x + t, y + t, z});
-      box({-x - t, -y - t, 0}, {x + t, -y, z});
-      box({-x - t, y, 0}, {x + t, y + t, z});
-      return;
-    }
-  }
-}
-
 btTransform World::body_transform(const Body& body, const Pose& pose) const {
   const Pose principal = pose * body.shape->principal;
   return to_bt(Pose{principal.position * scale_, principal.orientation});
 }
 
 void World::insert(std::size_t index, const BodyState& state) {
+  BIN_SCENES_ASSERT(index < bodies_.size() && is_rigid(state.pose));
   Body& body = *bodies_[index];
   const bool driven = body.def->fixed && !(state.velocity.linear.isZero() && state.velocity.angular.isZero());
   if (driven && body.rigid && body.rigid->isKinematicObject()) {  // further on its path: its contacts stay
@@ -219,6 +173,7 @@ void World::insert(std::size_t index, const BodyState& state) {
 }
 
 void World::remove(std::size_t index) {
+  BIN_SCENES_ASSERT(index < bodies_.size());
   Body& body = *bodies_[index];
   if (!body.rigid) return;
   body.last = states()[index];

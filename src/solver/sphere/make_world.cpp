@@ -2,6 +2,7 @@
 /// from it.
 #include "solver/sphere/make_world.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "solver/sphere/effort.hpp"
 #include "solver/step_limit.hpp"
 
@@ -54,6 +55,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.ground_restitution = static_cast<float>(def.bin.restitution);
   w.planes = planes_of(def.bin);
   for (const PartModelPtr& part : def.parts) w.shapes.push_back(&shape_of(part));
+  BIN_SCENES_ASSERT(each_is(def.bodies, [&](const BodyDef& body) { return body.part < def.parts.size(); }));
   for (const BodyDef& body : def.bodies)
     w.bodies.push_back(make_body(*w.shapes[body.part], static_cast<std::uint32_t>(body.part), body));
   if (def.bin.kind == Bin::Kind::mesh) {
@@ -98,6 +100,7 @@ std::vector<Flag> flags_of(const World& world) {
 }
 
 void place(World& world, std::size_t body, const BodyState& state) {
+  BIN_SCENES_ASSERT(body < world.bodies.size() && is_rigid(state.pose));
   Body& b = world.bodies[body];
   b.q = state.pose.orientation.cast<float>().normalized();
   b.x = state.pose.position.cast<float>() + b.q * world.shapes[b.shape]->center;
@@ -114,6 +117,7 @@ void place(World& world, std::size_t body, const BodyState& state) {
 }
 
 void set_jaws(World& world, const Jaws& jaws) {
+  BIN_SCENES_ASSERT(jaws.first != jaws.second && std::max(jaws.first, jaws.second) < world.bodies.size());
   JawPair pair;
   pair.first = static_cast<std::uint32_t>(jaws.first);
   pair.second = static_cast<std::uint32_t>(jaws.second);
@@ -127,6 +131,7 @@ void set_jaws(World& world, const Jaws& jaws) {
 }
 
 void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& point) {
+  BIN_SCENES_ASSERT(body < world.bodies.size() && force.allFinite() && point.allFinite());
   Body& b = world.bodies[body];
   const Pull pull{static_cast<std::uint32_t>(body), force.cast<float>(),
                   b.q.conjugate() * Vec3f(point.cast<float>() - b.x)};

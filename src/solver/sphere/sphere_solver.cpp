@@ -2,6 +2,7 @@
 /// src/solver/sphere_gl/gl_sphere_solver.cpp.
 #include "solver/sphere/sphere_solver.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "solver/sphere/make_world.hpp"
@@ -77,31 +78,33 @@ class SphereSolver final : public Solver {
   }
 
   void remove_world(WorldId id) override {
-    collect(slots_[id]->world);
-    *slots_[id] = Slot{};
+    Slot& slot = slot_of(id);
+    collect(slot.world);
+    slot = Slot{};
   }
 
   void set_frame(WorldId id, const Frame& frame) override {
-    World& world = slots_[id]->world;
+    World& world = slot_of(id).world;
     world.frame = frame;
     world.gravity = frame.gravity.cast<float>();
     for (Body& b : world.bodies) wake(b);
   }
 
-  void set_jaws(WorldId id, const Jaws& jaws) override { sphere::set_jaws(slots_[id]->world, jaws); }
+  void set_jaws(WorldId id, const Jaws& jaws) override { sphere::set_jaws(slot_of(id).world, jaws); }
   void set_force(WorldId id, std::size_t body, const Vec3& force, const Vec3& point) override {
-    sphere::set_force(slots_[id]->world, body, force, point);
+    sphere::set_force(slot_of(id).world, body, force, point);
   }
-  void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slots_[id]->world, body, state); }
+  void insert(WorldId id, std::size_t body, const BodyState& state) override { place(slot_of(id).world, body, state); }
 
   void remove(WorldId id, std::size_t body) override {
-    World& w = slots_[id]->world;
+    World& w = slot_of(id).world;
+    BIN_SCENES_ASSERT(body < w.bodies.size());
     for (const std::uint32_t other : touched_by(w, static_cast<std::uint32_t>(body))) wake(w.bodies[other]);
     w.bodies[body].present = false;
   }
 
   bool set_phase(WorldId id, const Phase& phase) override {
-    sphere::set_phase(slots_[id]->world, phase);
+    sphere::set_phase(slot_of(id).world, phase);
     return true;
   }
 
@@ -110,33 +113,33 @@ class SphereSolver final : public Solver {
     // Worlds share nothing, so that threads cannot change a result.
     tbb::parallel_for(std::size_t{0}, worlds.size(), [&, flag = cancel_flag()](std::size_t i) {
       const CancelScope scope(flag);
-      advance_world(slots_[worlds[i]]->world, steps, settings_.time_step);
+      advance_world(slot_of(worlds[i]).world, steps, settings_.time_step);
     });
     return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
   }
 
   std::vector<BodyState> states(WorldId id) const override {
-    const Slot& slot = *slots_[id];
+    const Slot& slot = slot_of(id);
     std::vector<BodyState> out(slot.bodies);
     for (std::size_t i = 0; i < slot.bodies; ++i) out[i] = state_of(slot.world, i);
     return out;
   }
 
   std::vector<bool> asleep(WorldId id) const override {
-    const Slot& slot = *slots_[id];
+    const Slot& slot = slot_of(id);
     std::vector<bool> out(slot.bodies);
     for (std::size_t i = 0; i < slot.bodies; ++i) out[i] = slot.world.bodies[i].asleep;
     return out;
   }
 
   std::vector<ContactForce> contact_forces(WorldId id) const override {
-    return forces_of(slots_[id]->world, slots_[id]->bodies);
+    return forces_of(slot_of(id).world, slot_of(id).bodies);
   }
 
   std::size_t worlds_at_once() const override { return tbb::this_task_arena::max_concurrency(); }
   double step_size() const override { return settings_.time_step; }
-  std::uint64_t steps(WorldId id) const override { return slots_[id]->world.counters.steps; }
-  std::vector<Flag> flags(WorldId id) const override { return flags_of(slots_[id]->world); }
+  std::uint64_t steps(WorldId id) const override { return slot_of(id).world.counters.steps; }
+  std::vector<Flag> flags(WorldId id) const override { return flags_of(slot_of(id).world); }
   std::string name() const override { return "sphere"; }
   std::string device() const override { return "cpu"; }
 
@@ -148,6 +151,10 @@ class SphereSolver final : public Solver {
   }
 
  private:
+  Slot& slot_of(WorldId id) const {
+    BIN_SCENES_ASSERT(id < slots_.size() && slots_[id]->used);
+    return *slots_[id];
+  }
   /// Stages are of all worlds: on several threads they add up to more than the time that passed.
   static void add(Profile& p, const World& world) {
     const Spent& s = world.spent;

@@ -1,6 +1,8 @@
 /// Lays worlds out in the arrays that the device reads. The CPU twins work on the same arrays.
 #include "memory.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -155,6 +157,9 @@ Memory lay_out(const std::vector<const World*>& worlds, const ThesisSettings& se
   m.settings.time_step = static_cast<float>(share * dt);
   m.settings.cells = word(cells);
   m.needs.resize(worlds.size());
+  BIN_SCENES_ASSERT(each_is(
+      m.spheres, [&](const gpu::ThesisSphere& s) { return s.body < m.bodies.size() && s.shape < m.shapes.size(); }));
+  BIN_SCENES_ASSERT(index.size() == m.bodies.size());
   return m;
 }
 

@@ -1,6 +1,7 @@
 /// Turns parts into spheres, collects worlds into a batch and runs it by the passes on the device (passes.cpp).
 #include "bin_scenes/solver/thesis_solver.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/gl/device.hpp"
 #include "bin_scenes/gl/traffic.hpp"
@@ -9,7 +10,6 @@
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <map>
 
@@ -46,7 +46,7 @@ struct ThesisSolver::State {
 
   thesis::World& world(WorldId id) {
     const auto found = worlds.find(id);
-    assert(found != worlds.end());
+    BIN_SCENES_ASSERT(found != worlds.end());
     return found->second;
   }
 
@@ -93,14 +93,14 @@ void ThesisSolver::remove_world(WorldId world) {
 
 void ThesisSolver::insert(WorldId id, std::size_t body, const BodyState& state) {
   thesis::World& world = state_->world(id);
-  assert(body < world.bodies.size());
+  BIN_SCENES_ASSERT(body < world.bodies.size() && is_rigid(state.pose));
   world.states[body] = thesis::to_state(state, world.shapes[world.bodies[body].part]);
   world.present[body] = true;
 }
 
 void ThesisSolver::remove(WorldId id, std::size_t body) {
   thesis::World& world = state_->world(id);
-  assert(body < world.bodies.size());
+  BIN_SCENES_ASSERT(body < world.bodies.size());
   world.present[body] = false;
 }
 

@@ -1,6 +1,8 @@
 /// Each pass as a plain loop over the arrays of memory.hpp. GPU form: shaders/thesis.
 #include "twin.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -213,6 +215,7 @@ void reserve_slots(Memory& m, gpu::uint sphere, std::size_t wanted) {
     m.status.overflow |= THESIS_SLOT_OVERFLOW;
     return;
   }
+  BIN_SCENES_ASSERT(m.status.slots <= m.contacts.size());
   m.contact_ranges[sphere] = {first, static_cast<gpu::uint>(kept)};
   m.touching_spheres[m.status.touching_spheres++] = sphere;
 }

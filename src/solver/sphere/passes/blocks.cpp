@@ -1,5 +1,6 @@
 #include "solver/sphere/passes/blocks.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "solver/sphere/passes/counting_sort.hpp"
 
 namespace bin_scenes::sphere {
@@ -54,6 +55,7 @@ void Blocks::make(const World& world, std::size_t bodies_of_block) {
   place_.assign(world.bodies.size(), unmoved);
   for (std::size_t block = 0; block < blocks; ++block) {
     const Slice bodies = this->bodies(block);
+    BIN_SCENES_ASSERT(ascends(bodies));
     for (std::uint32_t k = 0; k < bodies.size(); ++k) place_[bodies[k]] = k;
   }
 }

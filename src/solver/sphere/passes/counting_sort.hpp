@@ -1,6 +1,8 @@
 /// Sorting by small numbers, in linear time.
 #pragma once
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +15,7 @@ namespace bin_scenes::sphere {
 template <class Items, class Item, class Key>
 void counting_sort(const Items& items, std::size_t count, const Key& key, std::vector<std::uint32_t>& start,
                    std::vector<Item>& sorted) {
+  BIN_SCENES_ASSERT(each_is(items, [&](const Item& item) { return static_cast<std::size_t>(key(item)) < count; }));
   start.assign(count + 1, 0);
   for (const Item& item : items) ++start[key(item) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());

@@ -1,6 +1,7 @@
 /// Samples of each body of a pair against the other's field; of all that touch, the few that stand for the rest. GPU
 /// form: shaders/sphere/find_contacts.comp; what both compute is in shaders/shared/sphere.
 #include "bin_scenes/core/cancel.hpp"
+#include "solver/sphere/invariants.hpp"
 #include "solver/sphere/math.hpp"
 #include "solver/sphere/passes/candidates.hpp"
 #include "solver/sphere/passes/reduce.hpp"
@@ -146,6 +147,7 @@ void find_contacts(World& world) {
             },
             [](Counters a, const Counters& b) { return a += b; });
       });
+  BIN_SCENES_ASSERT(contacts_have_room(world));
 }
 
 }  // namespace bin_scenes::sphere

@@ -1,13 +1,11 @@
 /// Sweeps upright boxes along strips, then tests oriented boxes. GPU forms: shaders/sphere/find_pairs.comp, and
 /// shaders/sphere/large for wide worlds.
-#include "solver/sphere/passes/counting_sort.hpp"
-
 #include "bin_scenes/core/cancel.hpp"
+#include "solver/sphere/invariants.hpp"
+#include "solver/sphere/passes/counting_sort.hpp"
 #include "solver/sphere/passes/lanes.hpp"
+#include "solver/sphere/passes/parallel.hpp"
 #include "solver/sphere/world.hpp"
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -147,12 +145,7 @@ void for_each_piece(std::size_t count, std::vector<Pair>& found, const Work& wor
       work(begin, std::min(begin + entries_between_stops, last), of_piece[k]);
     }
   };
-  tbb::this_task_arena::isolate([&] {  // keeps other worlds' steps out of this thread until all is done
-    tbb::parallel_for(std::size_t{0}, pieces, [&, flag = cancel_flag()](std::size_t k) {
-      const CancelScope scope(flag);
-      piece(k);
-    });
-  });
+  for_each_in_parallel(pieces, piece);
   for (std::size_t k = 0; k < pieces; ++k) found.insert(found.end(), of_piece[k].begin(), of_piece[k].end());
 }
 
@@ -190,6 +183,7 @@ Manifold manifold_between(const World& world, std::uint32_t a, std::uint32_t b) 
 /// Merges the sorted pairs with the manifolds of the last step: forces and recyclable contacts live on under the same
 /// key.
 void adopt(World& world, const std::vector<Pair>& found) {
+  BIN_SCENES_ASSERT(manifolds_ascend(world));
   world.previous.swap(world.manifolds);
   world.manifolds.clear();
   std::size_t old = 0;
@@ -212,6 +206,7 @@ void adopt(World& world, const std::vector<Pair>& found) {
       world.manifolds.push_back(manifold_between(world, a, b));
   }
   while (old < world.previous.size()) keep_sleeping(world.previous[old++]);
+  BIN_SCENES_ASSERT(manifolds_ascend(world));
 }
 
 }  // namespace

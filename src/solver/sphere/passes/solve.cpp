@@ -1,16 +1,19 @@
 /// The solve of a step: sub-steps of soft contacts, Gauss-Seidel over bundles of eight contacts, a block of bodies that
 /// touch each other at a time. What a contact is there stands in shaders/shared/sphere/contact.h; GLSL: solve.comp,
 /// solve_body.h, solve_manifold.h.
-#include "solver/sphere/passes/blocks.hpp"
-
 #include "bin_scenes/core/cancel.hpp"
+#include "solver/sphere/invariants.hpp"
+#include "solver/sphere/passes/blocks.hpp"
 #include "solver/sphere/passes/contact_rows.hpp"
+#include "solver/sphere/passes/friction.hpp"
+#include "solver/sphere/passes/gyroscope.hpp"
 #include "solver/sphere/passes/held.hpp"
+#include "solver/sphere/passes/parallel.hpp"
+#include "solver/sphere/passes/restitution.hpp"
 #include "solver/sphere/passes/team.hpp"
 #include "solver/sphere/passes/turning_bin.hpp"
 #include "solver/sphere/world.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -21,18 +24,6 @@ namespace bin_scenes::sphere {
 namespace {
 
 constexpr std::size_t manifolds_for_a_team = 1000;  ///< fewer = helpers wait longer than they work
-
-/// `work(i)` for each i below `count`. Isolated: a thread that waits here for the others must not begin another world's
-/// step, whose solve would take the same scratch memory.
-template <class Work>
-void for_each_in_parallel(std::size_t count, const Work& work) {
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&, flag = cancel_flag()](std::size_t i) {
-      const CancelScope scope(flag);
-      work(i);
-    });
-  });
-}
 
 Quad padded(const Vec3f& v, float fourth = 0) {
   return Quad{v.x(), v.y(), v.z(), fourth};
@@ -96,8 +87,8 @@ class ContactSolver {
   void note_sliding();    ///< bodies that friction brakes
   void refresh_levers();  ///< of what is hit
   void move();            ///< positions
-  void restitute();       ///< Newton's restitution
-  void finish();          ///< back into bodies and contacts
+  void restitute() { Restitution(bundles_, rows_, motions_, h_, settings_.restitution_speed).apply(jaws_); }
+  void finish();  ///< back into bodies and contacts
 
  private:
   void prepare_motions(std::size_t unmoved);
@@ -140,11 +131,6 @@ class ContactSolver {
   float speed(std::size_t body) const;
   void observe_gaps(const Bundle& bundle);
   void solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const;
-  void solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const;
-  void resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const;
-  LaneMask hit(const ContactRows& c) const;
-  LaneMask bouncing(const Bundle& bundle) const;
-  void bounce(const Bundle& bundle, LaneMask lanes);
 
   World& world_;
   Team& team_;
@@ -194,8 +180,7 @@ void ContactSolver::prepare() {
   }
 }
 
-/// Gravity, and the gyroscopic term by the implicit midpoint rule on Euler's equations in the body frame. Both the
-/// kinetic energy and |L| are quadratic, so the rule keeps them (Hairer, Lubich, Wanner 2006, IV.2).
+/// Gravity, and the gyroscopic term.
 void ContactSolver::accelerate() {
   const Vec3f gain = h_ * world_.gravity;
   if (world_.frame.turns()) turn_with_bin(world_, bodies_, h_, motions_);
@@ -209,16 +194,7 @@ void ContactSolver::accelerate() {
     motion.v = padded(v, motion.inverse_mass());
     if (!settings_.gyroscopic || vector_of(motion.w).squaredNorm() * h_ * h_ < 1e-8f)
       return;  // 1e-4 rad a sub-step: the term is rounding
-    // Only the change is turned back to world axes: turning all of the spin would let |L| creep by a thousandth in ten
-    // thousand sub-steps of single precision.
-    const Mat3f r = b.q.toRotationMatrix();
-    const Vec3f before = r.transpose() * vector_of(motion.w);
-    Vec3f change = Vec3f::Zero();
-    for (int k = 0; k < 6; ++k) {
-      const Vec3f mid = before + 0.5f * change;
-      change = -h_ * (b.inverse_inertia * mid.cross(b.inertia * mid));
-    }
-    motion.w += padded(r * change);
+    motion.w += padded(gyroscopic_change(b, vector_of(motion.w), h_));
   });
   pull(world_, blocks_, block_, h_, motions_);
   jaws_.press(h_, motions_);
@@ -244,23 +220,6 @@ void ContactSolver::warm_start(std::uint32_t first, std::uint32_t last) {
   }
 }
 
-void ContactSolver::resist_turn(const Bundle& bundle, Lanes friction, Velocities& u) const {
-  Patch patch = open_patch(LaneVec{});
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i)
-    gather(patch, rows_[i].normal_impulse, rows_[i].ra, rows_[i].normal);
-  close_patch(patch, u.wa - u.wb);
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) spread(patch, rows_[i].normal_impulse, rows_[i].ra);
-  const auto resist = [&](const LaneVec& axis, Lanes speed, Lanes most) {
-    const LaneVec turn_a = bundle.inverse_inertia_a * axis, turn_b = bundle.inverse_inertia_b * axis;
-    const Lanes moment = moment_against(speed, most, axis, turn_a, turn_b);
-    u.wa = u.wa - moment * turn_a;
-    u.wb = u.wb + moment * turn_b;
-  };
-  const Lanes radius = all_lanes(settings_.patch_radius * world_.smallest_size);
-  resist(patch.normal, patch.spin, most_against_spin(patch, radius, friction));
-  resist(patch.tip_axis, patch.tipping, most_against_tipping(patch, radius, bundle.tipping_arm));
-}
-
 /// Sequential impulse, accumulated and clamped.
 void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give, LaneMask& unconverged) const {
   const Lanes before = c.normal_impulse;
@@ -269,21 +228,6 @@ void ContactSolver::solve_normal(ContactRows& c, Velocities& u, const Give& give
   const Lanes more = c.normal_impulse - before;
   if (shares_impacts_) unconverged |= is_unconverged(more, c.normal_mass, tolerance_);
   u.push_along_normal(more, c);
-}
-
-/// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
-LaneMask rubs(const ContactRows& c) {
-  return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
-}
-
-void ContactSolver::solve_friction(ContactRows& c, Lanes friction, const Bundle& bundle, Velocities& u) const {
-  const LaneVec second = cross(c.normal, c.tangent), speed = u.at(c);
-  Lanes f1 = c.t1_impulse - c.tangent_mass * dot(c.tangent, speed);
-  Lanes f2 = c.t2_impulse - c.tangent_mass * dot(second, speed);
-  put_into_cone(friction * c.normal_impulse, f1, f2);
-  u.push((f1 - c.t1_impulse) * c.tangent + (f2 - c.t2_impulse) * second, c, bundle);
-  c.t1_impulse = f1;
-  c.t2_impulse = f2;
 }
 
 /// How far apart contacts are, bodies having moved.
@@ -296,7 +240,8 @@ void ContactSolver::observe_gaps(const Bundle& bundle) {
 ContactSolver::Swept ContactSolver::begin(const Bundle& bundle, bool push, bool first) {
   Swept swept{bundle, velocities_of(bundle, motions_), friction_holds_ ? bundle.friction : Lanes{}};
   if (first && (!push || !settings_.relaxation)) observe_gaps(bundle);
-  if (push && first) resist_turn(bundle, swept.friction, swept.u);
+  const Lanes radius = all_lanes(settings_.patch_radius * world_.smallest_size);
+  if (push && first) resist_turn(bundle, rows_, radius, swept.friction, swept.u);
   return swept;
 }
 
@@ -373,8 +318,9 @@ void ContactSolver::note_sliding() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) slides_[i] &= speeds_[i] > slow;
 }
 
-/// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's
-/// way too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
+/// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops too early by
+/// half a sub-step's distance. What holds, rolls or swings keeps its energy with that speed, and would gain some with
+/// the mean.
 void ContactSolver::move() {
   const Quad parabola = padded(0.5f * h_ * h_ * world_.gravity);
   for_each_body([&](std::size_t i) {
@@ -387,55 +333,6 @@ void ContactSolver::move() {
     Quatf& q = world_.bodies[bodies_[i]].q;
     q = integrated(q, vector_of(motion.w), h);
   });
-}
-
-LaneMask ContactSolver::hit(const ContactRows& c) const {
-  return was_hit(c.approach, c.max_impulse > 0.0f, c.gap, h_, settings_.restitution_speed);
-}
-
-/// Which manifolds of a bundle have a contact that was hit and took part of the impact.
-LaneMask ContactSolver::bouncing(const Bundle& bundle) const {
-  LaneMask out{};
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) out |= hit(rows_[i]) & (rows_[i].max_impulse > 0.0f);
-  return out & (bundle.restitution > 0.0f);
-}
-
-void ContactSolver::bounce(const Bundle& bundle, LaneMask lanes) {
-  Velocities u = velocities_of(bundle, motions_);
-  for (std::uint32_t i = bundle.first; i < bundle.last; ++i) {
-    ContactRows& c = rows_[i];
-    const LaneMask bounces = lanes & hit(c);
-    if (!any(bounces)) continue;
-    const Lanes before = c.normal_impulse;
-    c.normal_impulse = select(
-        bounces, bounced_impulse(before, u.along_normal(c), c.normal_mass, bundle.restitution, c.approach), before);
-    u.push_along_normal(c.normal_impulse - before, c);
-  }
-  store(u, bundle, motions_);
-}
-
-void ContactSolver::restitute() {
-  struct Bounce {
-    const Bundle* bundle;
-    LaneMask lanes;
-  };
-  static thread_local std::vector<Bounce> hits;
-  hits.clear();
-  for (const Bundle& bundle : bundles_)
-    if (any(bundle.strikes))
-      if (const LaneMask lanes = bouncing(bundle); any(lanes)) hits.push_back({&bundle, lanes});
-  for (int k = 0; k < int(SPHERE_BOUNCE_SWEEPS); ++k)
-    for (const Bounce& b : hits) {
-      bounce(*b.bundle, b.lanes);
-      jaws_.keep_to_axis(motions_);
-    }
-  for (const Bounce& b : hits)  // an impact is over: it must not warm-start the next step
-    for (std::uint32_t i = b.bundle->first; i < b.bundle->last; ++i) {
-      ContactRows& c = rows_[i];
-      const LaneMask over = b.lanes & hit(c);
-      for (Lanes* impulse : {&c.normal_impulse, &c.t1_impulse, &c.t2_impulse})
-        *impulse = over ? all_lanes(0) : *impulse;
-    }
 }
 
 void ContactSolver::finish() {
@@ -489,10 +386,12 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
 void solve(World& world) {
   static thread_local Blocks kept;  // for its memory alone
   Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
+  BIN_SCENES_ASSERT(colors_share_no_body(world));
   blocks.make(world);
   std::atomic<std::uint64_t> falling{0};
   for_each_in_parallel(blocks.count(), [&](std::size_t block) { falling += solve_block(world, blocks, block); });
   world.counters.free_steps += falling;
+  BIN_SCENES_ASSERT(orientations_are_unit(world));
 }
 
 }  // namespace bin_scenes::sphere

@@ -1,0 +1,35 @@
+/// The reference of a request's keys: ranges as the reader takes them, and the page that shows it.
+#include "config/reference.hpp"
+
+#include "bin_scenes/mesh/mesh_loader.hpp"
+#include "config/config_fixture.hpp"
+
+#include <cstdio>
+#include <iterator>
+#include <map>
+
+namespace bin_scenes {
+namespace {
+
+TEST(Reference, TellsTheRangeThatIsTaken) {
+  std::map<std::string, std::string> kinds;
+  for (const config::Entry& entry : config::reference()) kinds[entry.path] = entry.kind;
+  EXPECT_EQ(kinds["parts[].count"], "whole number in [1, 1000000]");
+  EXPECT_EQ(kinds["parts[].scale"], "number in (0, 1000000]");
+  EXPECT_EQ(kinds["seed"], "whole number, 0 or more");
+  EXPECT_EQ(kinds["sensors[].near"], "number above 0");
+  EXPECT_EQ(kinds["bin.inner_size"], "[x, y, z], each in (0, 1000]");
+  EXPECT_EQ(kinds["solver.type"], "auto | sphere | bullet");
+}
+
+TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/request.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  char holes[64];
+  std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
+  EXPECT_NE(text.find(holes), std::string::npos);
+  EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
+}
+
+}  // namespace
+}  // namespace bin_scenes
