@@ -139,19 +139,24 @@ void retire(SphereWorld world, uint i, uint page, uint list) {
   }
 }
 
-// Appends the pair of i with b; `p` walks the old pairs of i.
-void adopt(SphereWorld world, uint w, uint i, uint b, inout uint p, uvec2 old, uint old_list, uint list, uint at) {
-  while (p < old.y && pairs[old_list + p].b < b) ++p;
+// Where a body's pairs are: those of the last step that are not past yet, and the next one of this step.
+struct Places {
+  uint old, old_end, next;
+};
+
+// Appends the pair of i with b.
+void adopt(SphereWorld world, uint w, uint i, uint b, inout Places places) {
+  while (places.old < places.old_end && pairs[places.old].b < b) ++places.old;
   SpherePair pair = SpherePair(world.bodies.x + i, b, 0u, 0u);
-  if (p < old.y && pairs[old_list + p].b == b) {
-    pair.slot = pairs[old_list + p].slot;
+  if (places.old < places.old_end && pairs[places.old].b == b) {
+    pair.slot = pairs[places.old].slot;
     if (progress[w].refresh != 0u) manifolds[world.pairs.x + pair.slot].state.z = 0u;
   } else {
     pair.slot = free_slots[world.pairs.x + atomicAdd(free_top, 0xffffffffu) - 1u];
     manifolds[world.pairs.x + pair.slot].state = uvec4(0u);
   }
-  pairs[list + at] = pair;
-  enlist(world, w, pair, list + at);
+  pairs[places.next] = pair;
+  enlist(world, w, pair, places.next++);
 }
 
 // How long this step is: whole steps are cut by what is fast when they begin.
@@ -205,14 +210,14 @@ void main() {
   barrier();
   for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {
     uvec2 old = range_of(world.bodies.x + i, page);
-    uint at = first_pair[i], p = old.x;
+    Places places = Places(old_list + old.x, old_list + old.y, list + first_pair[i]);
     for (uint k = 0u; k < world.bodies.z; ++k)
       for (uint word = near[word_of(world, i, k)]; word != 0u; word &= word - 1u) {
         uint j = 32u * k + uint(findLSB(word));
-        adopt(world, w, i, world.bodies.x + j, p, old, old_list, list, at++);
+        adopt(world, w, i, world.bodies.x + j, places);
       }
-    if (on_ground[i] == 1u) adopt(world, w, i, SPHERE_GROUND, p, old, old_list, list, at++);
-    set_range(world.bodies.x + i, page ^ 1u, uvec2(first_pair[i], at));
+    if (on_ground[i] == 1u) adopt(world, w, i, SPHERE_GROUND, places);
+    set_range(world.bodies.x + i, page ^ 1u, uvec2(first_pair[i], places.next - list));
   }
   count_pairs(w);
   barrier();  // all have read progress

@@ -23,7 +23,7 @@ MOST_PARAMETERS, MOST_LINES = 7, 60
 # Functions above a limit that others are at work on: a name goes when it is split.
 LARGE = """
 shaders/shared/sphere/rim.h touch_rim, shaders/shared/sphere/row.h go_half_way, shaders/shared/sphere/row.h levers_now,
-shaders/shared/sphere/slide.h slide, shaders/sphere/find_pairs.comp adopt"""
+shaders/shared/sphere/slide.h slide"""
 # Bullet prescribes its parameters.
 OF_A_LIBRARY = {"src/solver/bullet/contact_solver.cpp solveGroupCacheFriendlyIterations"}
 
