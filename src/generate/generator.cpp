@@ -2,6 +2,7 @@
 /// whether it was poured or picked from. Judging and rendering are done by other threads (finishing.hpp).
 #include "bin_scenes/generate/generator.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_rig.hpp"
@@ -135,6 +136,7 @@ struct Generator::State {
     Heap again({next, loaded.parts, loaded.bin_model}, solver, scene.index);
     again.settle(quiet);
     const Scene moved = again.scene();
+    BIN_SCENES_ASSERT(moved.parts.size() == kept.size());
     Scene before;
     for (const std::size_t i : kept) {
       before.parts.push_back(scene.parts[i]);

@@ -2,6 +2,7 @@
 /// what the grasp holds, and what the gripper meets on its way.
 #include "bin_scenes/grasp/scene_grasps.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "grasp/gripper_shape.hpp"
@@ -149,6 +150,8 @@ struct Search {
     const Burden burden{pick.pull, loaded.request.gravity * mass_of(line, model), part.pose * model.mass().center,
                         placed.up()};
     const Attempt attempt(placed, part, g);
+    BIN_SCENES_ASSERT(
+        each_is(grasps.placed, [&](const PartGrasps::Placed& one) { return one.of < grasps.grasps.size(); }));
     for (const PartGrasps::Placed& one : grasps.placed) {
       stop_if_cancelled();
       SceneGrasp grasp;
@@ -188,6 +191,7 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   SceneGrasps result;
   result.parts = picks_of(scene, loaded, placed);
   result.removal_order = order_removal(result.parts, placed);
+  BIN_SCENES_ASSERT(result.removal_order.size() <= result.parts.size());
   const std::vector<Gripper>& grippers = loaded.request.grippers;
   std::map<std::pair<std::size_t, std::size_t>, std::shared_ptr<const PartGrasps>> known;
   for (std::size_t line = 0; line < loaded.parts.size(); ++line) {
@@ -208,6 +212,7 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
     for (std::size_t g = 0; g < grippers.size(); ++g)
       search.of_part(part, pick, g, *known.at({part.line, g}), result.grasps);
   }
+  BIN_SCENES_ASSERT(next == result.parts.size());
   return result;
 }
 

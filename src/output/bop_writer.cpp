@@ -1,3 +1,4 @@
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "output/bop_image.hpp"
 #include "output/jpeg.hpp"
@@ -44,6 +45,7 @@ Bytes encoded(const BopImage& image, const BopPlace::File& file) {
 /// parts that were not poured make it another one.
 void write_masks(const fs::path& root, const BopImage& image, const BopPlace& place, bool by_id) {
   const fs::path visible = root / ("mask_visib" + place.suffix), whole = root / ("mask" + place.suffix);
+  BIN_SCENES_ASSERT(image.truth.size() == image.ids.size() && image.visible.size() == image.ids.size());
   const bool whole_known = image.whole.size() == image.ids.size();
   make_directory(visible);
   if (whole_known) make_directory(whole);

@@ -1,3 +1,4 @@
+/// Images as PNG: grey or colour of 8 and 16 bits, and labels by a palette.
 #include "output/png.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

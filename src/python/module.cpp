@@ -1,6 +1,7 @@
 /// The compiled part of the Python package bin_scenes: requests, scenes and their arrays, streams of scenes, heaps.
 /// What users call stands in python/bin_scenes, and its types in python/bin_scenes/_core.pyi.
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
 #include "heap_handle.hpp"
@@ -12,6 +13,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <functional>
+#include <numeric>
 #include <optional>
 
 namespace py = pybind11;
@@ -49,13 +52,20 @@ void translate_errors() {
   });
 }
 
+bool has_shape(std::size_t count, const std::vector<py::ssize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), py::ssize_t{1}, std::multiplies<>()) ==
+         static_cast<py::ssize_t>(count);
+}
+
 /// Memory of `owner` as an array, which keeps it alive.
 template <class Value>
 py::array array_of(std::vector<Value>& values, std::vector<py::ssize_t> shape, py::handle owner) {
+  BIN_SCENES_ASSERT(has_shape(values.size(), shape));
   return py::array_t<Value>(std::move(shape), values.data(), owner);
 }
 template <class Value, std::size_t n>
 py::array array_of(std::vector<std::array<Value, n>>& values, std::vector<py::ssize_t> shape, py::handle owner) {
+  BIN_SCENES_ASSERT(has_shape(values.size(), shape));
   shape.push_back(n);
   return py::array_t<Value>(std::move(shape), values.empty() ? nullptr : values.front().data(), owner);
 }

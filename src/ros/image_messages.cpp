@@ -46,7 +46,7 @@ sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& ima
   message.encoding = encoding;
   message.is_bigendian = false;
   message.step = static_cast<std::uint32_t>(message.width * sizeof(Pixel));
-  BIN_SCENES_ASSERT(pixels.empty() || pixels.size() == std::size_t{message.width} * message.height);
+  BIN_SCENES_ASSERT(pixels.empty() || pixels.size() % (std::size_t{message.width} * message.height) == 0);
   message.data.resize(pixels.size() * sizeof(Pixel));
   if (!pixels.empty()) std::memcpy(message.data.data(), pixels.data(), message.data.size());
   return message;
