@@ -10,14 +10,15 @@ namespace bin_scenes::sphere_gl {
 
 class Arena {
  public:
-  /// First element of a region of `count`.
+  /// First element of a region of `count`. An empty one takes an element, too: what is given back is its own.
   std::size_t take(std::size_t count) {
+    count = std::max<std::size_t>(count, 1);
     std::size_t at = 0;
     for (const auto& [first, length] : taken_) {
       if (first >= at + count) break;
       at = first + length;
     }
-    if (count > 0) taken_[at] = count;
+    taken_[at] = count;
     size_ = std::max(size_, at + count);
     return at;
   }
