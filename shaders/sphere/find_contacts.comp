@@ -226,11 +226,11 @@ void test_rim(SphereWorld world, uint k, uint shape, Samples samples, Field fiel
   if (!find_rim(plane, world.ground.z, a.position, radius, margin, face_spacing_of(samples), rim)) return;
   for (int i = rim.first + int(gl_LocalInvocationIndex); i <= rim.last; i += SPHERE_PAIR_GROUP) {
     float before = distance_at(rim, field, a.rotation, i - 1), here = distance_at(rim, field, a.rotation, i);
-    float after = distance_at(rim, field, a.rotation, i + 1), t, distance;
-    vec3 point, gradient;
-    if (touch_rim(rim, plane, field, a.rotation, i, before, here, after, margin, t, point, gradient, distance) &&
-        !within_walls(world, a.position + rim.start + t * rim.along, margin))
-      emit(point - distance * gradient, gradient, distance, rim_feature(i, k));
+    float after = distance_at(rim, field, a.rotation, i + 1), t;
+    Touch touch;
+    if (may_touch_rim(rim, before, here, after, margin) && touch_rim(rim, plane, field, a.rotation, i, t, touch) &&
+        touch.distance < margin && !within_walls(world, a.position + rim.start + t * rim.along, margin))
+      emit(touch.point - touch.distance * touch.gradient, touch.gradient, touch.distance, rim_feature(i, k));
   }
 }
 
@@ -254,13 +254,15 @@ void test_ground(SpherePair pair, float margin) {
       uint node = c * SPHERE_CLUSTER + thread % SPHERE_CLUSTER;
       if (node >= samples.nodes.y) continue;
       ++nodes_tested;
-      vec3 point = carried(carry, node_at(samples, node)), away;
-      float distance = distance_to(solid, point, away) - radius_of(samples);
-      if (distance > margin + sag_of(samples)) continue;
-      slide(samples, own, carry, node, solid, point, away, distance);
-      vec3 surface = point - a.position - radius_of(samples) * away;
-      if (distance <= margin)
-        emit(turned_back(a.rotation, surface), -turned_back(a.rotation, away), distance, node + k * SPHERE_PLANE);
+      Touch touch;
+      touch.point = carried(carry, node_at(samples, node));
+      touch.distance = distance_to(solid, touch.point, touch.gradient) - radius_of(samples);
+      if (touch.distance > margin + sag_of(samples)) continue;
+      slide(samples, own, carry, node, solid, touch);
+      vec3 surface = touch.point - a.position - radius_of(samples) * touch.gradient;
+      if (touch.distance > margin) continue;
+      emit(turned_back(a.rotation, surface), -turned_back(a.rotation, touch.gradient), touch.distance,
+           node + k * SPHERE_PLANE);
     }
   }
   if (thread == 0u) count_possible(samples.nodes.y);

@@ -51,20 +51,19 @@ void keep_side(uint body, Side s) {
 
 // Where a body is: when contacts were found, half way through the step from there, and now.
 struct Place {
-  vec3 position, ahead, ahead_turn, moved, turned;  // m, rad
+  vec3 position, moved, turned;  // m, rad
+  Ahead ahead;
   vec4 orientation;
 };
 
 Place place_of(uint body) {
-  Place p = Place(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0));
+  Place p = Place(vec3(0.0), vec3(0.0), vec3(0.0), Ahead(vec3(0.0), vec3(0.0)), vec4(0.0, 0.0, 0.0, 1.0));
   if (body == SPHERE_GROUND) return p;
   uint i = body - world.bodies.x;
   p.position = states[body].position.xyz;
   p.orientation = tensors[body].orientation;
   if (velocity_of(i).w == 0.0) return p;
-  float ahead = plan.half_way;
-  p.ahead = ahead * tensors[body].velocity.xyz;
-  p.ahead_turn = ahead * tensors[body].spin.xyz;
+  p.ahead = Ahead(plan.half_way * tensors[body].velocity.xyz, plan.half_way * tensors[body].spin.xyz);
   p.moved = moved_of(i).xyz;
   p.turned = turned_of(i).xyz;
   return p;
@@ -102,7 +101,7 @@ bool prepare_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side
   bool of_a = of_field_of_a(c);
   row.normal = rotate(of_a ? pa.orientation : pb.orientation, c.normal.xyz);
   row.gap = dot(pb.position + row.rb - pa.position - row.ra, row.normal);
-  go_half_way(of_a, pa.ahead, pa.ahead_turn, pb.ahead, pb.ahead_turn, row.ra, row.rb, row.normal);
+  go_half_way(of_a, pa.ahead, pb.ahead, row.ra, row.rb, row.normal);
   float scale = tangent_scale(row.normal), approach = approach_of(row, a, b);
   row.tangent = tangent_of(row.normal, scale);
   vec3 friction = c.force.yzw;
@@ -124,8 +123,8 @@ void refresh_levers(SphereOrdered m, Side a, Side b) {
   FOR_CONTACTS(at, contact, m) {
     Row row = row_at(at, m.stride);
     SphereContact c = contacts[contact];
-    levers_now(x_a, x_a + rotate(q_a, c.anchor_a), x_b, x_b + rotate(q_b, c.anchor_b), row.normal, row.ra, row.rb,
-               row.gap);
+    vec3 on_a = x_a + rotate(q_a, c.anchor_a), on_b = x_b + rotate(q_b, c.anchor_b);
+    row.gap = dot(levers_now(x_a, on_a, x_b, on_b, row.ra, row.rb), row.normal);
     keep_levers(at, m.stride, row, a, b);
   }
 }

@@ -36,15 +36,18 @@ INLINE float distance_at(IN(Rim) rim, IN(Field) field, IN(mat3) rotation, int i)
   return sample_field(field, on_rim(rim, rotation, rim.step_size * float(i)));
 }
 
-// Whether the rim touches the part around place i, by the distances there and at the places beside it; where (t, and
-// `point` in the frame of the part), and the part's field there.
-INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, float before, float here,
-                      float after, float margin, INOUT(float) t, INOUT(vec3) point, INOUT(vec3) gradient,
-                      INOUT(float) distance) {
-  const float least_out = -0.1f;  // the way out of the rim is upwards, off the wall, or between the two
+// Whether the rim may touch the part around a place, by the distances there and at the places beside it.
+INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, float margin) {
   // Or an end of where it lies along a face.
   bool nearest = here <= before && here <= after && (here < before || here < after);
-  if (!nearest || here - rim.step_size >= margin) return false;
+  return nearest && here - rim.step_size < margin;
+}
+
+// Where the part is nearest to the rim around place i: t, and the part's field there, in its frame. Returns whether the
+// rim can press there.
+INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, INOUT(float) t,
+                      INOUT(Touch) touch) {
+  const float least_out = -0.1f;  // the way out of the rim is upwards, off the wall, or between the two
   float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
   for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
     float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;
@@ -54,11 +57,10 @@ INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) ro
       lower = t0;
   }
   t = 0.5f * (lower + upper);
-  point = on_rim(rim, rotation, t);
-  distance = sample_field(field, point, gradient);
-  vec3 way_out = -(rotation * gradient);
-  return distance < margin && dot(way_out, vec3(0.0f, 0.0f, 1.0f)) >= least_out &&
-         dot(way_out, normal_of(plane)) >= least_out;
+  touch.point = on_rim(rim, rotation, t);
+  touch.distance = sample_field(field, touch.point, touch.gradient);
+  vec3 way_out = -(rotation * touch.gradient);
+  return dot(way_out, vec3(0.0f, 0.0f, 1.0f)) >= least_out && dot(way_out, normal_of(plane)) >= least_out;
 }
 
 // Number of what touches around place i of the rim of plane k.

@@ -25,10 +25,9 @@ INLINE float distance_to(IN(Solid) solid, IN(vec3) p, OUT(vec3) away) {
 
 // A node of a curved face stands for its surroundings: slides it along its own surface to where it lies deepest. The
 // distance follows from the angle between the node's normal and the gradient of the depth, and from how fast the
-// normals turn (cone); the part's own field brings the point back to the surface. `point`, `gradient` and `distance`
-// are the node's own in the frame of the solid, and are replaced. `carry`: from the node's frame to the solid's.
-INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node, IN(Solid) solid, INOUT(vec3) point,
-                  INOUT(vec3) gradient, INOUT(float) distance) {
+// normals turn (cone); the part's own field brings the point back to the surface. `touch` is the node's own in the
+// frame of the solid, and is replaced. `carry`: from the node's frame to the solid's.
+INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node, IN(Solid) solid, INOUT(Touch) touch) {
   const float flat_angle = 0.02f;  // rad: below it the node itself is deep enough
   IN(Cone) cone = cone_at(samples, node);
   float face_spacing = face_spacing_of(samples);
@@ -38,7 +37,7 @@ INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node
   float distance_per_angle = 2.0f * face_spacing / spread;
   vec3 start = node_at(samples, node), x = start, normal = axis_of(cone);
   for (int i = 0; i < 6; ++i) {
-    vec3 down = -turned_back(carry.rotation, gradient), across = down - dot(down, normal) * normal;
+    vec3 down = -turned_back(carry.rotation, touch.gradient), across = down - dot(down, normal) * normal;
     float angle = length(across);
     if (angle < flat_angle || dot(down, normal) < 0.5f) return;
     vec3 there = x + min(angle * distance_per_angle, face_spacing) / angle * across, normal_there, slope;
@@ -47,14 +46,15 @@ INLINE void slide(IN(Samples) samples, IN(Field) own, IN(Carry) carry, uint node
     vec3 carried = carry.rotation * there + carry.offset;
     float deeper = distance_to(solid, carried, slope);
     // Past the deepest point, over the rim of the face, or where another node stands.
-    if (deeper >= distance || abs(sample_field(own, there)) > 0.1f * own.cell || length(there - start) > face_spacing) {
+    if (deeper >= touch.distance || abs(sample_field(own, there)) > 0.1f * own.cell ||
+        length(there - start) > face_spacing) {
       distance_per_angle *= 0.5f;
       continue;
     }
     x = there;
     normal = normal_there;
-    point = carried;
-    gradient = slope;
-    distance = deeper;
+    touch.point = carried;
+    touch.gradient = slope;
+    touch.distance = deeper;
   }
 }

@@ -239,7 +239,7 @@ INLINE bool node_may_touch(IN(View) view, float distance) {
 
 // Slides the node to where it is deepest; returns whether it is to be offered.
 INLINE bool touches_with_node(IN(View) view, uint node, INOUT(Touch) touch) {
-  slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch.point, touch.gradient, touch.distance);
+  slide(view.samples, view.own, view.to_field, node, solid_of(view.field), touch);
   return touch.distance < view.margin;
 }
 

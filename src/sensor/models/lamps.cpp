@@ -1,3 +1,4 @@
+/// Points drawn on lamps, each by its share of all light, and what rays meet of them.
 #include "sensor/models/lamps.hpp"
 
 #include "bin_scenes/sensor/resolve.hpp"

@@ -21,13 +21,15 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
   float here = distance_at(rim, shape.field, a.rotation, rim.first);
   for (int i = rim.first; i <= rim.last; ++i) {
     const float after = distance_at(rim, shape.field, a.rotation, i + 1);
-    float t, d;
-    Vec3f point, gradient;
-    if (touch_rim(rim, plane, shape.field, a.rotation, i, before, here, after, margin, t, point, gradient, d)) {
+    float t;
+    Touch touch;
+    if (may_touch_rim(rim, before, here, after, margin) &&
+        touch_rim(rim, plane, shape.field, a.rotation, i, t, touch) && touch.distance < margin) {
       const Vec3f p = a.x + rim.start + t * rim.along;
       const auto within = [&](const Plane& other) { return other.wall && other.normal.dot(p) < other.offset - margin; };
       if (std::none_of(world.planes.begin(), world.planes.end(), within))
-        out.push_back({point - d * gradient, point, gradient, d, rim_feature(i, static_cast<uint>(k))});
+        out.push_back({touch.point - touch.distance * touch.gradient, touch.point, touch.gradient, touch.distance,
+                       rim_feature(i, static_cast<uint>(k))});
     }
     before = here;
     here = after;
@@ -84,14 +86,16 @@ void candidates_of_ground(const World& world, const Manifold& m, const Placement
       const std::size_t last = std::min(samples.nodes.size(), (c + 1) * cluster_size);
       counters.nodes_tested += last - c * cluster_size;
       for (std::size_t i = c * cluster_size; i < last; ++i) {
-        Vec3f p = carry(samples.nodes[i]), up;
-        float d = distance_to(solid, p, up) - samples.radius;
-        if (d > margin + samples.sag) continue;
-        slide(samples, solid.field, carry, static_cast<uint>(i), solid, p, up, d);
-        if (d > margin) continue;
-        const Vec3f surface = p - samples.radius * up;
-        out.push_back({back * (surface - a.x), back * (surface - d * up - a.x), -(back * up), d,
-                       static_cast<uint>(i + k * SPHERE_PLANE)});
+        Touch touch;
+        touch.point = carry(samples.nodes[i]);
+        touch.distance = distance_to(solid, touch.point, touch.gradient) - samples.radius;
+        if (touch.distance > margin + samples.sag) continue;
+        slide(samples, solid.field, carry, static_cast<uint>(i), solid, touch);
+        if (touch.distance > margin) continue;
+        const Vec3f& up = touch.gradient;
+        const Vec3f surface = touch.point - samples.radius * up;
+        out.push_back({back * (surface - a.x), back * (surface - touch.distance * up - a.x), -(back * up),
+                       touch.distance, static_cast<uint>(i + k * SPHERE_PLANE)});
       }
     }
     candidates_of_rim(world, k, *world.shapes[body.shape], samples, a, margin, out);

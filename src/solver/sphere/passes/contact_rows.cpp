@@ -10,16 +10,12 @@ namespace {
 
 constexpr int shared_color = SPHERE_COLORS - 1;  ///< its manifolds found no color of their own: one to a bundle
 
-/// What a body does from the start of a step to the middle of its sub-steps (StepPlan::half_way).
-struct Ahead {
-  Vec3f moved = Vec3f::Zero(), turned = Vec3f::Zero();  ///< m, rad
-
-  Ahead(float half_way, const Body* body) {
-    if (!body || !body->moves()) return;
-    moved = half_way * body->v;
-    turned = half_way * body->w;
-  }
-};
+/// @param half_way  StepPlan::half_way (s)
+/// @param body      null for the ground
+Ahead ahead_of(float half_way, const Body* body) {
+  if (!body || !body->moves()) return {Vec3f::Zero(), Vec3f::Zero()};
+  return {half_way * body->v, half_way * body->w};
+}
 
 /// Bodies of a manifold; b is null for the ground.
 struct Bodies {
@@ -28,7 +24,7 @@ struct Bodies {
   Ahead ahead_a, ahead_b;
 
   Bodies(float half_way, const Body& first, const Body* second)
-      : a(first), b(second), ahead_a(half_way, &first), ahead_b(half_way, second) {}
+      : a(first), b(second), ahead_a(ahead_of(half_way, &first)), ahead_b(ahead_of(half_way, second)) {}
 };
 
 void set_lane(ContactRows& rows, int lane, Contact& c, const Bodies& bodies, float warm) {
@@ -37,8 +33,7 @@ void set_lane(ContactRows& rows, int lane, Contact& c, const Bodies& bodies, flo
   c.normal = field_of_a ? Vec3f(a.rotation * c.local_normal) : b ? Vec3f(b->rotation * c.local_normal) : c.local_normal;
   Vec3f ra = a.rotation * c.anchor_a, rb = b ? Vec3f(b->rotation * c.anchor_b) : c.anchor_b;
   rows.separation[lane] = ((b ? b->x : Vec3f(Vec3f::Zero())) + rb - a.x - ra).dot(c.normal);
-  const Ahead &ahead_a = bodies.ahead_a, &ahead_b = bodies.ahead_b;
-  go_half_way(field_of_a, ahead_a.moved, ahead_a.turned, ahead_b.moved, ahead_b.turned, ra, rb, c.normal);
+  go_half_way(field_of_a, bodies.ahead_a, bodies.ahead_b, ra, rb, c.normal);
   const Vec3f t1 = c.normal.unitOrthogonal();
   rows.normal.set(lane, c.normal);
   rows.tangent.set(lane, t1);
@@ -182,9 +177,8 @@ void refresh_levers(const World& world, const std::vector<Motion>& motions, Bund
       const Contact& c = m.contacts[k];
       ContactRows& row = rows[bundle.first + k];
       Vec3f ra, rb;
-      float gap;
-      levers_now(a.x, a.x + a.rotation * c.anchor_a, b.x, b.x + b.rotation * c.anchor_b, c.normal, ra, rb, gap);
-      row.gap[lane] = gap;
+      const Vec3f on_a = a.x + a.rotation * c.anchor_a, on_b = b.x + b.rotation * c.anchor_b;
+      row.gap[lane] = levers_now(a.x, on_a, b.x, on_b, ra, rb).dot(c.normal);
       row.ra.set(lane, ra);
       row.rb.set(lane, rb);
     }

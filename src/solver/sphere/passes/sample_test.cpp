@@ -71,8 +71,7 @@ std::size_t test_cluster(const View& view, std::size_t index) {
     if (node_may_touch(view, cluster.distance(node))) {
       const auto number = static_cast<uint>(node);
       Touch touch = cluster.touch(node);
-      if (touches_with_node(view, number, touch))
-        offer(view, touch, cone_at(view.samples, number), number);
+      if (touches_with_node(view, number, touch)) offer(view, touch, cone_at(view.samples, number), number);
     }
   for (uint e = samples.first_edge[index]; e < samples.first_edge[index + 1]; ++e) {
     const Edge& edge = samples.edges[e];
