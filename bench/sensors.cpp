@@ -94,9 +94,11 @@ Sensor sensor_of(const Case& c) {
 }
 
 /// A grey image of a heap of steel, with its truth.
-void image_time(Run& out, test::Stage& heap) {
+void image_time(Run& out, test::Stage& heap, int samples, bool denoise) {
   Sensor sensor = sensor_of({"", 0.0, "image", analytic, 2, true});
   sensor.height = 976;
+  sensor.settings.of<ImageSettings>().samples = samples;
+  sensor.settings.of<ImageSettings>().denoise = denoise;
   std::vector<ImageLamp>& lamps = sensor.settings.of<ImageSettings>().lamps;
   lamps.resize(2);
   lamps[0].type = ImageLamp::Type::ring;
@@ -106,7 +108,8 @@ void image_time(Run& out, test::Stage& heap) {
   heap.request.parts[0].surface = {0.3, 0.1, 0.4};  // the plate
   heap.scene.sensors = {resolved(sensor, heap.request.bin)};
   SensorRig rig;
-  time(out, "image 1280 x 976, 50 parts, 16 samples, bounces 2", 3.0, [&] {
+  const std::string what = "image 1280 x 976, 50 parts, " + std::to_string(samples) + " samples, bounces 2";
+  time(out, denoise ? what + ", denoised" : what, denoise ? 0.0 : 3.0, [&] {
     rig.render(heap.scene, {heap.request, heap.models});
   });
 }
@@ -121,7 +124,8 @@ void run(Run& out) {
     stage.scene.sensors = {resolved(sensor_of(c), stage.request.bin)};
     time(out, c.what, c.goal_s, [&] { rig.render(stage.scene, {stage.request, stage.models}); });
   }
-  image_time(out, heap);
+  image_time(out, heap, 16, false);
+  image_time(out, heap, 4, true);
   const Scenery scenery = balls.scenery();
   const Sensor& sensor = balls.scene.sensors[0];
   const View view =

@@ -33,6 +33,7 @@ struct ImageLamp {
 struct ImageSettings {
   std::vector<ImageLamp> lamps;  ///< none: a dome
   int samples = 16;              ///< paths of light a pixel, a power of two; more = less grain, linear cost
+  bool denoise = false;          ///< takes the grain of few samples out
   bool colour = false;           ///< red, green and blue instead of grey
   int bits = 8;                  ///< of a count in files and messages, 8 or 16
 };

@@ -1,6 +1,7 @@
 #include "sensor/models/image.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/models/image_denoise.hpp"
 #include "sensor/models/imager.hpp"
 #include "sensor/models/path_tracer.hpp"
 
@@ -33,6 +34,19 @@ PathTracer::Setup setup_of(const Sensor& sensor) {
   return setup;
 }
 
+/// Radiance by pixel.
+std::vector<Rgb> traced(const PathTracer& tracer, const View& view, bool denoised) {
+  const auto width = static_cast<std::size_t>(view.lens.width), height = static_cast<std::size_t>(view.lens.height);
+  std::vector<Rgb> radiance(width * height);
+  std::vector<PathTracer::Grain> grain(width * height);
+  in_parallel(height, [&](std::size_t row) {
+    const std::vector<Rgb> own = tracer.row(row, &grain[row * width]);
+    std::copy(own.begin(), own.end(), radiance.begin() + static_cast<std::ptrdiff_t>(row * width));
+  });
+  if (denoised) denoise(view, grain, radiance);
+  return radiance;
+}
+
 }  // namespace
 
 double image_gain(const Lamps& lamps, const Sensor& sensor, const View& view) {
@@ -58,10 +72,11 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
   picture.bits = settings.bits;
   picture.counts.resize(width * height * channels);
   Measurement out(width * height);
+  const std::vector<Rgb> radiance = traced(tracer, view, settings.denoise);
   in_parallel(height, [&](std::size_t row) {
-    const std::vector<Rgb> radiance = tracer.row(row);
     std::vector<float> signals;
-    for (const Rgb& rgb : radiance) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const Rgb& rgb = radiance[row * width + x];
       for (std::size_t c = 0; c < channels; ++c)
         signals.push_back(static_cast<float>(gain * (channels == 3 ? rgb[static_cast<Eigen::Index>(c)] : rgb.mean())));
     }
@@ -77,7 +92,7 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
         picture.counts[i * channels + c] = static_cast<std::uint16_t>(std::lround(most * signal));
         out.intensity[i] += signal / static_cast<float>(channels);
       }
-      const double mean = std::min(gain * radiance[x].mean(), 1.0);
+      const double mean = std::min(gain * radiance[i].mean(), 1.0);
       out.snr[i] = static_cast<float>(mean / std::sqrt(imager.variance(mean) / static_cast<double>(channels)));
     }
   });

@@ -12,6 +12,8 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   ImageSettings& s = settings.of<ImageSettings>();
   v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
           s.samples);
+  v.field({"denoise", "", "takes the grain of few samples out, with at least 4 of them; faces keep their edges"},
+          s.denoise);
   v.field({"colour", "", "RGB instead of grey"}, s.colour);
   v.field({"bits", "", "of a count, 8 or 16, of which BOP has the upper 8", at_least(8.0, 16.0)}, s.bits);
 }
@@ -37,6 +39,8 @@ void check(const Sensor& sensor, const std::string& key) {
   if ((s.samples & (s.samples - 1)) != 0)
     throw input_error(std::to_string(s.samples) + " is no power of two", key + ".image.samples",
                       "give 4, 8, 16, 32, ...");
+  if (s.denoise && s.samples < 4)
+    throw input_error("needs at least 4 samples", key + ".image.denoise", "give more samples, or denoise: false");
   const double paths = static_cast<double>(sensor.width) * sensor.height * s.samples;
   if (sensor.model == "image" && paths > most_paths) {
     throw input_error(std::to_string(s.samples) + " for each of " + std::to_string(sensor.width) + " x " +

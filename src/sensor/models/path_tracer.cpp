@@ -58,14 +58,14 @@ struct PathTracer::Row {
 
 struct PathTracer::Block {
   const Row* row = nullptr;
-  std::size_t first = 0;      // pixel of the row
-  std::vector<Rgb> radiance;  // by pixel
+  std::size_t first = 0;                     // pixel of the row
+  std::vector<std::array<Rgb, 2>> radiance;  // by pixel, of even and odd paths
   std::vector<Vertex> vertices, next;
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   std::vector<std::uint8_t> blocked;
   struct Asked {
-    std::uint32_t pixel;
+    std::uint32_t pixel, half;
     Rgb light;
   };
   std::vector<Asked> asked;
@@ -96,7 +96,7 @@ PathTracer::PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pos
       spots_(scenery, lens, pose, setup.near, setup.far),
       net_(sobol(setup.samples)) {}
 
-std::vector<Rgb> PathTracer::row(std::size_t index) const {
+std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
   const auto width = static_cast<std::size_t>(lens_.width);
   thread_local Row row;  // both keep their memory
   thread_local Block block;
@@ -107,11 +107,16 @@ std::vector<Rgb> PathTracer::row(std::size_t index) const {
   for (std::size_t first = 0; first < width; first += block_pixels) {
     begin(block, row, first, std::min(block_pixels, width - first));
     add_seen(block);
+    for (std::size_t i = 0; grain && i < block.radiance.size(); ++i) grain[first + i].one_face = of_one_face(block, i);
     for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) {
       ask_lamps(block, bounce);
       follow_lobes(block, bounce);
     }
-    for (const Rgb& sum : block.radiance) radiance.push_back(sum / setup_.samples);
+    for (const auto& [even, odd] : block.radiance) {
+      if (grain)
+        grain[radiance.size()].variance = static_cast<float>(std::pow((even - odd).mean() / setup_.samples, 2));
+      radiance.push_back((even + odd) / setup_.samples);
+    }
   }
   return radiance;
 }
@@ -166,7 +171,7 @@ void PathTracer::begin(Block& block, const Row& row, std::size_t first, std::siz
   const bool plain = !lens_.distorts() && lens_.skew == 0.0;
   block.row = &row;
   block.first = first;
-  block.radiance.assign(count, Rgb::Zero());
+  block.radiance.assign(count, {Rgb::Zero(), Rgb::Zero()});
   block.rays.clear();
   block.hits.resize(count * samples);
   for (std::size_t i = 0; i < block.hits.size(); ++i) {
@@ -191,12 +196,27 @@ void PathTracer::add_seen(Block& block) const {
     const Hit& hit = block.hits[i];
     if (!ray.direction.allFinite()) continue;
     const double length = ray.direction.norm(), reach = std::isnan(hit.distance) ? infinite : hit.distance * length;
-    block.radiance[i / samples] += lamps_.met(ray.origin, ray.direction / length, reach, Lamps::Met::all, 1.0);
+    block.radiance[i / samples][i % 2] += lamps_.met(ray.origin, ray.direction / length, reach, Lamps::Met::all, 1.0);
     Vertex vertex;
     vertex.pixel = i / samples, vertex.sample = i % samples;
     vertex.to_eye = -ray.direction / length;
     add_vertex(block.vertices, ray, hit, vertex);
   }
+}
+
+bool PathTracer::of_one_face(const Block& block, std::size_t pixel) const {
+  const auto samples = static_cast<std::size_t>(setup_.samples);
+  const Hit& first = block.hits[pixel * samples];
+  const auto point = [&](std::size_t i) {
+    return block.rays[i].origin + block.hits[i].distance * block.rays[i].direction;
+  };
+  const Vec3 middle = point(pixel * samples);
+  for (std::size_t i = pixel * samples; i < (pixel + 1) * samples; ++i) {
+    const Hit& hit = block.hits[i];
+    const double off = std::abs(first.normal.dot(point(i) - middle)), footprint = hit.distance / lens_.fx;
+    if (!(hit.label == first.label && hit.normal.dot(first.normal) > bends && off < footprint)) return false;
+  }
+  return true;
 }
 
 void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const {
@@ -235,14 +255,14 @@ void PathTracer::ask_lamps(Block& block, int bounce) const {
     if (lamp.density > 0.0 && setup_.by == Setup::By::both && mirrors(surface, bounce))
       share = lamp.density / (lamp.density + Lobe(surface, v.normal, v.to_eye).density_of(lamp.direction));
     const Rgb light = v.weight * lamp.light * in_colour(surface, sent.matte, sent.mirrored) * (times * share / M_PI);
-    block.asked.push_back({v.pixel, light});
+    block.asked.push_back({v.pixel, v.sample % 2, light});
     block.rays.push_back(ray_between(v.position, v.face, v.position + lamp.distance * lamp.direction));
   }
   block.blocked.resize(block.rays.size());
   scenery_.blocked(block.rays.data(), block.blocked.data(), block.rays.size(),
                    bounce == 0 ? Scenery::Rays::side_by_side : Scenery::Rays::scattered);
   for (std::size_t i = 0; i < block.asked.size(); ++i)
-    if (!block.blocked[i]) block.radiance[block.asked[i].pixel] += block.asked[i].light;
+    if (!block.blocked[i]) block.radiance[block.asked[i].pixel][block.asked[i].half] += block.asked[i].light;
 }
 
 /// Of lamps that a ray meets which left along a lobe.
@@ -283,7 +303,7 @@ void PathTracer::follow_lobes(Block& block, int bounce) const {
 /// @param times  how much more those count that go on
 void PathTracer::find_ends(Block& block, double times) const {
   const auto add = [&](const Block::Followed& path, const Ray& ray, double reach) {
-    block.radiance[path.from->pixel] +=
+    block.radiance[path.from->pixel][path.from->sample % 2] +=
         path.weight * lamps_.met(ray.origin, ray.direction, reach, weight_of(path.mirrors), path.sample.density);
   };
   block.blocked.resize(block.outward.size());

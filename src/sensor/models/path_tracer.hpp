@@ -37,8 +37,15 @@ class PathTracer {
   PathTracer(const Scenery& scenery, const Lens& lens, const Pose& pose, const Surfaces& surfaces, const Lamps& lamps,
              const Setup& setup, const Random& key);
 
+  static constexpr double bends = 0.82;  ///< cosine of 35 degrees: faces that meet in more are two
+  /// What makes a pixel's radiance uncertain.
+  struct Grain {
+    float variance = 0.0f;  ///< of red, green and blue's mean, as far as both halves of the paths tell
+    bool one_face = true;   ///< all paths see one part, on faces that bend on from each other
+  };
   /// Mean radiance of each pixel of a row.
-  std::vector<Rgb> row(std::size_t row) const;
+  /// @param grain  of the row's pixels, if given
+  std::vector<Rgb> row(std::size_t row, Grain* grain = nullptr) const;
 
  private:
   struct Vertex {
@@ -65,6 +72,7 @@ class PathTracer {
   void see(Row& row) const;
   void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
   void add_seen(Block& block) const;
+  bool of_one_face(const Block& block, std::size_t pixel) const;
   void ask_lamps(Block& block, int bounce) const;
   void follow_lobes(Block& block, int bounce) const;
   void find_ends(Block& block, double times) const;
