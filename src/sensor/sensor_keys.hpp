@@ -138,9 +138,21 @@ void visit(Visitor& v, OutlierFilter& outlier) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, SmoothingFilter& smoothing) {
+  v.field({"sigma", "pixel",
+           "standard deviation of the weights; more = less noise, rounder creases and smaller balls; 0 = off",
+           at_least(0.0, 20.0)},
+          smoothing.sigma);
+  v.field({"step", "m", "pixels that lie so far off the local plane count nothing; several times the noise",
+           above(0.0, 10.0)},
+          smoothing.step);
+}
+
+template <class Visitor>
 void visit(Visitor& v, FilterSettings& filter) {
   v.field({"snr", "", "pixels with less are taken away (code 4); 0 = off", at_least(0.0, 1e6)}, filter.snr);
   v.section({"outlier", "", "pixels with too few neighbours of their depth are taken away (code 9)"}, filter.outlier);
+  v.section({"smoothing", "", "what is left, along surfaces; edges stay"}, filter.smoothing);
 }
 
 template <class Visitor>
