@@ -12,6 +12,14 @@ struct OutlierFilter {
   double step = 0.005;  ///< m: largest difference of depth
 };
 
+/// The fringe of structured light is taken in a second period as well. Light that bounced moves the phase by another
+/// depth there, direct light does not: Gupta et al. 2011, "Structured light 3D scanning in the presence of global
+/// illumination".
+struct ReflectionFilter {
+  double step = 0.0;    ///< m: largest difference of both depths; 0 = off
+  double period = 5.0;  ///< projector pixels of the second fringe: the shorter, the less light that bounced moves it
+};
+
 /// Depth becomes that of a plane through the pixels around, on one surface with it: what drivers call smoothing or
 /// surface smoothness. SNR stays that of the measurement.
 struct SmoothingFilter {
@@ -23,12 +31,13 @@ struct SmoothingFilter {
 struct FilterSettings {
   double snr = 0.0;  ///< pixels below are dark; 0 = off
   OutlierFilter outlier;
+  ReflectionFilter reflection{};
   SmoothingFilter smoothing{};
-  bool any() const { return snr > 0.0 || outlier.neighbours > 0 || smoothing.sigma > 0.0; }
+  bool any() const { return snr > 0.0 || outlier.neighbours > 0 || reflection.step > 0.0 || smoothing.sigma > 0.0; }
 };
 
-/// First by SNR, then by neighbours; what is left is smoothed. Each does all pixels at once, so that none depends on
-/// their order. Truth stays.
+/// First by SNR, then by neighbours (the model itself has seen to reflections); what is left is smoothed. Each does all
+/// pixels at once, so that none depends on their order. Truth stays.
 void filter(const FilterSettings& settings, RangeImage& image);
 
 }  // namespace bin_scenes
