@@ -149,7 +149,8 @@ template <class Visitor>
 void visit(Visitor& v, SmoothingFilter& smoothing) {
   v.field({"sigma", "pixel", "of the weights; more = less noise, rounder creases; 0 = off", at_least(0.0, 20.0)},
           smoothing.sigma);
-  v.field({"step", "m", "what lies so far off the local plane counts nothing", above(0.0, 10.0)}, smoothing.step);
+  v.field({"step", "m", "what lies so far off the plane counts nothing; ten times the noise", above(0.0, 10.0)},
+          smoothing.step);
 }
 
 template <class Visitor>

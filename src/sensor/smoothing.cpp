@@ -13,6 +13,8 @@ namespace bin_scenes {
 
 namespace {
 
+constexpr double invalid = -1e9;  // 1/m: so far off each plane that it counts nothing
+
 /// 1 / depth (1/m) about a pixel, and its growth to the next one.
 struct Plane {
   double here, right, down;
@@ -21,10 +23,14 @@ struct Plane {
 /// Weighted sums over a window, of residuals r at places (u, v).
 struct Sums {
   double n = 0.0, u = 0.0, v = 0.0, r = 0.0, uu = 0.0, uv = 0.0, vv = 0.0, ur = 0.0, vr = 0.0;
-  void add(double w, double x, double y, double residual) {
-    n += w, u += w * x, v += w * y, r += w * residual;
-    uu += w * x * x, uv += w * x * y, vv += w * y * y;
-    ur += w * x * residual, vr += w * y * residual;
+  void add(double w, double x, double residual) {
+    n += w, u += w * x, uu += w * x * x;
+    r += w * residual, ur += w * x * residual;
+  }
+  /// Of a row, whose places have one v.
+  void add(const Sums& row, double y) {
+    n += row.n, u += row.u, uu += row.uu, r += row.r, ur += row.ur;
+    v += y * row.n, vv += y * y * row.n, uv += y * row.u, vr += y * row.r;
   }
 };
 
@@ -44,7 +50,7 @@ class Smoother {
  public:
   Smoother(const SmoothingFilter& settings, const RangeImage& image)
       : step_(settings.step), width_(image.width), height_(image.height), reach_(reach_of(settings.sigma)) {
-    for (const float z : image.depth) inverse_.push_back(1.0 / static_cast<double>(z));
+    for (const float z : image.depth) inverse_.push_back(std::isnan(z) ? invalid : 1.0 / static_cast<double>(z));
     for (int v = -reach_; v <= reach_; ++v)
       for (int u = -reach_; u <= reach_; ++u)
         weights_.push_back(std::exp(-0.5 * (u * u + v * v) / (settings.sigma * settings.sigma)));
@@ -54,7 +60,7 @@ class Smoother {
   double smoothed(int x, int y) const {
     Plane plane{at(x, y), slope(x, y, 1, 0), slope(x, y, 0, 1)};
     for (int k = 0; k < 2; ++k) plane = fitted(plane, x, y);
-    return 1.0 / plane.here;
+    return 1.0 / (plane.here > 0.0 ? plane.here : at(x, y));  // a step of metres may lean it behind the camera
   }
 
  private:
@@ -69,26 +75,27 @@ class Smoother {
       const int u = x + side * right, v = y + side * down;
       if (u < 0 || v < 0 || u >= width_ || v >= height_) continue;
       const double growth = side * (at(u, v) - at(x, y));
-      if (std::isnan(growth) || (known && std::abs(growth) >= std::abs(smaller))) continue;
+      if (at(u, v) == invalid || (known && std::abs(growth) >= std::abs(smaller))) continue;
       smaller = growth;
       known = true;
     }
     return smaller;
   }
 
-  /// The range kernel is Tukey's biweight: what lies `step` off the plane counts nothing, and takes no time.
+  /// The range kernel is Tukey's biweight: what lies `step` off the plane counts nothing.
   Plane fitted(const Plane& plane, int x, int y) const {
+    const double steps = 1.0 / (plane.here * plane.here * step_);  // of depth, by the growth of 1 / depth
     Sums sums;
     for (int v = std::max(-reach_, -y); v <= std::min(reach_, height_ - 1 - y); ++v) {
+      Sums sum;
       const double* const row = &inverse_[static_cast<std::size_t>(y + v) * width_];
       const double* const weights = &weights_[static_cast<std::size_t>((v + reach_) * (2 * reach_ + 1) + reach_)];
       for (int u = std::max(-reach_, -x); u <= std::min(reach_, width_ - 1 - x); ++u) {
-        const double value = row[x + u], expected = plane.here + plane.right * u + plane.down * v;
-        const double off = (value - expected) / (value * expected * step_);  // of depth, in steps
-        const double near = 1.0 - off * off;
-        if (!(near > 0.0)) continue;  // an invalid pixel's is no number
-        sums.add(weights[u] * near * near, u, v, value - expected);
+        const double residual = row[x + u] - (plane.here + plane.right * u + plane.down * v), off = steps * residual;
+        const double near = std::max(0.0, 1.0 - off * off);
+        sum.add(weights[u] * near * near, u, residual);
       }
+      sums.add(sum, v);
     }
     return sums.n > 0.0 ? corrected(plane, sums) : plane;
   }
