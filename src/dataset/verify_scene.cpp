@@ -2,6 +2,7 @@
 /// used.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/sensor/validity.hpp"
 #include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "dataset/whole_folders.hpp"
@@ -123,7 +124,8 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
     const double z = depth.samples[i] * scale;
     // Noise may carry a measurement over the ends of the range; more than a hundredth of it does not.
     if (depth.samples[i] != 0 && (z < 0.99 * near - scale || z > 1.01 * far + scale)) ++outside;
-    if (validity.samples[i] > 8 || (validity.samples[i] == 0) != (depth.samples[i] != 0)) ++codes;
+    if (validity.samples[i] > static_cast<int>(Validity::last) || (validity.samples[i] == 0) != (depth.samples[i] != 0))
+      ++codes;
     const std::uint16_t label = measured.samples[i];
     // Profiles of a laser are no image of the camera: their labels are only compared with what can be.
     if (depth.samples[i] == 0 || !pinhole)

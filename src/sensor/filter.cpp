@@ -1,6 +1,7 @@
 #include "bin_scenes/sensor/filter.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/smoothing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,7 @@ void filter(const FilterSettings& settings, RangeImage& image) {
   for (std::size_t i = 0; i < image.depth.size(); ++i)
     if (!std::isnan(image.depth[i]) && image.snr[i] < settings.snr) take_away(image, i, Validity::dark);
   if (settings.outlier.neighbours > 0) take_outliers(settings.outlier, image);
+  if (settings.smoothing.sigma > 0.0) smooth(settings.smoothing, image);
 }
 
 }  // namespace bin_scenes

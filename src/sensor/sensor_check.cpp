@@ -47,6 +47,13 @@ void check_outliers(const std::string& key, const OutlierFilter& outlier) {
                       "give at most " + std::to_string(most) + ", or a larger window");
 }
 
+void check_smoothing(const std::string& key, const Sensor& sensor) {
+  if (sensor.settings.of<FilterSettings>().smoothing.sigma == 0.0) return;
+  if (sensor_model(sensor.model).image == SensorModel::Image::pinhole) return;
+  throw input_error("model " + sensor.model + " measures profiles: its points do not lie on the rays of pixels", key,
+                    "leave it out, or take another model");
+}
+
 /// What only some models use is checked whatever the model: a mistake in it must not wait for a change of model.
 void check_sensor(const std::string& key, const Sensor& sensor) {
   Sensor copy = sensor;  // visitors take references to fields that are not const
@@ -56,6 +63,7 @@ void check_sensor(const std::string& key, const Sensor& sensor) {
   check_name(key + ".name", sensor.name);
   check_exposures(key + ".imager.exposures", sensor.imager.exposures);
   check_outliers(key + ".filter.outlier", sensor.settings.of<FilterSettings>().outlier);
+  check_smoothing(key + ".filter.smoothing", sensor);
   check_baseline(key + ".projector.baseline", sensor.projector.baseline);
   check_baseline(key + ".laser.baseline", sensor.laser.baseline);
   const Vec3& direction = sensor.scan.direction;

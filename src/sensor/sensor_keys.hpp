@@ -70,7 +70,7 @@ void visit(Visitor& v, Projector& projector) {
   v.field({"width", "pixel", "image width", at_least(1.0, 16384.0)}, projector.width);
   v.field({"height", "pixel", "image height", at_least(1.0, 16384.0)}, projector.height);
   v.field({"fov", "rad", "horizontal field of view; outside it nothing is measured", above(0.0, 3.1)}, projector.fov);
-  v.field({"distortion", "", "of the lens, plumb_bob k1 k2 p1 p2 k3", at_least(-100.0, 100.0)}, projector.distortion);
+  v.field({"distortion", "", "of the lens, plumb_bob", at_least(-100.0, 100.0)}, projector.distortion);
 }
 
 template <class Visitor>
@@ -94,12 +94,11 @@ void visit(Visitor& v, Scan& scan) {
 
 template <class Visitor>
 void visit(Visitor& v, ImagerSettings& s) {
-  v.field(
-      {"exposure", "",
-       "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise on "
-       "dark parts, and bright or shiny ones saturate",
-       above(0.0, 1000.0)},
-      s.exposure);
+  v.field({"exposure", "",
+           "signal / full well of a white matte surface that faces the light at reference_distance; more = less noise, "
+           "and bright or shiny parts saturate",
+           above(0.0, 1000.0)},
+          s.exposure);
   v.field({"exposures", "",
            "several, ascending, merged: a pixel takes the longest that does not saturate; structured_light, stereo, "
            "laser_line (of power); []: exposure alone",
@@ -123,8 +122,7 @@ void visit(Visitor& v, ImagerSettings& s) {
            "sharp",
            at_least(0.0, 3.0)},
           s.blur);
-  v.field({"bits", "", "of the analogue-digital converter, 1 to 16; fewer = coarser steps", at_least(1.0, 16.0)},
-          s.bits);
+  v.field({"bits", "", "of the analogue-digital converter; fewer = coarser steps", at_least(1.0, 16.0)}, s.bits);
 }
 
 template <class Visitor>
@@ -138,22 +136,41 @@ void visit(Visitor& v, OutlierFilter& outlier) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, ReflectionFilter& reflection) {
+  v.field({"step", "m", "largest difference of depth by two fringes; several times the noise; 0 = off",
+           at_least(0.0, 10.0)},
+          reflection.step);
+  v.field({"period", "pixel", "projector pixels of the second fringe; shorter = finds more, noisier",
+           at_least(4.0, 4096.0)},
+          reflection.period);
+}
+
+template <class Visitor>
+void visit(Visitor& v, SmoothingFilter& smoothing) {
+  v.field({"sigma", "pixel", "of the weights; more = less noise, rounder creases; 0 = off", at_least(0.0, 20.0)},
+          smoothing.sigma);
+  v.field({"step", "m", "what lies so far off the plane counts nothing; ten times the noise", above(0.0, 10.0)},
+          smoothing.step);
+}
+
+template <class Visitor>
 void visit(Visitor& v, FilterSettings& filter) {
   v.field({"snr", "", "pixels with less are taken away (code 4); 0 = off", at_least(0.0, 1e6)}, filter.snr);
-  v.section({"outlier", "", "pixels with too few neighbours of their depth are taken away (code 9)"}, filter.outlier);
+  v.section({"outlier", "", "takes pixels with too few neighbours of their depth (code 9)"}, filter.outlier);
+  v.section({"reflection", "", "structured_light: takes pixels whose light bounced (code 10)"}, filter.reflection);
+  v.section({"smoothing", "", "of what is left; edges stay"}, filter.smoothing);
 }
 
 template <class Visitor>
 void visit(Visitor& v, CalibrationSettings& sigma) {
-  v.field({"focal", "pixel", "sigma of fx; fy errs by the same share", at_least(0.0, 1000.0)}, sigma.focal);
-  v.field({"center", "pixel", "sigma of cx and of cy", at_least(0.0, 1000.0)}, sigma.center);
-  v.field(
-      {"baseline", "m", "sigma of the distance from camera to projector, laser or second camera", at_least(0.0, 1.0)},
-      sigma.baseline);
-  v.field({"position", "m", "sigma of the whole device along each axis of its optical frame", at_least(0.0, 10.0)},
+  v.field({"focal", "pixel", "of fx; fy errs by the same share", at_least(0.0, 1000.0)}, sigma.focal);
+  v.field({"center", "pixel", "of cx and of cy", at_least(0.0, 1000.0)}, sigma.center);
+  v.field({"baseline", "m", "of the distance from camera to projector, laser or second camera", at_least(0.0, 1.0)},
+          sigma.baseline);
+  v.field({"position", "m", "of the whole device along each axis of its optical frame", at_least(0.0, 10.0)},
           sigma.position);
-  v.field({"rotation", "rad", "sigma of the whole device about each axis", at_least(0.0, 1.0)}, sigma.rotation);
-  v.field({"range", "m", "sigma of an offset of all ranges: time_of_flight", at_least(0.0, 1.0)}, sigma.range);
+  v.field({"rotation", "rad", "of the whole device about each axis", at_least(0.0, 1.0)}, sigma.rotation);
+  v.field({"range", "m", "of an offset of all ranges: time_of_flight", at_least(0.0, 1.0)}, sigma.range);
 }
 
 inline Names<ImageLamp::Type> names(ImageLamp::Type) {
@@ -178,12 +195,12 @@ void visit(Visitor& v, ImageLamp& lamp) {
 
 template <class Visitor>
 void visit(Visitor& v, Views& views) {
-  v.field({"poses", "", "optical frames in the bin frame, one a view: [x, y, z, qx, qy, qz, qw]"}, views.poses);
+  v.field({"poses", "", "optical frames in the bin frame, one a view"}, views.poses);
   v.field({"count", "", "instead of poses: so many, spread evenly over a dome; view 0 is the most upright"},
           views.count);
   v.field({"distance", "m", "of the dome, from target"}, views.distance);
-  v.field({"tilt", "rad", "largest angle between a view of the dome and the vertical; below pi/2"}, views.tilt);
-  v.field({"target", "m", "what the views of the dome look at; [0, 0, 0] is the middle of the floor"}, views.target);
+  v.field({"tilt", "rad", "largest angle between a view and the vertical; below pi/2"}, views.tilt);
+  v.field({"target", "m", "what they look at; [0, 0, 0] is the middle of the floor"}, views.target);
 }
 
 /// From where it sees, and how far.
@@ -192,11 +209,9 @@ void visit_view(Visitor& v, Sensor& sensor) {
   v.field({"name", "", "names frames and files; letters, digits, _ and -, different for each sensor"}, sensor.name);
   Word model{sensor.model, {}};
   for (const SensorModel* known : sensor_models()) model.known.emplace_back(known->name);
-  v.field({"model", "", "what a sensor makes of what it sees; ideal is exact depth at pixel centres"}, model);
+  v.field({"model", "", "ideal: exact depth at pixel centres"}, model);
   sensor.model = model.value;
-  v.field({"preset", "",
-           "name of a file of config/sensors whose values are the defaults here; keys given here go before them"},
-          sensor.preset);
+  v.field({"preset", "", "file of config/sensors whose values are the defaults here"}, sensor.preset);
   v.field({"width", "pixel", "image width", at_least(1.0, 16384.0)}, sensor.width);
   v.field({"height", "pixel", "image height", at_least(1.0, 16384.0)}, sensor.height);
   v.field({"fov", "rad", "horizontal field of view; sets the intrinsics unless k is given", above(0.0, 3.1)},
@@ -204,21 +219,18 @@ void visit_view(Visitor& v, Sensor& sensor) {
   v.field({"k", "pixel", "3x3 row-major intrinsics [fx, 0, cx, 0, fy, cy, 0, 0, 1] instead of fov", anything,
            !sensor.k.empty()},
           sensor.k);
-  v.field({"distortion", "", "of the lens, plumb_bob k1 k2 p1 p2 k3; 0 = a pinhole", at_least(-100.0, 100.0)},
-          sensor.distortion);
+  v.field({"distortion", "", "of the lens, plumb_bob; 0 = a pinhole", at_least(-100.0, 100.0)}, sensor.distortion);
   v.field({"pose", "",
            "optical frame (x right, y down, z forward) in the bin frame; left out: above the bin, looking down, the "
            "whole rim in view"},
           sensor.pose);
-  v.section({"views", "", "instead of pose: places from which it sees one heap, as sensors NAME_0, NAME_1, ...",
-             anything, false},
-            sensor.views);
-  v.field({"view_of", "", "name of the sensor of which this is a further view; written where views are spelled out",
-           anything, !sensor.view_of.empty()},
+  v.section({"views", "", "instead of pose: several, as sensors NAME_0, NAME_1, ...", anything, false}, sensor.views);
+  v.field({"view_of", "", "sensor of which this is a further view; written where views are spelled out", anything,
+           !sensor.view_of.empty()},
           sensor.view_of);
-  v.field({"pose_of", "", "name of another sensor, whose lens, place and projector it takes", anything,
-           !sensor.pose_of.empty()},
-          sensor.pose_of);
+  v.field(
+      {"pose_of", "", "another sensor, whose lens, place and projector it takes", anything, !sensor.pose_of.empty()},
+      sensor.pose_of);
   v.field({"near", "m", "nothing nearer is seen", above(0.0)}, sensor.near);
   v.field({"far", "m", "nothing farther is seen", above(0.0, 1e4)}, sensor.far);
 }
@@ -227,15 +239,14 @@ void visit_view(Visitor& v, Sensor& sensor) {
 template <class Visitor>
 void visit_devices(Visitor& v, Sensor& sensor) {
   const std::string fidelity = users_of(&SensorModel::fidelity) +
-                               "analytic draws noise and gaps from formulas; decoded makes the images and evaluates "
-                               "them as a device does, several times slower";
+                               "analytic draws noise and gaps from formulas; decoded makes and reads images as a "
+                               "device does, slower";
   v.field({"fidelity", "", fidelity.c_str()}, sensor.fidelity);
   const std::string projector = users_of(&SensorModel::projector) + "source of the pattern";
   v.section({"projector", "", projector.c_str()}, sensor.projector);
   const std::string laser = users_of(&SensorModel::laser) + "the sheet of light";
   v.section({"laser", "", laser.c_str()}, sensor.laser);
-  const std::string scan =
-      users_of(&SensorModel::laser) + "how camera and laser move; their poses are those at the middle of the way";
+  const std::string scan = users_of(&SensorModel::laser) + "how camera and laser move; poses are those in the middle";
   v.section({"scan", "", scan.c_str()}, sensor.scan);
   const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
   v.section({"imager", "", imager.c_str()}, sensor.imager);
@@ -246,13 +257,12 @@ void visit(Visitor& v, Sensor& sensor) {
   visit_view(v, sensor);
   visit_devices(v, sensor);
   CalibrationSettings& calibration = sensor.settings.of<CalibrationSettings>();
-  v.section({"calibration", "",
-             "errors of it, drawn once from seed and sensor: K, baseline and pose of the request are what the device "
-             "believes; 0 = exact",
-             anything, calibration.any()},
-            calibration);
+  v.section(
+      {"calibration", "", "sigmas of its errors, drawn once from seed and sensor about the request's values; 0 = exact",
+       anything, calibration.any()},
+      calibration);
   FilterSettings& filter = sensor.settings.of<FilterSettings>();
-  v.section({"filter", "", "of the driver, on what was measured; off unless given", anything, filter.any()}, filter);
+  v.section({"filter", "", "of the driver; off unless given", anything, filter.any()}, filter);
   v.list({"lamps", "", "image: what lights it; left out: a dome"}, sensor.settings.of<ImageSettings>().lamps);
   for (const SensorModel* known : sensor_models()) {
     if (!known->visit) continue;
@@ -264,10 +274,9 @@ void visit(Visitor& v, Sensor& sensor) {
                               "shiny parts, slower; left out: 1 for " +
                               with_bounces() + ", else 0";
   v.field({"bounces", "", bounces.c_str(), at_least(0.0, 2.0)}, sensor.bounces);
-  v.field(
-      {"indirect_samples", "", "rays that look for such light; more = less noise in it, slower", at_least(4.0, 4096.0)},
-      sensor.indirect_samples);
-  v.field({"noise", "", "false: every random effect is off; geometry (shadow, field of view) stays"}, sensor.noise);
+  v.field({"indirect_samples", "", "rays that look for such light; more = less noise, slower", at_least(4.0, 4096.0)},
+          sensor.indirect_samples);
+  v.field({"noise", "", "false: every random effect is off; geometry stays"}, sensor.noise);
 }
 
 }  // namespace bin_scenes

@@ -210,6 +210,15 @@ class Verify(DataSetTest):
         others = {check for check, _ in INDUSTRIAL}
         self.assertEqual(sorted(set(names) - {check for check, _ in CORRUPTIONS} - others), [])
 
+    def test_what_filters_took_away_has_codes(self):
+        plan = self.plan(scenes=2, outputs="json, png, shards")
+        text = (self.folder / plan).read_text()
+        filters = "{outlier: {neighbours: 20}, reflection: {step: 0.0001}}"
+        (self.folder / plan).write_text(
+            text.replace("height: 72}", "height: 72, model: structured_light, filter: %s}" % filters))
+        self.make(plan, "filtered")
+        self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "filtered").stdout)
+
     def test_a_share_is_judged_by_what_belongs_to_it(self):
         plan = self.plan(scenes=4)
         self.make(plan, "share", "--shard", "1/2")

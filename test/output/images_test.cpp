@@ -1,6 +1,8 @@
 #include "output/output_fixture.hpp"
 #include "output/read_png.hpp"
 
+#include <cstring>
+
 namespace bin_scenes {
 namespace {
 
@@ -91,6 +93,35 @@ TEST_F(Images, ValidityIsItsCodeAndThePictureExplainsIt) {
   for (const char* picture : {"left_validity_picture.png", "left_depth_picture.png"}) {
     EXPECT_GT(read_png(path(picture)).width, 8) << "what the colours mean stands to the right of the image";
   }
+}
+
+TEST_F(Images, ThePictureWritesTheNameOfEveryCode) {
+  RangeImage image = small_image();
+  const int codes = static_cast<int>(Validity::last) + 1;
+  image.height = image.sensor.height = 12 * codes + 12;
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+  image.depth.resize(pixels, 1.0f);
+  image.label.resize(pixels);
+  image.intensity.resize(pixels);
+  image.snr.resize(pixels);
+  image.normal.resize(pixels);
+  image.validity.resize(pixels);
+  for (int code = 0; code < codes; ++code) image.validity[code] = static_cast<std::uint8_t>(code);
+  write_pngs(dir.string(), image);
+  const Png picture = read_png(path("left_validity_picture.png"));
+  constexpr int ink = 1;                            // of the palette
+  const auto written = [&](int code, int letter) {  // in cells of 6 x 12 pixels to the right of the patches of colour
+    for (int y = 12 * code + 6; y < 12 * code + 18; ++y)
+      for (int x = 0; x < 5; ++x)
+        if (picture.at(image.width + 17 + 6 * letter + x, y) == ink) return true;
+    return false;
+  };
+  const char* const names[] = {"valid", "nothing",  "shadow",    "outside", "dark",      "saturated",
+                               "mixed", "decoding", "unmatched", "outlier", "reflection"};
+  ASSERT_EQ(codes, static_cast<int>(std::size(names)));
+  for (int code = 0; code < codes; ++code)
+    for (int letter = 0; letter < 10; ++letter)
+      EXPECT_EQ(written(code, letter), letter < static_cast<int>(std::strlen(names[code]))) << names[code] << letter;
 }
 
 TEST_F(Images, LabelsAreThoseOfTheImage) {

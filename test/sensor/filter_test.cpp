@@ -164,9 +164,10 @@ TEST(Filter, IsReadAndWrittenBackIfGiven) {
         read_request_text("parts: [{model: bolt_hex.stl, unit: mm}]\nsensors: [{model: stereo" + keys + "}]",
                           std::getenv("BIN_SCENES_MODELS")));
   };
-  const std::string text = written(", filter: {snr: 8, outlier: {neighbours: 6}}");
+  const std::string text = written(", filter: {snr: 8, outlier: {neighbours: 6}, smoothing: {sigma: 1.5}}");
   EXPECT_NE(text.find("    filter:\n      snr: 8\n"), std::string::npos) << text;
   EXPECT_NE(text.find("        neighbours: 6\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("      smoothing:\n        sigma: 1.5\n"), std::string::npos) << text;
   EXPECT_EQ(written("").find("filter"), std::string::npos);
 }
 

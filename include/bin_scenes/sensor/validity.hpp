@@ -8,15 +8,17 @@ namespace bin_scenes {
 /// The values are those of validity images.
 enum class Validity : std::uint8_t {
   valid = 0,
-  nothing = 1,    ///< nothing in range
-  shadow = 2,     ///< no light from projector or laser
-  outside = 3,    ///< outside the field of projector or laser
-  dark = 4,       ///< too little signal
-  saturated = 5,  ///< too much
-  mixed = 6,      ///< foreground and background in one pixel
-  decoding = 7,   ///< the code read makes no sense
-  unmatched = 8,  ///< no match in the second image
-  outlier = 9     ///< too few neighbours of its depth: the filter took it away
+  nothing = 1,      ///< nothing in range
+  shadow = 2,       ///< no light from projector or laser
+  outside = 3,      ///< outside the field of projector or laser
+  dark = 4,         ///< too little signal
+  saturated = 5,    ///< too much
+  mixed = 6,        ///< foreground and background in one pixel
+  decoding = 7,     ///< the code read makes no sense
+  unmatched = 8,    ///< no match in the second image
+  outlier = 9,      ///< too few neighbours of its depth: the filter took it away
+  reflection = 10,  ///< its light bounced: the filter took it away
+  last = reflection
 };
 
 }  // namespace bin_scenes

@@ -52,24 +52,35 @@ std::vector<double> shares_of_neighbours(double sigma, int reach) {
   return shares;
 }
 
+int bits_of(const StructuredLightSettings& s, int width) {
+  const int needed = bits_for(2.0 * std::ceil(width / s.period)), bits = s.gray_bits ? s.gray_bits : needed;
+  if (bits < needed) {
+    throw input_error(
+        std::to_string(bits) + " Gray-code images tell " + std::to_string(static_cast<int>(std::ldexp(1.0, bits - 1))) +
+            " fringes apart, the projector has " + std::to_string(static_cast<int>(std::ceil(width / s.period))),
+        "structured_light.gray_bits",
+        "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
+  }
+  return bits;
+}
+
 }  // namespace
 
-Fringes::Fringes(const StructuredLightSettings& s, int width)
+Fringes::Fringes(const StructuredLightSettings& settings, int width)
+    : Fringes(settings, width, bits_of(settings, width)) {}
+
+Fringes Fringes::without_code(StructuredLightSettings settings, double period, int width) {
+  settings.period = period;
+  return Fringes(settings, width, 0);
+}
+
+Fringes::Fringes(const StructuredLightSettings& s, int width, int bits)
     : steps_(s.steps),
+      bits_(bits),
       width_(width),
       period_(s.period),
       averaging_(std::sqrt(2.0 / s.steps)),
       black_((1.0 - s.contrast) / (1.0 + s.contrast)) {
-  const int needed = bits_for(2.0 * std::ceil(width / period_));
-  bits_ = s.gray_bits ? s.gray_bits : needed;
-  if (bits_ < needed) {
-    throw input_error(std::to_string(bits_) + " Gray-code images tell " +
-                          std::to_string(static_cast<int>(std::ldexp(1.0, bits_ - 1))) +
-                          " fringes apart, the projector has " +
-                          std::to_string(static_cast<int>(std::ceil(width / period_))),
-                      "structured_light.gray_bits",
-                      "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
-  }
   const double q = s.defocus / period_, box = M_PI / period_;
   amplitude_ = 0.5 * (1.0 - black_) * std::exp(-2.0 * M_PI * M_PI * q * q) * std::sin(box) / box;
   for (int n = 0; n < steps_; ++n) {
@@ -135,7 +146,7 @@ void Fringes::add_even_light(double column, double spread, double weight, float*
   }
 }
 
-Fringes::Reading Fringes::read(const float* images) const {
+Fringes::Phase Fringes::phase(const float* images) const {
   double s = 0.0, c = 0.0, mean = 0.0;
   for (int n = 0; n < steps_; ++n) {
     s += images[n] * sine_[n];
@@ -145,8 +156,11 @@ Fringes::Reading Fringes::read(const float* images) const {
   mean /= steps_;
   double phase = std::atan2(s, c) / (2.0 * M_PI);  // in periods, from here on
   if (phase < 0.0) phase += 1.0;
+  return {phase, 2.0 / steps_ * std::sqrt(s * s + c * c), mean};
+}
 
-  const double modulation = 2.0 / steps_ * std::sqrt(s * s + c * c);
+Fringes::Reading Fringes::read(const float* images) const {
+  const auto [phase, modulation, mean] = this->phase(images);
   int half = 0, bit = 0;
   unsigned unsure = 0;  // bits that are neither dark nor bright, by their weight
   for (int b = 0; b < bits_; ++b) {

@@ -5,6 +5,7 @@
 
 #include "bin_scenes/scene/sensor_models.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace bin_scenes {
@@ -13,12 +14,26 @@ class Fringes {
  public:
   /// @param width  columns of the projector. Throws an input Error if the Gray code has too few bits for them.
   Fringes(const StructuredLightSettings& settings, int width);
+  /// Of another period and without a Gray code.
+  static Fringes without_code(StructuredLightSettings settings, double period, int width);
 
   int images() const { return steps_ + bits_; }
   /// Adds weight * light (0 dark, 1 the projector's white) of every image at a column, blurred by pixel and lens.
   void add_light(double column, double weight, float* images) const;
   /// The same of light that is even over `spread` columns.
   void add_even_light(double column, double spread, double weight, float* images) const;
+
+  /// Radians a column.
+  double turn() const { return 2.0 * M_PI / period_; }
+
+  struct Phase {
+    double periods;     ///< in [0, 1)
+    double modulation;  ///< amplitude of the fringe, in the images' unit
+    double mean;
+  };
+  Phase phase(const float* images) const;
+  /// One of the columns of a phase.
+  double column_of(const Phase& phase) const { return phase.periods * period_ - 0.5; }
 
   struct Reading {
     double column;      ///< of the projector; NaN if the code makes no sense
@@ -42,6 +57,8 @@ class Fringes {
   double amplitude_sigma(double image_sigma) const;
 
  private:
+  Fringes(const StructuredLightSettings& settings, int width, int bits);
+
   int steps_, bits_, width_;
   double period_, averaging_, black_, amplitude_;  ///< averaging: of the amplitude's noise by the steps
   std::vector<float> table_;                       ///< [sample of a column][image]

@@ -31,8 +31,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.power);
   v.field({"blur", "pixel", "standard deviation of the camera's blur; adds to the line's width", at_least(0.2, 100.0)},
           s.blur);
-  v.field({"speckle", "", "contrast of speckle in one pixel, 0 to 1; moves the peak; 0 = none", at_least(0.0, 1.0)},
-          s.speckle);
+  v.field({"speckle", "", "contrast of speckle in one pixel; moves the peak; 0 = none", at_least(0.0, 1.0)}, s.speckle);
   v.field({"min_signal", "", "peak signal / full well below which a line is missing (code 4)", above(0.0, 1.0)},
           s.min_signal);
   v.field({"peak", "", "which of two lines in a column is reported"}, s.peak,

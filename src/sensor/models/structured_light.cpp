@@ -22,6 +22,20 @@ bool textured(const Surfaces& surfaces) {
                                                    [](const Surface& line) { return line.texture.any(); });
 }
 
+/// Adds what a fringe makes of a path: cosine and sine, and `all` channels further on their growth with each step.
+void add_phasor_of(const Path& path, const Fringes& fringes, const Vec3* steps, int all, float* out) {
+  const double turn = fringes.turn(), seen = path.weight * fringes.seen_through(path.spread, 0.0, 0.0);
+  const double c = seen * std::cos(turn * path.column), s = seen * std::sin(turn * path.column);
+  out[0] += static_cast<float>(c);
+  out[1] += static_cast<float>(s);
+  for (int axis = 0; axis < 2; ++axis) {
+    float* const growth = out + (1 + axis) * all;
+    const double step = path.slope.dot(steps[axis]);
+    growth[0] -= static_cast<float>(turn * step * s);
+    growth[1] += static_cast<float>(turn * step * c);
+  }
+}
+
 }  // namespace
 
 /// Normally distributed numbers, drawn in pairs.
@@ -40,6 +54,11 @@ class StructuredLight::Normals {
   bool spare_ = false;
 };
 
+/// Of the second fringe by a stream of its own: what the filter leaves is as without it.
+struct StructuredLight::Noise {
+  Normals first, second;
+};
+
 StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
                                  const Random& random)
     : scenery_(scenery),
@@ -47,6 +66,7 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       surfaces_(surfaces),
       setup_(setup),
       fringes_(setup.settings, setup.projector.width),
+      second_(second_fringe(setup)),
       imager_(setup.imager, setup.noise),
       triangulation_(setup.projector, view.pose.inverse() * setup.projector_pose),
       rays_(view.lens),
@@ -69,34 +89,47 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
   gain_ = gain();
   if (setup.indirect.bounces == 0) return;
   const ProjectorLamp lamp(scenery, setup.projector, setup.projector_pose, surfaces);
-  const int all = channels + fringes_.images();
+  const int all = channels() + images();
   const IndirectField::Pattern pattern{
-      all, setup.only_analytic ? channels : all,
+      all, setup.only_analytic ? channels() : all,
       [this](const std::vector<Path>& paths, const Vec3* steps, float* out) { add_paths(paths, steps, out); }};
   indirect_ =
       std::make_unique<const IndirectField>(LitScene{scenery, surfaces, lamp}, view, setup.indirect, pattern, random);
 }
 
+/// None: reflections are not filtered.
+std::unique_ptr<const Fringes> StructuredLight::second_fringe(const Setup& setup) {
+  if (setup.reflection.step == 0.0) return nullptr;
+  return std::make_unique<const Fringes>(
+      Fringes::without_code(setup.settings, setup.reflection.period, setup.projector.width));
+}
+
+/// Light of all images at a column.
+void StructuredLight::add_light(double column, double white, float* images) const {
+  fringes_.add_light(column, white, images);
+  if (second_) second_->add_light(column, white, images + fringes_.images());
+}
+
+void StructuredLight::add_even_light(const Path& path, double column, double weight, float* images) const {
+  fringes_.add_even_light(column, path.spread, weight, images);
+  if (second_) second_->add_even_light(column, path.spread, weight, images + fringes_.images());
+}
+
 /// Fringes as a sum of phasors, Gray bits as sums of lit and dark. Each path stands for all columns of its sample.
 void StructuredLight::add_paths(const std::vector<Path>& paths, const Vec3* steps, float* out) const {
-  const double turn = 2.0 * M_PI / setup_.settings.period;
-  const int all = channels + fringes_.images();
+  const int all = channels() + images();
   for (const Path& path : paths) {
-    const double seen = path.weight * fringes_.seen_through(path.spread, 0.0, 0.0);
-    const double c = seen * std::cos(turn * path.column), s = seen * std::sin(turn * path.column);
     out[white] += static_cast<float>(path.weight);
-    out[cosine] += static_cast<float>(c);
-    out[sine] += static_cast<float>(s);
+    add_phasor_of(path, fringes_, steps, all, out + cosine);
+    if (second_) add_phasor_of(path, *second_, steps, all, out + second_cosine);
+    add_even_light(path, path.column, path.weight, out + channels());
+    if (setup_.only_analytic) continue;
     for (int axis = 0; axis < 2; ++axis) {
-      float* const growth = out + (1 + axis) * all;
+      float* const growth = out + (1 + axis) * all + channels();
       const double step = path.slope.dot(steps[axis]);
-      growth[cosine] -= static_cast<float>(turn * step * s);
-      growth[sine] += static_cast<float>(turn * step * c);
-      if (setup_.only_analytic) continue;
-      fringes_.add_even_light(path.column + 0.5 * step, path.spread, path.weight, growth + channels);
-      fringes_.add_even_light(path.column - 0.5 * step, path.spread, -path.weight, growth + channels);
+      add_even_light(path, path.column + 0.5 * step, path.weight, growth);
+      add_even_light(path, path.column - 0.5 * step, -path.weight, growth);
     }
-    fringes_.add_even_light(path.column, path.spread, path.weight, out + channels);
   }
 }
 
@@ -170,11 +203,15 @@ double StructuredLight::ambient(std::size_t index) const {
   return setup_.imager.ambient * diffuse(index);
 }
 
-StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {
+/// Of direct light.
+double StructuredLight::amplitude(const Pixel& pixel, const Fringes& fringes) const {
   const double white = gain_ * whites_[pixel.index];
   const Vec2 passed = slope(pixel);
-  return {ambient(pixel.index) + white * fringes_.mean(),
-          white * fringes_.amplitude() * fringes_.seen_through(passed.x(), passed.y(), setup_.imager.blur)};
+  return white * fringes.amplitude() * fringes.seen_through(passed.x(), passed.y(), setup_.imager.blur);
+}
+
+StructuredLight::Fringe StructuredLight::fringe(const Pixel& pixel) const {
+  return {ambient(pixel.index) + gain_ * whites_[pixel.index] * fringes_.mean(), amplitude(pixel, fringes_)};
 }
 
 double StructuredLight::depth_sigma(std::size_t index) const {
@@ -212,15 +249,27 @@ void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double colum
   if (good) out.depth[pixel.index] = z;
 }
 
+/// Takes a pixel away whose second fringe tells another depth, or is too weak to tell one.
+void StructuredLight::take_reflection(Measurement& out, const Pixel& pixel, double column, double second) const {
+  Validity& validity = out.validity[pixel.index];
+  if (validity != Validity::valid) return;
+  double& depth = out.depth[pixel.index];
+  const double off = std::abs(std::remainder(second - column, setup_.reflection.period));
+  if (off * triangulation_.depth_per_column(pixel.ray, depth) <= setup_.reflection.step) return;
+  validity = Validity::reflection;
+  depth = std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Adds the indirect light to a fringe and moves the column that is read.
-void StructuredLight::add_phasor(const float* indirect, double& column, Fringe& fringe) const {
-  const double turn = 2.0 * M_PI / setup_.settings.period, scale = gain_ * fringes_.amplitude();
-  const double c = fringe.amplitude * std::cos(turn * column) + scale * indirect[cosine],
-               s = fringe.amplitude * std::sin(turn * column) + scale * indirect[sine];
+/// @param indirect  cosine, sine
+void StructuredLight::add_phasor(const Fringes& fringes, const float* indirect, double& column,
+                                 double& amplitude) const {
+  const double turn = fringes.turn(), scale = gain_ * fringes.amplitude();
+  const double c = amplitude * std::cos(turn * column) + scale * indirect[0],
+               s = amplitude * std::sin(turn * column) + scale * indirect[1];
   const double error = std::remainder(std::atan2(s, c) - turn * column, 2.0 * M_PI);
   column += error / turn;
-  fringe.mean += gain_ * indirect[white] * fringes_.mean();
-  fringe.amplitude = std::hypot(c, s);
+  amplitude = std::hypot(c, s);
 }
 
 /// Whether no noise lifts a fringe of indirect light alone over the threshold.
@@ -242,22 +291,25 @@ bool StructuredLight::blended(const Strip& strip, const Pixel& pixel, Received& 
   got.column = phase + period * std::round((blend.column - phase) / period);
   got.fringe = {setup_.imager.ambient * blend.diffuse + gain_ * blend.white * fringes_.mean(),
                 gain_ * fringes_.amplitude() * std::hypot(blend.sine, blend.cosine)};
+  if (!second_) return true;
+  got.second_column = std::atan2(blend.second_sine, blend.second_cosine) / second_->turn();
+  got.second_amplitude = gain_ * second_->amplitude() * std::hypot(blend.second_sine, blend.second_cosine);
   return true;
 }
 
 /// The noise of what is received, and what is told of the pixel.
-void StructuredLight::tell(const Pixel& pixel, const Received& got, Normals& normals, Measurement& out) const {
+void StructuredLight::tell(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const {
   Validity& validity = out.validity[pixel.index];
   out.intensity[pixel.index] = static_cast<float>(std::min(got.fringe.mean, 1.0));
   const double scale = scale_for(got.fringe, got.column);
   const Fringe f{scale * got.fringe.mean, scale * got.fringe.amplitude};
-  const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? normals.next() : 0.0;
+  const double sigma = std::sqrt(imager_.variance(f.mean)), of_phase = setup_.noise ? noise.first.next() : 0.0;
   // The amplitude's noise matters where it may fall below the threshold.
   double amplitude = f.amplitude;
   const double spread = fringes_.amplitude_sigma(sigma);
   out.snr[pixel.index] = static_cast<float>(f.amplitude / spread);
   if (setup_.noise && std::abs(amplitude - setup_.settings.min_modulation) < 6.0 * spread)
-    amplitude += spread * normals.next();
+    amplitude += spread * noise.first.next();
   if (got.mixed) {
     validity = Validity::mixed;
   } else if (saturates(f, got.column)) {
@@ -265,19 +317,24 @@ void StructuredLight::tell(const Pixel& pixel, const Received& got, Normals& nor
   } else if (amplitude < setup_.settings.min_modulation) {
     validity = codes_[pixel.index] == Validity::shadow ? Validity::shadow : Validity::dark;
   } else {
-    deliver(out, pixel, got.column + fringes_.column_sigma(sigma, f.amplitude) * of_phase);
+    const double column = got.column + fringes_.column_sigma(sigma, f.amplitude) * of_phase;
+    deliver(out, pixel, column);
+    if (!second_) return;
+    double second = got.second_column;
+    if (setup_.noise) second += second_->column_sigma(sigma, scale * got.second_amplitude) * noise.second.next();
+    take_reflection(out, pixel, column, second);
   }
 }
 
 void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const {
   const auto width = static_cast<std::size_t>(view_.lens.width);
-  std::vector<float> images(static_cast<std::size_t>(fringes_.images()));
-  Normals normals(random.of_piece(row));
+  std::vector<float> images(static_cast<std::size_t>(this->images()));
+  Noise noise{Normals(random.of_piece(row)), Normals(random.of_piece(2 * view_.depth.size() + row))};
   for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
     const Validity code = out.validity[i] = codes_[i];
     const bool near_edge = strip.near_edge(i);
-    float indirect[channels] = {};
-    const bool twice = indirect_ && indirect_->at(i, channels, indirect);
+    float indirect[most_channels] = {};
+    const bool twice = indirect_ && indirect_->at(i, channels(), indirect);
     if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) continue;
     const Pixel p = pixel(i - row * width, row);
     if (twice && code != Validity::valid && !near_edge && too_dark(indirect)) {
@@ -292,11 +349,16 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
     Received got;
     if (!near_edge) {
       got = {columns_[i], fringe(p)};
+      if (second_) got.second_column = columns_[i], got.second_amplitude = amplitude(p, *second_);
     } else if (!blended(strip, p, got, out)) {
       continue;
     }
-    if (twice) add_phasor(indirect, got.column, got.fringe);
-    tell(p, got, normals, out);
+    if (twice) {
+      got.fringe.mean += gain_ * indirect[white] * fringes_.mean();
+      add_phasor(fringes_, indirect + cosine, got.column, got.fringe.amplitude);
+      if (second_) add_phasor(*second_, indirect + second_cosine, got.second_column, got.second_amplitude);
+    }
+    tell(p, got, noise, out);
   }
 }
 

@@ -11,10 +11,11 @@
 ///
 /// Light by way of other surfaces adds a fringe of its own, of another phase: the sum of both is read
 /// (indirect_field.hpp). Where it is brighter than the projector's own it may turn bits of the Gray code; there both
-/// fidelities make the images.
+/// fidelities make the images. A second fringe of another period may tell whether light bounced (ReflectionFilter).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/view.hpp"
 #include "sensor/models/fringes.hpp"
 #include "sensor/models/illumination.hpp"
@@ -42,6 +43,7 @@ class StructuredLight {
     double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
     IndirectField::Setup indirect{};
     bool only_analytic = false;  ///< the indirect light of images may be less fine: few pixels need them
+    ReflectionFilter reflection{};
   };
   /// @param random  of the indirect light's samples
   StructuredLight(const Scenery& scenery, const View& view, const Surfaces& surfaces, const Setup& setup,
@@ -67,17 +69,22 @@ class StructuredLight {
     double column = 0.0;
     Fringe fringe{0.0, 0.0};
     bool mixed = false;
+    double second_column = 0.0, second_amplitude = 0.0;  ///< by the second fringe, if there is one
   };
   class Strip;
   struct Blend;
   class Normals;
 
-  /// Channels of the indirect light, for a white of 1; after them, the images.
-  enum Channel { white, cosine, sine, channels };
+  /// Channels of the indirect light, for a white of 1: those of the second fringe only if there is one. After them, the
+  /// images of both.
+  enum Channel { white, cosine, sine, second_cosine, second_sine, most_channels };
+  int channels() const { return second_ ? most_channels : second_cosine; }
+  int images() const { return fringes_.images() + (second_ ? second_->images() : 0); }
 
   LightSource source() const {
     return {scenery_, setup_.projector, setup_.projector_pose, surfaces_, &sight_, &shades_};
   }
+  static std::unique_ptr<const Fringes> second_fringe(const Setup& setup);
   void light_rows(std::size_t first, std::size_t last);
   void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
@@ -86,25 +93,31 @@ class StructuredLight {
   double diffuse(std::size_t index) const;
   double ambient(std::size_t index) const;
   Fringe fringe(const Pixel& pixel) const;
+  double amplitude(const Pixel& pixel, const Fringes& fringes) const;
   double depth_sigma(const Pixel& pixel, const Fringe& fringe) const;
-  void add_phasor(const float* indirect, double& column, Fringe& fringe) const;
+  void add_phasor(const Fringes& fringes, const float* indirect, double& column, double& amplitude) const;
+  void add_light(double column, double white, float* images) const;
+  void add_even_light(const Path& path, double column, double weight, float* images) const;
   bool saturates(const Fringe& fringe, double column) const;
   double scale_for(const Fringe& fringe, double column) const;
   bool too_dark(const float* indirect) const;
   void add_face(const Pixel& pixel, float* images) const;
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   bool blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const;
-  void tell(const Pixel& pixel, const Received& got, Normals& normals, Measurement& out) const;
+  struct Noise;
+  void tell(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const;
   void measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const;
   template <class Work>
   void in_strips(const Work& work) const;
   void deliver(Measurement& out, const Pixel& pixel, double column) const;
+  void take_reflection(Measurement& out, const Pixel& pixel, double column, double second) const;
 
   const Scenery& scenery_;
   const View& view_;
   const Surfaces& surfaces_;
   Setup setup_;
   Fringes fringes_;
+  std::unique_ptr<const Fringes> second_;  ///< none: reflections are not filtered
   Imager imager_;
   Triangulation triangulation_;
   PixelRays rays_;

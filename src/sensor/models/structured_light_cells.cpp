@@ -54,14 +54,15 @@ std::vector<StructuredLight::Strip::Seen> StructuredLight::Strip::cast(const std
   return seen;
 }
 
-void StructuredLight::Strip::set_phases(Cells& own) const {
-  const double turn = 2.0 * M_PI / model_.setup_.settings.period;
+StructuredLight::Strip::Phasors StructuredLight::Strip::phasors(const Cells& own, double turn) const {
+  Phasors out;
   for (int k = 0; k < per_pixel; ++k) {
-    own.cosine[k] = own.sine[k] = 0.0f;
+    out.cosine[k] = out.sine[k] = 0.0f;
     if (own.white[k] <= 0.0f) continue;
-    own.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
-    own.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
+    out.cosine[k] = static_cast<float>(own.white[k] * std::cos(turn * own.column[k]));
+    out.sine[k] = static_cast<float>(own.white[k] * std::sin(turn * own.column[k]));
   }
+  return out;
 }
 
 /// Cells asked by rays; the corners of pixels are known.
@@ -147,7 +148,8 @@ void StructuredLight::Strip::add_bent(const Uneven& bent) {
 }
 
 void StructuredLight::Strip::add(std::size_t index, Cells& own) {
-  set_phases(own);
+  own.phasors = phasors(own, model_.fringes_.turn());
+  if (model_.second_) second_.push_back(phasors(own, model_.second_->turn()));
   own.white.maxCoeff(&own.brightest);
   cells_of_[index - origin_] = static_cast<std::int32_t>(cells_.size());
   cells_.push_back(own);

@@ -16,13 +16,13 @@ void StructuredLight::add_face(const Pixel& pixel, float* images) const {
   const double fourth = 3.0 * variance * variance - (x * x + y * y) / 120.0;
   const double white = gain_ * whites_[pixel.index], column = columns_[pixel.index];
   if (!(variance > 0.0)) {
-    fringes_.add_light(column, white, images);
+    add_light(column, white, images);
     return;
   }
   const double reach = std::sqrt(fourth / variance), share = 0.5 * variance * variance / fourth;
-  fringes_.add_light(column - reach, share * white, images);
-  fringes_.add_light(column, (1.0 - 2.0 * share) * white, images);
-  fringes_.add_light(column + reach, share * white, images);
+  add_light(column - reach, share * white, images);
+  add_light(column, (1.0 - 2.0 * share) * white, images);
+  add_light(column + reach, share * white, images);
 }
 
 /// Makes the images of a pixel and reads them as a device does.
@@ -32,7 +32,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
   const Validity code = out.validity[i] = codes_[i];
   const bool near_edge = strip.near_edge(i);
   thread_local std::vector<float> indirect;
-  indirect.resize(channels + images.size());
+  indirect.resize(static_cast<std::size_t>(channels()) + images.size());
   const bool twice = indirect_ && indirect_->at(i, static_cast<int>(indirect.size()), indirect.data());
   if (code != Validity::valid && !(code == Validity::shadow && near_edge) && !twice) return;
   std::fill(images.begin(), images.end(), 0.0f);
@@ -42,7 +42,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     const Blend blend = strip.blend(p, [&](const Strip::Cells& cells, const Strip::Values& weight) {
       for (int k = 0; k < Strip::per_pixel; ++k) {
         const double white = gain_ * weight[k] * cells.white[k];
-        if (white > 0.0) fringes_.add_light(cells.column[k], white, images.data());
+        if (white > 0.0) add_light(cells.column[k], white, images.data());
       }
     });
     if (blend.outside) out.validity[i] = Validity::outside;
@@ -53,7 +53,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     add_face(p, images.data());
   }
   for (std::size_t n = 0; n < images.size(); ++n) {
-    if (twice) images[n] += static_cast<float>(gain_) * indirect[channels + n];
+    if (twice) images[n] += static_cast<float>(gain_) * indirect[channels() + n];
     images[n] += static_cast<float>(background);
   }
   thread_local std::vector<float> shot;
@@ -63,7 +63,7 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     scale = static_cast<float>(scales_[k]);
     shot.assign(images.begin(), images.end());
     for (float& signal : shot) signal *= scale;
-    imager_.expose(shot.data(), shot.size(), draw);
+    imager_.expose(shot.data(), static_cast<std::size_t>(fringes_.images()), draw);
     saturated = imager_.saturated(*std::max_element(shot.begin(), shot.begin() + setup_.settings.steps));
   }
   const float sum = std::accumulate(shot.begin(), shot.begin() + setup_.settings.steps, 0.0f);
@@ -81,13 +81,18 @@ void StructuredLight::read(const Strip& strip, const Pixel& p, std::vector<float
     out.validity[i] = Validity::decoding;
   } else {
     deliver(out, p, reading.column);
+    if (!second_) return;
+    float* const more = shot.data() + fringes_.images();
+    Random own = draw.of_piece(i);
+    imager_.expose(more, static_cast<std::size_t>(second_->images()), own);
+    take_reflection(out, p, reading.column, second_->column_of(second_->phase(more)));
   }
 }
 
 Measurement StructuredLight::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
   in_strips([&](const Strip& strip, int first, int last) {
-    std::vector<float> images(static_cast<std::size_t>(fringes_.images()));
+    std::vector<float> images(static_cast<std::size_t>(this->images()));
     for (int row = first; row < last; ++row) {
       Random draw = random.of_piece(static_cast<std::size_t>(row));
       for (int x = 0; x < view_.lens.width; ++x) {

@@ -14,15 +14,15 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
           s.near,
           s.far,
           indirect_of(s),
-          s.fidelity == Fidelity::analytic};
+          s.fidelity == Fidelity::analytic,
+          s.settings.of<FilterSettings>().reflection};
 }
 
 namespace {
 
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StructuredLightSettings& s = settings.of<StructuredLightSettings>();
-  v.field({"steps", "", "images of the phase shift, at least 3; noise falls with the square root", at_least(3.0, 64.0)},
-          s.steps);
+  v.field({"steps", "", "images of the phase shift; noise falls with the square root", at_least(3.0, 64.0)}, s.steps);
   v.field({"period", "pixel", "projector pixels a fringe; shorter = less noise, more Gray images, sooner blurred",
            at_least(4.0, 4096.0)},
           s.period);
@@ -31,21 +31,34 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field({"contrast", "", "(white - black) / (white + black) of the projector", at_least(0.01, 1.0)}, s.contrast);
   v.field({"defocus", "pixel", "standard deviation of the projector's blur, its pixels; 0 = sharp", at_least(0.0)},
           s.defocus);
-  v.field(
-      {"gamma", "", "decoded: exponent of the projector that nobody calibrated away; 1 = linear", at_least(0.1, 10.0)},
-      s.gamma);
-  v.field({"min_modulation", "", "amplitude / full well below which a pixel has too little signal (code 4)",
-           above(0.0, 1.0)},
+  v.field({"gamma", "", "decoded: the projector's exponent after calibration; 1 = linear", at_least(0.1, 10.0)},
+          s.gamma);
+  v.field({"min_modulation", "", "amplitude / full well below which a pixel is dark (code 4)", above(0.0, 1.0)},
           s.min_modulation);
-  v.field({"mixed", "", "pixels that see foreground and background: remove = invalid (code 6), keep = flying points"},
-          s.mixed, mixed_pixels);
-  v.field(
-      {"edge_step", "m", "depth step inside a pixel's footprint from which on it is a mixed pixel", above(0.0, 10.0)},
-      s.edge_step);
+  v.field({"mixed", "", "of foreground and background: remove = invalid (code 6), keep = flying points"}, s.mixed,
+          mixed_pixels);
+  v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
+}
+
+void check_reflection(const Sensor& sensor, const std::string& key) {
+  const auto& s = sensor.settings.of<StructuredLightSettings>();
+  const ReflectionFilter& filter = sensor.settings.of<FilterSettings>().reflection;
+  if (filter.step == 0.0) return;
+  if (sensor.model != "structured_light")
+    throw input_error("compares fringes, and model " + sensor.model + " projects none", key,
+                      "leave it out, or take structured_light");
+  const double ratio = filter.period / s.period;
+  if (ratio > 0.8 && ratio < 1.25)
+    throw input_error("is nearly that of the first fringe: light that bounced moves both alike", key + ".period",
+                      "a third of structured_light.period or less is usual");
+  if (s.defocus > 0.5 * filter.period)
+    throw input_error("is less than twice structured_light.defocus: that fringe would be grey", key + ".period",
+                      "give a longer period");
 }
 
 void check(const Sensor& sensor, const std::string& key) {
   const auto& s = sensor.settings.of<StructuredLightSettings>();
+  check_reflection(sensor, key + ".filter.reflection");
   const std::string section = key + ".structured_light";
   if (s.defocus > 0.5 * s.period)
     throw input_error("is more than half a period", section + ".defocus", "projector pixels; 0 = sharp");

@@ -20,10 +20,14 @@ class StructuredLight::Strip {
  public:
   static constexpr int per_pixel = cells::per_pixel;
   using Values = Eigen::Array<float, per_pixel, 1, Eigen::DontAlign>;  ///< one a cell
+  /// White, times cosine and sine of a fringe's phase.
+  struct Phasors {
+    Values cosine, sine;
+  };
   /// The cells of one pixel. Without light, white is 0.
   struct Cells {
     Values column, white, depth;
-    Values cosine, sine;   ///< white, times those of the fringe's phase
+    Phasors phasors;
     int brightest = 0;     ///< cell
     float diffuse = 0.0f;  ///< mean share of ambient light sent back
     bool outside = false;  ///< a part lies outside the projector's field
@@ -76,7 +80,7 @@ class StructuredLight::Strip {
   void add_flat(std::size_t index);
   void add_bent(const Uneven& pixel);
   void add(std::size_t index, Cells& cells);
-  void set_phases(Cells& cells) const;
+  Phasors phasors(const Cells& cells, double turn) const;
 
   const StructuredLight& model_;
   int width_, height_, reach_;
@@ -86,6 +90,7 @@ class StructuredLight::Strip {
   std::vector<char> near_;
   std::vector<std::int32_t> cells_of_;  ///< index into cells_ by pixel; -1: none
   std::vector<Cells> cells_;
+  std::vector<Phasors> second_;  ///< of the second fringe, by cells; empty: there is none
   Values across_, down_;         ///< places of cells in their pixel
   std::vector<Values> weights_;  ///< of the cells of pixels from -reach_ to reach_, row-major; their sum is 1
 };
@@ -95,10 +100,11 @@ struct StructuredLight::Blend {
   static constexpr double tolerated = 0.03;  ///< of off_share: more is a mixed pixel
   double white = 0.0;                        ///< mean over its footprint
   double cosine = 0.0, sine = 0.0;
-  double column = 0.0;     ///< of the brightest cell
-  double diffuse = 0.0;    ///< share of ambient light sent back
-  double off_share = 0.0;  ///< of the footprint that lies on other faces by more than edge_step
-  bool outside = false;    ///< a part lies outside the projector's field
+  double second_cosine = 0.0, second_sine = 0.0;  ///< of the second fringe, if there is one
+  double column = 0.0;                            ///< of the brightest cell
+  double diffuse = 0.0;                           ///< share of ambient light sent back
+  double off_share = 0.0;                         ///< of the footprint that lies on other faces by more than edge_step
+  bool outside = false;                           ///< a part lies outside the projector's field
 };
 
 template <class Use>
@@ -123,8 +129,13 @@ StructuredLight::Blend StructuredLight::Strip::blend(const Pixel& pixel, const U
       const float light = weight[own.brightest] * own.white[own.brightest];
       if (light <= 0.0f) continue;
       out.white += (weight * own.white).sum();
-      out.cosine += (weight * own.cosine).sum();
-      out.sine += (weight * own.sine).sum();
+      out.cosine += (weight * own.phasors.cosine).sum();
+      out.sine += (weight * own.phasors.sine).sum();
+      if (!second_.empty()) {
+        const Phasors& second = second_[static_cast<std::size_t>(at)];
+        out.second_cosine += (weight * second.cosine).sum();
+        out.second_sine += (weight * second.sine).sum();
+      }
       if (light > brightest) {
         brightest = light;
         out.column = own.column[own.brightest];

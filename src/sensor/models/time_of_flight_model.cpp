@@ -16,10 +16,9 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.axial_angle);
   v.field({"lateral", "pixel", "jitter of the ray; moves edges, never a plane", at_least(0.0, 100.0)}, s.lateral);
   v.field({"lateral_angle", "pixel", "times t / (pi/2 - t)", at_least(0.0, 100.0)}, s.lateral_angle);
-  v.field(
-      {"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = the same noise for all",
-       at_least(0.0, 1.0)},
-      s.albedo);
+  v.field({"albedo", "", "for which the figures hold: noise goes with sqrt(albedo / signal); 0 = same for all",
+           at_least(0.0, 1.0)},
+          s.albedo);
   v.field({"modulation", "MHz",
            "of the light; depth repeats after 150 m / it, which devices resolve by further frequencies",
            at_least(0.1, 10000.0)},
@@ -27,11 +26,9 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
            above(0.0, 1.0)},
           s.min_signal);
-  v.field({"mixed", "", "pixels that see foreground and background: keep = flying points, remove = invalid (code 6)"},
-          s.mixed, mixed_pixels);
-  v.field(
-      {"edge_step", "m", "depth step inside a pixel's footprint from which on it is a mixed pixel", above(0.0, 10.0)},
-      s.edge_step);
+  v.field({"mixed", "", "of foreground and background: keep = flying points, remove = invalid (code 6)"}, s.mixed,
+          mixed_pixels);
+  v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
 }
 
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
