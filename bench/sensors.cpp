@@ -97,21 +97,19 @@ Sensor sensor_of(const Case& c) {
 void image_time(Run& out, test::Stage& heap, int samples, bool denoise) {
   Sensor sensor = sensor_of({"", 0.0, "image", analytic, 2, true});
   sensor.height = 976;
-  sensor.settings.of<ImageSettings>().samples = samples;
-  sensor.settings.of<ImageSettings>().denoise = denoise;
-  std::vector<ImageLamp>& lamps = sensor.settings.of<ImageSettings>().lamps;
-  lamps.resize(2);
-  lamps[0].type = ImageLamp::Type::ring;
-  lamps[1].type = ImageLamp::Type::dome;
-  lamps[1].radiance = 0.01;
+  auto& settings = sensor.settings.of<ImageSettings>();
+  settings.samples = samples, settings.denoise = denoise;
+  settings.lamps.resize(2);
+  settings.lamps[0].type = ImageLamp::Type::ring;
+  settings.lamps[1].type = ImageLamp::Type::dome;
+  settings.lamps[1].radiance = 0.01;
   for (PartLine& line : heap.request.parts) line.surface = {0.95, 0.95, 0.45, 2.9, 3.1};
   heap.request.parts[0].surface = {0.3, 0.1, 0.4};  // the plate
   heap.scene.sensors = {resolved(sensor, heap.request.bin)};
   SensorRig rig;
   const std::string what = "image 1280 x 976, 50 parts, " + std::to_string(samples) + " samples, bounces 2";
-  time(out, denoise ? what + ", denoised" : what, denoise ? 0.0 : 3.0, [&] {
-    rig.render(heap.scene, {heap.request, heap.models});
-  });
+  const auto take = [&] { rig.render(heap.scene, {heap.request, heap.models}); };
+  time(out, denoise ? what + ", denoised" : what, denoise ? 0.0 : 3.0, take);
 }
 
 void run(Run& out) {
