@@ -116,8 +116,11 @@ void denoise(const View& view, const std::vector<PathTracer::Grain>& grain, std:
   for (const PathTracer::Grain& g : grain) image.variance.push_back(g.variance);
   for (const Rgb& rgb : radiance) image.light.push_back(rgb.cast<float>());
   Image next = image;
-  // Of two halves of the paths variance is only known roughly: it is averaged first.
+  // Of two halves of the paths variance is only known roughly: it is averaged first. A grain that is brighter than
+  // those around keeps its own, or none of them would be like it.
+  const std::vector<float> own = image.variance;
   for (const int step : {1, 2}) average(faces, step, false, image, next), std::swap(image, next);
+  for (std::size_t i = 0; i < own.size(); ++i) image.variance[i] = std::max(image.variance[i], own[i]);
   for (int pass = 0; pass < passes; ++pass) average(faces, 1 << pass, true, image, next), std::swap(image, next);
   for (std::size_t i = 0; i < radiance.size(); ++i)
     if (faces.whole(i)) radiance[i] = image.light[i].cast<double>();
