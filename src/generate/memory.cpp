@@ -2,6 +2,7 @@
 /// model is not loaded yet, a usual one stands for it.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "bin_scenes/solver/solver.hpp"
 
@@ -28,12 +29,13 @@ constexpr double per_body = 2000.0;           // state, definition, history of r
 constexpr double per_sample = 64.0;           // contact sample with its normal
 constexpr double contacts_per_body = 8 * 12;  // touching neighbours times contacts kept with each
 constexpr double per_contact = 160.0;
-constexpr double per_hull = 9000.0;          // of a body: Bullet keeps a manifold for each pair of hulls that are near
-constexpr double per_pair = 200.0;           // of parts that start within each other
-constexpr double per_bullet_pair = 7500.0;   // likewise: Bullet makes a manifold and its constraints for each
-constexpr double per_sphere = 120.0;         // of the thesis's solver, its share of grid and sorting included
-constexpr double per_sphere_contact = 24.0;  // of its capacity
-constexpr double per_pixel = 120.0;          // view, measured and true images, and a cloud on its way into a file
+constexpr double per_hull = 9000.0;           // of a body: Bullet keeps a manifold for each pair of hulls that are near
+constexpr double per_pair = 200.0;            // of parts that start within each other
+constexpr double per_bullet_pair = 7500.0;    // likewise: Bullet makes a manifold and its constraints for each
+constexpr double per_sphere = 120.0;          // of the thesis's solver, its share of grid and sorting included
+constexpr double per_sphere_contact = 24.0;   // of its capacity
+constexpr double per_pixel = 120.0;           // view, measured and true images, and a cloud on its way into a file
+constexpr double per_denoised_pixel = 100.0;  // light, its variance and its face, before and after a pass
 
 double field_bytes(const PartModel& part, double relative_cell, std::size_t most_nodes) {
   const Vec3 cells = part.mesh().bounds().size() / (relative_cell * part.diagonal());
@@ -132,6 +134,8 @@ double image_bytes(const Request& request) {
   double bytes = 0.0;
   for (const Sensor& sensor : request.sensors) {
     bytes += per_pixel * sensor.width * static_cast<double>(sensor.height);
+    if (sensor.model == "image" && sensor.settings.of<ImageSettings>().denoise)
+      bytes += per_denoised_pixel * sensor.width * static_cast<double>(sensor.height);
     if (sensor_model(sensor.model).image != SensorModel::Image::profiles) continue;
     bytes += per_pixel * std::max(sensor.width, sensor.height) * static_cast<double>(sensor.scan.profiles);
   }

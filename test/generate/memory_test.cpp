@@ -1,6 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/generate/generator.hpp"
 #include "bin_scenes/pour/heap.hpp"
+#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/solver/solver.hpp"
 #include "box_mesh.hpp"
 
@@ -28,6 +29,11 @@ TEST(Memory, GrowsWithPartsPixelsAndSettings) {
   Request seen = request(100);
   seen.sensors.emplace_back();
   EXPECT_GT(estimate_memory({seen}), few + 640 * 480 * 20.0);
+  Request image = seen;
+  image.sensors[0].model = "image";
+  const double plain = estimate_memory({image});
+  image.sensors[0].settings.of<ImageSettings>().denoise = true;
+  EXPECT_GT(estimate_memory({image}), plain + 640 * 480 * 80.0);
   const PartModelPtr box = PartModel::from_mesh(box_mesh(0.05), "box");
   const double with_model = estimate_memory({request(100), {box}});
   EXPECT_GT(with_model, few);

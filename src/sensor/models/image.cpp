@@ -35,7 +35,7 @@ PathTracer::Setup setup_of(const Sensor& sensor) {
 }
 
 /// Radiance by pixel.
-std::vector<Rgb> traced(const PathTracer& tracer, const View& view, bool denoised) {
+std::vector<Rgb> denoised(const PathTracer& tracer, const View& view) {
   const auto width = static_cast<std::size_t>(view.lens.width), height = static_cast<std::size_t>(view.lens.height);
   std::vector<Rgb> radiance(width * height);
   std::vector<PathTracer::Grain> grain(width * height);
@@ -43,7 +43,7 @@ std::vector<Rgb> traced(const PathTracer& tracer, const View& view, bool denoise
     const std::vector<Rgb> own = tracer.row(row, &grain[row * width]);
     std::copy(own.begin(), own.end(), radiance.begin() + static_cast<std::ptrdiff_t>(row * width));
   });
-  if (denoised) denoise(view, grain, radiance);
+  denoise(view, grain, radiance);
   return radiance;
 }
 
@@ -72,11 +72,10 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
   picture.bits = settings.bits;
   picture.counts.resize(width * height * channels);
   Measurement out(width * height);
-  const std::vector<Rgb> radiance = traced(tracer, view, settings.denoise);
-  in_parallel(height, [&](std::size_t row) {
+  const auto expose = [&](std::size_t row, const Rgb* radiance) {
     std::vector<float> signals;
     for (std::size_t x = 0; x < width; ++x) {
-      const Rgb& rgb = radiance[row * width + x];
+      const Rgb& rgb = radiance[x];
       for (std::size_t c = 0; c < channels; ++c)
         signals.push_back(static_cast<float>(gain * (channels == 3 ? rgb[static_cast<Eigen::Index>(c)] : rgb.mean())));
     }
@@ -92,10 +91,16 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
         picture.counts[i * channels + c] = static_cast<std::uint16_t>(std::lround(most * signal));
         out.intensity[i] += signal / static_cast<float>(channels);
       }
-      const double mean = std::min(gain * radiance[i].mean(), 1.0);
+      const double mean = std::min(gain * radiance[x].mean(), 1.0);
       out.snr[i] = static_cast<float>(mean / std::sqrt(imager.variance(mean) / static_cast<double>(channels)));
     }
-  });
+  };
+  if (settings.denoise) {
+    const std::vector<Rgb> radiance = denoised(tracer, view);
+    in_parallel(height, [&](std::size_t row) { expose(row, &radiance[row * width]); });
+  } else {
+    in_parallel(height, [&](std::size_t row) { expose(row, tracer.row(row).data()); });
+  }
   return out;
 }
 
