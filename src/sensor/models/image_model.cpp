@@ -12,7 +12,8 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   ImageSettings& s = settings.of<ImageSettings>();
   v.field({"samples", "", "paths a pixel, a power of two; more = less grain, slower", at_least(1.0, 65536.0)},
           s.samples);
-  v.field({"denoise", "", "takes the grain of few samples out, with at least 4 of them; faces keep their edges"},
+  v.field({"denoise", "",
+           "takes the grain of few samples out, with at least 4 of them; edges stay, faint scratches go, too"},
           s.denoise);
   v.field({"colour", "", "RGB instead of grey"}, s.colour);
   v.field({"bits", "", "of a count, 8 or 16, of which BOP has the upper 8", at_least(8.0, 16.0)}, s.bits);
