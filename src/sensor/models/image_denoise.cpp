@@ -19,7 +19,7 @@ constexpr float grain = 3.0f;  ///< standard deviations by which two pixels of t
 constexpr std::array<float, 3> tap{0.375f, 0.25f, 0.0625f};  ///< by the distance from the middle; a cubic spline
 
 struct Pixel {
-  Vec3f point, normal;  ///< m, camera frame
+  Vec3f point, normal;  ///< m, bin frame
   float off;            ///< m, how far from its face's plane another pixel's point may lie beside it
   std::uint16_t label;
   bool whole = false;  ///< it sees one face
@@ -36,11 +36,12 @@ class Faces {
         const double z = view.depth[i];
         if (std::isnan(z)) continue;
         Pixel& p = pixels_[i];
-        p.point = (z * view.lens.ray(x, static_cast<double>(row))).cast<float>();
-        p.normal = Vec3f(view.normal[i][0], view.normal[i][1], view.normal[i][2]);
+        p.point = (view.pose * Vec3(z * view.lens.ray(x, static_cast<double>(row)))).cast<float>();
+        const auto& normal = view.normal[i];
+        p.normal = view.pose.orientation.cast<float>() * Vec3f(normal[0], normal[1], normal[2]);
         p.off = static_cast<float>(z / view.lens.fx);
         p.label = view.label[i];
-        p.whole = grains[i].one_face;
+        p.whole = grains[i].one_face();
       }
     });
   }
@@ -52,6 +53,10 @@ class Faces {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  bool sees(std::size_t i, const PathTracer::Side& side) const {
+    const Pixel& p = pixels_[i];
+    return side.takes(p.point, p.normal, p.label, 2.0f * p.off);
+  }
   /// 0 to 1: how much two pixels, `step` apart, see of one face.
   float likeness(std::size_t i, std::size_t k, int step) const {
     const Pixel &p = pixels_[i], &q = pixels_[k];
@@ -108,6 +113,30 @@ void average(const Faces& faces, int step, bool by_light, const Image& from, Ima
   });
 }
 
+/// Light of a pixel across which faces meet: that of each on the pixels around that see it alone, by its share.
+/// @return false  there are none of one of them
+bool mix(const Faces& faces, int x, int y, const PathTracer::Grain& grain, const Image& image, Eigen::Array3f& light) {
+  light = Eigen::Array3f::Zero();
+  float shares = 0.0f;
+  for (const PathTracer::Side& side : grain.sides) {
+    if (side.share == 0.0f) continue;
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    float count = 0.0f;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, faces.height() - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, faces.width() - 1); ++u) {
+        const std::size_t k = faces.at(u, v);
+        if (faces.whole(k) && faces.sees(k, side)) sum += image.light[k], count += 1.0f;
+      }
+    }
+    if (count == 0.0f) return false;
+    light += side.share / count * sum;
+    shares += side.share;
+  }
+  if (shares < 0.9f) return false;
+  light /= shares;
+  return true;
+}
+
 }  // namespace
 
 void denoise(const View& view, const std::vector<PathTracer::Grain>& grain, std::vector<Rgb>& radiance) {
@@ -122,8 +151,16 @@ void denoise(const View& view, const std::vector<PathTracer::Grain>& grain, std:
   for (const int step : {1, 2}) average(faces, step, false, image, next), std::swap(image, next);
   for (std::size_t i = 0; i < own.size(); ++i) image.variance[i] = std::max(image.variance[i], own[i]);
   for (int pass = 0; pass < passes; ++pass) average(faces, 1 << pass, true, image, next), std::swap(image, next);
-  for (std::size_t i = 0; i < radiance.size(); ++i)
-    if (faces.whole(i)) radiance[i] = image.light[i].cast<double>();
+  in_parallel(static_cast<std::size_t>(faces.height()), [&](std::size_t row) {
+    for (int x = 0; x < faces.width(); ++x) {
+      const std::size_t i = faces.at(x, static_cast<int>(row));
+      Eigen::Array3f mixed;
+      if (faces.whole(i))
+        radiance[i] = image.light[i].cast<double>();
+      else if (mix(faces, x, static_cast<int>(row), grain[i], image, mixed))
+        radiance[i] = mixed.cast<double>();
+    }
+  });
 }
 
 }  // namespace bin_scenes

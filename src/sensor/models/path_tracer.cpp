@@ -107,7 +107,7 @@ std::vector<Rgb> PathTracer::row(std::size_t index, Grain* grain) const {
   for (std::size_t first = 0; first < width; first += block_pixels) {
     begin(block, row, first, std::min(block_pixels, width - first));
     add_seen(block);
-    for (std::size_t i = 0; grain && i < block.radiance.size(); ++i) grain[first + i].one_face = of_one_face(block, i);
+    for (std::size_t i = 0; grain && i < block.radiance.size(); ++i) grain[first + i].sides = sides_of(block, i);
     for (int bounce = 0; bounce <= setup_.bounces && !block.vertices.empty(); ++bounce) {
       ask_lamps(block, bounce);
       follow_lobes(block, bounce);
@@ -204,19 +204,30 @@ void PathTracer::add_seen(Block& block) const {
   }
 }
 
-bool PathTracer::of_one_face(const Block& block, std::size_t pixel) const {
+bool PathTracer::Side::takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of,
+                             float off) const {
+  return label == of && normal.dot(its_normal) > static_cast<float>(bends) && std::abs(normal.dot(other - point)) < off;
+}
+
+std::array<PathTracer::Side, 2> PathTracer::sides_of(const Block& block, std::size_t pixel) const {
   const auto samples = static_cast<std::size_t>(setup_.samples);
-  const Hit& first = block.hits[pixel * samples];
-  const auto point = [&](std::size_t i) {
-    return block.rays[i].origin + block.hits[i].distance * block.rays[i].direction;
-  };
-  const Vec3 middle = point(pixel * samples);
+  const float path = 1.0f / static_cast<float>(setup_.samples);
+  std::array<Side, 2> sides;
   for (std::size_t i = pixel * samples; i < (pixel + 1) * samples; ++i) {
     const Hit& hit = block.hits[i];
-    const double off = std::abs(first.normal.dot(point(i) - middle)), footprint = hit.distance / lens_.fx;
-    if (!(hit.label == first.label && hit.normal.dot(first.normal) > bends && off < footprint)) return false;
+    if (std::isnan(hit.distance)) continue;
+    const Ray& ray = block.rays[i];
+    const Eigen::Vector3f point = (ray.origin + hit.distance * ray.direction).cast<float>();
+    const Eigen::Vector3f normal = hit.normal.cast<float>();
+    const auto footprint = static_cast<float>(hit.distance / lens_.fx);
+    for (Side& side : sides) {
+      if (side.share > 0.0f && !side.takes(point, normal, hit.label, footprint)) continue;
+      if (side.share == 0.0f) side = {point, normal, hit.label, 0.0f};
+      side.share += path;
+      break;
+    }
   }
-  return true;
+  return sides;
 }
 
 void PathTracer::add_vertex(std::vector<Vertex>& to, const Ray& ray, const Hit& hit, Vertex vertex) const {

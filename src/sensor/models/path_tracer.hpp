@@ -38,10 +38,19 @@ class PathTracer {
              const Setup& setup, const Random& key);
 
   static constexpr double bends = 0.82;  ///< cosine of 35 degrees: faces that meet in more are two
+  /// What some of a pixel's paths see: a part, on faces that bend on from each other.
+  struct Side {
+    Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = point;  ///< bin frame, m
+    std::uint16_t label = 0;
+    float share = 0.0f;  ///< of the paths
+    /// Whether another point is of it. @param off  m, so far it may lie from the plane of this one
+    bool takes(const Eigen::Vector3f& other, const Eigen::Vector3f& its_normal, std::uint16_t of, float off) const;
+  };
   /// What makes a pixel's radiance uncertain.
   struct Grain {
-    float variance = 0.0f;  ///< of red, green and blue's mean, as far as both halves of the paths tell
-    bool one_face = true;   ///< all paths see one part, on faces that bend on from each other
+    float variance = 0.0f;           ///< of red, green and blue's mean, as far as both halves of the paths tell
+    std::array<Side, 2> sides = {};  ///< those that paths see first; the shares of others are missing
+    bool one_face() const { return sides[0].share == 1.0f; }
   };
   /// Mean radiance of each pixel of a row.
   /// @param grain  of the row's pixels, if given
@@ -72,7 +81,7 @@ class PathTracer {
   void see(Row& row) const;
   void begin(Block& block, const Row& row, std::size_t first, std::size_t count) const;
   void add_seen(Block& block) const;
-  bool of_one_face(const Block& block, std::size_t pixel) const;
+  std::array<Side, 2> sides_of(const Block& block, std::size_t pixel) const;
   void ask_lamps(Block& block, int bounce) const;
   void follow_lobes(Block& block, int bounce) const;
   void find_ends(Block& block, double times) const;

@@ -82,7 +82,8 @@ TEST(ImageDenoise, VarianceIsThatOfOtherSeeds) {
   EXPECT_LT(told, 6.0 * seen);
 }
 
-/// A bright and a dark plate in one plane: nothing spills over, and what lies across the border stays.
+/// A bright and a dark plate in one plane, whose border runs through the middle of pixels: nothing spills over, and the
+/// pixels of the border are half of each.
 TEST(ImageDenoise, BordersBetweenPartsStaySharp) {
   Targets targets;
   targets.add(box_target({1.0, 1.0, 0.1}), {Vec3(0.5, 0.0, 1.05), Quat::Identity()}, {0.8, 0.0, 0.4});
@@ -92,16 +93,17 @@ TEST(ImageDenoise, BordersBetweenPartsStaySharp) {
   const std::vector<Rgb> after = denoised(targets, sensor, image);
   for (std::size_t row = 0; row < 64; ++row) {
     const std::size_t middle = row * 65 + 32;
-    EXPECT_FALSE(image.grain[middle].one_face);
-    EXPECT_EQ(after[middle][0], image.radiance[middle][0]);
-    EXPECT_TRUE(image.grain[middle + 1].one_face);
-    EXPECT_NEAR(after[middle + 1][0] / after[row * 65 + 60][0], 1.0, 0.1) << row;
-    EXPECT_NEAR(after[middle - 1][0] / after[row * 65 + 4][0], 1.0, 0.1) << row;
+    EXPECT_FALSE(image.grain[middle].one_face());
+    EXPECT_TRUE(image.grain[middle + 1].one_face());
+    const double bright = after[row * 65 + 60][0], dark = after[row * 65 + 4][0];
+    EXPECT_NEAR(after[middle][0], 0.5 * (bright + dark), 0.05 * bright) << row;
+    EXPECT_NEAR(after[middle + 1][0] / bright, 1.0, 0.1) << row;
+    EXPECT_NEAR(after[middle - 1][0] / dark, 1.0, 0.1) << row;
   }
 }
 
 /// Against an image of many samples: shadows, a round part, and a highlight.
-TEST(ImageDenoise, TakesTwoFifthsOfTheErrorAtLeast) {
+TEST(ImageDenoise, ErrsByLessThanFourTimesTheSamples) {
   Targets targets = plate({0.6, 0.0, 0.4}, 0.5);
   targets.add(ball_target(0.06, 3), {Vec3(0.05, 0.03, 0.93), Quat::Identity()}, {0.9, 0.8, 0.4, 2.9, 3.1});
   targets.add(box_target({0.1, 0.1, 0.2}), {Vec3(-0.08, -0.06, 0.9), Quat(0.9, 0.3, 0.2, 0.1).normalized()},
@@ -114,10 +116,9 @@ TEST(ImageDenoise, TakesTwoFifthsOfTheErrorAtLeast) {
     for (std::size_t i = 0; i < truth.size(); ++i) square += std::pow((radiance[i] - truth[i]).mean(), 2);
     return std::sqrt(square / static_cast<double>(truth.size()));
   };
-  for (const int samples : {4, 16}) {
-    const Traced image = traced(targets, sensor, samples);
-    EXPECT_LT(error(denoised(targets, sensor, image)), 0.6 * error(image.radiance)) << samples;
-  }
+  const Traced few = traced(targets, sensor, 4), more = traced(targets, sensor, 16);
+  EXPECT_LT(error(denoised(targets, sensor, few)), 0.7 * error(more.radiance));
+  EXPECT_LT(error(denoised(targets, sensor, more)), 0.5 * error(more.radiance));
 }
 
 TEST(ImageDenoise, NeedsSamples) {
