@@ -1,8 +1,7 @@
 /// Depth errors of structured light in a V-groove, whose faces light each other, by albedo, period and bounces.
 #include "framework/benchmark.hpp"
 
-#include "bin_scenes/sensor/resolve.hpp"
-#include "sensor/models/structured_light.hpp"
+#include "sensor/groove_device.hpp"
 #include "sensor/shot.hpp"
 
 #include <algorithm>
@@ -10,29 +9,6 @@
 
 namespace bin_scenes::bench {
 namespace {
-
-StructuredLight::Setup projector_of(double period, int bounces) {
-  StructuredLight::Setup setup;
-  const Projector usual;
-  setup.projector = lens_of(usual);
-  setup.projector_pose = {Vec3(usual.baseline, 0.0, 0.0),
-                          Quat(Eigen::AngleAxisd(-std::atan(usual.baseline / 0.75), Vec3::UnitY()))};
-  setup.settings.period = period;
-  setup.imager.exposure = 0.4;  // both faces' light stays below saturation
-  setup.noise = false;
-  setup.near = 0.3;
-  setup.far = 1.3;
-  setup.indirect.bounces = bounces;
-  return setup;
-}
-
-/// The pixels of the groove of a camera of 1944 columns and a field of view of 0.997 rad.
-Lens camera() {
-  Lens lens = Lens::from_fov(1944, 1200, 0.997);
-  lens.cx -= 871.0, lens.cy -= 580.0;
-  lens.width = 202, lens.height = 40;
-  return lens;
-}
 
 /// Errors of pixels whose face lies at least so far from the line, across it.
 struct Errors {
@@ -72,8 +48,9 @@ void groove_row(Run& out, const std::string& name, const Surface& surface, doubl
       Row::keys("surface", name, "period_px", period, "bounces", bounces, "fidelity", decoded ? "decoded" : "analytic");
   if (!out.wanted(key)) return;
   Targets targets = test::groove(surface, 0.75, 0.057, 0.3);
-  const StructuredLight::Setup setup = projector_of(period, bounces);
-  const auto [view, measured, sigma] = test::shoot<StructuredLight>(targets, camera(), setup, decoded);
+  StructuredLight::Setup setup = test::groove_device(period, bounces);
+  setup.noise = false;
+  const auto [view, measured, sigma] = test::shoot<StructuredLight>(targets, test::groove_camera(), setup, decoded);
   const Errors all = errors_of(view, measured, setup, 0.0), apart = errors_of(view, measured, setup, 0.0045);
   out.row(Row(key)
               .exact("rms_mm", 1e3 * all.rms)

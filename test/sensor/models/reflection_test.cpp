@@ -1,7 +1,6 @@
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
-#include "sensor/models/structured_light.hpp"
+#include "sensor/groove_device.hpp"
 #include "sensor/shot.hpp"
 
 #include <gtest/gtest.h>
@@ -14,27 +13,10 @@ namespace {
 
 constexpr double step = 3e-4;  // m
 
-/// That of bench/light.cpp, with noise.
 StructuredLight::Setup device(double period, double largest) {
-  StructuredLight::Setup setup;
-  const Projector usual;
-  setup.projector = lens_of(usual);
-  setup.projector_pose = {Vec3(usual.baseline, 0.0, 0.0),
-                          Quat(Eigen::AngleAxisd(-std::atan(usual.baseline / 0.75), Vec3::UnitY()))};
-  setup.settings.period = period;
-  setup.imager.exposure = 0.4;
-  setup.near = 0.3;
-  setup.far = 1.3;
-  setup.indirect.bounces = 1;
+  StructuredLight::Setup setup = test::groove_device(period, 1);
   setup.reflection.step = largest;
   return setup;
-}
-
-Lens camera() {
-  Lens lens = Lens::from_fov(1944, 1200, 0.997);
-  lens.cx -= 871.0, lens.cy -= 580.0;
-  lens.width = 202, lens.height = 40;
-  return lens;
 }
 
 Targets plate(double albedo = 0.9) {
@@ -49,8 +31,8 @@ struct Taken {
   double wrong = 0.0, right = 0.0;
 };
 Taken taken(Targets targets, double period, bool decoded) {
-  const auto off = test::shoot<StructuredLight>(targets, camera(), device(period, 0.0), decoded);
-  const auto on = test::shoot<StructuredLight>(targets, camera(), device(period, step), decoded);
+  const auto off = test::shoot<StructuredLight>(targets, test::groove_camera(), device(period, 0.0), decoded);
+  const auto on = test::shoot<StructuredLight>(targets, test::groove_camera(), device(period, step), decoded);
   double wrong = 0.0, right = 0.0;
   Taken out;
   for (std::size_t i = 0; i < off.view.depth.size(); ++i) {
@@ -102,14 +84,14 @@ TEST(Reflection, NoiseOfBothFringesCounts) {
   // Of the difference of two normally distributed numbers 31.7 % lie beyond one sigma.
   Targets targets = plate();
   const Scenery scenery = targets.scenery();
-  const View view = render(scenery, camera(), Pose(), 0.3, 1.3);
+  const View view = render(scenery, test::groove_camera(), Pose(), 0.3, 1.3);
   const auto sigma = [&](double period) {
     return StructuredLight(scenery, view, targets.surfaces(), device(period, 0.0)).depth_sigma(20 * 202 + 101);
   };
   const double both = std::hypot(sigma(16.0), sigma(ReflectionFilter().period));
   ASSERT_GT(both, 1.05 * sigma(16.0));
   for (const bool decoded : {false, true}) {
-    const auto shot = test::shoot<StructuredLight>(targets, camera(), device(16.0, both), decoded);
+    const auto shot = test::shoot<StructuredLight>(targets, test::groove_camera(), device(16.0, both), decoded);
     double gone = 0.0;
     for (const Validity code : shot.measured.validity) gone += code == Validity::reflection;
     // Four standard deviations of the share.
@@ -125,7 +107,7 @@ TEST(Reflection, WithoutNoiseAPlateLosesNothing) {
                 {0.9, 0.0, 0.4});
     StructuredLight::Setup setup = device(16.0, 5e-5);
     setup.noise = false;
-    const auto shot = test::shoot<StructuredLight>(targets, camera(), setup, false);
+    const auto shot = test::shoot<StructuredLight>(targets, test::groove_camera(), setup, false);
     int valid = 0, gone = 0;
     for (const Validity code : shot.measured.validity) {
       valid += code == Validity::valid;
