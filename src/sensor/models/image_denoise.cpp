@@ -114,7 +114,7 @@ void average(const Faces& faces, int step, bool by_light, const Image& from, Ima
 }
 
 /// Light of a pixel across which faces meet: that of each on the pixels around that see it alone, by its share.
-/// @return false  there are none of one of them
+/// @return false  there are none of one of them, or it sees more than two
 bool mix(const Faces& faces, int x, int y, const PathTracer::Grain& grain, const Image& image, Eigen::Array3f& light) {
   light = Eigen::Array3f::Zero();
   float shares = 0.0f;
@@ -132,7 +132,7 @@ bool mix(const Faces& faces, int x, int y, const PathTracer::Grain& grain, const
     light += side.share / count * sum;
     shares += side.share;
   }
-  if (shares < 0.9f) return false;
+  if (shares < 0.9f) return false;  // a third face, or nothing, takes a tenth and more
   light /= shares;
   return true;
 }

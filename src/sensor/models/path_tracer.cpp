@@ -2,6 +2,8 @@
 /// Embree takes rays in eights.
 #include "sensor/models/path_tracer.hpp"
 
+#include "sensor/models/unit_circle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -152,9 +154,7 @@ void PathTracer::see(Row& row) const {
       Eigen::Vector2d at = drawn(row, column, place, s) - Eigen::Vector2d(0.5, 0.5);
       if (setup_.blur > 0.0) {
         const Eigen::Vector2d normal = drawn(row, column, blurred, s);
-        const double radius = setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())),
-                     turn = 2.0 * M_PI * normal.y();
-        at += Eigen::Vector2d(radius * std::cos(turn), radius * std::sin(turn));
+        at += setup_.blur * std::sqrt(-2.0 * std::log(1.0 - normal.x())) * on_unit_circle(normal.y());
       }
       Spot spot;
       spot.u = static_cast<double>(column) + at.x(), spot.v = static_cast<double>(row.index) + at.y();
