@@ -19,7 +19,7 @@
 #define INOUT(T) inout T
 #define INLINE
 // Lists that are indexed at run time: each invocation has its part of shared memory. Arrays of its own would lie in
-// local memory, or become ladders of conditions: those of find_contacts were half of its instructions.
+// local memory, or become ladders of conditions, and spill registers.
 #define MEMBER_LIST(T, list, most)
 #define LANE_LIST(T, list, most) shared T list[most * SPHERE_PAIR_GROUP];
 #define LISTED(member, list, i) list[(i) * SPHERE_PAIR_GROUP + gl_LocalInvocationIndex]

@@ -147,7 +147,7 @@ void visit(Visitor& v, ReflectionFilter& reflection) {
 
 template <class Visitor>
 void visit(Visitor& v, SmoothingFilter& smoothing) {
-  v.field({"sigma", "pixel", "of the weights; more = less noise, rounder creases; 0 = off", at_least(0.0, 20.0)},
+  v.field({"sigma", "pixel", "width of the weights; more = less noise, rounder creases; 0 = off", at_least(0.0, 20.0)},
           smoothing.sigma);
   v.field({"step", "m", "what lies so far off the plane counts nothing; ten times the noise", above(0.0, 10.0)},
           smoothing.step);
@@ -156,9 +156,9 @@ void visit(Visitor& v, SmoothingFilter& smoothing) {
 template <class Visitor>
 void visit(Visitor& v, FilterSettings& filter) {
   v.field({"snr", "", "pixels with less are taken away (code 4); 0 = off", at_least(0.0, 1e6)}, filter.snr);
-  v.section({"outlier", "", "takes pixels with too few neighbours of their depth (code 9)"}, filter.outlier);
-  v.section({"reflection", "", "structured_light: takes pixels whose light bounced (code 10)"}, filter.reflection);
-  v.section({"smoothing", "", "of what is left; edges stay"}, filter.smoothing);
+  v.section({"outlier", "", "takes away pixels with too few neighbours of their depth (code 9)"}, filter.outlier);
+  v.section({"reflection", "", "structured_light: takes away pixels whose light bounced (code 10)"}, filter.reflection);
+  v.section({"smoothing", "", "smooths the depth of what is left; edges stay"}, filter.smoothing);
 }
 
 template <class Visitor>

@@ -35,8 +35,8 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.gamma);
   v.field({"min_modulation", "", "amplitude / full well below which a pixel is dark (code 4)", above(0.0, 1.0)},
           s.min_modulation);
-  v.field({"mixed", "", "of foreground and background: remove = invalid (code 6), keep = flying points"}, s.mixed,
-          mixed_pixels);
+  v.field({"mixed", "", "pixels of foreground and background: remove = invalid (code 6), keep = flying points"},
+          s.mixed, mixed_pixels);
   v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
 }
 

@@ -26,8 +26,8 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field({"min_signal", "", "share of a white facing surface's signal at 1 m below which nothing is measured (code 4)",
            above(0.0, 1.0)},
           s.min_signal);
-  v.field({"mixed", "", "of foreground and background: keep = flying points, remove = invalid (code 6)"}, s.mixed,
-          mixed_pixels);
+  v.field({"mixed", "", "pixels of foreground and background: keep = flying points, remove = invalid (code 6)"},
+          s.mixed, mixed_pixels);
   v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
 }
 
