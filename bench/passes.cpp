@@ -64,7 +64,7 @@ void run(Run& out) {
   pour_into(path, request);
   const std::vector<ScenePart> heap = read_scene_json(path).parts;
   choose_solver(request, "sphere/gpu");
-  const std::vector<std::size_t> few = {1, 2}, many = {1, 8, 66, 264, 528};
+  const std::vector<std::size_t> few = {1, 2}, many = {1, 66, 264, 1056};
   for (const Case& of : cases)
     for (const std::size_t worlds : out.quick() ? few : many) {
       const Row key = Row::keys("phase", of.name, "worlds", worlds);

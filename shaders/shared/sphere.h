@@ -30,6 +30,7 @@
 #define BIND_COLORS 21
 #define BIND_ORDER 22
 #define BIND_ROWS 31
+#define BIND_SAMPLES 32
 
 #define SPHERE_GROUP 64             // invocations of a group, but where one group takes a world or a pair
 #ifndef SPHERE_PAIR_GROUP
@@ -38,7 +39,7 @@
 #ifndef SPHERE_WORLD_GROUP
 #define SPHERE_WORLD_GROUP 64       // of a group that takes a world: Capacity::world_group
 #endif
-#define SPHERE_GROUP_JOBS 16        // pairs after which a group of find_contacts ends: llvmpipe lets no invocation take more
+#define SPHERE_GROUP_JOBS 16        // pairs after which a group that takes them ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
 #define SPHERE_RIGID 2u             // of the three kinds of softness, while a heap is probed
@@ -47,7 +48,7 @@
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
 #define SPHERE_BOX_QUEUE 3072       // pairs of a world whose oriented boxes wait to be tested; more are tested where they are found
-#define SPHERE_SAMPLE_QUEUE 512     // nodes and edges that wait for the long test; when it is full they are tested before more
+#define SPHERE_CHAINS 14            // of a job's candidates, each walked by one invocation
 
 // SphereOrdered.flags.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
@@ -83,6 +84,7 @@
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_ROW_OVERFLOW 4u
+#define SPHERE_SAMPLE_OVERFLOW 8u
 
 GPU_STRUCTS_BEGIN
 
@@ -93,8 +95,8 @@ struct SphereSettingsBlock {
   float margin, recycle, rest_move;  // d
   float restitution_speed; // m/s
   float rest_window;       // s
-  uint candidates;         // kept per invocation of find_contacts
-  uint contact_groups;     // of find_contacts that work at once, each with its own room for candidates
+  uint samples, candidates;  // room in the lists of those
+  uint contact_groups;     // that take pairs at once
   float coarse_recycle;    // d: `recycle` on coarse samples
   uint sweeps;             // over all contacts before bodies move, and after; SPHERE_RIGID: 1 after
   uint cold_sweeps;        // the same in the first steps of a world
@@ -116,7 +118,7 @@ struct SphereWorld {
 
 // What the steps of a world leave behind; the host reads it every few steps.
 struct SphereProgress {
-  uint steps_left, steps, overflow, need;    // need: pairs of the step that did not fit
+  uint steps_left, steps, overflow, need;    // need: places in the list of pairs or of samples that was too short
   uint page, pairs, free_slots, refresh;     // pair list in use, its length; refresh: contacts of last step are void
   uint fine, stiffness, ordered, rows;       // samples in use, softness in use, manifolds to solve, rows of the step
   float time_step;                           // s, of this step
@@ -132,7 +134,8 @@ struct SphereProgress {
   uint free_steps, pairs_tested, pairs_recycled, pairs_asleep;
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
-  uint unused;  // read back, states lie behind it: vectors begin at multiples of 16 bytes
+  uint need_candidates;  // need of the list of candidates
+  // Read back, states lie behind it: vectors begin at multiples of 16 bytes.
 };
 
 struct SphereBody {
@@ -228,15 +231,33 @@ struct SphereOrdered {
   float friction;    // where it holds
 };
 
+// A pair whose contacts are to be found. Its candidates are in no order, and none depends on one.
+struct SphereJob {
+  uint pair;         // place in the list of pairs
+  uint incomplete;   // 1: for some of its samples or candidates there was no room
+  uint chains[SPHERE_CHAINS];  // last candidate of each; 0 = none, and empty between steps
+};
+
+// A node or edge of one body of a pair that is near the other.
+struct SphereSample {
+  uint job;
+  uint feature;      // SPHERE_SIDE_B: of b
+};
+
 struct SphereCandidate {
-  vec4 on_a;         // frame of a; w: separation
-  vec4 normal;       // a -> b, frame of a; w: distance to the nearest chosen candidate
-  uvec4 feature;     // y: 1 = was a contact in the last step
+  vec3 on_a;         // frame of a
+  float separation;  // m
+  vec3 normal;       // a -> b, frame of a
+  float apart;       // m: from the nearest chosen candidate; negative: chosen, or a twin of one
+  uint feature, known;  // known: 1 = was a contact in the last step
+  uint next;         // of its chain; 0 = none: nothing lies there
+  uint unused;
 };
 
 struct SphereStatus {  // stands before the list of jobs
-  uint jobs, next_job, unused0, unused1;
-  uvec4 groups;      // arguments of the dispatch over jobs
+  uint jobs, samples, candidates;  // how many, of the last two perhaps more than there is room for
+  uint next_job, next_choice, unused0, unused1, unused2;
+  uvec4 groups, sample_groups;  // arguments of dispatches over jobs and over samples
 };
 
 GPU_STRUCTS_END
@@ -250,8 +271,9 @@ static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof
 static_assert(sizeof(SphereNode) == 16, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
+static_assert(sizeof(SphereSample) == 8 && sizeof(SphereJob) == 64, "std430");
 static_assert(sizeof(SphereOrdered) == 32, "std430");
-static_assert(sizeof(SphereStatus) == 32, "std430");
+static_assert(sizeof(SphereStatus) == 64, "std430");
 }  // namespace bin_scenes::gpu
 #endif
 #endif

@@ -21,7 +21,7 @@ layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) coherent buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 
 #include "sphere/body.h"
 #include "sphere/pair.h"

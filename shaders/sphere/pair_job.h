@@ -32,7 +32,7 @@ void enlist(SphereWorld world, uint w, SpherePair pair, uint place) {
     return;
   }
   uint job = atomicAdd(status.jobs, 1u);
-  jobs[job] = place;
+  jobs[job].pair = place;
   uint groups = job < settings.contact_groups ? job + 1u : job / SPHERE_GROUP_JOBS + 1u;
   // A dispatch takes 65,535 groups an axis; groups that find no job end at once.
   atomicMax(status.groups.x, min(groups, 65535u));

@@ -1,6 +1,5 @@
-// Candidates of one pair, found by all invocations of a group, and the few of them that become contacts. Needs the
-// bindings Settings, Progress, States, Manifolds, Contacts, Candidates, world_index, samples_of() and
-// placement_of().
+// The few candidates of one pair that become contacts. Needs the bindings Settings, Progress, States, Manifolds,
+// Contacts, Jobs, Candidates, world_index, samples_of() and placement_of().
 
 #include "shared/sphere/choice.h"
 
@@ -8,44 +7,30 @@ const float FAR = 3.4e38;
 
 shared SphereContact old[SPHERE_MAX_CONTACTS];
 shared uint old_count, old_found;
-shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS], chosen_normal[SPHERE_MAX_CONTACTS];  // w: separation
+shared vec4 chosen_on_a[SPHERE_MAX_CONTACTS];  // w: separation
+shared vec3 chosen_normal[SPHERE_MAX_CONTACTS];
 shared uint chosen_feature[SPHERE_MAX_CONTACTS];
 shared uint chosen_source[SPHERE_MAX_CONTACTS];  // contact of the last step whose forces it takes
 shared uint source_taken[SPHERE_MAX_CONTACTS];
 shared uint highest[2], highest_feature[2];      // take turns
-shared uint found_count, any_lost;
+shared uint found_count;
 const uint NO_SOURCE = 0xffffffffu;
 
-uint mine;  // candidates of this invocation
-bool lost;
+uint chain;  // the first candidate that is this invocation's
+#define FOR_OWN_CANDIDATES(at) for (uint at = chain; at != 0u; at = candidates[at].next)
 
-// Rooms for the candidates of a group lie behind a word for each that says whether it is in use.
-shared uint room;
+// A job leaves its chains empty.
+void take_chain(uint job) {
+  uint i = gl_LocalInvocationIndex;
+  chain = 0u;
+  if (i >= SPHERE_CHAINS) return;
+  chain = jobs[job].chains[i];
+  jobs[job].chains[i] = 0u;
+}
 
 // Known to all behind the next barrier.
-void take_room() {
-  if (gl_LocalInvocationIndex == 0u) {
-    room = gl_WorkGroupID.x % settings.contact_groups;
-    while (atomicExchange(candidates[room].feature.x, 1u) == 1u) room = (room + 1u) % settings.contact_groups;
-  }
-  memoryBarrierBuffer();
-}
-// What this group wrote there is written before the next one takes the room.
-void leave_room() {
-  memoryBarrierBuffer();
-  barrier();
-  if (gl_LocalInvocationIndex == 0u) atomicExchange(candidates[room].feature.x, 0u);
-}
-
-// Side by side for neighbours, so that a group's reads are one.
-uint candidate_place(uint k) {
-  return settings.contact_groups + (room * settings.candidates + k) * SPHERE_PAIR_GROUP + gl_LocalInvocationIndex;
-}
-
-void begin_candidates(SphereWorld world, uint slot) {
+void begin_choice(SphereWorld world, uint slot) {
   uint thread = gl_LocalInvocationIndex;
-  mine = 0u;
-  lost = false;
   SphereManifold manifold = manifolds[world.pairs.x + slot];
   uint count = manifold.state.x;
   if (thread == 0u) {
@@ -53,39 +38,33 @@ void begin_candidates(SphereWorld world, uint slot) {
     old_found = manifold.state.z;
     highest[0] = 0u;
     highest_feature[0] = NO_SOURCE;
-    found_count = any_lost = 0u;
+    found_count = 0u;
   }
   if (thread < count) {
     old[thread] = contacts[SPHERE_MAX_CONTACTS * (world.pairs.x + slot) + thread];
     source_taken[thread] = 0u;
   }
-  barrier();
 }
 
-void emit(vec3 on_a, vec3 normal, float separation, uint feature) {
-  if (mine == settings.candidates) {
-    lost = true;
-    return;
+// Whether each was a contact in the last step; none is chosen.
+void begin_candidates() {
+  uint count = 0u;
+  FOR_OWN_CANDIDATES(at) {
+    uint feature = candidates[at].feature;
+    for (uint k = 0u; k < old_count; ++k)
+      if (old_found != 0u && old[k].feature == feature) candidates[at].known = 1u;
+    candidates[at].apart = FAR;
+    ++count;
   }
-  uint known = 0u;
-  for (uint k = 0u; k < old_count; ++k)
-    if (old_found != 0u && old[k].feature == feature) known = 1u;
-  candidates[candidate_place(mine++)] =
-      SphereCandidate(vec4(on_a, separation), vec4(normal, FAR), uvec4(feature, known, 0u, 0u));
-}
-
-// 64-bit sum, for what a big world counts beyond 2^32 between two observations.
-void count_possible(uint n) {
-  uint before = atomicAdd(progress[world_index].nodes_possible, n);
-  if (before + n < before) atomicAdd(progress[world_index].nodes_possible_high, 1u);
+  atomicAdd(found_count, count);
 }
 
 // The candidate with the largest key of all invocations, ties by feature, becomes number n of the chosen; false if
 // every key is 0.
-bool choose(uint n, uint key, uint k) {
+bool choose(uint n, uint key, uint at) {
   uint turn = n & 1u, feature = NO_SOURCE;
   if (key > 0u) {
-    feature = candidates[candidate_place(k)].feature.x;
+    feature = candidates[at].feature;
     atomicMax(highest[turn], key);
   }
   barrier();
@@ -97,11 +76,10 @@ bool choose(uint n, uint key, uint k) {
   barrier();
   if (highest[turn] == 0u) return false;
   if (key == highest[turn] && feature == highest_feature[turn]) {
-    SphereCandidate c = candidates[candidate_place(k)];
-    chosen_on_a[n] = c.on_a;
-    chosen_normal[n] = c.normal;
+    chosen_on_a[n] = vec4(candidates[at].on_a, candidates[at].separation);
+    chosen_normal[n] = candidates[at].normal;
     chosen_feature[n] = feature;
-    candidates[candidate_place(k)].normal.w = -1.0;
+    candidates[at].apart = -1.0;
   }
   barrier();
   return true;
@@ -113,36 +91,38 @@ uint depth_key(float separation) {
   return (bits & 0x80000000u) != 0u ? bits : ~(bits | 0x80000000u);
 }
 
+// Whether a candidate with this key comes before the best so far.
+bool is_better(uint key, uint feature, uint best_key, uint best) {
+  return key > best_key || key == best_key && key > 0u && feature < candidates[best].feature;
+}
+
 // The few candidates that stand for all (shared/sphere/choice.h).
 uint reduce(float size, float soon) {
   uint key = 0u, best = 0u;
-  for (uint k = 0u; k < mine; ++k) {
-    SphereCandidate c = candidates[candidate_place(k)];
-    uint depth = depth_key(c.on_a.w);
-    if (depth > key || depth == key && c.feature.x < candidates[candidate_place(best)].feature.x) {
-      key = depth;
-      best = k;
-    }
+  FOR_OWN_CANDIDATES(at) {
+    uint depth = depth_key(candidates[at].separation);
+    if (!is_better(depth, candidates[at].feature, key, best)) continue;
+    key = depth;
+    best = at;
   }
   uint n = 0u;
   while (choose(n, key, best)) {
     if (++n == SPHERE_MAX_CONTACTS) break;
     key = 0u;
-    vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u].xyz;
-    for (uint k = 0u; k < mine; ++k) {
-      SphereCandidate c = candidates[candidate_place(k)];
-      if (c.normal.w < 0.0) continue;
-      float apart = min(c.normal.w, way_between(c.on_a.xyz, c.normal.xyz, on_a, normal, size));
+    vec3 on_a = chosen_on_a[n - 1u].xyz, normal = chosen_normal[n - 1u];
+    FOR_OWN_CANDIDATES(at) {
+      SphereCandidate c = candidates[at];
+      if (c.apart < 0.0) continue;
+      float apart = min(c.apart, way_between(c.on_a, c.normal, on_a, normal, size));
       if (apart < TWIN * size) apart = -1.0;
-      candidates[candidate_place(k)].normal.w = apart;
+      candidates[at].apart = apart;
       if (apart < 0.0) continue;
-      float gap = gap_of(c.on_a.w, chosen_on_a[0].w);
-      float score = worth_of(gap, soon, size) * (apart + advantage_of(c.on_a.w, gap, c.feature.y != 0u, size));
+      float gap = gap_of(c.separation, chosen_on_a[0].w);
+      float score = worth_of(gap, soon, size) * (apart + advantage_of(c.separation, gap, c.known != 0u, size));
       uint value = score > 0.0 ? floatBitsToUint(score) : 0u;
-      if (value > key || value == key && value > 0u && c.feature.x < candidates[candidate_place(best)].feature.x) {
-        key = value;
-        best = k;
-      }
+      if (!is_better(value, c.feature, key, best)) continue;
+      key = value;
+      best = at;
     }
   }
   return n;
@@ -171,7 +151,7 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
         bool field_of_a = (old[k].feature & SPHERE_SIDE_B) != 0u;
         vec3 normal = old[k].normal.xyz;
         if (!field_of_a) normal = (ground ? normal : rb * normal) * ra;
-        if (dot(normal, chosen_normal[n].xyz) < ALIKE) continue;
+        if (dot(normal, chosen_normal[n]) < ALIKE) continue;
         chosen_source[n] = k;
         nearest = way;
       }
@@ -181,25 +161,19 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   barrier();
 }
 
-void finish_candidates(SphereWorld world, SpherePair pair) {
+void choose_contacts(SphereWorld world, SpherePair pair) {
   uint thread = gl_LocalInvocationIndex;
   bool ground = pair.b == SPHERE_GROUND;
   Placement a = placement_of(pair.a), b = Placement(vec3(0.0), mat3(1.0));
   if (!ground) b = placement_of(pair.b);
   mat3 ra = a.rotation, rb = b.rotation;
-  if (lost) any_lost = 1u;
-  atomicAdd(found_count, mine);
   float size = size_of(pair);
   // What is fast may meet all that is within its way.
   float soon = SOON * size + max(0.0, way_of(world, pair) - settings.margin * size);
   uint count = reduce(size, soon);
-  carry_forces(count, spacing_of(samples_of(pair.a)), ra, rb, ground);
-  if (any_lost != 0u) {  // the step is repeated with more places, from the contacts of the last step
-    if (thread == 0u) atomicOr(progress[world_index].overflow, SPHERE_CANDIDATE_OVERFLOW);
-    return;
-  }
+  carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (thread < count) {
-    vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread].xyz;
+    vec3 on_a = chosen_on_a[thread].xyz, normal = chosen_normal[thread];
     vec3 on_b = a.position + ra * (on_a + chosen_on_a[thread].w * normal);
     if (!ground) on_b = (on_b - b.position) * rb;
     // The normal turns with the body whose field it comes from.

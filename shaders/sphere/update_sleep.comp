@@ -16,10 +16,11 @@ layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_PAIRS) readonly buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_MANIFOLDS) readonly buffer Manifolds { SphereManifold manifolds[]; };
-layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 
 #include "sphere/body.h"
 #include "sphere/rest.h"
+#include "sphere/no_jobs.h"
 
 shared uint label[SPHERE_MAX_BODIES];
 shared uint motion[SPHERE_MAX_BODIES];      // MOVED_LATELY, WENT_ON
@@ -33,10 +34,7 @@ uint label_now(uint i) { return atomicOr(label[i], 0u); }
 
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
-  if (thread == 0u) {  // find_contacts has done the jobs; every group writes the same
-    status.jobs = status.next_job = 0u;
-    status.groups = uvec4(0u, 1u, 1u, 0u);
-  }
+  if (thread == 0u) status = no_jobs();  // all are done; every group writes the same
   SphereWorld world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;

@@ -3,8 +3,7 @@
 /// who reads and writes it (referee.hpp), and then on llvmpipe, which must make the same of it. Then each barrier of
 /// each pass is left out once: where nothing is found, the barrier is superfluous, or the scenes lack what needs it.
 ///
-/// Groups run one after the other. What two of them do to the chain of free places in the same instant (take_places()
-/// in shaders/sphere/reduce.h) is therefore not seen.
+/// Groups run one after the other: what two of them do to one word in the same instant, by atomics, is not seen.
 #include "bin_scenes/gl/program.hpp"
 #include "races/scenes.hpp"
 
@@ -38,7 +37,6 @@ void watch_layout(Recorder& recorder, const Capacity& capacity) {
   watch_heaps(recorder, capacity);
   watch_carpet(recorder, capacity);
   watch_overflow(recorder, capacity);
-  watch_brushes(recorder, capacity);
 }
 
 const Observations& one_group() {

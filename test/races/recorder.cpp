@@ -103,10 +103,11 @@ std::size_t most_ties(std::size_t changed) {
   return 8 + changed / 10;
 }
 
-/// Lists of each invocation, of what it came upon; and of two edges that cross, rounding says which one is the
-/// contact's.
+/// Lists of what invocations came upon, in the order of arrival, and the chains that lie in the jobs; and of two edges
+/// that cross, rounding says which one is the contact's.
 bool is_compared(const std::string& pass, const std::string& buffer) {
-  return buffer != "Candidates" && !(pass == "find_contacts" && buffer == "Contacts");
+  if (buffer == "Candidates" || buffer == "NearSamples") return false;
+  return !(buffer == "Jobs" && (pass == "collect_samples" || pass == "test_samples"));
 }
 
 }  // namespace

@@ -104,33 +104,6 @@ inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity
   recorder.end();
 }
 
-/// Two brushes of 64 bristles that stick in each other: more edges to test than the queue of a group holds.
-inline void watch_brushes(Recorder& recorder, const sphere_gl::Capacity& capacity) {
-  Mesh brush = testing::box_mesh({0.064, 0.064, 0.004});
-  for (int i = 0; i < 64; ++i)
-    brush = testing::merged(
-        brush, testing::box_mesh({0.004, 0.004, 0.004}, {0.008 * (i % 8) - 0.028, 0.008 * (i / 8) - 0.028, 0.003}));
-  WorldDef def;
-  def.parts = {PartModel::from_mesh(brush, "brush")};
-  def.bin.kind = Bin::Kind::box;
-  def.bin.inner_size = Vec3(0.2, 0.2, 0.1);
-  def.bodies.assign(2, BodyDef{});
-  SphereSettings settings = sphere_gl::coarse();
-  settings.coarse_samples = 2000;
-  const auto solver = make_gl_sphere_solver(settings, capacity);
-  const WorldId world = solver->add_world(def);
-  for (std::size_t i = 0; i < 2; ++i) {
-    BodyState state;
-    state.pose.position =
-        Vec3(0.001 * static_cast<double>(i), 0.002 * static_cast<double>(i), 0.02 + 0.004 * static_cast<double>(i));
-    state.pose.orientation = Quat(1, 0.01, 0.02, 0.03).normalized();
-    solver->insert(world, i, state);
-  }
-  recorder.begin();
-  solver->advance({world}, solver->step_size());
-  recorder.end();
-}
-
 /// A heap for which no buffer has room at first: it begins where it lay in another solver.
 inline void watch_overflow(Recorder& recorder, sphere_gl::Capacity capacity) {
   const sphere_gl::Handful heap(2);

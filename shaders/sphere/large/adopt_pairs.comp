@@ -15,7 +15,7 @@ layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) buffer Free { uint free_slots[]; };
 layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
 layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 
 #include "sphere/body.h"

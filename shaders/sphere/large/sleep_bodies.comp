@@ -11,20 +11,20 @@ layout(std430, binding = BIND_PROGRESS) buffer Progress { SphereProgress progres
 layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
 layout(std430, binding = BIND_STATES) buffer States { SphereState states[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
-layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; uint jobs[]; };
+layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
 layout(std430, binding = BIND_LARGE) buffer Large { SphereLarge large; };
 layout(std430, binding = BIND_WORK) coherent buffer Work { SphereWork work[]; };
 
 #include "sphere/body.h"
 #include "sphere/rest.h"
+#include "sphere/no_jobs.h"
 #include "sphere/large/large_world.h"
 #include "sphere/large/island.h"
 
 uniform uint stage;
 
 void end_step() {
-  status.jobs = status.next_job = 0u;
-  status.groups = uvec4(0u, 1u, 1u, 0u);
+  status = no_jobs();
   large.extent = large.big = large.speed = large.turn = 0u;
   if (idle()) return;
   if (--progress[large_world].cuts_left == 0u) --progress[large_world].steps_left;

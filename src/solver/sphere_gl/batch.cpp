@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace bin_scenes::sphere_gl {
@@ -12,6 +13,7 @@ namespace bin_scenes::sphere_gl {
 namespace {
 
 constexpr std::size_t status_words = sizeof(gpu::SphereStatus) / sizeof(gpu::uint);
+constexpr std::size_t job_words = sizeof(gpu::SphereJob) / sizeof(gpu::uint);
 
 /// Groups that fill a device; each takes pair after pair.
 std::size_t groups_at_once() {
@@ -88,14 +90,23 @@ Batch::Batch(const Capacity& capacity)
       contact_groups_(groups_at_once()),
       pair_group_(pair_group(capacity)),
       find_pairs_(world_pass("find_pairs", capacity)),
-      find_contacts_(pass("find_contacts", {{"SPHERE_PAIR_GROUP", std::to_string(pair_group_)}})),
       color_manifolds_(world_pass("color_manifolds", capacity)),
       solve_(world_pass("solve", capacity)),
       update_sleep_(world_pass("update_sleep", capacity)) {
-  settings_block_.candidates = static_cast<gpu::uint>(capacity.candidates);
-  const std::vector<gpu::SphereCandidate> unused(contact_groups_, gpu::SphereCandidate{});
-  at_least(candidates_, unused.size());
-  candidates_.upload(0, unused.data(), unused.size());
+  const gl::Defines group = {{"SPHERE_PAIR_GROUP", std::to_string(pair_group_)}};
+  collect_samples_ = pass("collect_samples", group);
+  test_samples_ = pass("test_samples", group);
+  choose_contacts_ = pass("choose_contacts", group);
+}
+
+std::size_t Batch::most_candidates() const {
+  constexpr std::size_t of_a_pair = 200000;  // no part has as many nodes and edges
+  if (!(settings_block_.recycle > 0)) return std::numeric_limits<std::size_t>::max();  // each attempt begins anew
+  if (capacity_.most_candidates > 0) return capacity_.most_candidates;
+  const double most =
+      std::min(static_cast<double>(gl::Device::current().limits().storage_bytes), 0.25 * capacity_.memory) /
+      sizeof(gpu::SphereCandidate);
+  return std::max(of_a_pair, static_cast<std::size_t>(most));
 }
 
 void Batch::make_room() {
@@ -117,12 +128,18 @@ void Batch::make_room() {
   at_least(contacts_, SPHERE_MAX_CONTACTS * pairs);
   at_least(order_, pairs);
   at_least(rows_, row_arena_.size() * SPHERE_ROW_PARTS);
-  if (jobs_.size() < status_words + pairs) {
-    at_least(jobs_, status_words + pairs);
-    const gpu::SphereStatus none{0, 0, 0, 0, {0, 1, 1, 0}};
+  if (jobs_.size() < status_words + job_words * pairs) {
+    at_least(jobs_, status_words + job_words * pairs);
+    const gpu::SphereStatus none{0, 0, 0, 0, 0, 0, 0, 0, {0, 1, 1, 0}, {0, 1, 1, 0}};
     jobs_.storage().write(0, &none, sizeof none);
   }
-  at_least(candidates_, contact_groups_ * (1 + settings_block_.candidates * pair_group_));
+  const auto room = [&](std::size_t least) {
+    return std::max<std::size_t>(1, std::min(std::max(least, capacity_.candidates * pairs), most_candidates()));
+  };
+  near_samples_.grow(room(least_samples_));
+  candidate_list_.grow(room(least_candidates_));
+  settings_block_.samples = static_cast<gpu::uint>(near_samples_.size());
+  settings_block_.candidates = static_cast<gpu::uint>(candidate_list_.size());
   bound_ = false;
 }
 
@@ -154,9 +171,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   }
   take_region(slot, world);
   const Region& r = regions_[slot];
-  const gpu::uint candidates = settings_block_.candidates;
   settings_block_ = to_gpu(world.settings);
-  settings_block_.candidates = candidates;
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
   make_room();
   if (r.large.bodies > 0) {
@@ -302,8 +317,10 @@ void Batch::grow_rows(Slot slot, std::size_t need) {
   upload_world(slot);
 }
 
-void Batch::grow_candidates() {
-  settings_block_.candidates *= 2;
+void Batch::grow_candidates(std::size_t samples, std::size_t candidates) {
+  // What one step needs is far from what the next one does: with a quarter more room few steps are repeated.
+  least_samples_ = std::max(least_samples_, samples + samples / 4);
+  least_candidates_ = std::max(least_candidates_, candidates + candidates / 4);
   make_room();
 }
 

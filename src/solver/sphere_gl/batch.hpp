@@ -1,5 +1,6 @@
 /// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
-/// shaders/sphere/<name>.comp, its method here, its timer, and its twin on the CPU (solver/sphere/world.hpp).
+/// its method here, its timer, its twin on the CPU (solver/sphere/world.hpp), and shaders/sphere/<name>.comp, but that
+/// find_contacts is three shaders.
 ///
 // clang-format off
 ///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
@@ -9,12 +10,13 @@
 ///     contacts   | world 0: capacity slots | world 1 | ...              eight to a slot
 ///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
+///     samples    | those of these pairs that are near, in no order |   candidates alike, in chains of their jobs
 // clang-format on
 ///
-/// A step is five dispatches, however many worlds run:
+/// A step is seven dispatches, however many worlds run:
 ///
-///     find_pairs ─► find_contacts ─► color_manifolds ─► solve ─► update_sleep
-///     group/world   group/pair       group/world        group/world   group/world
+///     find_pairs ─► collect_samples ─► test_samples ─► choose_contacts ─► color_manifolds ─► solve ─► update_sleep
+///     group/world   group/pair         thread/sample   group/pair         group/world        group/world   group/world
 ///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
 /// run without leaving the group. A world of more bodies than a group holds takes a step by itself, with passes of many
@@ -62,8 +64,9 @@ class Batch {
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
   /// Room for `need` rows of the solve; their contents are of one step, and lost.
   void grow_rows(Slot slot, std::size_t need);
-  /// Room for twice the candidates per pair of bodies.
-  void grow_candidates();
+  /// Room for so many samples near another body, and candidates, or for as many as there may be at once: of more than
+  /// that, repeated steps find the contacts.
+  void grow_candidates(std::size_t samples, std::size_t candidates);
 
   /// Everything of one world, after waiting for the passes so far.
   void download(Slot slot, sphere::World& world) const;
@@ -98,6 +101,7 @@ class Batch {
     LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();
+  std::size_t most_candidates() const;
   void upload_world(Slot slot);
   void bind() const;
   void bind_first() const;
@@ -113,13 +117,14 @@ class Batch {
   Arena slots_, body_arena_, word_arena_, pair_arena_, row_arena_, plane_arena_;
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
-  std::size_t running_count_ = 0, contact_groups_ = 1;  ///< worlds of one group each
-  std::size_t pair_group_;                              ///< invocations of a group of find_contacts
+  std::size_t running_count_ = 0, contact_groups_ = 1;    ///< worlds of one group each
+  std::size_t pair_group_;                                ///< invocations of a group that takes a pair
+  std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
   std::vector<LargeWorld> running_large_;
   const LargeWorld* at_turn_ = nullptr;  ///< none: the worlds of one group each
   bool bound_ = false;
 
-  gl::Program find_pairs_, find_contacts_, color_manifolds_, solve_, update_sleep_;
+  gl::Program find_pairs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_, solve_, update_sleep_;
   std::unique_ptr<LargePasses> large_;
   gl::Timer timer_;
 
@@ -139,7 +144,8 @@ class Batch {
   gl::Buffer<gpu::SphereManifold> manifolds_{"sphere.manifolds"};
   gl::Buffer<gpu::SphereContact> contacts_{"sphere.contacts"};
   gl::Buffer<gpu::uint> jobs_{"sphere.jobs"};
-  gl::Buffer<gpu::SphereCandidate> candidates_{"sphere.candidates"};
+  gl::Buffer<gpu::SphereSample> near_samples_{"sphere.near_samples"};
+  gl::Buffer<gpu::SphereCandidate> candidate_list_{"sphere.candidates"};
   gl::Buffer<gpu::uint> colors_{"sphere.colors"};
   gl::Buffer<gpu::SphereOrdered> order_{"sphere.order"};
   gl::Buffer<gpu::vec4> rows_{"sphere.rows"};

@@ -55,7 +55,8 @@ void Batch::bind() const {
   manifolds_.bind(BIND_MANIFOLDS);
   contacts_.bind(BIND_CONTACTS);
   jobs_.bind(BIND_JOBS);
-  candidates_.bind(BIND_CANDIDATES);
+  near_samples_.bind(BIND_SAMPLES);
+  candidate_list_.bind(BIND_CANDIDATES);
   colors_.bind(BIND_COLORS);
   order_.bind(BIND_ORDER);
   rows_.bind(BIND_ROWS);
@@ -69,7 +70,10 @@ void Batch::find_pairs() {
 
 void Batch::find_contacts() {
   gl::Stage stage(timer_, "find_contacts");
-  gl::dispatch_indirect(find_contacts_, jobs_.storage(), offsetof(gpu::SphereStatus, groups));
+  const gl::Storage& status = jobs_.storage();
+  gl::dispatch_indirect(collect_samples_, status, offsetof(gpu::SphereStatus, groups), gl::Barrier::arguments);
+  gl::dispatch_indirect(test_samples_, status, offsetof(gpu::SphereStatus, sample_groups));
+  gl::dispatch_indirect(choose_contacts_, status, offsetof(gpu::SphereStatus, groups));
 }
 
 void Batch::color_manifolds() {
@@ -110,16 +114,17 @@ void Batch::step_at_turn() {
 std::size_t Batch::bytes() const {
   std::size_t sum = shapes_.bytes() + (large_ ? large_->bytes() : 0);
   for (const gl::Storage* s :
-       {&settings_.storage(), &running_.storage(), &worlds_.storage(), &progress_.storage(), &planes_.storage(),
-        &bodies_.storage(), &states_.storage(), &tensors_.storage(), &near_.storage(), &ranges_.storage(),
-        &pairs_.storage(), &free_.storage(), &manifolds_.storage(), &contacts_.storage(), &jobs_.storage(),
-        &candidates_.storage(), &colors_.storage(), &order_.storage(), &rows_.storage()})
+       {&settings_.storage(),       &running_.storage(),  &worlds_.storage(), &progress_.storage(),
+        &planes_.storage(),         &bodies_.storage(),   &states_.storage(), &tensors_.storage(),
+        &near_.storage(),           &ranges_.storage(),   &pairs_.storage(),  &free_.storage(),
+        &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),   &near_samples_.storage(),
+        &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),  &rows_.storage()})
     sum += s->bytes();
   return sum;
 }
 
 std::size_t Batch::bytes_shared() const {
-  return shapes_.bytes() + settings_.storage().bytes() + candidates_.storage().bytes();
+  return shapes_.bytes() + settings_.storage().bytes();
 }
 
 }  // namespace bin_scenes::sphere_gl

@@ -260,7 +260,7 @@ class GlSphereSolver final : public Solver {
   std::uint64_t observe(const Flight& flight) {
     const auto* seen = static_cast<const gpu::SphereProgress*>(flight.back->wait());
     std::uint64_t left = 0;
-    bool candidates = false;
+    gpu::uint samples = 0, candidates = 0;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
       r.progress = *seen++;
@@ -270,10 +270,12 @@ class GlSphereSolver final : public Solver {
       if (overflow) profile_.count("steps_repeated");
       if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
       if (overflow & SPHERE_ROW_OVERFLOW) batch_.grow_rows(r.slot, r.progress.rows);
-      candidates = candidates || overflow & SPHERE_CANDIDATE_OVERFLOW;
+      if (overflow & SPHERE_SAMPLE_OVERFLOW) samples = std::max(samples, r.progress.need);
+      candidates = std::max(candidates, r.progress.need_candidates);
+      r.progress.need = r.progress.need_candidates = 0;
       left = std::max<std::uint64_t>(left, r.progress.steps_left);
     }
-    if (candidates) batch_.grow_candidates();
+    if (samples + candidates > 0) batch_.grow_candidates(samples, candidates);
     if (left > 0) upload_progress(flight);  // counters were taken
     return left;
   }
@@ -332,7 +334,7 @@ class GlSphereSolver final : public Solver {
 }  // namespace
 
 std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
-  constexpr double body_bytes = 4200.0;  // on the device, all lists together: docs/develop/gpu.md, "Memory"
+  constexpr double body_bytes = 6000.0;  // on the device, with a share of the common lists: docs/develop/gpu.md
   const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
   const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
   const double largest_list =
@@ -349,7 +351,7 @@ std::size_t most_gl_bodies() {
 std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, const Capacity& capacity) {
   if (!(settings.time_step > 0))
     throw input_error("time_step must be above 0", "solver.sphere.time_step", "0.0025 is a good start");
-  constexpr int blocks = 16;  // of find_contacts, the most of all passes; OpenGL 4.5 promises 8
+  constexpr int blocks = 15;  // of collect_samples, the most of all passes; OpenGL 4.5 promises 8
   const std::shared_ptr<gl::Device> device = gl::Device::shared();
   device->make_current();
   if (device->limits().storage_blocks < blocks) {

@@ -9,17 +9,18 @@ namespace bin_scenes {
 namespace sphere_gl {
 /// Sizes that cost time, no result. Lists grow: too small a one costs a repeated step.
 struct Capacity {
-  std::size_t pairs = 4;           ///< of bodies near each other, per body of a world
-  std::size_t rows = 12;           ///< of contacts that are solved, per body of a world
-  std::size_t candidates = 8;      ///< contacts to choose from, per invocation of a group
-  std::size_t bodies = 0;          ///< expected in a world; the more, the fewer worlds at once
-  double memory = 1e9;             ///< bytes on the device for the worlds that run at once
-  std::size_t group_bodies = 384;  ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
-  std::size_t world_group = 0;     ///< invocations that share such a world; 0: 64 on a software device, else 256
-  std::size_t pair_group = 0;      ///< invocations that find contacts of a pair; 0: 64 on a software device, else 32
-  bool share_impacts = true;       ///< such a world sweeps until impacts are shared; larger ones never do
-  std::size_t rounds = 24;         ///< of coloring that a large world has dispatches for; others share one group
-  std::size_t colors = 32;         ///< of a large world that may have dispatches of their own; others share a group
+  std::size_t pairs = 4;            ///< of bodies near each other, per body of a world
+  std::size_t rows = 12;            ///< of contacts that are solved, per body of a world
+  std::size_t candidates = 4;       ///< contacts to choose from, per body near another one (pairs), of all worlds
+  std::size_t most_candidates = 0;  ///< of one step; 0: as many as fit a quarter of `memory`
+  std::size_t bodies = 0;           ///< expected in a world; the more, the fewer worlds at once
+  double memory = 1e9;              ///< bytes on the device for the worlds that run at once
+  std::size_t group_bodies = 384;   ///< a world of more is spread over many groups; at most SPHERE_MAX_BODIES
+  std::size_t world_group = 0;      ///< invocations that share such a world; 0: 64 on a software device, else 256
+  std::size_t pair_group = 0;       ///< invocations that find contacts of a pair; 0: 64 on a software device, else 32
+  bool share_impacts = true;        ///< such a world sweeps until impacts are shared; larger ones never do
+  std::size_t rounds = 24;          ///< of coloring that a large world has dispatches for; others share one group
+  std::size_t colors = 32;          ///< of a large world that may have dispatches of their own; others share a group
 };
 
 /// Largest Capacity::group_bodies on a software device. A group that pressed 358 bodies in a heap of random overlaps

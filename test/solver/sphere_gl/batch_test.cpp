@@ -102,6 +102,18 @@ TEST(SphereGlBatch, AListThatIsFullGrowsAndTheStepIsRepeated) {
   EXPECT_GT(solver->profile().counters.at("steps_repeated"), 1u);
 }
 
+TEST(SphereGlBatch, AListThatMayNotGrowIsFilledSeveralTimes) {
+  Capacity small;
+  small.candidates = 1;
+  small.most_candidates = 120;  // no pair has as many
+  const auto solver = make_gl_sphere_solver(coarse(), small);
+  const WorldId one = Handful(1).add(*solver), two = Handful(2).add(*solver);
+  for (int k = 0; k < 2; ++k) solver->advance({one, two}, 0.1);
+  EXPECT_EQ(hash_of(solver->states(one)), fallen(1));
+  EXPECT_EQ(hash_of(solver->states(two)), fallen(2));
+  EXPECT_GT(solver->profile().counters.at("steps_repeated"), 40u);
+}
+
 TEST(SphereGlBatch, AWorldIsTheSameSpreadOverManyGroups) {
   if (!gl::Device::shared()->software())
     GTEST_SKIP() << "two programs may round apart where a driver joins products and sums";
@@ -231,11 +243,11 @@ TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
   constexpr std::size_t two_gib = (std::size_t{1} << 31) - 1;
   Capacity capacity;
   capacity.bodies = 256;
-  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 930u);
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 651u);
   EXPECT_EQ(worlds_at_once(capacity, std::size_t{128} << 20, false), 128u) << "half of a block of 128 MiB";
   EXPECT_EQ(worlds_at_once(capacity, two_gib, true), 4u);
   capacity.memory = 1e8;
-  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 93u);
+  EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 65u);
   capacity = {};
   capacity.bodies = 65536;
   EXPECT_EQ(worlds_at_once(capacity, two_gib, false), 1u);
@@ -245,7 +257,7 @@ TEST(SphereGlBatch, WorldsAtOnceGoByMemory) {
 }
 
 // What a step costs on a device for which dispatches and barriers are dear (docs/develop/gpu.md).
-TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
+TEST(SphereGlBatch, AStepIsSevenDispatchesForAllWorldsOfABatch) {
   const auto solver = make_gl_sphere_solver(coarse());
   std::vector<WorldId> ids;
   for (const int variant : {0, 1, 2}) ids.push_back(Handful(variant).add(*solver));
@@ -258,12 +270,12 @@ TEST(SphereGlBatch, AStepIsFiveDispatchesForAllWorldsOfABatch) {
         for (const WorldId id : ids) solver->set_phase(id, each);
     };
     const gl::Traffic woken = asked_for(*solver, ids, 7 * solver->step_size(), wake);
-    EXPECT_EQ(woken.barriers, 7u * 5u + 3u + 1u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
+    EXPECT_EQ(woken.barriers, 7u * 7u + 3u + 1u + 2u + 2u);  // bodies that a phase wakes go up, a copy a world
     const gl::Traffic slice = asked_for(*solver, ids, 7 * solver->step_size());
-    EXPECT_EQ(slice.dispatches, 7u * 5u);
+    EXPECT_EQ(slice.dispatches, 7u * 7u);
     // A barrier behind each, and one before each copy: progress of all worlds, who runs, settings; one read back.
-    EXPECT_EQ(slice.barriers, 7u * 5u + 1u + 2u + 2u);
-    EXPECT_EQ(slice.argument_barriers, 7u) << "how many groups find_contacts has";
+    EXPECT_EQ(slice.barriers, 7u * 7u + 1u + 2u + 2u);
+    EXPECT_EQ(slice.argument_barriers, 7u * 2u) << "how many pairs and samples there are";
     EXPECT_EQ(slice.bytes_uploaded,
               3 * sizeof(gpu::SphereProgress) + 3 * sizeof(gpu::uint) + sizeof(gpu::SphereSettingsBlock));
     EXPECT_EQ(slice.bytes_read_back, 3 * sizeof(gpu::SphereProgress) + (5 + 8 + 11) * sizeof(gpu::SphereState));
@@ -280,9 +292,9 @@ TEST(SphereGlBatch, DispatchesOfAWorldThatIsSpreadGoByItsSweeps) {
   solver->set_phase(id, phases::settle);
   // Of each sweep those of four colors that are wider than a group, of one more that might be, and of all the rest.
   constexpr unsigned a_sweep = 6;
-  // 72 of a step, and of each sub-step velocities, what slides, positions, and sweeps: warm start, and what follows it.
+  // 74 of a step, and of each sub-step velocities, what slides, positions, and sweeps: warm start, and what follows it.
   const auto expected = [](unsigned sub_steps, unsigned sweeps) {
-    return 72u + sub_steps * (3u + a_sweep * (1u + sweeps));
+    return 74u + sub_steps * (3u + a_sweep * (1u + sweeps));
   };
   const auto step = [&] { return asked_for(*solver, {id}, solver->step_size()).dispatches; };
   solver->advance({id}, 2 * solver->step_size());  // lists grow

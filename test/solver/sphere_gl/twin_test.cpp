@@ -127,8 +127,8 @@ gpu::SphereProgress find_all(Batch& batch, Batch::Slot slot) {
     batch.update_sleep();  // empties the list of jobs
     if (progress.overflow & SPHERE_PAIR_OVERFLOW) batch.grow_pairs(slot, progress);
     if (progress.overflow & SPHERE_ROW_OVERFLOW) batch.grow_rows(slot, progress.rows);
-    if (progress.overflow & SPHERE_CANDIDATE_OVERFLOW) batch.grow_candidates();
-    progress.overflow = 0;
+    batch.grow_candidates(progress.overflow & SPHERE_SAMPLE_OVERFLOW ? progress.need : 0, progress.need_candidates);
+    progress.overflow = progress.need = progress.need_candidates = 0;
     batch.upload_progress({{slot, progress}});
   }
 }
