@@ -34,18 +34,22 @@ struct Kind {
   SphereSettings::Device device;
 };
 
-Heap heap_of(const Kind& kind, const PartModelPtr& part, std::size_t count, const std::vector<Pose>& poses = {}) {
+Heap heap_of(const Kind& kind, const std::vector<PartLine>& lines, const std::vector<PartModelPtr>& parts) {
   Request request;
   request.seed = 3;
   request.solver.type = kind.type;
   request.solver.sphere.device = kind.device;
   request.bin.inner_size = Vec3(0.30, 0.30, 0.12);
   request.pour.finish = Pour::Finish::pressed;
-  request.parts = {line_of(part, count)};
-  request.parts[0].poses = poses;
-  if (!poses.empty()) request.pour.pattern = Pour::Pattern::given;
+  request.parts = lines;
+  if (!lines[0].poses.empty()) request.pour.pattern = Pour::Pattern::given;
   std::string reason;
-  return Heap({request, {part}}, make_solver({request, {part}}, reason));
+  return Heap({request, parts}, make_solver({request, parts}, reason));
+}
+Heap heap_of(const Kind& kind, const PartModelPtr& part, std::size_t count, const std::vector<Pose>& poses = {}) {
+  PartLine line = line_of(part, count);
+  line.poses = poses;
+  return heap_of(kind, {line}, {part});
 }
 
 /// Cubes on each other, at the given places.
@@ -85,6 +89,19 @@ TEST_P(HeapTest, APickMovesWhatThePartCarriedAndNothingElse) {
   for (const int id : {1, 2}) EXPECT_NEAR(height(after, id), height(before, id) - 0.02, 2e-4) << id;
   for (const int id : {3, 4, 5}) EXPECT_TRUE(same_bits(after.parts[id].pose, before.parts[id].pose)) << id;
   EXPECT_LT(after.report.simulated_s, 2.0) << "the clock of this settle";
+}
+
+TEST_P(HeapTest, WhatLayOnAFixedPartFallsWhenThatIsTakenOut) {
+  PartLine shelf = line_of(cube(), 1), on_it = line_of(cube(), 1);
+  shelf.fixed = true;
+  shelf.poses = {{Vec3(0, 0, 0.05), Quat::Identity()}};
+  on_it.poses = {{Vec3(0, 0, 0.07), Quat::Identity()}};
+  Heap heap = heap_of(GetParam(), {shelf, on_it}, {cube(), cube()});
+  ASSERT_TRUE(heap.settle());
+  ASSERT_NEAR(height(heap.scene(), 1), 0.07, 2e-4);
+  heap.remove({0});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_NEAR(height(heap.scene(), 1), 0.01, 2e-4);
 }
 
 TEST_P(HeapTest, OfAPouredHeapMostPartsKeepTheirPosesInAPick) {

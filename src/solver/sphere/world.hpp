@@ -252,7 +252,7 @@ void color_manifolds(World& world);  ///< no two manifolds of a color share a mo
 void solve(World& world);            ///< sub-steps; moves the bodies
 void update_sleep(World& world);     ///< puts parts at rest to sleep
 
-/// Bodies with contacts with this one, whether they press or not; fixed ones left out.
+/// Bodies that are not fixed with contacts with this one, whether they press or not.
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body);
 void wake(Body& body);
 void put_to_sleep(const Settings& settings, Body& body);  ///< where it is

@@ -43,9 +43,8 @@ bool went_on(const World& world, std::uint32_t body) {
   return world.bodies[body].moves() && world.bodies[body].still == 0;
 }
 
-bool touch(const World& world, const Manifold& m) {
-  return m.b != ground && !m.contacts.empty() && world.bodies[m.a].inverse_mass > 0 &&
-         world.bodies[m.b].inverse_mass > 0;
+bool touch(const Manifold& m) {
+  return m.b != ground && !m.contacts.empty();
 }
 
 /// Whom bodies that moved lately keep awake: themselves and those joined to them, directly if bodies sleep by part. By
@@ -58,7 +57,7 @@ std::vector<char> kept_awake(const World& world) {
     const bool by_part = world.sleep == Sleep::by_part;
     for (const Manifold& m : world.manifolds)
       if (by_part ? joins(world, m) && (moved_lately(world, m.a) || moved_lately(world, m.b))
-                  : touch(world, m) && (went_on(world, m.a) || went_on(world, m.b)))
+                  : touch(m) && (went_on(world, m.a) || went_on(world, m.b)))
         awake[m.a] = awake[m.b] = 1;
     return awake;
   }
@@ -108,7 +107,10 @@ void update_sleep(World& world) {
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body) {
   std::vector<std::uint32_t> touched;
   for (const Manifold& m : world.manifolds)
-    if ((m.a == body || m.b == body) && touch(world, m)) touched.push_back(m.a == body ? m.b : m.a);
+    if ((m.a == body || m.b == body) && touch(m)) {
+      const std::uint32_t other = m.a == body ? m.b : m.a;
+      if (world.bodies[other].inverse_mass > 0) touched.push_back(other);
+    }
   return touched;
 }
 
