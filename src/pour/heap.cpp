@@ -72,6 +72,9 @@ void Heap::remove(const std::vector<int>& ids) {
 
 void Heap::lift(const std::vector<int>& ids, const Vec3& direction, double distance, const RunHooks& hooks) {
   state_->check_ids(ids);
+  for (const int id : ids)
+    if (state_->core.plan().world.bodies[static_cast<std::size_t>(id)].fixed)
+      throw input_error("part " + std::to_string(id) + " is fixed", "lift", "name parts that can move, or remove() it");
   const double length = direction.norm();
   if (!(length > 0.0) || !std::isfinite(length)) throw input_error("is no direction", "lift", "for instance [0, 0, 1]");
   if (!(distance >= 0.0 && distance <= longest_lift))

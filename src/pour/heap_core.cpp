@@ -33,9 +33,20 @@ HeapCore::~HeapCore() {
   solver_.remove_world(id_);
 }
 
+namespace {
+constexpr double hand_masses = 1000.0;  ///< of a lifted part, in masses of the heaviest: what lies on it does not tell
+}
+
 /// Makes a world with the bodies that are in the bin. While parts enter, the walls of a box are raised to hold them.
-void HeapCore::make_world(bool raised_walls) {
+void HeapCore::make_world(bool raised_walls, const std::vector<std::size_t>& lifted) {
   WorldDef def = plan_->world;
+  lifts_ = !lifted.empty();
+  kept_.clear();
+  kept_forces_.clear();
+  double heaviest = 0.0;
+  for (const BodyDef& body : def.bodies)
+    if (!body.fixed) heaviest = std::max(heaviest, body.mass);
+  for (const std::size_t b : lifted) def.bodies[b].mass = hand_masses * heaviest;
   walls_raised_ = raised_walls && def.bin.kind == Bin::Kind::box;
   if (walls_raised_) {
     def.wall_height = plan_->entry_height;
@@ -60,6 +71,7 @@ void HeapCore::set_solver_phase() {
 }
 
 void HeapCore::start_clock() {
+  let_go();
   course_begun_ -= time_;
   time_ = 0.0;
   settling_.start_clock();
@@ -83,12 +95,14 @@ void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
 }
 
 void HeapCore::remove(std::size_t body) {
+  let_go();
   if (settling_.done()) {
     states();
     begin(Stage::repair);
   }
   if (place_[body] == Place::in) {
     solver_.remove(id_, body);
+    wake_kept_beside(body);
     audit_->leave(body);
   }
   waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), body), waiting_.end());
@@ -115,8 +129,9 @@ const std::vector<BodyState>& HeapCore::states() {
   if (fresh_) return states_;
   const std::vector<BodyState> now = solver_.states(id_);
   BIN_SCENES_ASSERT(now.size() >= states_.size());
+  release_kept();
   for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in && now[b].pose.finite()) states_[b] = now[b];
+    if (place_[b] == Place::in && !is_kept(b) && now[b].pose.finite()) states_[b] = now[b];
   fresh_ = true;
   return states_;
 }
@@ -146,15 +161,16 @@ bool HeapCore::outside(const Vec3& center) const {
   return false;
 }
 
-void HeapCore::update_rest() {
+void HeapCore::update_rest(bool driven) {
   const Pour& pour = plan_->request.pour;
   const std::vector<BodyState> now = solver_.states(id_);
+  release_kept();
   for (std::size_t b = 0; b < states_.size(); ++b) {
     if (!moves(b)) continue;
     const PartModel& part = this->part(b);
     const bool finite = now[b].pose.finite();
     BIN_SCENES_ASSERT(!finite || is_unit(now[b].pose.orientation));
-    if (finite) states_[b] = now[b];
+    if (finite && !is_kept(b)) states_[b] = now[b];
     if (!finite || outside(states_[b].pose * part.mass().center)) {
       solver_.remove(id_, b);
       place_[b] = Place::escaped;
@@ -164,7 +180,7 @@ void HeapCore::update_rest() {
     rest_.observe(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
                   {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
-  audit_->observe(time_, states_, follows());
+  audit_->observe(time_, states_, driven);
   fresh_ = true;
 }
 
@@ -204,7 +220,7 @@ bool HeapCore::all_asleep() const {
 }
 
 void HeapCore::advance() {
-  update_rest();
+  update_rest(follows());
   insert_waiting();
   if (follows() && !end_motion()) return;
   const Stage before = settling_.stage();
@@ -290,7 +306,7 @@ Scene HeapCore::scene() {
   report.flags = solver_.flags(id_);
   report.energy = audit_->worst();
   for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
-  const std::vector<ContactForce> forces = solver_.contact_forces(id_);
+  const std::vector<ContactForce> forces = this->forces();
   for (const ContactForce& f : forces) scene.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});
   report.jam = worst_jam(plan_->world, states_, forces);
   for (Flag& flag : flags_of(report.jam)) report.flags.push_back(std::move(flag));

@@ -48,7 +48,8 @@ class HeapCore final : private HeapView {
   void advance();
   /// Once all parts are in: the world without raised walls, which may be a new one. By the solver's thread.
   void change_world();
-  void update_rest();  ///< rest and escape alone, at the end of a set time
+  /// Rest and escape alone, at the end of a set time. `driven`: as EnergyAudit::observe() has it.
+  void update_rest(bool driven);
   /// Whether bin or parts follow a motion now: then follow() comes before each step.
   bool follows() const { return course_ == Course::under_way; }
   void follow(double seconds);  ///< puts them where they are, with their velocities of the next `seconds`
@@ -65,7 +66,17 @@ class HeapCore final : private HeapView {
   enum class Place { waiting, in, escaped, no_room, removed };
   enum class Course { ahead, under_way, over };  ///< of the given motions
 
-  void make_world(bool raised_walls);
+  /// `lifted`: bodies that the world is to have as heavy as if a hand held them.
+  void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});
+  void remake_world(const std::vector<std::size_t>& lifted, const std::vector<bool>& woken);
+  std::vector<bool> dragged_by(const std::vector<std::size_t>& lifted, const Vec3& direction) const;
+  void wake(const std::vector<bool>& bodies);
+  void let_go();  ///< lifted bodies have their own masses again
+  bool is_kept(std::size_t body) const { return !kept_.empty() && kept_[body]; }
+  bool is_kept(const ContactForce& force) const;  ///< of all that it acts on
+  void release_kept();                            ///< those that have woken
+  void wake_kept_beside(std::size_t body);        ///< for one that is taken out
+  std::vector<ContactForce> forces() const;       ///< of the last step, or when bodies fell asleep
   void begin(Stage stage);
   void set_solver_phase();
   void insert(std::size_t body, const BodyState& state);
@@ -109,6 +120,11 @@ class HeapCore final : private HeapView {
       0;  ///< steps of earlier worlds since the clock was started, less those of this world before that
   bool fresh_ = false, walls_raised_ = false;
   bool poured_ = false;  ///< in the last slice
+  bool lifts_ = false;   ///< the world has lifted bodies
+  /// Bodies that sleep since the world was remade. They keep their states, which a solver tells but for rounding, and
+  /// the forces between them, of which it knows nothing.
+  std::vector<bool> kept_;
+  std::vector<ContactForce> kept_forces_;
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s
   std::vector<BodyState> states_;

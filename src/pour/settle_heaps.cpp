@@ -107,7 +107,7 @@ class Run {
     end_piece(group);
     leave_if(group, [](HeapCore& heap) {
       if (heap.time_left() > 0.0) return false;
-      heap.update_rest();
+      heap.update_rest(heap.follows());
       return true;
     });
     if (group.left == 0) {

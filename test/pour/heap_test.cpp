@@ -99,6 +99,7 @@ TEST_P(HeapTest, WhatLayOnAFixedPartFallsWhenThatIsTakenOut) {
   Heap heap = heap_of(GetParam(), {shelf, on_it}, {cube(), cube()});
   ASSERT_TRUE(heap.settle());
   ASSERT_NEAR(height(heap.scene(), 1), 0.07, 2e-4);
+  EXPECT_THROW(heap.lift({0}, Vec3::UnitZ(), 0.03), Error) << "a gripper does not move it";
   heap.remove({0});
   ASSERT_TRUE(heap.settle());
   EXPECT_NEAR(height(heap.scene(), 1), 0.01, 2e-4);
@@ -209,6 +210,55 @@ TEST_P(HeapTest, ALiftDragsWhatHangsInThePartAndNothingElse) {
   EXPECT_THROW(heap.lift({0}, Vec3::UnitZ(), 0.05), Error) << "it is not there";
   EXPECT_THROW(heap.lift({1}, Vec3::Zero(), 0.05), Error);
   EXPECT_THROW(heap.lift({1}, Vec3::UnitZ(), 1e3), Error);
+}
+
+TEST_P(HeapTest, ALiftCarriesAllThatLiesOnThePart) {
+  Heap heap = heap_of(GetParam(), cube(), 4, towers({0}, 4));
+  ASSERT_TRUE(heap.settle());
+  const Scene before = heap.scene();
+  heap.lift({0}, Vec3::UnitZ(), 0.03);
+  for (const int id : {0, 1, 2, 3})
+    EXPECT_NEAR(height(heap.scene(), id), height(before, id) + 0.03, 3e-4) << "each, with three times its load: " << id;
+}
+
+TEST_P(HeapTest, ALiftIsNoEnergyFromNowhere) {
+  static const PartModelPtr small = PartModel::from_mesh(box_mesh({1e-3, 1e-3, 1e-3}), "small");
+  Heap heap =
+      heap_of(GetParam(), small, 2, {{Vec3(0, 0, 5e-4), Quat::Identity()}, {Vec3(0, 0, 1.5e-3), Quat::Identity()}});
+  ASSERT_TRUE(heap.settle());
+  heap.lift({0}, Vec3::UnitZ(), 2e-3);
+  const Report report = heap.scene().report;
+  EXPECT_EQ(report.energy.gain, 0.0);
+  EXPECT_EQ(report.energy.thrown.ratio, 0.0);
+}
+
+TEST_P(HeapTest, ALiftLeavesTheBitsOfWhatItDoesNotTouch) {
+  const Quat turned(Eigen::AngleAxisd(0.7, Vec3::UnitZ()));
+  Heap heap = heap_of(GetParam(), angle(), 2, {{Vec3(-0.08, 0, 0.01), turned}, {Vec3(0.08, 0, 0.01), turned}});
+  ASSERT_TRUE(heap.settle());
+  const Scene before = heap.scene();
+  heap.lift({0}, Vec3::UnitZ(), 0.05);
+  EXPECT_TRUE(same_bits(heap.scene().parts[1].pose, before.parts[1].pose));
+  ASSERT_TRUE(heap.settle());
+  EXPECT_TRUE(same_bits(heap.scene().parts[1].pose, before.parts[1].pose));
+  EXPECT_NEAR(height(heap.scene(), 0), 0.01, 3e-4) << "it has fallen again";
+}
+
+TEST_P(HeapTest, AfterALiftWhatSleptThroughItStillPressesAndFalls) {
+  Heap heap = heap_of(GetParam(), cube(), 4, towers({-0.05, 0.05}, 2));
+  ASSERT_TRUE(heap.settle());
+  const auto pressing = [](const Scene& scene, int a, int b) {
+    return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                       [&](const SceneContact& c) { return c.a == a && c.b == b; });
+  };
+  ASSERT_TRUE(pressing(heap.scene(), 2, 3) && pressing(heap.scene(), 2, -1));
+  heap.lift({0}, Vec3::UnitZ(), 0.05);
+  heap.remove({0});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_TRUE(pressing(heap.scene(), 2, 3) && pressing(heap.scene(), 2, -1));
+  heap.remove({2});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_NEAR(height(heap.scene(), 3), 0.01, 2e-4);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class Heap {
   /// Moves parts, without turning them, by `distance` (m, up to 10) along `direction` (bin frame) at 0.1 m/s, as a
   /// gripper that nothing holds up. What lies on them or hangs in them is dragged along; what none of it touches keeps
   /// its pose bit for bit. Afterwards the parts are dynamic again: remove() them, or settle() to let them fall. Throws
-  /// an input Error as remove(), also for a lift without direction; Error(cancelled) as settle().
+  /// an input Error as remove(), also for a fixed part or no direction; Error(cancelled) as settle().
   void lift(const std::vector<int>& ids, const Vec3& direction, double distance, const RunHooks& hooks = {});
 
   /// Tilts or turns the heap: gravity in the bin frame (m/s2). All parts wake.
