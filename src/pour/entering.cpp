@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace bin_scenes {
 
@@ -71,23 +72,26 @@ void HeapCore::insert_waiting() {
   if (plan_->world.bin_model) rain.add(plan_->bin_cover, Pose(), true);
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) rain.add(plan_->covers[plan_->line_of[b]], states_[b].pose, time_ > 0.0 && slow(b));
-  int misses = 0;
+  // The last chance of those that wait. What is large and finds no place must not keep out what is small, behind it.
+  const bool at_rest = time_ > 0.0 && all_rest();
+  std::map<std::size_t, int> misses;  // of all, or at rest by part line
   std::vector<std::size_t> still;
   for (const std::size_t b : waiting_) {
     std::optional<Pose> pose;
     const Cover& shape = plan_->covers[plan_->line_of[b]];
-    if (misses < misses_per_slice && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
+    int& missed = misses[at_rest ? plan_->line_of[b] : 0];
+    if (missed < misses_per_slice && !cancelled()) pose = rain.place(part(b), shape, random_, tries_per_part);
     if (!pose) {
-      ++misses;
+      ++missed;
       still.push_back(b);
       continue;
     }
-    misses = 0;
+    missed = 0;
     insert(b, {*pose, {}});
     rain.add(shape, *pose, false);
   }
   // All parts rest and none of the waiting ones finds a place: the bin is full.
-  if (still.size() == waiting_.size() && all_rest() && !cancelled()) {
+  if (still.size() == waiting_.size() && at_rest && !cancelled()) {
     for (const std::size_t b : still) place_[b] = Place::no_room;
     still.clear();
   }

@@ -159,6 +159,18 @@ TEST(Pour, WhatFindsNoRoomIsReported) {
   EXPECT_EQ(scene.report.flags.back().code, "not_poured");
 }
 
+TEST(Pour, WhatIsLargeKeepsNothingSmallOut) {
+  Request request = request_of(12);
+  request.bin.inner_size = Vec3(0.12, 0.12, 0.06);
+  request.parts.push_back(request.parts[0]);
+  const PartModelPtr large = PartModel::from_mesh(box_mesh({0.08, 0.08, 0.03}), "large");
+  const PartModelPtr small = PartModel::from_mesh(box_mesh({0.01, 0.01, 0.01}), "small");
+  const auto solver = make_bullet_solver(request.solver.bullet);
+  const Scene scene = pour({request, {large, small}}, *solver, {0})[0];
+  ASSERT_FALSE(scene.report.not_poured.empty());
+  EXPECT_LT(scene.report.not_poured.back(), 12) << "the first of the small ones";
+}
+
 TEST(Pour, FixedPartsNeverMoveAndStrangersAreFound) {
   Request request = request_of(1);
   request.pour.pattern = Pour::Pattern::given;
