@@ -1,45 +1,47 @@
 #include "bin_scenes/quality/quality.hpp"
+#include "part/ray_parity.hpp"
 #include "penetration.hpp"
 
-#include <algorithm>
-#include <map>
+#include <vector>
 
 namespace bin_scenes {
 
 namespace {
 
-/// Every edge is shared by two triangles that run along it in opposite directions.
-bool closed(const Mesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const Triangle& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t u = t[i], v = t[(i + 1) % 3];
-      balance[std::minmax(u, v)] += u < v ? 1 : -1;
-    }
-  }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
-}
-
-/// Deepest vertex behind floor and walls. A wall is solid outwards without end, up to the rim: the way out of it is
-/// back into the bin or up over the rim, whichever is shorter.
+/// Deepest point behind floor and walls. A wall is solid outwards without end, up to the rim: the way out of it is
+/// back into the bin or up over the rim, whichever is shorter. Depth is the smaller of two linear functions, so that it
+/// is largest in a vertex, or where an edge has both ways as long: of what leans over a rim no vertex need be in it.
 Penetration behind_walls(const Mesh& part, const Pose& pose, const Bin& bin) {
   Penetration worst;
   const auto consider = [&](double depth, const Vec3& out, const Vec3& x) {
     if (depth > worst.depth) worst = {depth, -out, x};
   };
+  const bool walls = bin.kind == Bin::Kind::box;
+  const auto behind = [&](const Vec3& x, int axis, double side) { return side * x[axis] - 0.5 * bin.inner_size[axis]; };
+  const auto below_rim = [&](const Vec3& x) { return bin.inner_size.z() - x.z(); };
+  std::vector<Vec3> placed;
   for (const Vec3& vertex : part.vertices) {
-    const Vec3 x = pose * vertex;
+    const Vec3& x = placed.emplace_back(pose * vertex);
     consider(-x.z(), Vec3::UnitZ(), x);
-    if (bin.kind != Bin::Kind::box) continue;
-    const double below_rim = bin.inner_size.z() - x.z();
-    for (int axis = 0; axis < 2; ++axis) {
-      const double side = x[axis] < 0.0 ? -1.0 : 1.0, behind = side * x[axis] - 0.5 * bin.inner_size[axis];
-      if (behind < below_rim)
-        consider(behind, -side * Vec3::Unit(axis), x);
-      else if (behind > 0.0)
-        consider(below_rim, Vec3::UnitZ(), x);
+    for (int axis = 0; walls && axis < 2; ++axis) {
+      const double side = x[axis] < 0.0 ? -1.0 : 1.0, depth = behind(x, axis, side);
+      if (depth < below_rim(x))
+        consider(depth, -side * Vec3::Unit(axis), x);
+      else if (depth > 0.0)
+        consider(below_rim(x), Vec3::UnitZ(), x);
     }
   }
+  const auto along_edge = [&](const Vec3& p, const Vec3& q, int axis, double side) {
+    const double more_p = behind(p, axis, side) - below_rim(p), more_q = behind(q, axis, side) - below_rim(q);
+    if (!(more_p < 0.0 && more_q > 0.0)) return;  // the other triangle of the edge has it the other way round
+    const Vec3 x = p + more_p / (more_p - more_q) * (q - p);
+    consider(below_rim(x), Vec3::UnitZ(), x);
+  };
+  for (std::size_t t = 0; walls && t < part.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      for (const int axis : {0, 1})
+        for (const double side : {-1.0, 1.0})
+          along_edge(placed[part.triangles[t][k]], placed[part.triangles[t][(k + 1) % 3]], axis, side);
   return worst;
 }
 

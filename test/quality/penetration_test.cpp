@@ -209,6 +209,14 @@ TEST(BinPenetration, FloorWallsAndRim) {
   EXPECT_NEAR(in_bin(at(0, -0.104, 0.1)), 0.004, exact);
   EXPECT_EQ(in_bin(at(0.2, 0, 0.251)), 0.0) << "above the rim there is no wall";
   EXPECT_NEAR(in_bin(at(0.2, 0, 0.249)), 0.001, exact) << "what lies on the rim is lifted off it, not drawn in";
+  const MeshQuery rod(bar({0.4, 0.02, 0.02}).mesh);
+  for (const double deep : {-1e-3, 5e-3, 0.01}) {
+    const Quat leaning = turned(-M_PI / 4.0, Vec3::UnitY());
+    const Vec3 off = leaning * Vec3::UnitZ();  // its underside stands so far off the rim in the middle of the rod
+    const Pose over_the_rim = at(0.2, 0, 0.2, leaning) * Pose{Vec3(0, 0, 0.01 - deep), Quat::Identity()};
+    EXPECT_NEAR(bin_penetration(rod, over_the_rim, bin, nullptr).depth, std::max(0.0, deep) * off.z(), exact)
+        << "no corner of it is in the wall";
+  }
   bin.kind = Bin::Kind::floor;
   EXPECT_NEAR(in_bin(at(5, 0, 0.049)), 0.001, exact);
   EXPECT_EQ(in_bin(at(5, 0, 0.05)), 0.0);
