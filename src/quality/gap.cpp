@@ -155,8 +155,9 @@ class Falls {
 
 std::vector<double> free_falls(const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
                                const Request& request, const MeshQuery* bin_mesh, const Vec3& down) {
-  const Falls falls(placed, overlaps, request, bin_mesh, down);
   std::vector<double> distances(placed.size(), infinity);
+  if (down.isZero()) return distances;
+  const Falls falls(placed, overlaps, request, bin_mesh, down);
   in_parallel(placed.size(), [&](std::size_t i) {
     if (placed[i].part->state == PartState::resting) distances[i] = falls.of(i);
   });

@@ -160,7 +160,6 @@ Worst<int> measure_bin(PenetrationReport& report, const std::vector<Placed>& pla
 Worst<int> measure_gaps(Report& report, const std::vector<Placed>& placed, const std::vector<Overlapping>& overlaps,
                         const Request& request, const MeshQuery* bin_mesh) {
   Worst<int> worst;
-  if (!(request.gravity.norm() > 0.0)) return worst;
   const std::vector<double> falls = free_falls(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
   std::vector<double> finite;
   for (std::size_t i = 0; i < placed.size(); ++i) {

@@ -86,6 +86,16 @@ TEST(Judge, GapIsTheFreeWayDown) {
   EXPECT_NEAR(heap.judged().gap.max, 0.007, 1e-9);
 }
 
+TEST(Judge, WithoutGravityNothingFalls) {
+  Heap heap;
+  heap.request.gravity.setZero();
+  heap.place(0, 0, 0.05);
+  heap.place(0.02, 0.03, 0.157).pose.orientation = Quat(Eigen::AngleAxisd(1.0, Vec3(1, 1, 1).normalized()));
+  EXPECT_EQ(heap.judged().gap.max, 0.0);
+  for (const PartQuality& part : part_quality(heap.scene, {heap.request, heap.models}))
+    EXPECT_EQ(part.gap, std::numeric_limits<double>::infinity()) << part.id;
+}
+
 TEST(Judge, WhatHangsInTheAirIsAReason) {
   Heap heap;
   heap.place(0, 0, 0.05);
