@@ -86,6 +86,10 @@ void HeapCore::start_clock() {
 void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
   states();
   const std::size_t first = states_.size();
+  if (course_ == Course::over) {
+    moving_from_ = plan_->request.parts.size();
+    course_ = Course::ahead;
+  }
   audit_.reset();  // it refers to the old plan
   plan_ = std::move(plan);
   solver_.remove_world(id_);

@@ -127,6 +127,8 @@ class HeapCore final : private HeapView {
   std::vector<ContactForce> kept_forces_;
   Course course_ = Course::ahead;
   double course_begun_ = 0.0;  ///< s
+  std::size_t moving_from_ =
+      0;  ///< part line: the motions of those before it, and of the bin, were in an earlier course
   std::vector<BodyState> states_;
   std::vector<Place> place_;
   std::vector<std::size_t> waiting_;  ///< bodies that have not entered, next one first

@@ -65,17 +65,19 @@ void HeapCore::set_gravity(const Vec3& gravity) {
 
 double HeapCore::motion_seconds() const {
   const Request& request = plan_->request;
-  double seconds = request.bin.motion.duration();
-  for (const PartLine& line : request.parts) seconds = std::max(seconds, line.motion.duration());
+  double seconds = moving_from_ == 0 ? request.bin.motion.duration() : 0.0;
+  for (std::size_t l = moving_from_; l < request.parts.size(); ++l)
+    seconds = std::max(seconds, request.parts[l].motion.duration());
   return seconds;
 }
 
 void HeapCore::put_on_path(double t, double dt, bool ends) {
   const Request& request = plan_->request;
-  solver_.set_frame(id_, frame_at(request.bin.motion, plan_->world.gravity, t, dt));
+  const Motion of_bin = moving_from_ == 0 ? request.bin.motion : Motion();
+  solver_.set_frame(id_, frame_at(of_bin, plan_->world.gravity, t, dt));
   for (std::size_t b = 0; b < states_.size(); ++b) {
     const PartLine& line = request.parts[plan_->line_of[b]];
-    if (!line.motion.any() || place_[b] != Place::in) continue;
+    if (!line.motion.any() || plan_->line_of[b] < moving_from_ || place_[b] != Place::in) continue;
     states_[b] = state_at(line.motion, line.poses[plan_->copy_of[b]], part(b).mass().center, t, dt);
     if (ends) states_[b].velocity = {};
     solver_.insert(id_, b, states_[b]);

@@ -1,4 +1,5 @@
 /// Bins and parts that follow a given motion, against closed forms, with both solvers.
+#include "bin_scenes/pour/heap.hpp"
 #include "bin_scenes/pour/pour.hpp"
 #include "box_mesh.hpp"
 
@@ -191,6 +192,25 @@ TEST_P(MotionTest, APusherMovesWhatStandsInItsWayAndIsStoppedByNothing) {
   EXPECT_GE(scene.parts[0].pose.position.x(), 0.1 + 0.01 + 0.5 * edge - 1e-3);
   EXPECT_LT(scene.parts[0].pose.position.x(), 0.1 + 0.01 + 0.5 * edge + 0.02);
   EXPECT_TRUE(scene.report.at_rest);
+}
+
+TEST_P(MotionTest, APusherThatIsAddedToAHeapMovesAndWhatHasMovedStays) {
+  PartLine first = add(Vec3(edge, 0.2, edge), Vec3(-0.3, 0, 0.5 * edge));
+  first.fixed = true;
+  first.motion.times = {0.5};
+  first.motion.poses = {{Vec3(0.1, 0, 0), Quat::Identity()}};
+  request.parts.back() = first;
+  std::string reason;
+  Heap heap({request, parts}, make_solver({request, parts}, reason));
+  ASSERT_TRUE(heap.settle());
+  ASSERT_NEAR(heap.scene().parts[1].pose.position.x(), -0.2, 1e-4);
+  PartLine second = first;
+  second.poses = {{Vec3(-0.1, 0, 0.5 * edge + 1e-3), Quat::Identity()}};
+  heap.add({{second, parts[1]}});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_NEAR(heap.scene().parts[2].pose.position.x(), 0.0, 1e-4);
+  EXPECT_NEAR(heap.scene().parts[0].pose.position.x(), edge, 2e-3) << "pushed";
+  EXPECT_NEAR(heap.scene().parts[1].pose.position.x(), -0.2, 1e-4) << "its motion is over";
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, MotionTest, ::testing::Values(SolverType::sphere, SolverType::bullet),
