@@ -10,9 +10,8 @@ namespace {
 
 /// Turn from one orientation to another (rad, in the axes that both are told in).
 Vec3 turn_between(const Quat& from, const Quat& to) {
-  const Eigen::AngleAxisd turn((to * from.conjugate()).normalized());
-  const double angle = turn.angle() > M_PI ? turn.angle() - 2.0 * M_PI : turn.angle();
-  return angle * turn.axis();
+  const Eigen::AngleAxisd turn((to * from.conjugate()).normalized());  // by half a turn at most
+  return turn.angle() * turn.axis();
 }
 
 /// Of the frame's origin, and its spin, in the axes that the bin had at the beginning.

@@ -189,6 +189,7 @@ BodyState state_of(const World& world, std::size_t body) {
 }
 
 std::vector<ContactForce> forces_of(const World& world, std::size_t bodies) {
+  // The bin is the last body, or the ground, and so never the first of two.
   const auto named = [&](std::uint32_t body) { return body < bodies ? static_cast<int>(body) : -1; };
   std::vector<ContactForce> forces;
   for (const Manifold& m : world.manifolds) {
@@ -197,10 +198,8 @@ std::vector<ContactForce> forces_of(const World& world, std::size_t bodies) {
       if (c.normal_force <= 0) continue;
       const bool field_of_a = c.feature >> 31;
       const Vec3f normal = field_of_a ? Vec3f(a.q * c.local_normal) : b ? Vec3f(b->q * c.local_normal) : c.local_normal;
-      ContactForce f{named(m.a), named(m.b), Vec3f(a.x + a.q * c.anchor_a).cast<double>(), normal.cast<double>(),
-                     Vec3f(c.normal_force * normal + c.friction_force).cast<double>()};
-      if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force};
-      if (f.a >= 0) forces.push_back(f);
+      forces.push_back({static_cast<int>(m.a), named(m.b), Vec3f(a.x + a.q * c.anchor_a).cast<double>(),
+                        normal.cast<double>(), Vec3f(c.normal_force * normal + c.friction_force).cast<double>()});
     }
   }
   return forces;

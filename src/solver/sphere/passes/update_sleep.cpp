@@ -81,8 +81,7 @@ void keep_held_awake(const World& world, std::vector<char>& awake) {
 }  // namespace
 
 /// By island: an island of bodies that press on each other sleeps once all of them have stayed where they are for the
-/// rest window; a moving body that presses on a sleeping one wakes the whole island. Single bodies never sleep: one
-/// that nothing supports yet would stay in the air.
+/// rest window; a moving body that presses on a sleeping one wakes the whole island.
 /// By part (a probe): each body sleeps alone once it has stayed. That is safe since all of them are awake at first.
 /// By touch (a repair): a body that moves wakes those it touches. Who is woken sleeps again after a rest window, and
 /// wakes others only if it moves itself.
