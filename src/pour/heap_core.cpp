@@ -157,7 +157,7 @@ bool HeapCore::outside(const Vec3& center) const {
       return std::abs(center.x()) > half.x() || std::abs(center.y()) > half.y() || center.z() < 0.0;
     }
     case Bin::Kind::mesh: {
-      const Aabb box = transformed(plan_->world.bin_model->mesh(), plan_->world.bin.pose).bounds();
+      const Aabb& box = plan_->bin_bounds;
       return center.x() < box.lower.x() || center.x() > box.upper.x() || center.y() < box.lower.y() ||
              center.y() > box.upper.y() || center.z() < box.lower.z();
     }

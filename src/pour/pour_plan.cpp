@@ -16,14 +16,17 @@ double largest_diagonal(const WorldDef& world) {
   return largest;
 }
 
-Opening opening_of(const WorldDef& world, double part) {
+Aabb bin_bounds_of(const WorldDef& world) {
+  return world.bin_model ? transformed(world.bin_model->mesh(), world.bin.pose).bounds() : Aabb();
+}
+
+Opening opening_of(const WorldDef& world, const Aabb& box, double part) {
   const Vec3 half = 0.5 * world.bin.inner_size;
   switch (world.bin.kind) {
     case Bin::Kind::box:
       return {Vec3(-half.x(), -half.y(), 0.0), Vec3(half.x(), half.y(), 2.0 * half.z())};
     case Bin::Kind::mesh: {
       // The walls' thickness is not known: stay clear of them by a tenth of the width on each side.
-      const Aabb box = transformed(world.bin_model->mesh(), world.bin.pose).bounds();
       const Vec3 rim(0.1 * box.size().x(), 0.1 * box.size().y(), 0.0);
       return {box.lower + rim, box.upper - rim};
     }
@@ -42,7 +45,8 @@ PourPlan::PourPlan(const LoadedRequest& loaded)
     : request(loaded.request),
       world(world_of(loaded)),
       largest_part(largest_diagonal(world)),
-      opening(opening_of(world, largest_part)) {
+      bin_bounds(bin_bounds_of(world)),
+      opening(opening_of(world, bin_bounds, largest_part)) {
   const Request& r = request;
   for (std::size_t l = 0; l < r.parts.size(); ++l) {
     const PartLine& line = r.parts[l];

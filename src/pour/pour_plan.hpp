@@ -19,6 +19,7 @@ struct PourPlan {
   std::vector<Cover> covers;                  ///< by part line
   Cover bin_cover;                            ///< mesh bin only
   double largest_part;                        ///< m: diagonal
+  Aabb bin_bounds;                            ///< mesh bin only
   Opening opening;                            ///< where parts enter; upper.z is the rim
   double entry_height = 0.0;                  ///< walls while parts enter (box bin)
   std::vector<std::size_t> line_of, copy_of;  ///< by body: part line, number within the line
