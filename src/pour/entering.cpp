@@ -111,7 +111,8 @@ double HeapCore::top() const {
 /// Cuts the raised walls down to the rim, once all parts are in.
 void HeapCore::cut_walls() {
   walls_raised_ = false;
-  if (top() <= plan_->world.wall_height) return;  // no part touches the walls above the rim
+  // No part touches the walls above the rim, and nothing carries one there.
+  if (top() <= plan_->world.wall_height && motion_seconds() == 0.0) return;
   earlier_steps_ += solver_.steps(id_);
   solver_.remove_world(id_);  // first: both at once would hold twice the memory
   make_world(false);

@@ -194,6 +194,18 @@ TEST_P(MotionTest, APusherMovesWhatStandsInItsWayAndIsStoppedByNothing) {
   EXPECT_TRUE(scene.report.at_rest);
 }
 
+TEST_P(MotionTest, WhatIsCarriedOverTheRimMeetsNoWallThere) {
+  request.bin.kind = Bin::Kind::box;
+  request.bin.inner_size = Vec3(0.2, 0.2, 0.15);
+  request.pour.pattern = Pour::Pattern::rain;
+  request.parts[0].poses.clear();
+  PartLine& tray = add(Vec3(0.19, 0.19, 0.01), Vec3(0, 0, 0.006));
+  tray.fixed = true;
+  tray.motion.times = {1.0, 3.0};
+  tray.motion.poses = {{Vec3(0, 0, 0.17), Quat::Identity()}, {Vec3(0.25, 0, 0.17), Quat::Identity()}};
+  EXPECT_EQ(run().parts[0].state, PartState::escaped) << "the walls that held what was poured are gone";
+}
+
 TEST_P(MotionTest, APusherThatIsAddedToAHeapMovesAndWhatHasMovedStays) {
   PartLine first = add(Vec3(edge, 0.2, edge), Vec3(-0.3, 0, 0.5 * edge));
   first.fixed = true;

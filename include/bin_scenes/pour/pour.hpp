@@ -37,12 +37,12 @@ WorldDef world_of(const LoadedRequest& loaded);
 /// order of the indices.
 ///
 /// While parts come in, the walls of a box reach above the rim far enough to hold what enters; when all are in and
-/// slow, they are cut back to the rim if the heap stands above it. A part whose centre of mass is then beside the inner
-/// floor area (at any height), below the floor, or not finite, has escaped: it is taken out of the world and keeps its
-/// last finite pose. A part that lies above the rim but within the floor area has not. With a mesh bin the bounds of
-/// the mesh stand for the inner box, with an endless floor only falling through it counts, with no bin only NaN.
-/// A part that finds no room below the rim while everything else has come to rest is not poured: it keeps its id, and
-/// its pose is Pose::none().
+/// slow, they are cut back to the rim if the heap stands above it or a motion follows. A part whose centre of mass is
+/// then beside the inner floor area (at any height), below the floor, or not finite, has escaped: it is taken out of
+/// the world and keeps its last finite pose. A part that lies above the rim but within the floor area has not. With a
+/// mesh bin the bounds of the mesh stand for the inner box, with an endless floor only falling through it counts, with
+/// no bin only NaN. A part that finds no room below the rim while everything else has come to rest is not poured: it
+/// keeps its id, and its pose is Pose::none().
 ///
 /// Ends when every part that is in has stayed within Pour::rest_move and rest_turn for Pour::rest_window (RestWatch),
 /// or at Pour::limit with parts in state `moving`; with Request::seconds exactly then, rest or not.
