@@ -111,12 +111,16 @@ void check_motion(const std::string& key, const Motion& motion) {
   }
 }
 
-void check_bin(const Bin& bin) {
+/// Whether gravity in the bin is, at last, what it was at first.
+bool ends_upright(const Motion& motion, const Vec3& gravity) {
+  return motion.poses.empty() || (motion.poses.back().orientation * gravity - gravity).norm() <= 1e-6 * gravity.norm();
+}
+
+void check_bin(const Bin& bin, const Vec3& gravity) {
   check_motion("bin.motion", bin.motion);
   if (!bin.motion.belt.isZero()) refuse("bin.motion.belt", "is of parts only", "make the conveyor a fixed part");
-  if (!bin.motion.poses.empty() && bin.motion.poses.back().orientation.vec().norm() > 1e-6) {
+  if (!ends_upright(bin.motion, gravity))
     refuse("bin.motion.poses", "does not end upright", "turn the bin back, or turn gravity instead");
-  }
   if (bin.kind == Bin::Kind::mesh && bin.mesh.empty()) refuse("bin.mesh", "is empty", "name a mesh file");
 }
 
@@ -203,7 +207,7 @@ void check(const Request& request) {
   Request copy = request;  // visitors take references to fields that are not const, because one of them reads
   RangeCheck ranges;
   visit(ranges, copy);
-  check_bin(request.bin);
+  check_bin(request.bin, request.gravity);
   if (request.parts.empty()) refuse("parts", "is missing or empty", "list at least one model");
   for (std::size_t i = 0; i < request.parts.size(); ++i) {
     check_part("parts[" + std::to_string(i) + "]", request.parts[i], request.pour.pattern);

@@ -131,6 +131,19 @@ TEST_P(MotionTest, ABlockOnATiltedFloorSlidesBeyondTheAngleOfFrictionAlone) {
   }
 }
 
+TEST_P(MotionTest, ABinMayEndTurnedAboutGravityButNotTilted) {
+  add(Vec3::Constant(edge), Vec3(0.3 * edge, 0, 1.5 * edge));
+  request.bin.motion.times = {3.0};
+  request.bin.motion.poses = {{Vec3::Zero(), turn(90.0, Vec3::UnitZ())}};
+  EXPECT_NO_THROW(check(request));
+  const Scene scene = run();
+  EXPECT_TRUE(scene.report.at_rest);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((scene.parts[i].pose.position - request.parts[i].poses[0].position).norm(), 2e-3 * edge) << i;
+  request.bin.motion.poses = {{Vec3::Zero(), turn(0.1, Vec3::UnitY())}};
+  EXPECT_THROW(check(request), Error);
+}
+
 TEST_P(MotionTest, WhatIsCarriedGentlyAndSetDownStaysWhereItLies) {
   add(Vec3::Constant(edge), Vec3(0.3 * edge, 0, 1.5 * edge));
   request.bin.motion.times = {1.0, 2.0, 3.0};
