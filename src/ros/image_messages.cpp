@@ -52,35 +52,64 @@ sensor_msgs::Image plane(const std::vector<Pixel>& pixels, const RangeImage& ima
   return message;
 }
 
-/// Depth as a camera without distortion would have it: of the nearest pixel, moved on its surface to the new ray.
-std::vector<float> rectified(const RangeImage& image) {
-  const Lens taken = lens_of(image.sensor);
-  Lens pinhole = taken;
-  pinhole.distortion = {};
-  const std::vector<std::array<float, 3>> points = points_of(image);
-  std::vector<float> depth(image.depth.size(), std::numeric_limits<float>::quiet_NaN());
-  for (int row = 0; row < image.height; ++row) {
-    for (int column = 0; column < image.width; ++column) {
-      const Vec3 ray = pinhole.ray(column, row);
-      const auto pixel = taken.project(ray);
-      if (!pixel || !taken.inside(*pixel)) continue;
-      const auto x = static_cast<std::size_t>(std::clamp(std::lround(pixel->x()), 0l, image.width - 1l));
-      const auto y = static_cast<std::size_t>(std::clamp(std::lround(pixel->y()), 0l, image.height - 1l));
-      const std::size_t nearest = y * image.width + x;
-      const auto &n = image.normal[nearest], &p = points[nearest];
-      const Vec3 normal(n[0], n[1], n[2]);
-      const double z = normal.dot(Vec3(p[0], p[1], p[2])) / normal.dot(ray);
-      // Of a face seen edge on the plane leads anywhere.
-      const bool near = std::abs(z - image.depth[nearest]) < 0.1 * image.depth[nearest];
-      depth[static_cast<std::size_t>(row) * image.width + column] = near ? static_cast<float>(z) : image.depth[nearest];
-    }
-  }
-  return depth;
-}
-
 /// Whether pixels of what was measured are pixels of the camera; rows of a laser line's image are profiles.
 bool of_camera(const RangeImage& image) {
   return image.width == image.sensor.width && image.height == image.sensor.height && image.points.empty();
+}
+
+/// Of each pixel of the camera without distortion the nearest one that was taken, as its index; none outside of what
+/// the lens sees.
+std::vector<std::optional<std::size_t>> nearest_taken(const RangeImage& image) {
+  const Lens taken = lens_of(image.sensor);
+  Lens pinhole = taken;
+  pinhole.distortion = {};
+  std::vector<std::optional<std::size_t>> nearest(static_cast<std::size_t>(image.width) * image.height);
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const auto pixel = taken.project(pinhole.ray(column, row));
+      if (!pixel || !taken.inside(*pixel)) continue;
+      const auto x = static_cast<std::size_t>(std::clamp(std::lround(pixel->x()), 0l, image.width - 1l));
+      const auto y = static_cast<std::size_t>(std::clamp(std::lround(pixel->y()), 0l, image.height - 1l));
+      nearest[static_cast<std::size_t>(row) * image.width + column] = y * image.width + x;
+    }
+  }
+  return nearest;
+}
+
+bool needs_rectifying(const RangeImage& image) {
+  return of_camera(image) && lens_of(image.sensor).distorts();
+}
+
+/// Pixels as a camera without distortion would have them, of the same places as rectified_depth().
+template <class Pixel>
+std::vector<Pixel> rectified(const std::vector<Pixel>& pixels, Pixel outside, const RangeImage& image) {
+  if (!needs_rectifying(image)) return pixels;
+  std::vector<Pixel> moved(pixels.size(), outside);
+  const auto nearest = nearest_taken(image);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (nearest[i]) moved[i] = pixels[*nearest[i]];
+  return moved;
+}
+
+/// Likewise depth: that of the nearest pixel, moved on its surface to the new ray.
+std::vector<float> rectified_depth(const RangeImage& image) {
+  if (!needs_rectifying(image)) return image.depth;
+  Lens pinhole = lens_of(image.sensor);
+  pinhole.distortion = {};
+  const std::vector<std::array<float, 3>> points = points_of(image);
+  const auto nearest = nearest_taken(image);
+  std::vector<float> depth(image.depth.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (!nearest[i]) continue;
+    const auto &n = image.normal[*nearest[i]], &p = points[*nearest[i]];
+    const Vec3 normal(n[0], n[1], n[2]);
+    const Vec3 ray = pinhole.ray(static_cast<int>(i) % image.width, static_cast<int>(i) / image.width);
+    const double z = normal.dot(Vec3(p[0], p[1], p[2])) / normal.dot(ray);
+    const float seen = image.depth[*nearest[i]];
+    // Of a face seen edge on the plane leads anywhere.
+    depth[i] = std::abs(z - seen) < 0.1 * seen ? static_cast<float>(z) : seen;
+  }
+  return depth;
 }
 
 }  // namespace
@@ -139,16 +168,17 @@ sensor_msgs::PointCloud2 colored_cloud_message(const RangeImage& image, const st
 }
 
 sensor_msgs::Image depth_message(const RangeImage& image, const std_msgs::Header& header) {
-  const bool distorts = of_camera(image) && lens_of(image.sensor).distorts();
-  return plane(distorts ? rectified(image) : image.depth, image, sensor_msgs::image_encodings::TYPE_32FC1, header);
+  return plane(rectified_depth(image), image, sensor_msgs::image_encodings::TYPE_32FC1, header);
 }
 
 sensor_msgs::Image label_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(image.label, image, sensor_msgs::image_encodings::TYPE_16UC1, header);
+  return plane(rectified(image.label, std::uint16_t{0}, image), image, sensor_msgs::image_encodings::TYPE_16UC1,
+               header);
 }
 
 sensor_msgs::Image validity_message(const RangeImage& image, const std_msgs::Header& header) {
-  return plane(image.validity, image, sensor_msgs::image_encodings::MONO8, header);
+  const auto outside = static_cast<std::uint8_t>(Validity::nothing);
+  return plane(rectified(image.validity, outside, image), image, sensor_msgs::image_encodings::MONO8, header);
 }
 
 std::optional<sensor_msgs::Image> picture_message(const RangeImage& image, const std_msgs::Header& header) {

@@ -149,31 +149,42 @@ TEST(ImageMessages, DepthAndLabelsKeepTheirPixels) {
   EXPECT_EQ(messages.validity.data, image.validity);
 }
 
-TEST(ImageMessages, RectifiedDepthLiesOnTheSurface) {
-  // Two tilted planes that meet in a step of 50 mm, seen through a lens that distorts.
+TEST(ImageMessages, RectifiedImagesAreOfTheSameSurface) {
+  // Two tilted planes that meet in a step of 50 mm, seen through a lens that distorts; each has a label and a code.
   RangeImage image;
   image.sensor = testing::some_sensor("camera", 0.0);
   Lens lens = Lens::from_fov(image.width = 160, image.height = 120, 1.0);
   image.sensor.width = image.width, image.sensor.height = image.height;
   image.sensor.k = {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1};
-  lens.distortion = image.sensor.distortion = {-0.25, 0.1, 0.001, -0.002, 0.0};
+  lens.distortion = image.sensor.distortion = {0.15, 0.05, 0.001, -0.002, 0.0};
   const Vec3 normal = Vec3(0.5, -0.3, -1.0).normalized();
   const auto depth = [&](bool left, const Vec3& ray) { return (left ? -0.75 : -0.70) / normal.dot(ray); };
   for (int i = 0; i < image.width * image.height; ++i) {
-    const bool left = i % image.width < 80;
+    const bool left = i % image.width < 30;  // far from the middle, where nothing is moved
     image.depth.push_back(static_cast<float>(depth(left, lens.ray(i % image.width, i / image.width))));
     image.normal.push_back({float(normal.x()), float(normal.y()), float(normal.z())});
+    image.label.push_back(left ? 1 : 2);
+    image.validity.push_back(left ? 0 : 6);
   }
   const sensor_msgs::Image message = depth_message(image, {});
+  const sensor_msgs::Image labels = label_message(image, {}), validity = validity_message(image, {});
   lens.distortion = {};
   int compared = 0;
-  for (int i = 0; i < image.width * image.height; ++i) {
+  for (std::size_t i = 0; i < image.depth.size(); ++i) {
     float z;
-    std::memcpy(&z, &message.data[static_cast<std::size_t>(i) * sizeof z], sizeof z);
-    if (std::isnan(z)) continue;
-    const Vec3 ray = lens.ray(i % image.width, i / image.width);
-    const double off = std::min(std::abs(z - depth(true, ray)), std::abs(z - depth(false, ray)));
-    ASSERT_LT(off, 1e-6) << i;  // on one of the planes, never between them
+    std::uint16_t label;
+    std::memcpy(&z, &message.data[i * sizeof z], sizeof z);
+    std::memcpy(&label, &labels.data[i * sizeof label], sizeof label);
+    if (std::isnan(z)) {  // where the lens sees nothing
+      ASSERT_EQ(label, 0) << i;
+      ASSERT_EQ(validity.data[i], 1) << i;
+      continue;
+    }
+    const Vec3 ray = lens.ray(static_cast<int>(i) % image.width, static_cast<int>(i) / image.width);
+    const double off_left = std::abs(z - depth(true, ray)), off_right = std::abs(z - depth(false, ray));
+    ASSERT_LT(std::min(off_left, off_right), 1e-6) << i;  // on one of the planes, never between them
+    ASSERT_EQ(label, off_left < off_right ? 1 : 2) << i;
+    ASSERT_EQ(validity.data[i], off_left < off_right ? 0 : 6) << i;
     ++compared;
   }
   EXPECT_GT(compared, 15000);
