@@ -37,7 +37,7 @@ Heap& SceneMaker::heap(const char* purpose) const {
 
 MadeScene SceneMaker::pick(const std::vector<int>& ids, const Lift& lift, const RunHooks& hooks) {
   Heap& heap = this->heap("pick_part");
-  if (lift.distance > 0.0) heap.lift(ids, lift.direction, lift.distance, hooks);
+  if (lift.distance != 0.0) heap.lift(ids, lift.direction, lift.distance, hooks);
   heap.remove(ids);
   return settled(heap_, hooks);
 }
@@ -58,7 +58,7 @@ MadeScene SceneMaker::add(const std::vector<PartLine>& lines, const RunHooks& ho
 }
 
 MadeScene SceneMaker::settle(const RunHooks& hooks) {
-  heap("settle");
+  heap("pick_part");
   return settled(heap_, hooks);
 }
 

@@ -120,12 +120,16 @@ class HeapTest(NodeTestCase):
         self.assertGreater(max(told.visible), 0.3)
         self.assertTrue(all(m <= v for m, v in zip(told.measured, told.visible)))
 
-    def test_wrong_ids_change_nothing(self):
+    def test_wrong_ids_and_distances_change_nothing(self):
         before = self.doors.scene()
         for ids in ([99], [-1], [0, 1, 2, 77]):
             response = self.doors.pick(ids=ids)
             self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT))
             self.assertIn("no part", response.message)
+        for distance in (float("nan"), float("inf"), -0.1, 11.0):
+            response = self.doors.pick(ids=[0], lift_distance=distance)
+            self.assertEqual((response.success, response.error_code.value), (False, ErrorCode.INPUT), distance)
+            self.assertIn("distance", response.message)
         self.assertEqual(self.doors.latched().header.stamp, before.header.stamp)
         self.assertTrue(all(p.state == ScenePart.RESTING for p in self.picked([]).parts))
 
