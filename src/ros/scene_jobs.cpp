@@ -2,6 +2,7 @@
 /// while the node runs go through here too.
 #include "scene_jobs.hpp"
 
+#include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "grasp_message.hpp"
 #include "request_message.hpp"
@@ -239,8 +240,10 @@ Request SceneJobs::request_of(const bin_scenes_msgs::SceneRequest& message) cons
   if (!live.solver.empty() && message.solver.empty()) set.push_back("solver.type=" + live.solver);
   full.set.insert(full.set.begin(), set.begin(), set.end());
   Request request = request_from(full, settings_.paths);
-  if (!live.noise)
+  if (!live.noise) {
     for (Sensor& sensor : request.sensors) sensor.noise = false;
+    request.text_sha256 = request_hash(request);
+  }
   return request;
 }
 

@@ -7,10 +7,13 @@ import os
 import sys
 import time
 
+import dynamic_reconfigure.client
+import numpy as np
 import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import scene_data as data  # noqa: E402
 from scene_client import CAMERA, Doors, NodeTestCase, wait_until  # noqa: E402
 from bin_scenes.msg import ErrorCode, PartLine, ScenePart  # noqa: E402
 from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
@@ -189,14 +192,41 @@ class HeapTest(NodeTestCase):
             (s.name, {v.key: v.value for v in s.values}) for s in array.status))
         clouds = []
         looking = rospy.Subscriber("/ahead/points", PointCloud2, clouds.append)
+        wait_until(lambda: looking.get_num_connections() > 0)  # before scenes are made ahead
         scene = ahead.scene(CAMERA)
         wait_until(lambda: clouds and clouds[-1].header.stamp == scene.header.stamp)
-        wait_until(lambda: said.get("ahead/bin_scenes ahead/: scene", {}).get("scenes ahead") == "2")
+        wait_until(lambda: said.get("ahead/bin_scenes: scene", {}).get("scenes ahead") == "2")
         looking.unregister()
         time.sleep(1.0)  # the node sees that nobody looks any more
         self.assertTrue(ahead.next().success)
         self.assertEqual({c.name: c.value for c in ahead.latched().report.counters}["views"], 1)
         diagnostics.unregister()
+
+    def test_scenes_made_ahead_with_noise_are_no_answer_to_a_request_without(self):
+        ahead, clouds = Doors("/ahead/"), []
+        config = dynamic_reconfigure.client.Client("/ahead/bin_scenes", timeout=30)
+        looking = rospy.Subscriber("/ahead/points", PointCloud2, clouds.append)
+        noisy = CAMERA.replace("name: camera", "name: camera, model: time_of_flight, bounces: 0")
+
+        def roughness():
+            """m, median: a pixel's depth beside the mean of its neighbours in the row."""
+            wait_until(lambda: clouds and clouds[-1].header.stamp == ahead.latched().header.stamp)
+            z = data.cloud_array(clouds[-1])["z"]
+            return np.nanmedian(np.abs(z[:, 1:-1] - 0.5 * (z[:, 2:] + z[:, :-2])))
+
+        try:
+            with_noise = ahead.scene(noisy)
+            self.assertGreater(roughness(), 3e-4)
+            time.sleep(2.0)  # scenes are made ahead
+            config.update_configuration({"noise": False})
+            without = ahead.scene(noisy)
+            self.assertLess(roughness(), 1e-4)
+            self.assertNotEqual(without.request_sha256, with_noise.request_sha256)
+            self.assertTrue(ahead.next().success)
+            self.assertLess(roughness(), 1e-4)
+        finally:
+            config.update_configuration({"noise": True})
+            looking.unregister()
 
     def test_two_bins_of_one_node_know_nothing_of_each_other(self):
         left, right = Doors("/two/left/"), Doors("/two/right/")
