@@ -37,19 +37,15 @@ double kilobytes(const char* file, const std::string& entry) {
   return 0.0;
 }
 
-std::string name_of_bin(const Settings& settings) {
-  const std::string& prefix = settings.frames.prefix;
-  return ros::this_node::getName() + (prefix.empty() ? "" : " " + prefix);
-}
-
 }  // namespace
 
+// Named after the parameters: the process of a nodelet is its manager, and a node may have several bins.
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& params, const SceneJobs& jobs,
                          const Publication& publication, const Settings& settings)
     : jobs_(jobs),
       publication_(publication),
       queue_size_(settings.queue_size),
-      updater_(node, params, name_of_bin(settings)) {
+      updater_(node, params, params.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("device", [this](Status& status) { device(status); });
   updater_.add("scene", [this](Status& status) { scene(status); });

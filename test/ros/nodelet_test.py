@@ -47,6 +47,7 @@ class NodeletTest(NodeTestCase):
         self.doors.scene()
         wait_until(lambda: {"device", "scene", "queue", "cache", "memory", "sensors"} <= set(self.said))
         wait_until(lambda: "accepted" in self.said["scene"].message)
+        self.assertEqual(self.said["scene"].name, "bin_scenes: scene", "its own name, not that of the manager")
         self.assertEqual(self.said["scene"].level, DiagnosticStatus.OK)
         self.assertIn("bullet", self.said["device"].message)
         for _ in range(3):
