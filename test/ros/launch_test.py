@@ -106,8 +106,11 @@ class LaunchTest(LaunchTestCase):
             doors = Doors()
             with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "recorded")) as recorder:
                 wait_until(self.recorder_listens, 60)
-                scene = doors.scene(CAMERA)
-                time.sleep(1.0)
+                # A recorder of another node's topics leaves the first one alone.
+                with Launched("record.launch", "bag:=" + os.path.join(self.folder.name, "other"), "space:=/other/"):
+                    wait_until(lambda: self.recorder_listens("/other/validity/image_raw"), 60)
+                    scene = doors.scene(CAMERA.replace("name: camera", "name: camera, model: image"))
+                    time.sleep(1.0)
         pattern = os.path.join(self.folder.name, "recorded*.bag")
         try:
             wait_until(lambda: glob.glob(pattern), 20)  # roslaunch may end before rosbag has closed its file
@@ -116,9 +119,9 @@ class LaunchTest(LaunchTestCase):
         with rosbag.Bag(glob.glob(pattern)[0]) as bag:
             found = bag.get_type_and_topic_info().topics
             for topic in ("/scene", "/markers", "/points", "/depth/image_rect", "/depth/camera_info", "/labels/image_raw",
-                          "/validity/image_raw", "/acquisition_done", "/tf", "/tf_static"):
+                          "/validity/image_raw", "/image_raw", "/camera_info", "/acquisition_done", "/tf", "/tf_static"):
                 self.assertIn(topic, found)
-            stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw"])}
+            stamps = {m.header.stamp for _, m, _ in bag.read_messages(["/scene", "/points", "/labels/image_raw", "/image_raw"])}
         self.assertEqual(stamps, {scene.header.stamp})
 
     def test_record_mcap(self):
@@ -147,9 +150,9 @@ class LaunchTest(LaunchTestCase):
         self.assertIn("zip", refused.stderr + refused.stdout)
 
     @staticmethod
-    def recorder_listens():
+    def recorder_listens(topic="/validity/image_raw"):
         _, subscribed, _ = rospy.get_master().getSystemState()[2]
-        return any(topic == "/validity/image_raw" and nodes for topic, nodes in subscribed)
+        return any(name == topic and nodes for name, nodes in subscribed)
 
     def test_icp_check(self):
         """ICP of what the camera sees ends where TF says that the parts are, and nothing had to be remapped."""
