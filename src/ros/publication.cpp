@@ -105,7 +105,8 @@ Publication::Publication(const ros::NodeHandle& node, const Settings& settings, 
   node_.setCallbackQueue(thread_.queue());
   scene_ = node_.advertise<bin_scenes_msgs::Scene>(topic::scene, 1, true);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>(topic::markers, 1, true);
-  tf_static_ = node_.advertise<tf2_msgs::TFMessage>(topic::tf_static, 1, true);
+  // Bins of one process share this topic and its queue, which takes the last message of each for whoever comes late.
+  tf_static_ = node_.advertise<tf2_msgs::TFMessage>(topic::tf_static, 100, true);
   done_ = node_.advertise<std_msgs::Header>(topic::acquisition_done, 10);
   set_topics({Sensor()});
   set_publish_rate(settings.publish_rate);

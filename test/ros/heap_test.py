@@ -19,6 +19,7 @@ from bin_scenes.msg import ErrorCode, PartLine, ScenePart  # noqa: E402
 from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from geometry_msgs.msg import Vector3  # noqa: E402
 from sensor_msgs.msg import PointCloud2  # noqa: E402
+from tf2_msgs.msg import TFMessage  # noqa: E402
 
 class HeapTest(NodeTestCase):
     @classmethod
@@ -234,6 +235,11 @@ class HeapTest(NodeTestCase):
         self.assertEqual(left.latched().header.stamp, one.header.stamp)
         self.assertEqual((one.parts[0].frame_id, two.parts[0].frame_id), ("left/part_0000", "right/part_0000"))
         self.assertEqual(one.header.frame_id, "left/bin")
+        for _ in range(5):  # also for whoever comes late
+            frames = set()
+            late = rospy.Subscriber("/tf_static", TFMessage, lambda m: frames.update(t.child_frame_id for t in m.transforms))
+            wait_until(lambda: {"left/bin", "right/bin"} <= frames)
+            late.unregister()
         self.assertTrue(left.clear().success)
         self.assertEqual(len(right.latched().parts), 5)
 
