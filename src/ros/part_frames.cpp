@@ -51,7 +51,7 @@ ros::Time PartFrames::show(tf2_msgs::TFMessage parts) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::Time now = ros::Time::now();
   if (now.isZero()) {
-    ROS_WARN("use_sim_time is set, but no clock runs: the scene gets a stamp of almost 0 until /clock is published");
+    ROS_WARN_ONCE("use_sim_time is set, but no clock runs: scenes get stamps of almost 0 until /clock is published");
   }
   clock_changed(now);
   const ros::Time stamp = std::max(now, last_sent_ + least_step);

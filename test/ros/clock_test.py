@@ -5,10 +5,11 @@ import os
 import sys
 import time
 
+import dynamic_reconfigure.client
 import rospy
 import rostest
 import tf2_ros
-from rosgraph_msgs.msg import Clock
+from rosgraph_msgs.msg import Clock, Log
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from scene_client import CAMERA, Doors, NodeTestCase, wait_until  # noqa: E402
@@ -22,6 +23,8 @@ class ClockTest(NodeTestCase):
         clock = rospy.Publisher("/clock", Clock, queue_size=1)
         scenes, clouds = [], []
         rospy.Subscriber("scene", Scene, scenes.append)
+        warnings = []
+        rospy.Subscriber("/rosout", Log, lambda log: warnings.append(log) if "no clock runs" in log.msg else None)
         rospy.Subscriber("points", PointCloud2, clouds.append)
         tf = tf2_ros.Buffer(rospy.Duration(10))
         tf2_ros.TransformListener(tf)
@@ -44,6 +47,13 @@ class ClockTest(NodeTestCase):
         self.assertGreater(first.header.stamp, rospy.Time(0))
         self.assertLess(first.header.stamp, rospy.Time(1))
         wait_until(lambda: tf.can_transform("bin", "part_0004", first.header.stamp))
+        # That is told once, however often the scene is published again.
+        config = dynamic_reconfigure.client.Client("bin_scenes", timeout=30)
+        config.update_configuration({"publish_rate": 50.0})
+        wait_until(lambda: len({scene.header.stamp for scene in scenes}) > 5)
+        config.update_configuration({"publish_rate": 0.0})
+        wait_until(lambda: warnings)
+        self.assertEqual(len(warnings), 1)
         # It begins, late.
         shown_near(1000.0)
         self.assertEqual(scenes[-1].parts[0].pose, first.parts[0].pose)
