@@ -140,5 +140,8 @@ int main(int argc, char** argv) {
   } catch (const bin_scenes::Error& error) {
     std::cerr << "bin_scenes record: " << error.what() << std::endl;
     return error.kind() == bin_scenes::ErrorKind::input ? 2 : 3;
+  } catch (const ros::InvalidNameException& error) {  // a topic, or a name that another is remapped to
+    std::cerr << "bin_scenes record: " << error.what() << std::endl;
+    return 2;
   }
 }

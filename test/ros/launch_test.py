@@ -23,7 +23,7 @@ from sensor_msgs.msg import PointCloud2
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import scene_data as data  # noqa: E402
 from launched import LaunchTestCase, Launched  # noqa: E402
-from scene_client import CAMERA, Doors, wait_until  # noqa: E402
+from scene_client import CAMERA, Doors, run, wait_until  # noqa: E402
 
 
 def mcap_summary(path):
@@ -148,6 +148,10 @@ class LaunchTest(LaunchTestCase):
                                  timeout=60)
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn("zip", refused.stderr + refused.stdout)
+        refused = run("rosrun", "bin_scenes", "record", "-o", os.path.join(self.folder.name, "refused"), "/my-cell/points")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("/my-cell/points", refused.stderr)
+        self.assertEqual(glob.glob(os.path.join(self.folder.name, "*refused*")), [])
 
     @staticmethod
     def recorder_listens(topic="/validity/image_raw"):
