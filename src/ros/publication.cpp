@@ -172,6 +172,10 @@ bin_scenes_msgs::Scene Publication::show(MadeScene made) {
   });
 }
 
+ros::Time Publication::stamp() {
+  return thread_.call([this] { return shown_ ? shown_->stamp : ros::Time(); });
+}
+
 void Publication::publish(Shown& shown) {
   // First of all, because whoever gets a cloud looks up the parts at its stamp.
   shown.stamp = frames_.show(shown.messages.parts);

@@ -31,6 +31,8 @@ class Publication {
   void render(MadeScene& made, bool all, const RunHooks& hooks);
   /// Shows a scene under a new stamp, and returns it as published. If it throws, the scene before stays.
   bin_scenes_msgs::Scene show(MadeScene made);
+  /// Of the scene shown, which is published again now and then; zero: none is.
+  ros::Time stamp();
   void set_tf(double rate, double span) { frames_.set(rate, span); }
   void set_publish_rate(double rate);
 

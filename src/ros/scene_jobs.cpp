@@ -103,9 +103,10 @@ std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request
         maker_->grasps(made, request.render ? made.images : std::vector<RangeImage>(), job.hooks());
     const std::vector<SceneGrasp> chosen = chosen_grasps(grasps, request);
     job.commit();
-    fill(told->response, chosen, grasps, made.loaded.request, settings_.frames, stamp_);
+    const ros::Time stamp = publication_.stamp();  // of now: it changes with publish_rate and the clock
+    fill(told->response, chosen, grasps, made.loaded.request, settings_.frames, stamp);
     if (request.render) fill_shares(told->response, chosen, made.scene.sensors);
-    told->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp_);
+    told->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp);
     Outcome outcome;
     outcome.success = true;
     return outcome;
@@ -194,7 +195,6 @@ Outcome SceneJobs::show(MadeScene made) {
 
   Outcome outcome;
   outcome.scene = publication_.show(std::move(made));
-  stamp_ = outcome.scene.header.stamp;
   maker_->keep(kept);
   if (ahead_) ahead_->follow(kept.asked, kept.scene.index);
   outcome.success = report.accepted;

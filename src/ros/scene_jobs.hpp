@@ -80,7 +80,6 @@ class SceneJobs {
   mutable std::mutex mutex_;  ///< of live_ and status_
   LiveSettings live_;
   Status status_;
-  ros::Time stamp_;                    ///< of the scene that is shown; of the thread of the jobs
   std::unique_ptr<SceneMaker> maker_;  ///< of the thread of the jobs
   std::unique_ptr<Ahead> ahead_;
   JobQueue queue_;  ///< last: its thread uses all of the above

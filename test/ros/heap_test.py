@@ -253,6 +253,10 @@ class HeapTest(NodeTestCase):
         self.assertGreater(clouds[-1].header.stamp, first.header.stamp)
         self.assertEqual(clouds[-1].data, clouds[0].data)
         self.assertGreater(streaming.latched().header.stamp, first.header.stamp)
+        # Grasps have a stamp that is on TF, not that of ten seconds ago or more.
+        first = streaming.scene(CAMERA + "grippers: [cup_10mm]\n")
+        wait_until(lambda: streaming.latched().header.stamp > first.header.stamp)
+        self.assertGreater(streaming.grasps().poses.header.stamp, first.header.stamp)
 
 
 if __name__ == "__main__":
