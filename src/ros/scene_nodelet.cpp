@@ -14,8 +14,12 @@ class SceneNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
+      const ros::NodeHandle& params = getPrivateNodeHandle();
+      if (params.hasParam("bins"))
+        throw input_error("a nodelet has one bin", "parameter " + params.resolveName("bins"),
+                          "load a nodelet for each bin, in a namespace and with a frame_prefix of its own");
       watch_ = std::make_unique<MasterWatch>();
-      server_ = std::make_unique<SceneServer>(getNodeHandle(), getPrivateNodeHandle(), SceneServer::Host::nodelet);
+      server_ = std::make_unique<SceneServer>(getNodeHandle(), params, SceneServer::Host::nodelet);
     } catch (const Error& error) {
       NODELET_FATAL("%s", error.what());
       throw;  // the manager then answers that the nodelet was not loaded

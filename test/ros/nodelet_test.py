@@ -78,6 +78,12 @@ class NodeletTest(NodeTestCase):
         config.update_configuration({"finish": "request", "publish_rate": 0.0})
         self.assertEqual(config.update_configuration({"tf_rate": 1e9})["tf_rate"], 1000.0)
 
+    def test_several_bins_are_refused(self):
+        rospy.set_param("/several/bins", ["left", "right"])
+        ended = run("rosrun", "nodelet", "nodelet", "load", "bin_scenes/scenes", "bin_manager", "__name:=several")
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertTrue(self.doors.scene().parts)
+
     def test_messages_are_documented(self):
         shown = run("rosmsg", "show", "-r", "bin_scenes/GenerateSceneFeedback").stdout + run(
             "rossrv", "show", "-r", "bin_scenes/PickPart").stdout
