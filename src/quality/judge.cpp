@@ -214,7 +214,10 @@ void judge(Scene& scene, const LoadedRequest& loaded) {
   report.penetration = {};
   report.gap = {};
   report.reasons.clear();
-  const std::vector<Placed> placed = placed_parts(scene, loaded.parts);
+  std::vector<Placed> placed = placed_parts(scene, loaded.parts);
+  // What escaped was taken out of the simulation where it was then: others pass through it.
+  const auto gone = [](const Placed& p) { return p.part->state == PartState::escaped; };
+  placed.erase(std::remove_if(placed.begin(), placed.end(), gone), placed.end());
   const std::vector<Overlapping> overlaps = overlapping_pairs(placed);
   const MeshQuery* bin_mesh = loaded.bin_model ? &loaded.bin_model->query() : nullptr;
   const WorstPair pair = measure_pairs(report.penetration, placed, overlaps);

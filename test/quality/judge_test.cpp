@@ -167,6 +167,22 @@ TEST(Judge, EscapedAndMovingPartsAreReasons) {
   EXPECT_TRUE(heap.judged().accepted);
 }
 
+/// The solver has let go of what escaped: others pass through it where it was last.
+TEST(Judge, EscapedPartsNeitherOverlapNorHoldOthers) {
+  Heap heap;
+  heap.place(0, 0, 0.05);
+  heap.place(0.7, 0, 0.3).state = PartState::escaped;
+  heap.place(0.75, 0, 0.32).state = PartState::escaped;  // in the other one that escaped
+  heap.place(0.02, 0, 0.04).state = PartState::escaped;  // in the resting one
+  heap.place(0.3, 0, 0.16).state = PartState::resting;   // above one that escaped, which is no floor
+  heap.place(0.3, 0, 0.06).state = PartState::escaped;
+  heap.request.accept.escaped = true;
+  EXPECT_EQ(heap.judged().penetration.pairs, 0u);
+  EXPECT_NEAR(heap.judged().gap.max, 0.11, 1e-9);
+  heap.scene.parts[4].pose.position.z() = 0.05;
+  EXPECT_EQ(heap.judged().reasons, std::vector<std::string>());
+}
+
 TEST(Judge, ASceneInWhichNothingWasPouredIsSetApart) {
   Heap heap;
   heap.place(0, 0, 0.05).state = PartState::fixed;
