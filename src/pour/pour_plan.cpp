@@ -28,7 +28,7 @@ Opening opening_of(const WorldDef& world, const Aabb& box, double part) {
     case Bin::Kind::mesh: {
       // The walls' thickness is not known: stay clear of them by a tenth of the width on each side.
       const Vec3 rim(0.1 * box.size().x(), 0.1 * box.size().y(), 0.0);
-      return {box.lower + rim, box.upper - rim};
+      return {box.lower + rim, box.upper - rim, outline(transformed(world.bin_model->mesh(), world.bin.pose))};
     }
     case Bin::Kind::floor:
     case Bin::Kind::none:

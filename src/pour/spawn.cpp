@@ -62,6 +62,25 @@ std::optional<Turned> turned_to_fit(const PartModel& part, const Opening& openin
   return std::nullopt;
 }
 
+/// The sides of the opening, moved inwards so that the frame of a part may go as far as they say.
+std::vector<Opening::Side> for_frames(std::vector<Opening::Side> sides, const PartModel& part,
+                                      const Quat& orientation) {
+  const Mat3 rotation = orientation.toRotationMatrix();
+  for (Opening::Side& side : sides) {
+    double reach = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : part.corners())
+      reach = std::max(reach, rotation.row(0).dot(v) * side.normal_x + rotation.row(1).dot(v) * side.normal_y);
+    side.distance -= reach;
+  }
+  return sides;
+}
+
+bool within(const std::vector<Opening::Side>& sides, const Vec3& x) {
+  return std::all_of(sides.begin(), sides.end(), [&](const Opening::Side& side) {
+    return side.normal_x * x.x() + side.normal_y * x.y() <= side.distance;
+  });
+}
+
 /// Height by which ball b must stand above its height now to clear ball a; -infinity if it passes beside it.
 double lift(const Vec3& a, double ra, const Vec3& b, double rb) {
   const double reach = ra + rb, beside = (a - b).head<2>().squaredNorm();
@@ -70,6 +89,33 @@ double lift(const Vec3& a, double ra, const Vec3& b, double rb) {
 }
 
 }  // namespace
+
+std::vector<Opening::Side> outline(const Mesh& mesh) {
+  const auto before = [](const Vec3& a, const Vec3& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); };
+  const auto turns_left = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > 0.0;
+  };
+  std::vector<Vec3> points = mesh.vertices, hull;
+  std::sort(points.begin(), points.end(), before);
+  for (int half = 0; half < 2; ++half) {  // Andrew's monotone chain: there below, and back above
+    const std::size_t first = hull.size();
+    for (const Vec3& p : points) {
+      while (hull.size() >= first + 2 && !turns_left(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();  // the other half begins with it
+    std::reverse(points.begin(), points.end());
+  }
+  std::vector<Opening::Side> sides;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec3 &a = hull[i], along = hull[(i + 1) % hull.size()] - a;
+    const double length = along.head<2>().norm();
+    if (!(length > 0.0)) continue;
+    const double x = along.y() / length, y = -along.x() / length;
+    sides.push_back({x, y, x * a.x() + y * a.y()});
+  }
+  return sides;
+}
 
 Cover cover(const Mesh& mesh, int cells) {
   const Aabb bounds = mesh.bounds();
@@ -114,12 +160,14 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
   if (!turned) return std::nullopt;
   const auto& [orientation, bounds] = *turned;
   const Vec3 lower = opening_.lower - bounds.lower, upper = opening_.upper - bounds.upper;
+  const std::vector<Opening::Side> sides = for_frames(opening_.sides, part, orientation);
   std::optional<Pose> best;
   std::vector<Vec3> own(shape.balls.size());  // where its balls are, this try
   sort();
   for (int t = 0; t < tries; ++t) {
     const double u = random.uniform(), v = random.uniform();  // drawn before any test: one try, one set of numbers
     Pose pose{{lower.x() + u * (upper.x() - lower.x()), lower.y() + v * (upper.y() - lower.y()), 0.0}, orientation};
+    if (!within(sides, pose.position)) continue;
 
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
     const Vec3 middle = pose * shape.center;
@@ -162,13 +210,22 @@ std::vector<Pose> grid_poses(const std::vector<const PartModel*>& parts, const O
   const Vec3 size = opening.upper - opening.lower;
   const auto columns = [&](double length) { return std::max<std::size_t>(1, static_cast<std::size_t>(length / cell)); };
   const std::size_t nx = columns(size.x()), ny = columns(size.y());
+  std::vector<Opening::Side> sides = opening.sides;
+  for (Opening::Side& side : sides) side.distance -= 0.5 * diameter;
+  const Vec3 middle = 0.5 * (opening.lower + opening.upper);
+  std::vector<Vec3> places;  // of the columns, on the rim
+  for (std::size_t y = 0; y < ny; ++y)
+    for (std::size_t x = 0; x < nx; ++x) {
+      const Vec3 place(middle.x() + (x - 0.5 * (nx - 1.0)) * cell, middle.y() + (y - 0.5 * (ny - 1.0)) * cell,
+                       opening.upper.z());
+      if (within(sides, place)) places.push_back(place);
+    }
+  if (places.empty()) places.emplace_back(middle.x(), middle.y(), opening.upper.z());
   std::vector<Pose> poses;
   poses.reserve(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::size_t x = i % nx, y = i / nx % ny, z = i / (nx * ny);
-    const Vec3 center(0.5 * (opening.lower.x() + opening.upper.x()) + (x - 0.5 * (nx - 1.0)) * cell,
-                      0.5 * (opening.lower.y() + opening.upper.y()) + (y - 0.5 * (ny - 1.0)) * cell,
-                      opening.upper.z() + (z + 0.5) * cell);
+    const std::size_t layer = i / places.size();
+    const Vec3 center = places[i % places.size()] + Vec3(0.0, 0.0, (layer + 0.5) * cell);
     // A part longer than the opening is wide only fits in some orientations.
     Quat orientation = random.orientation();
     for (int turn = 0; turn < 64 && !fits(*parts[i], orientation, size); ++turn) orientation = random.orientation();

@@ -1,6 +1,7 @@
 #include "bin_scenes/pour/pour.hpp"
 #include "bin_scenes/pour/spawn.hpp"
 #include "bin_scenes/solver/bullet_solver.hpp"
+#include "pour/pour_plan.hpp"
 #include "solver/fixture.hpp"
 
 namespace bin_scenes::testing {
@@ -114,6 +115,31 @@ TEST(Rain, StartsClearOfEverything) {
       for (const Cover::Ball& p : shape.balls)
         for (const Cover::Ball& q : shape.balls)
           EXPECT_GE((poses[a] * p.center - poses[b] * q.center).norm(), p.radius + q.radius - 1e-12);
+}
+
+/// A round bin leaves the corners of its box free: there parts would fall beside it.
+TEST(Rain, NothingEntersBesideARoundBin) {
+  const double outer = 0.124;
+  const PartModelPtr drum = PartModel::from_mesh(ring_mesh(48, 0.12, outer, 0.2), "drum");
+  const PartModelPtr grain = PartModel::from_mesh(box_mesh({0.005, 0.004, 0.003}), "grain");
+  Request request;
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.mesh = "drum";
+  request.parts.emplace_back();
+  const PourPlan plan({request, {grain}, drum});
+  const Cover shape = cover(grain->mesh());
+  Random random(2, 0, Stream::pour);
+  std::vector<Pose> starts = grid_poses(std::vector<const PartModel*>(500, grain.get()), plan.opening, 1.2, random);
+  for (int i = 0; i < 500; ++i) {
+    Rain rain(plan.opening, 0.02);
+    if (const auto pose = rain.place(*grain, shape, random, 12)) starts.push_back(*pose);
+  }
+  EXPECT_GT(starts.size(), 950u);
+  double farthest = 0.0;
+  for (const Pose& start : starts)
+    for (const Vec3& v : grain->mesh().vertices) farthest = std::max(farthest, (start * v).head<2>().norm());
+  EXPECT_LT(farthest, outer);
+  EXPECT_GT(farthest, 0.9 * outer) << "they enter all over it";
 }
 
 /// What Rain::place() finds, slowly: every ball against every ball, every vertex turned.

@@ -26,8 +26,15 @@ Cover cover(const Mesh& mesh, int cells = 5);
 
 /// Box in which parts may enter: x and y between walls, z from floor to rim.
 struct Opening {
+  /// Seen from above, parts stay where normal * (x, y) <= distance.
+  struct Side {
+    double normal_x, normal_y, distance;
+  };
   Vec3 lower, upper;
+  std::vector<Side> sides{};  ///< of a mesh bin: its convex outline, which may leave corners of the box free
 };
+/// Sides of the convex outline of a mesh, seen from above.
+std::vector<Opening::Side> outline(const Mesh& mesh);
 
 /// Parts above the heap. A column search: the lowest height at which the part's balls clear those of everything below
 /// and beside it.
