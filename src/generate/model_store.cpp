@@ -1,6 +1,7 @@
 #include "generate/model_store.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "generate/bin_walls.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -40,13 +41,14 @@ PartModelPtr load_checked(const std::string& path, const std::string& sha256, co
   return model;
 }
 
-void check_sizes(const LoadedRequest& loaded) {
+void check_models(const LoadedRequest& loaded) {
   const auto& [request, parts, bin] = loaded;
   if (bin) {
     double largest = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (request.parts[i].unit) largest = std::max(largest, parts[i]->diagonal());
     check_plausible_bin(bin->mesh(), request.bin, largest);
+    check_bin_walls(*bin, request);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PartLine& line = request.parts[i];
@@ -82,7 +84,7 @@ void ModelStore::load(const Request& request) {
   for (const PartLine& line : request.parts) {
     parts.push_back(get(line.path, line.sha256, load_options(line)));
   }
-  check_sizes({request, parts, bin});
+  check_models({request, parts, bin});
   keep(std::move(used));
   loaded_ = {request, std::move(parts), std::move(bin)};
 }

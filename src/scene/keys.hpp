@@ -94,7 +94,9 @@ void visit(Visitor& v, Bin& bin) {
   v.field({"wall_thickness", "m", "box: thickness of walls and floor; seen by cameras, never by the physics",
            at_least(0.0, 10.0), box},
           bin.wall_thickness);
-  v.field({"mesh", "", "path of a mesh that is the bin, instead of a box; written like parts[].model", anything, mesh},
+  v.field({"mesh", "",
+           "path of a mesh that is the bin, instead of a box, with walls of some thickness; written like parts[].model",
+           anything, mesh},
           bin.mesh);
   v.field({"unit", "", "mesh: unit of the file", anything, mesh}, bin.unit);
   v.field({"pose", "", "mesh: frame of the file in the bin frame", anything, mesh}, bin.pose);

@@ -61,6 +61,28 @@ TEST_F(GeneratorTest, AFixedFloorMayBeLargerThanTenMetres) {
   }
 }
 
+// Parts fell through such a bin, and all that the scene told was that they had escaped.
+TEST_F(GeneratorTest, ABinOfSheetsWithoutThicknessIsRefusedWhereItWouldHoldNothing) {
+  constexpr std::size_t but_one_side = 10;  // triangles: the side towards +x is open
+  Request request = boxes(2);
+  request.bin.kind = Bin::Kind::mesh;
+  request.bin.unit = Unit::metre;
+  request.bin.mesh = (dir / "bin.stl").string();
+  request.bin.pose.orientation = Quat(Eigen::AngleAxisd(-M_PI / 2.0, Vec3::UnitY()));  // its open side up
+  std::ofstream(request.bin.mesh) << box_stl(0.2, but_one_side);
+  EXPECT_TRUE(run(request).at(0).scene.report.accepted) << "by Bullet";
+  for (const SolverType type : {SolverType::sphere, SolverType::automatic}) {
+    request.solver.type = type;
+    EXPECT_EQ(failure(request), ErrorKind::input) << name_of(type);
+  }
+  // A slab without its lower face is no sheet: it has an inside.
+  std::ofstream(request.bin.mesh) << box_stl({0.02, 0.2, 0.2}, but_one_side);
+  request.bin.pose.orientation = Quat(Eigen::AngleAxisd(M_PI / 2.0, Vec3::UnitY()));
+  request.pour.pattern = Pour::Pattern::given;
+  for (const double x : {-0.05, 0.05}) request.parts[0].poses.push_back({Vec3(x, 0, 0.031), Quat::Identity()});
+  EXPECT_TRUE(run(request).at(0).scene.report.accepted);
+}
+
 // Thirty plates of a millimetre in a narrow bin. Where soft contacts let them sink by a tenth of that they end in each
 // other.
 TEST_F(GeneratorTest, ThinPartsOnEachOtherStayApart) {

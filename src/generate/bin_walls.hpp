@@ -1,0 +1,13 @@
+/// Whether a bin that is a mesh holds parts by walls that have an inside.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+#include "bin_scenes/scene/request.hpp"
+
+namespace bin_scenes {
+
+/// Refuses a bin whose floor is a sheet of triangles without thickness: a distance field knows no inside of it, and
+/// parts fall through. Bullet collides with the triangles themselves and needs none.
+void check_bin_walls(const PartModel& bin, const Request& request);
+
+}  // namespace bin_scenes
