@@ -1,8 +1,9 @@
-/// Tries axes of inertia, normals of large faces and directions of far vertices, and measures how far the turned
-/// surface lies from the surface. Turns that pass are completed to a group.
+/// Tries the axes of symmetry_axes.hpp and measures how far the turned surface lies from the surface. Turns that pass
+/// are completed to a group.
 #include "bin_scenes/part/symmetry.hpp"
 
 #include "core/in_parallel.hpp"
+#include "symmetry_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,8 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double equal_moments = 0.02;        ///< relative difference up to which an axis between two is tried
-constexpr int directions_between = 48;        ///< of those that are tried over half a turn
 constexpr std::size_t most_points = 600;      ///< of the surface that are moved at first
 constexpr std::size_t many_vertices = 10000;  ///< that leave no part of a surface without one
-constexpr std::size_t most_normals = 32;      ///< of faces, the largest ones
-constexpr std::size_t most_far = 16;          ///< vertices
 constexpr int highest_order = 100;            ///< of a discrete symmetry
 constexpr double nearly = 3.0;                ///< times the limit
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -129,74 +126,6 @@ class Search {
   double limit_;
 };
 
-/// Normals of the largest flat faces.
-std::vector<Vec3> large_normals(const Mesh& mesh) {
-  std::vector<std::pair<double, Vec3>> faces;  // area, normal
-  constexpr std::size_t most = 400;            // that are told apart
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 area = mesh.area_vector(t);
-    if (!(area.norm() > 0.0)) continue;
-    const Vec3 normal = area.normalized();
-    const auto known = std::find_if(faces.begin(), faces.end(),
-                                    [&](const auto& face) { return std::abs(face.second.dot(normal)) > 1.0 - 1e-7; });
-    if (known != faces.end())
-      known->first += area.norm();
-    else if (faces.size() < most)
-      faces.emplace_back(area.norm(), normal);
-  }
-  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<Vec3> normals;
-  for (std::size_t i = 0; i < std::min(most_normals, faces.size()); ++i) normals.push_back(faces[i].second);
-  return normals;
-}
-
-/// Towards the vertices that lie farthest from an axis, and between any two of them: a half turn across the axis leaves
-/// one of them in its place, or exchanges two.
-std::vector<Vec3> far_directions(const Mesh& mesh, const Vec3& center, const Vec3& axis) {
-  std::vector<Vec3> arms;
-  for (const Vec3& vertex : mesh.vertices) arms.push_back((vertex - center) - axis * axis.dot(vertex - center));
-  const auto longer = [](const Vec3& a, const Vec3& b) { return a.squaredNorm() > b.squaredNorm(); };
-  const std::size_t count = std::min(arms.size(), most_far);
-  std::partial_sort(arms.begin(), arms.begin() + static_cast<std::ptrdiff_t>(count), arms.end(), longer);
-  arms.resize(count);
-  for (Vec3& arm : arms) arm.normalize();
-  std::vector<Vec3> directions = arms;
-  for (std::size_t i = 0; i < arms.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) directions.push_back((arms[i] + arms[j]).normalized());
-  return directions;
-}
-
-/// Axes of inertia; where two moments are equal the principal axes are no more special than others across the third,
-/// and the shape itself has to tell.
-std::vector<Vec3> candidates(const PartModel& part) {
-  const Vec3 moments = part.mass().principal;
-  const Mat3 axes = part.mass().principal_axes.toRotationMatrix();
-  std::vector<Vec3> all, guessed;
-  bool any = false;
-  for (int i = 0; i < 3; ++i) {
-    const int a = i, b = (i + 1) % 3;
-    if (std::abs(moments[a] - moments[b]) > equal_moments * moments.maxCoeff()) continue;
-    any = true;
-    for (const Vec3& arm : far_directions(part.mesh(), part.mass().center, axes.col((i + 2) % 3))) all.push_back(arm);
-    for (int k = 1; k < directions_between; ++k) {
-      const double angle = M_PI * k / directions_between;
-      guessed.push_back(std::cos(angle) * axes.col(a) + std::sin(angle) * axes.col(b));
-    }
-  }
-  if (any)
-    for (const Vec3& normal : large_normals(part.mesh())) all.push_back(normal);
-  all.insert(all.begin(), {axes.col(0), axes.col(1), axes.col(2), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()});
-  all.insert(all.end(), guessed.begin(), guessed.end());
-  std::vector<Vec3> distinct;
-  for (const Vec3& axis : all) {
-    const bool known = std::any_of(distinct.begin(), distinct.end(),
-                                   [&](const Vec3& other) { return std::abs(axis.dot(other)) > 1.0 - 1e-6; });
-    const bool somewhere = axis.norm() > 0.5;  // not so between opposite vertices
-    if (!known && somewhere) distinct.push_back(axis);
-  }
-  return distinct;
-}
-
 double angle_between(const Quat& a, const Quat& b) {
   return 2.0 * std::acos(std::min(1.0, std::abs(a.dot(b))));
 }
@@ -307,7 +236,7 @@ SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
   report.limit = search.limit();
   std::vector<Axis> axes;
   std::vector<Vec3> examined;
-  for (const Vec3& direction : candidates(part)) {
+  for (const Vec3& direction : candidate_axes(part)) {
     const auto along = [&](const auto& axis) { return std::abs(axis.direction.dot(direction)) > 0.999; };
     const auto known = std::find_if(axes.begin(), axes.end(), along);
     if (known != axes.end() && known->order == 0) continue;

@@ -110,6 +110,27 @@ TEST(Symmetry, KnownAnswersHoldHoweverThePartLiesInItsFile) {
   }
 }
 
+/// Balls of odd tessellation: no vertex lies on an axis of the part, and no face stands across one.
+Mesh balls(const std::vector<Vec3>& places) {
+  Mesh mesh, ball = turned(test::sphere_mesh(0.006, 3));
+  ball = test::moved(ball, -ball.bounds().center());
+  for (const Vec3& place : places) test::append(mesh, test::moved(ball, place));
+  return mesh;
+}
+
+TEST(Symmetry, RoundedArmsShowTheAxesOfPartsWhoseMomentsAreAllEqual) {
+  const double c = 0.012;
+  const std::vector<Vec3> tetrapod = {{c, c, c}, {c, -c, -c}, {-c, c, -c}, {-c, -c, c}};
+  std::vector<Vec3> jack;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-0.02, 0.02}) jack.push_back(side * Vec3::Unit(axis));
+  for (const bool straight : {true, false}) {
+    const auto placed = [&](const Mesh& mesh) { return straight ? mesh : turned(mesh); };
+    EXPECT_EQ(group(of(placed(balls(tetrapod)))), 12u);
+    EXPECT_EQ(group(of(placed(balls(jack)))), 24u);
+  }
+}
+
 TEST(Symmetry, AMarkBreaksItBelowItsSizeAndIsToldAsNearlySymmetric) {
   Mesh marked = prism(6, {0.01}, 0.008);
   test::append(marked, test::box_mesh({0.0005, 0.0005, 0.0005}, {0.006, 0.001, 0.00415}));  // 0.4 mm high

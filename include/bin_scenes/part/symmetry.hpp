@@ -32,8 +32,8 @@ struct SymmetryReport {
 
 /// Rotations about the centre of mass that move no point of the surface by more than `tolerance` * diagonal away from
 /// the surface. Tried are the axes of inertia and, where two moments are equal, axes between them, normals of large
-/// faces and directions of far vertices; orders 2 to 100 and full turns. A part that is symmetric about another axis is
-/// not found out.
+/// faces and directions of far vertices, where all three are equal, of arms, too; orders 2 to 100 and full turns. A
+/// part that is symmetric about another axis is not found out.
 SymmetryReport examine_symmetries(const PartModel& part, double tolerance = 0.01);
 Symmetries find_symmetries(const PartModel& part, double tolerance = 0.01);
 

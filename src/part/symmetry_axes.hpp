@@ -1,0 +1,14 @@
+/// Axes about which a part may be symmetric.
+#pragma once
+
+#include "bin_scenes/part/part_model.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Axes of inertia; where two moments are equal the principal axes are no more special than others across the third,
+/// and the shape itself has to tell.
+std::vector<Vec3> candidate_axes(const PartModel& part);
+
+}  // namespace bin_scenes
