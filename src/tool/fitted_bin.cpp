@@ -21,8 +21,10 @@ constexpr double least_stated = 0.001, most_stated = 2.0, least_guessed = 0.005,
 constexpr double heap_per_hull = 1.5;
 // Of rods: they fill 5.4 / slenderness of a random packing (Philipse 1996, Langmuir 12, 1127).
 constexpr double filled_by_rods = 5.4;
-// Of the diagonal: how high a part stands upon the heap; a rod leans against a wall.
-constexpr double upright_part = 0.7, upright_rod = 1.0;
+// Of sheets, by their width / thickness: plates and discs of 15:1 to 80:1, poured, need 2.5 to 5.2 times their hulls.
+constexpr double filled_by_sheets = 8.0;
+// Of the diagonal: how high a part stands upon the heap; a rod or a sheet leans against a wall.
+constexpr double upright_part = 0.7, upright_slender = 1.0;
 constexpr double level_of_length = 0.2, width_of_length = 0.75;
 constexpr int hull_vertices = 500;
 
@@ -98,13 +100,16 @@ FittedBin fit_bin(const Mesh& part, std::size_t count) {
   fitted.hull = mass_properties(convex_hull(extreme_points(part.vertices), hull_vertices)).volume;
   const double diagonal = part.bounds().diagonal(), length_of_rod = part.bounds().size().maxCoeff();
   const double slenderness = length_of_rod / std::sqrt(4.0 / M_PI * fitted.hull / length_of_rod);
-  fitted.loose = std::max(heap_per_hull, slenderness / filled_by_rods);
+  const Vec3 size = part.bounds().size();
+  const double side = std::sqrt(size.x() * size.y() * size.z() / size.minCoeff());
+  const double flatness = side * side * side / fitted.hull;
+  fitted.loose = std::max({heap_per_hull, slenderness / filled_by_rods, flatness / filled_by_sheets});
   const double heap = fitted.loose * static_cast<double>(count) * fitted.hull;
   const double length = std::max(std::cbrt(heap / (level_of_length * width_of_length)), 1.7 * diagonal);
   const double width = std::max(width_of_length * length, 1.3 * diagonal);
   fitted.level = heap / (length * width);
   // Poured in the middle, a heap has a top: half as high again as it is in the mean, and a part that stands upon it.
-  const double upright = (fitted.loose > heap_per_hull ? upright_rod : upright_part) * diagonal;
+  const double upright = (fitted.loose > heap_per_hull ? upright_slender : upright_part) * diagonal;
   fitted.inner_size = {rounded_up(length), rounded_up(width), rounded_up(1.6 * fitted.level + upright)};
   return fitted;
 }

@@ -27,15 +27,19 @@ TEST_F(CommandLine, NewWritesARequestWithABinThatItsHeapFills) {
   EXPECT_EQ(json("again/scene_000000/scene.json")["report"]["state_hash"], scene["report"]["state_hash"]);
 }
 
-TEST_F(CommandLine, NewMakesRoomForPinsThatLean) {
-  put("pin.stl", box_stl(Vec3(2, 2, 60)));
-  const Outcome made = run("new pin.stl --count 30 --out pins.yaml");
-  EXPECT_EQ(made.code, 0) << made.out << made.err;
-  double rim = 0.0, top = 0.0;
-  const std::size_t at = made.out.find("bin of ");
-  ASSERT_NE(at, std::string::npos) << made.out;
-  ASSERT_EQ(std::sscanf(made.out.c_str() + at, "bin of %*f x %*f x %lf m, heap %lf m high", &rim, &top), 2) << made.out;
-  EXPECT_LT(top, rim) << made.out;
+TEST_F(CommandLine, NewMakesRoomForPinsAndSheetsThatLean) {
+  for (const auto& [size, count] : {std::pair{Vec3(2, 2, 60), "30"}, std::pair{Vec3(40, 30, 1), "60"}}) {
+    put("part.stl", box_stl(size));
+    const Outcome made = run(std::string("new part.stl --unit mm --out parts.yaml --overwrite --count ") + count);
+    EXPECT_EQ(made.code, 0) << made.out << made.err;
+    EXPECT_NE(made.out.find(std::string(count) + " of " + count + " parts"), std::string::npos) << made.out;
+    double rim = 0.0, top = 0.0;
+    const std::size_t at = made.out.find("bin of ");
+    ASSERT_NE(at, std::string::npos) << made.out;
+    ASSERT_EQ(std::sscanf(made.out.c_str() + at, "bin of %*f x %*f x %lf m, heap %lf m high", &rim, &top), 2)
+        << made.out;
+    EXPECT_LT(top, rim) << made.out;
+  }
 }
 
 TEST_F(CommandLine, NewSaysHowTheUnitWasChosenAndRefusesWhatFitsNoBin) {
