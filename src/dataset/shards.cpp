@@ -130,7 +130,9 @@ std::optional<ShardImages> read_tar(const std::string& path, bool& doubled) {
 ShardPacker::ShardPacker(const DataFolder& folder, const DataSetFacts& facts, std::set<std::size_t> done)
     : folder_(folder), facts_(facts), done_(std::move(done)) {
   make_directory(folder_.shards());
-  for (std::size_t shard = 0; shard < shard_count(facts_) && fs::exists(folder_.shard(shard)); ++shard) note(shard);
+  // All of them: workers finish heaps in any order, so that a shard may be there and an earlier one not yet.
+  for (std::size_t shard = 0; shard < shard_count(facts_); ++shard)
+    if (fs::exists(folder_.shard(shard))) note(shard);
   if (!shard_of_key_.empty()) write_map();
 }
 

@@ -6,6 +6,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -43,6 +44,18 @@ class Growth(DataSetTest):
             process.wait()
         self.make(large, "grown")
         self.assert_same("once", "grown")
+
+    def test_a_run_stopped_before_its_first_shard_tells_of_the_later_ones(self):
+        plan = self.plan(scenes=8, outputs="json, shards", more="shard_size: 4\n")  # two scenes of two images
+        self.make(plan, "once")
+        shutil.copytree(self.folder / "once", self.folder / "stopped")
+        # As Ctrl-C leaves it while one worker still makes heap 0 and the other one has filled shards.
+        for path in ("scenes/scene_000000", "scenes/scene_000001"):
+            shutil.rmtree(self.folder / "stopped" / path)
+        for path in (self.folder / "stopped/shards").glob("shard-000000.*"):
+            path.unlink()
+        self.make(plan, "stopped")
+        self.assert_same("once", "stopped")
 
     def test_shards_can_be_read_while_the_rest_is_made(self):
         plan = self.plan(scenes=60, outputs="json, shards", more=SMALL)
