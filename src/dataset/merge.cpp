@@ -13,7 +13,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The files of a folder under a hidden name, linked or copied; the name comes with commit().
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code no_link, error;
+  fs::create_hard_link(from, to, no_link);
+  if (no_link) fs::copy_file(from, to, error);
+  if (error)
+    throw environment_error("cannot be copied: " + error.message(), from.string(), "check permissions and free space");
+}
+
+/// The files of a folder under a hidden name; the name comes with commit().
 void take_over(const fs::path& from, const fs::path& to) {
   if (!fs::exists(from) || whole(to, false)) return;
   make_directory(to.parent_path());
@@ -22,18 +30,27 @@ void take_over(const fs::path& from, const fs::path& to) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
     stop_if_cancelled();
     const fs::path target = hidden.path() / entry.path().lexically_relative(from);
-    std::error_code no_link, error;
     if (entry.is_directory()) {
       make_directory(target);
-      continue;
+    } else {
+      link_or_copy(entry.path(), target);
     }
-    fs::create_hard_link(entry.path(), target, no_link);
-    if (no_link) fs::copy_file(entry.path(), target, error);
-    if (error)
-      throw environment_error("cannot be copied: " + error.message(), entry.path().string(),
-                              "check permissions and free space");
   }
   hidden.commit();
+}
+
+/// Shards of a share that is the whole set: its samples are nowhere else.
+void take_shards(const DataFolder& from, const DataFolder& to, const DataSetFacts& facts) {
+  for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
+    if (!fs::exists(from.shard(shard)) || fs::exists(to.shard(shard))) continue;
+    make_directory(to.shards());
+    const fs::path tar = from.shard(shard);
+    for (const fs::path& file : {fs::path(tar).replace_extension(".json"), tar}) {  // where the tar is, its offsets are
+      Temporary hidden((to.shards() / file.filename()).string());
+      link_or_copy(file, hidden.path());
+      hidden.commit();
+    }
+  }
 }
 
 void take_heap(const DataFolder& from, const DataFolder& to, const DataSetFacts& facts, const HeapRecord& record) {
@@ -78,6 +95,7 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
       take_heap(from, to, facts, record);
       index.put(record);
     }
+    take_shards(from, to, facts);
   }
   Merged merged;
   const IndexCounts counts = index.counts();
@@ -87,7 +105,10 @@ Merged merge_datasets(const std::vector<std::string>& shares, const std::string&
   for (const char* models : {"models", "models_eval"})
     take_over(folders[0].root / "bop" / models, to.root / "bop" / models);
   if (facts.wants("bop")) write_bop_root(to, facts);
-  if (merged.missing == 0 && facts.wants("shards")) ShardPacker(to, facts, {}).pack_all();
+  if (facts.wants("shards")) {
+    ShardPacker packer(to, facts, {});
+    if (merged.missing == 0) packer.pack_all();
+  }
   return merged;
 }
 

@@ -57,6 +57,15 @@ class Growth(DataSetTest):
         self.make(plan, "stopped")
         self.assert_same("once", "stopped")
 
+    def test_a_share_that_is_the_whole_set_is_merged(self):
+        plan = self.plan(scenes=5, outputs="json, shards", more=SMALL)
+        self.make(plan, "share", "--shard", "0/1")
+        self.run_tool("dataset", "merge", "share", "--out", "merged")
+        self.assert_same("share", "merged")
+        self.make(plan, "other", "--shard", "1/2")  # its samples are not packed
+        self.run_tool("dataset", "merge", "other", "share", "--out", "both")
+        self.assert_same("share", "both")
+
     def test_shards_can_be_read_while_the_rest_is_made(self):
         plan = self.plan(scenes=60, outputs="json, shards", more=SMALL)
         process = subprocess.Popen(self.command("dataset", plan, "--out", "out", "--workers", 1), cwd=self.folder,
