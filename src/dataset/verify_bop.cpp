@@ -1,7 +1,10 @@
 /// BOP's files against scene.json and against their own pictures: poses, boxes, masks, counts, models. The pixels of
 /// masks are counted anew.
+#include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
+#include "bin_scenes/sensor/calibration.hpp"
+#include "bin_scenes/sensor/resolve.hpp"
 #include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "output/bop_image.hpp"
@@ -57,12 +60,19 @@ struct Owners {
   }
 };
 
+/// The camera in whose image boxes are told.
+struct BoxCamera {
+  Mat3 k;
+  Pose told_in_it;  ///< frame of the camera that scene.json tells
+};
+
 /// One image of a scene: what its files say, and where they lie.
 struct ImageFiles {
   fs::path folder;
   BopPlace place;
   const Json& sensor;  ///< of scene.json
   const Json &camera, &truth, &info;
+  BoxCamera box_camera;
   const Json* annotations;  ///< of scene_gt_coco.json; null: the layout has none
 
   int width() const { return sensor.at("width"); }
@@ -121,13 +131,15 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
 }
 
 /// The model's vertices in the image span its box, up to pixels whose centres no triangle covers.
-void verify_projection(const Json& truth, const Json& info, const Json& camera, const BopModel& model,
+void verify_projection(const Json& truth, const Json& info, const ImageFiles& image, const BopModel& model,
                        const std::string& where, Findings& findings) {
-  const Mat3 k = matrix_of(camera.at("cam_K")), turn = matrix_of(truth.at("cam_R_m2c"));
-  const Vec3 shift = vector_of(truth.at("cam_t_m2c"));
+  const Mat3 in_told = matrix_of(truth.at("cam_R_m2c"));
+  const Mat3 turn = image.box_camera.told_in_it.orientation.toRotationMatrix() * in_told;
+  const Vec3 shift = image.box_camera.told_in_it.orientation * vector_of(truth.at("cam_t_m2c")) +
+                     1e3 * image.box_camera.told_in_it.position;
   double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
   for (const auto& v : model.vertices) {
-    const Vec3 p = k * (turn * Vec3(v[0], v[1], v[2]) + shift);
+    const Vec3 p = image.box_camera.k * (turn * Vec3(v[0], v[1], v[2]) + shift);
     left = std::min(left, p.x() / p.z()), right = std::max(right, p.x() / p.z());
     top = std::min(top, p.y() / p.z()), bottom = std::max(bottom, p.y() / p.z());
   }
@@ -231,8 +243,7 @@ void verify_image(const ImageFiles& image, const Json& scene, const std::map<int
     const bool none = info[i].at("bbox_visib") == Json({-1, -1, -1, -1});
     findings.expect(none == (seen == 0), "bop_unseen", part, "bbox_visib and px_count_visib do not agree");
     verify_masks(image, i, annotations[i], owners, findings);
-    if (seen > 0 && model != models.end())
-      verify_projection(truth[i], info[i], image.camera, model->second, part, findings);
+    if (seen > 0 && model != models.end()) verify_projection(truth[i], info[i], image, model->second, part, findings);
   }
 }
 
@@ -261,6 +272,45 @@ SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coc
   return files;
 }
 
+/// The sensors as they truly are. Errors of their calibration, which scene.json does not tell, are drawn again from
+/// request.yaml; its models may lie elsewhere now, and what is not needed is left out.
+std::vector<Sensor> true_devices(const fs::path& folder, const Json& scene) {
+  const std::string request = fs::absolute(folder / "request.yaml").string();
+  std::vector<Override> overrides = {"parts=[{model: " + Json(request).dump() + "}]", "bin={none: true}", "pour={}"};
+  for (std::size_t i = 0; i < scene.at("sensors").size(); ++i) {
+    const std::string sensor = "sensors[" + std::to_string(i) + "].";
+    overrides.emplace_back(sensor + "preset=''");
+    if (scene.at("sensors")[i].at("model") == "image") overrides.emplace_back(sensor + "lamps=[]");
+  }
+  Request told = read_request(request, overrides);
+  for (std::size_t i = 0; i < told.sensors.size(); ++i) {
+    told.sensors[i].pose = pose_of(scene.at("sensors").at(i).at("pose"));
+    told.sensors[i] = resolved(told.sensors[i], told.bin);
+  }
+  std::vector<Sensor> devices;
+  for (std::size_t i = 0; i < told.sensors.size(); ++i)
+    devices.push_back(true_device(told.sensors, i, scene.at("seed").get<std::uint64_t>()));
+  return devices;
+}
+
+/// By sensor. Boxes of masks that follow measured depth are those of the camera that is told; those of true masks are
+/// the true device's.
+std::vector<BoxCamera> cameras_of(const DataFolder& folder, const DataSetFacts& facts, std::size_t number,
+                                  const Json& scene) {
+  const Json& sensors = scene.at("sensors");
+  std::vector<BoxCamera> cameras;
+  for (const Json& sensor : sensors) cameras.push_back({matrix_of(sensor.at("K")), Pose()});
+  const auto is_exact = [](const Json& sensor) { return sensor.at("model") == "ideal"; };
+  if (facts.tolerance > 0.0 || std::all_of(sensors.begin(), sensors.end(), is_exact)) return cameras;
+  const std::vector<Sensor> devices = true_devices(folder.scene(number), scene);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const auto& k = devices.at(i).k;
+    cameras[i].k << k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7], k[8];
+    cameras[i].told_in_it = devices[i].pose->inverse() * pose_of(sensors[i].at("pose"));
+  }
+  return cameras;
+}
+
 std::vector<Sensor> sensors_in(const Json& scene) {
   std::vector<Sensor> sensors;
   for (const Json& sensor : scene.at("sensors")) {
@@ -278,6 +328,7 @@ void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t
   const fs::path path = folder.bop(facts, number);
   try {
     const std::vector<BopPlace> places = bop_places(facts.bop, sensors_in(scene), facts.split_of_scene(number));
+    const std::vector<BoxCamera> cameras = cameras_of(folder, facts, number, scene);
     std::map<std::string, std::size_t> images;  // by suffix
     for (const BopPlace& place : places) ++images[place.suffix];
     std::map<std::string, SensorFiles> files;
@@ -294,6 +345,7 @@ void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t
                              of_sensor.camera->at(key),
                              of_sensor.truth->at(key),
                              of_sensor.info->at(key),
+                             cameras[n],
                              of_sensor.coco ? &*of_sensor.coco : nullptr};
       Owners owners;
       verify_image(image, scene, models, owners, findings);

@@ -105,6 +105,7 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
                    const RangeImage& image, const BopOptions& options) {
   BopImage bop;
   const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  const Pose bin_in_device = image.true_sensor().pose.value_or(Pose()).inverse();  // where masks are drawn
   const std::vector<int> object_ids = options.object_ids.empty() ? bop_object_ids(parts) : options.object_ids;
   const std::vector<std::uint16_t> counts = counted_depth(image.depth, image.sensor.depth_scale);
   bop.camera = {{"cam_K", image.sensor.k},
@@ -121,11 +122,12 @@ BopImage bop_image(const std::vector<const ScenePart*>& places, const std::vecto
   in_parallel(places.size(), [&](std::size_t i) {
     const ScenePart& part = *places[i];
     const Mesh& mesh = parts.at(part.line)->mesh();
-    const Pose pose = bin_in_camera * part.pose;
     std::optional<BopVisibility> measured;
-    if (!distance.empty()) measured = bop_visibility(mesh, pose, lens_of(image.sensor), distance, options.tolerance);
+    if (!distance.empty())
+      measured = bop_visibility(mesh, bin_in_camera * part.pose, lens_of(image.sensor), distance, options.tolerance);
     seen[i] = measured ? std::move(*measured)
-                       : true_visibility(image, counts, part.id, boxes[static_cast<std::size_t>(part.id)], mesh, pose);
+                       : true_visibility(image, counts, part.id, boxes[static_cast<std::size_t>(part.id)], mesh,
+                                         bin_in_device * part.pose);
   });
   bop.truth = Json::array();
   bop.info = Json::array();

@@ -134,7 +134,7 @@ BopVisibility true_visibility(const RangeImage& image, const std::vector<std::ui
     }
   }
   // What lies beside the image counts as well: rays of the image know nothing of it.
-  if (const std::optional<Alone> canvas = alone(mesh, model_in_camera, lens_of(image.sensor))) {
+  if (const std::optional<Alone> canvas = alone(mesh, model_in_camera, lens_of(image.true_sensor()))) {
     std::size_t i = 0;
     for (int y = canvas->top; y < canvas->top + canvas->height; ++y) {
       for (int x = canvas->left; x < canvas->left + canvas->width; ++x, ++i) {

@@ -98,6 +98,8 @@ Json json_of(const Sensor& sensor) {
 Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<PartModelPtr>& models) {
   const std::vector<PixelBox> boxes = visible_boxes(image, image.visible.size());
   const Pose bin_in_camera = image.sensor.pose.value_or(Pose()).inverse();
+  const Sensor& device = image.true_sensor();
+  const Pose bin_in_device = device.pose.value_or(Pose()).inverse();
   std::vector<std::size_t> measured(image.visible.size(), 0);
   if (image.label.size() == image.seen_label().size())  // else profiles of a laser, which are no view
     for (std::size_t i = 0; i < image.label.size(); ++i)
@@ -106,7 +108,7 @@ Json truth_of(const Scene& scene, const RangeImage& image, const std::vector<Par
   for (const ScenePart& part : scene.parts) {
     if (!is_there(part.state) || !part.pose.finite()) continue;
     const auto id = static_cast<std::size_t>(part.id);
-    const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_camera * part.pose, image.sensor);
+    const PixelBox whole = projected_box(models.at(part.line)->mesh(), bin_in_device * part.pose, device);
     const double all = static_cast<double>(image.total.at(id));
     truth.push_back({{"id", part.id},
                      {"pose_in_camera", json_of(bin_in_camera * part.pose)},

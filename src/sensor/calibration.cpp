@@ -74,6 +74,7 @@ Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::
 void report_as_believed(RangeImage& image, const Sensor& device, const Sensor& believed) {
   image.sensor = believed;
   if (!believed.settings.of<CalibrationSettings>().any()) return;
+  image.device = device;
   const SensorModel& model = sensor_model(believed.model);
   (model.report ? model.report : keep_ranges)(image, device, believed);
 }

@@ -9,8 +9,11 @@ import re
 import shutil
 import sqlite3
 
+import numpy as np
+
 import data_set
 from data_set import DataSetTest
+from bin_scenes_data import read_png
 from industrial_test import CORRUPTIONS as INDUSTRIAL
 
 SCENE = "scenes/scene_000001/"
@@ -218,6 +221,28 @@ class Verify(DataSetTest):
             text.replace("height: 72}", "height: 72, model: structured_light, filter: %s}" % filters))
         self.make(plan, "filtered")
         self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "filtered").stdout)
+
+    def test_boxes_of_a_camera_that_errs_are_those_of_its_masks(self):
+        plan = self.plan(scenes=2, outputs="json, bop")
+        text = (self.folder / plan).read_text()
+        errs = "calibration: {rotation: 0.02, position: 0.002, focal: 1, center: 1}"
+        (self.folder / plan).write_text(text.replace("height: 72}", "height: 72, model: structured_light, %s}" % errs))
+        self.make(plan, "erring")
+        self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "erring").stdout)
+        boxes = 0
+        for scene in (self.folder / "erring/bop/train").iterdir():
+            for i, info in enumerate(json.loads((scene / "scene_gt_info.json").read_text())["0"]):
+                rows, columns = np.nonzero(read_png((scene / ("mask/000000_%06d.png" % i)).read_bytes()))
+                mask = [columns.min(), rows.min(), np.ptp(columns), np.ptp(rows)]
+                if 0 < mask[0] and mask[0] + mask[2] < 95 and 0 < mask[1] and mask[1] + mask[3] < 71 and info["px_count_visib"]:
+                    self.assertEqual(info["bbox_obj"], mask)
+                    boxes += 1
+            truth = json.loads((self.folder / "erring/scenes" / ("scene_" + scene.name) / "scene.json").read_text())["sensors"][0]["truth"]
+            for part in truth:
+                if part["px_count_visib"]:
+                    (x, y, w, h), (left, top, width, height) = part["bbox_visib"], part["bbox_obj"]
+                    self.assertTrue(left <= x and top <= y and x + w <= left + width and y + h <= top + height, part)
+        self.assertGreater(boxes, 3)
 
     def test_a_share_is_judged_by_what_belongs_to_it(self):
         plan = self.plan(scenes=4)

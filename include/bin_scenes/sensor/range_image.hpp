@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bin_scenes {
@@ -20,7 +21,9 @@ struct Picture {
 
 /// Row-major images. Optical frame of the sensor's camera; integer coordinates are pixel centres, as in CameraInfo.
 struct RangeImage {
-  Sensor sensor;              ///< with poses and K filled in
+  Sensor sensor;                 ///< with poses and K filled in
+  std::optional<Sensor> device;  ///< as it truly is, whose view the truth is; none: `sensor`, which has no such errors
+  const Sensor& true_sensor() const { return device ? *device : sensor; }
   int width = 0, height = 0;  ///< of what was measured: the camera's, but for laser_line columns and profiles
 
   // Measured; NaN / 0 where it is not valid.
