@@ -140,7 +140,7 @@ void ShardPacker::add(std::size_t heap) {
   done_.insert(heap);
   const std::size_t first = heap * (facts_.steps + 1);
   for (std::size_t shard = shard_of(facts_, first); shard <= shard_of(facts_, first + facts_.steps); ++shard)
-    if (all_done(shard)) pack(shard);
+    if (all_done(shard) && !fs::exists(folder_.shard(shard))) pack(shard);
 }
 
 void ShardPacker::pack_all() {

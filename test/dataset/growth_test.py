@@ -57,6 +57,17 @@ class Growth(DataSetTest):
         self.make(plan, "stopped")
         self.assert_same("once", "stopped")
 
+    def test_what_is_removed_from_a_finished_set_is_made_again(self):
+        plan = self.plan(scenes=4, outputs="json, shards", more=SMALL + "depletion: {steps: 1, take: 1}\n")
+        self.make(plan, "once")
+        for lost in ("scenes/scene_000004", "shards/shard-000001.tar"):  # of a heap in two shards; a shard of two heaps
+            with self.subTest(lost=lost):
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                shutil.copytree(self.folder / "once", self.folder / "out")
+                subprocess.run(["rm", "-r", self.folder / "out" / lost], check=True)
+                self.make(plan, "out")
+                self.assert_same("once", "out")
+
     def test_a_share_that_is_the_whole_set_is_merged(self):
         plan = self.plan(scenes=5, outputs="json, shards", more=SMALL)
         self.make(plan, "share", "--shard", "0/1")
