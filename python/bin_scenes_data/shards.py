@@ -1,4 +1,6 @@
 """Samples of shards: tar files with an index that tells where each file lies."""
+import collections
+import functools
 import json
 import pathlib
 
@@ -132,13 +134,17 @@ class Sample:
         grasps, names = told["grasps"], [gripper["name"] for gripper in told["grippers"]]
         cameras = list(grasps[0]["pose_in_camera"]) if grasps else []
         column = lambda kind, value: np.array([value(grasp) for grasp in grasps], kind)
-        return {"pose": matrices(grasp["pose"] for grasp in grasps),
+        made = {"pose": matrices(grasp["pose"] for grasp in grasps),
                 "part": column(int, lambda g: g["part"]), "gripper": column(int, lambda g: names.index(g["gripper"])),
                 "width": column(float, lambda g: g["width"]), "score": column(float, lambda g: g["score"]),
                 "free": column(bool, lambda g: g["free"]),
                 "proved": column(int, lambda g: g["proof"]["success"] if "proof" in g else -1),
                 "in_camera": {name: matrices(g["pose_in_camera"][name] for g in grasps) for name in cameras},
                 "visible": {name: column(float, lambda g: g["visible"][name]) for name in cameras}}
+        if not grasps:  # which tell no camera: each name has empty arrays
+            for name, shape in (("in_camera", (0, 4, 4)), ("visible", (0,))):
+                made[name] = collections.defaultdict(functools.partial(np.zeros, shape))
+        return made
 
     def masks(self, name="mask_visib"):
         """(parts, rows, columns), boolean: what is visible, or with `mask` the whole silhouettes."""

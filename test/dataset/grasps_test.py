@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Data sets with output `grasps`: files, shards, and bins that are emptied by their own grasps."""
 import json
+import pickle
 
 import numpy as np
 
@@ -49,6 +50,13 @@ class Grasps(DataSetTest):
             self.check_arrays(shards[key].grasp_arrays, told)
             self.assertIn("camera", shards[key].grasps["grasps"][0]["pose_in_camera"])
         self.run_tool("dataset", "verify", "out")
+
+    def test_arrays_of_a_bin_without_grasps_are_empty(self):
+        from bin_scenes_data import Sample
+        data = json.dumps({"grasps": [], "grippers": [{"name": "two"}]}).encode()
+        arrays = pickle.loads(pickle.dumps(Sample("000000_000000", {"grasps.json": (0, len(data))}, data, 0).grasp_arrays))
+        self.assertEqual([arrays["pose"].shape, arrays["in_camera"]["camera"].shape], [(0, 4, 4)] * 2)
+        self.assertEqual([arrays["score"].shape, arrays["visible"]["camera"].shape], [(0,)] * 2)
 
     def test_grippers_tell_all_that_labels_depend_on(self):
         both = {"clearance": 0.002, "friction": 0.4, "tilt": 0.7, "most": 50, "force": 30.0, "stroke": 0.02}
