@@ -23,9 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string in_gigabytes(double bytes) {
+std::string size_text(double bytes) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2f GB", bytes / 1e9);
+  std::snprintf(text, sizeof text, bytes < 1e9 ? "%.1f MB" : "%.2f GB", bytes / (bytes < 1e9 ? 1e6 : 1e9));
   return text;
 }
 
@@ -53,7 +53,7 @@ void check_disk(const Plan& plan, const DataFolder& folder, std::size_t heaps_le
   if (unknown) return;
   const double scenes = static_cast<double>(heaps_left * (plan.depletion.steps + 1));
   const double needed = scenes * estimate_scene_bytes(plan), free = static_cast<double>(space.available);
-  const std::string figures = "the scenes need about " + in_gigabytes(needed) + ", " + in_gigabytes(free) + " are free";
+  const std::string figures = "the scenes need about " + size_text(needed) + ", " + size_text(free) + " are free";
   if (needed > free)
     throw environment_error(figures, folder.root.string(),
                             "free space, ask for fewer scenes or outputs, or use --shard");

@@ -6,6 +6,7 @@
 import json
 import os
 import random
+import re
 import signal
 import sqlite3
 import subprocess
@@ -112,6 +113,18 @@ request: {parts: [{model: box.stl, count: 1}], sensors: [{name: camera, width: 4
         done = self.make("plan.yaml", "out", code=3)
         self.assertRegex(done.stderr, r"need about [\d.]+ GB, [\d.]+ GB are free")
         self.assertEqual(list((self.folder / "out/scenes").iterdir()), [])
+
+    def test_a_small_disk_has_figures_too(self):
+        (self.folder / "small").mkdir()
+        own = ["unshare", "--user", "--map-root-user", "--mount"]
+        if subprocess.run(own + ["mount", "-t", "tmpfs", "tmpfs", self.folder / "small"], capture_output=True).returncode:
+            self.skipTest("no file system can be mounted here")
+        tool = self.command("dataset", self.plan(scenes=40), "--out", "small/out")
+        done = subprocess.run(own + ["sh", "-c", 'mount -t tmpfs -o size=600k tmpfs small && exec "$@"', "sh"] + tool,
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        needed, free = map(float, re.search(r"need about ([\d.]+) MB, ([\d.]+) MB are free", done.stderr).groups())
+        self.assertTrue(0.1 < free < 0.7 < needed, done.stderr)
 
     def test_draws_follow_their_distributions(self):
         self.make(self.plan(scenes=12, outputs="json"), "out", "--workers", 2)
