@@ -1,8 +1,10 @@
 #include "config/plan_objects.hpp"
 
+#include "config/suggest.hpp"
 #include "config/values.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace bin_scenes::config {
 
@@ -39,10 +41,28 @@ void PlanObjects::add(const Request& request, const Complain& complain) {
       const YAML::Node& given = symmetries;  // read alone: a node that is not there stays so
       if (given.IsMap() && given[object.model]) read_symmetries(given[object.model], object);
     } catch (const Mismatch& mismatch) {
-      complain("of '" + object.model + "': expected " + mismatch.expected);
+      complain("of '" + object.model + "': expected " + mismatch.expected, "in the model's frame");
     }
     all.push_back(object);
     digests += line.sha256;
+  }
+}
+
+void PlanObjects::check_names(const Complain& complain) const {
+  if (!symmetries.IsDefined() || symmetries.IsNull()) return;
+  if (!symmetries.IsMap())
+    return complain("expected a map by model", "for instance {cup.stl: {continuous: [[0, 0, 1]]}}");
+  std::vector<std::string> models;
+  for (const PlanObject& object : all) models.push_back(object.model);
+  for (const auto& item : symmetries) {
+    const std::string name = item.first.Scalar();
+    if (std::find(models.begin(), models.end(), name) != models.end()) continue;
+    const auto same_file = std::find_if(models.begin(), models.end(), [&](const std::string& model) {
+      return std::filesystem::path(model).filename() == std::filesystem::path(name).filename();
+    });
+    const std::string meant = same_file != models.end() ? *same_file : nearest(name, models);
+    complain("'" + name + "' is no model of the plan",
+             meant.empty() ? "write it as the request does" : "did you mean '" + meant + "'?");
   }
 }
 

@@ -16,9 +16,11 @@ struct PlanObjects {
   std::vector<PlanObject> all;  ///< in order of their first appearance
   std::string digests;          ///< of their files, and of the bins'
 
-  using Complain = std::function<void(const std::string& problem)>;
+  using Complain = std::function<void(const std::string& problem, const std::string& remedy)>;
   /// Notes what a request names. Symmetries that are none are complained of.
   void add(const Request& request, const Complain& complain);
+  /// Complains of symmetries of what is no model of the plan, once all are noted.
+  void check_names(const Complain& complain) const;
 };
 
 }  // namespace bin_scenes::config

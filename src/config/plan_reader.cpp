@@ -5,6 +5,7 @@
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "config/bop_plan.hpp"
+#include "config/plan_misfit.hpp"
 #include "config/plan_objects.hpp"
 #include "config/plan_state.hpp"
 #include "config/read_document.hpp"
@@ -51,6 +52,7 @@ class PlanFile {
     read_request(own_value(root, "request"));
     read_bop();
     if (errors_.empty()) try_ends();
+    if (errors_.empty()) objects_.check_names(symmetries_complaint());
     if (errors_.empty()) check_outputs();
     if (!errors_.empty()) throw PlanErrors(errors_);
     plan_.objects = objects_.all;
@@ -317,8 +319,8 @@ class PlanFile {
           const Request request = config::read_document(YAML::Clone(state_->request), state_->file, state_->base,
                                                         {{draw.path + "=" + end, draw.where}}, {}, &found);
           if (found.empty()) note_objects(request);
-          const std::string text = found.empty() ? misfit(request) : "";
-          if (!text.empty()) found.push_back(input_error(text, draw.where, bop_misfit_remedy));
+          if (const auto why = found.empty() ? config::misfit(plan_, request) : std::nullopt)
+            found.push_back(input_error(why->problem(), draw.where, why->remedy()));
         } catch (const Error& error) {
           found.push_back(error);
         }
@@ -332,28 +334,13 @@ class PlanFile {
     }
   }
 
-  void note_objects(const Request& request) {
-    objects_.add(request,
-                 [&](const std::string& problem) { complain(problem, "bop.symmetries", "in the model's frame"); });
+  config::PlanObjects::Complain symmetries_complaint() {
+    return [&](const std::string& problem, const std::string& remedy) { complain(problem, "bop.symmetries", remedy); };
   }
-
-  /// Why the outputs cannot hold what a request's sensors see; empty: they can.
-  std::string misfit(const Request& request) const {
-    const bool bop = plan_.wants("bop") || plan_.wants("shards");
-    if ((bop || plan_.wants("png") || plan_.wants("pcd") || plan_.wants("ply")) && request.sensors.empty())
-      return "the outputs show what a sensor sees, but the request has no sensors";
-    if ((plan_.wants("grasps") || plan_.depletion.by_grasp) && request.grippers.empty())
-      return "grasps are asked for, but the request has no grippers";
-    if (bop && request.sensors.size() != plan_.reference.sensors.size())
-      return "BOP has the same number of images in each scene, one a sensor";
-    for (const Sensor& sensor : request.sensors)
-      if (const std::string why = bop_misfit(sensor); bop && !why.empty()) return why;
-    return "";
-  }
+  void note_objects(const Request& request) { objects_.add(request, symmetries_complaint()); }
 
   void check_outputs() {
-    const std::string text = misfit(plan_.reference);
-    if (!text.empty()) complain(text, "outputs", bop_misfit_remedy);
+    if (const auto why = config::misfit(plan_, plan_.reference)) complain(why->problem(), "outputs", why->remedy());
     if (plan_.wants("shards") && plan_.shard_size < plan_.reference.sensors.size())
       complain("is less than the images of one scene", "shard_size", "give at least as many as there are sensors");
     if (!plan_.wants("bop") && !plan_.wants("shards")) return;

@@ -13,7 +13,7 @@ import subprocess
 import time
 
 import data_set
-from data_set import DataSetTest, children, processor_time
+from data_set import DataSetTest, box_stl, children, processor_time
 
 
 class Plans(DataSetTest):
@@ -52,6 +52,18 @@ draw:
 """)
         for line, words in ((4, "-0.5"), (5, "count"), (6, "missing.stl"), (7, "perfect")):
             self.assertEqual(len([t for t in lines if "bad.yaml:%d: " % line in t and words in t]), 1, "\n".join(lines))
+
+    def test_symmetries_of_no_model_of_the_plan_are_refused(self):
+        (self.folder / "parts").mkdir()
+        (self.folder / "box.stl").rename(self.folder / "parts/box.stl")
+        text = "scenes: 1\noutputs: [bop]\nrequest: {parts: [{model: parts/box.stl}], sensors: [{name: camera}]}\nbop: {symmetries: %s}\n"
+        turn = "{continuous: [[0, 0, 1]]}"
+        self.assertRegex(self.errors(text % ("{box.stl: %s}" % turn))[0], "bad.yaml:4: .*'box.stl' is no model.*'parts/box.stl'")
+        self.assertRegex(self.errors(text % ("[%s]" % turn))[0], "bad.yaml:4: .*expected a map by model")
+
+    def test_grasps_without_grippers_have_their_own_remedy(self):
+        text = "scenes: 1\noutputs: [json, grasps]\nrequest: {parts: [{model: box.stl}], sensors: [{name: camera}]}\n"
+        self.assertRegex(self.errors(text)[0], r"no grippers \(add for instance `grippers:")
 
     def test_a_folder_of_another_plan_or_of_something_else_is_refused(self):
         self.make(self.plan(scenes=1, outputs="json"), "out")
