@@ -312,7 +312,8 @@ class PlanFile {
         continue;
       }
       std::vector<std::string> ends = draw.distribution.ends(own);
-      if (ends.size() > most_ends) ends.resize(most_ends);
+      const bool of_parts = draw.path.rfind("parts", 0) == 0;  // each may name a model, which needs its number in BOP
+      if (ends.size() > most_ends && !of_parts) ends.resize(most_ends);
       for (const std::string& end : ends) {
         std::vector<Error> found;
         try {

@@ -65,6 +65,13 @@ draw:
         text = "scenes: 1\noutputs: [json, grasps]\nrequest: {parts: [{model: box.stl}], sensors: [{name: camera}]}\n"
         self.assertRegex(self.errors(text)[0], r"no grippers \(add for instance `grippers:")
 
+    def test_a_choice_of_many_models_leaves_none_out(self):
+        models = ["box_%02d.stl" % i for i in range(66)]
+        for i, model in enumerate(models):
+            box_stl(self.folder / model, (0.03, 0.04, 0.02 + 1e-4 * i))
+        self.make(self.plan(scenes=1, outputs="bop", draw="  parts[0].model: {choice: [%s]}" % ", ".join(models)), "out")
+        self.assertEqual(len(list((self.folder / "out/bop/models").glob("obj_*.ply"))), 2 + len(models))
+
     def test_a_folder_of_another_plan_or_of_something_else_is_refused(self):
         self.make(self.plan(scenes=1, outputs="json"), "out")
         other = self.plan(scenes=1, outputs="json", draw="  parts[1].friction: {uniform: [0.3, 0.7]}", name="other.yaml")
