@@ -56,6 +56,7 @@ std::string SceneData::json() const {
     const RangeImage& image = data->image;
     RangeImage& copy = seen.emplace_back();
     copy.sensor = image.sensor;
+    copy.device = image.device;
     copy.width = image.width;
     copy.height = image.height;
     copy.label = image.label;
