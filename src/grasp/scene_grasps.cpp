@@ -41,8 +41,8 @@ class Eye {
  public:
   explicit Eye(const RangeImage& image)
       : image_(image),
-        lens_(lens_of(image.sensor)),
-        into_camera_(image.sensor.pose.value_or(Pose()).inverse()),
+        lens_(lens_of(image.true_sensor())),
+        into_camera_(image.true_sensor().pose.value_or(Pose()).inverse()),
         measures_(image.depth.size() == image.seen_depth().size() && image.label.size() == image.depth.size()) {}
 
   void look(const Grasp& grasp, SceneGrasp& placed) const {

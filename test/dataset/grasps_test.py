@@ -51,6 +51,19 @@ class Grasps(DataSetTest):
             self.assertIn("camera", shards[key].grasps["grasps"][0]["pose_in_camera"])
         self.run_tool("dataset", "verify", "out")
 
+    def test_what_is_seen_of_a_contact_does_not_depend_on_the_calibration(self):
+        seen = []
+        for number, errors in enumerate(("{}", "{rotation: 0.02, position: 0.005}")):
+            plan = self.plan(scenes=2, outputs="json, grasps")
+            text = (self.folder / plan).read_text()
+            sensor = "height: 72, model: structured_light, calibration: %s}" % errors
+            (self.folder / plan).write_text(text.replace("height: 72}", sensor))
+            self.make(plan, "out%d" % number)
+            grasps = [g for scene in (0, 1) for g in self.grasps("out%d" % number, scene)["grasps"]]
+            seen.append(np.mean([g["visible"]["camera"] for g in grasps]))
+        self.assertGreater(seen[0], 0.1)
+        self.assertLess(abs(seen[1] - seen[0]), 0.1 * seen[0])
+
     def test_arrays_of_a_bin_without_grasps_are_empty(self):
         from bin_scenes_data import Sample
         data = json.dumps({"grasps": [], "grippers": [{"name": "two"}]}).encode()
