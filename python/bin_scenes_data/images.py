@@ -43,12 +43,13 @@ def _rgb_of_16_bits(data):
 def read_png(data):
     """Bytes of a PNG, grey or RGB of 8 or 16 bits, to an array (rows, columns[, 3]). Raises ValueError."""
     image = _decoded(data, "PNG")
-    if image.mode not in ("L", "I", "RGB"):
+    wide = image.mode == "I" or image.mode.startswith("I;16")  # grey of 16 bits, to Pillow before 10.3 and from then on
+    if not wide and image.mode not in ("L", "RGB"):
         raise ValueError("only grey and RGB, of 8 or 16 bits")
     if data[24:26] == _RGB_OF_16_BITS:
         return _rgb_of_16_bits(data)
     pixels = np.asarray(image)
-    return pixels.astype(np.uint16) if image.mode == "I" else pixels
+    return pixels.astype(np.uint16) if wide else pixels
 
 
 def read_tiff(data):

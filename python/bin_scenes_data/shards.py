@@ -38,7 +38,7 @@ class Sample:
 
     def raw(self, name):
         """Bytes of a file: depth.png, gray.tiff, rgb.png, camera.json, gt.json, gt_info.json, mask.json, mask_visib.json,
-        truth_labels.png, truth_normal.png, of pictures of 16 bits image.png, or of plans with output `grasps` grasps.json."""
+        snr.png, truth_labels.png, truth_normal.png, of pictures of 16 bits image.png, or of plans with output `grasps` grasps.json."""
         if name not in self._files:
             raise KeyError("image %s has no %s; there are %s" % (self.key, name, " ".join(sorted(self._files))))
         offset, size = self._files[name]
