@@ -115,6 +115,14 @@ std::vector<Lit> Stereo::lit(const View& view) const {
   return all;
 }
 
+/// Signal of the surface that a pixel sees, without the sensor's light.
+double Stereo::ambient(const View& view, std::size_t pixel) const {
+  if (setup_.imager.ambient == 0.0) return 0.0;
+  const SeenPoint p = seen_point(view, pixel);
+  Surface own;
+  return setup_.imager.ambient * diffuse_share(surfaces_.at(p.line, p.label, p.position, own));
+}
+
 /// Ambient light and the dots.
 std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit,
                                    const std::vector<float>& haze) const {
@@ -123,7 +131,7 @@ std::vector<float> Stereo::signals(const View& view, const std::vector<Lit>& lit
   in_parallel(static_cast<std::size_t>(view.lens.height), [&](std::size_t row) {
     for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
       if (lit[i].code == Validity::nothing) continue;
-      double signal = setup_.imager.ambient * diffuse_share(surfaces_.of(view.line[i]));
+      double signal = ambient(view, i);
       if (lit[i].code == Validity::valid) {
         signal +=
             white(lit[i]) * (!pattern_.empty() ? sampled(pattern_, setup_.projector, lit[i].column, lit[i].row) : 1.0);
@@ -202,7 +210,7 @@ double Stereo::depth_sigma(std::size_t pixel) const {
   return sigma * z * z / of_disparity(1.0);
 }
 
-/// What can be matched without dots. Surfaces have one albedo each: it is their borders.
+/// What can be matched without dots: borders of albedo, shadow and texture.
 std::vector<char> Stereo::surface_texture() const {
   const std::vector<float> values = signals(view_, lit_, haze_);
   std::vector<std::uint8_t> bytes(values.size());

@@ -49,6 +49,7 @@ class Stereo {
   std::vector<Lit> lit(const View& view) const;
   std::vector<float> pattern() const;
   std::vector<float> haze(const View& view, const Random& random) const;
+  double ambient(const View& view, std::size_t pixel) const;
   std::vector<float> signals(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze) const;
   std::vector<std::uint8_t> image(const View& view, const std::vector<Lit>& lit, const std::vector<float>& haze,
                                   const Random& random, double scale) const;

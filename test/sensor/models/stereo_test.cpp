@@ -235,6 +235,26 @@ TEST(Stereo, LightOfAnotherFaceIsHazeOverTheDots) {
   }
 }
 
+TEST(Stereo, AmbientLightIsThatOfTheWornSurface) {
+  Targets targets;
+  add_plate(targets, 1.0);
+  const Scenery scenery = targets.scenery();
+  Surfaces surfaces = targets.surfaces();
+  surfaces.lines[0].texture.rust = 1.0;  // all of it
+  surfaces.places.assign(2, {Pose(), Vec3::UnitX(), 7});
+  Device device;
+  device.setup.noise = false;
+  device.setup.imager.exposure = 1e-6;
+  device.setup.imager.ambient = 0.5;
+  const View view = render(scenery, device.camera, Pose(), device.setup.near, device.setup.far);
+  Surface own;
+  const double grey = 255.0 * 0.5 * diffuse_share(surfaces.at(0, 1, Vec3::UnitZ(), own));
+  ASSERT_LT(grey, 40.0) << "the plate without rust sends back 76";
+  const Stereo::Pair images = Stereo(scenery, view, surfaces, device.setup).images(Random(1, 0, Stream::noise));
+  for (const std::vector<std::uint8_t>& image : {images.first, images.second})
+    for (const std::uint8_t value : image) ASSERT_NEAR(value, grey, 1.0);
+}
+
 /// A bright and a dark half, of which one exposure loses one. A pixel is that of the longer exposure, bit for bit,
 /// where that one finds it and does not saturate, else that of the shorter.
 TEST(Stereo, ExposuresAreMerged) {
