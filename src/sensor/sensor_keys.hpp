@@ -110,7 +110,7 @@ void visit(Visitor& v, ImagerSettings& s) {
        "what is lit",
        at_least(0.0, 1000.0)},
       s.reference_distance);
-  v.field({"ambient", "", "signal / full well of a white surface without the sensor's light; adds shot noise",
+  v.field({"ambient", "", "except laser_line: signal / full well of white without the sensor's light; adds shot noise",
            at_least(0.0, 10.0)},
           s.ambient);
   v.field(

@@ -19,7 +19,8 @@ struct ImagerSettings {
                           ///< noise on dark parts, and bright or shiny ones saturate
   double reference_distance = 0.0;  ///< m from the light; 0 = automatic exposure: for a white surface parallel to the
                                     ///< image at the median distance of what is lit
-  double ambient = 0.02;            ///< signal of a white surface without the sensor's light; adds shot noise only
+  double ambient = 0.02;            ///< signal of a white surface without the sensor's light; adds shot noise only.
+                                    ///< laser_line sees none of it: a filter before its camera passes the laser
   double full_well = 10000.0;       ///< electrons at saturation; shot noise of a signal s is sqrt(s / full_well)
   double read_noise = 5.0;          ///< electrons, standard deviation; 0 = none
   double blur = 0.0;              ///< structured_light: camera pixels, standard deviation of the lens's blur; 0 = sharp

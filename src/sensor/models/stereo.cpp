@@ -119,6 +119,7 @@ std::vector<Lit> Stereo::lit(const View& view) const {
 double Stereo::ambient(const View& view, std::size_t pixel) const {
   if (setup_.imager.ambient == 0.0) return 0.0;
   const SeenPoint p = seen_point(view, pixel);
+  if (!p.hit) return 0.0;
   Surface own;
   return setup_.imager.ambient * diffuse_share(surfaces_.at(p.line, p.label, p.position, own));
 }
@@ -198,15 +199,21 @@ double Stereo::scale_of(double signal) const {
 }
 
 /// The matcher errs with the ratio of noise to texture.
-double Stereo::disparity_sigma(double signal, double haze) const {
-  return setup_.settings.disparity_noise * std::sqrt(imager_.variance(signal + haze) / imager_.variance(1.0)) / signal;
+double Stereo::disparity_sigma(double signal, double background) const {
+  return setup_.settings.disparity_noise * std::sqrt(imager_.variance(signal + background) / imager_.variance(1.0)) /
+         signal;
+}
+
+/// Light over the dots of a pixel of the first camera: noise without texture.
+double Stereo::background(std::size_t pixel) const {
+  return ambient(view_, pixel) + (haze_.empty() ? 0.0 : haze_[pixel]);
 }
 
 double Stereo::depth_sigma(std::size_t pixel) const {
   if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
   const double z = view_.depth[pixel], step = 1.0 / 16.0;
-  const double signal = white(lit_[pixel]), haze = haze_.empty() ? 0.0 : haze_[pixel], scale = scale_of(signal + haze);
-  const double sigma = std::hypot(disparity_sigma(scale * signal, scale * haze), step / std::sqrt(12.0));
+  const double signal = white(lit_[pixel]), over = background(pixel), scale = scale_of(signal + over);
+  const double sigma = std::hypot(disparity_sigma(scale * signal, scale * over), step / std::sqrt(12.0));
   return sigma * z * z / of_disparity(1.0);
 }
 
@@ -242,22 +249,22 @@ Measurement Stereo::analytic(const Random& random) const {
       const std::size_t i = row * width + x;
       out.validity[i] = lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
       double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
-      double haze = haze_.empty() ? 0.0 : haze_[i];
-      out.intensity[i] = static_cast<float>(std::min(signal + haze, 1.0));
-      const double scale = scale_of(signal + haze);
-      signal *= scale, haze *= scale;
-      out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal + haze)));
+      double over = background(i);
+      out.intensity[i] = static_cast<float>(std::min(signal + over, 1.0));
+      const double scale = scale_of(signal + over);
+      signal *= scale, over *= scale;
+      out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal + over)));
       const double truth = of_disparity(view_.depth[i]);
       const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
       if (hidden[x] || !in_second || signal < s.min_signal || (!texture.empty() && !texture[i])) continue;
-      if (imager_.saturated(signal + haze)) {
+      if (imager_.saturated(signal + over)) {
         out.validity[i] = Validity::saturated;
         continue;
       }
       double disparity = truth;
       if (setup_.noise) {
         // The matcher tells sixteenths.
-        disparity = std::round(16.0 * (truth + disparity_sigma(signal, haze) * field[i])) / 16.0;
+        disparity = std::round(16.0 * (truth + disparity_sigma(signal, over) * field[i])) / 16.0;
       }
       const double z = of_disparity(disparity);
       if (!(z >= setup_.near && z <= setup_.far)) continue;

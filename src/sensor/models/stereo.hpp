@@ -56,7 +56,8 @@ class Stereo {
   /// The longest exposure of a signal that does not saturate, else the shortest.
   double scale_of(double signal) const;
   std::vector<char> surface_texture() const;
-  double disparity_sigma(double signal, double haze) const;
+  double background(std::size_t pixel) const;
+  double disparity_sigma(double signal, double background) const;
   double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
 
   const Scenery& scenery_;

@@ -255,6 +255,26 @@ TEST(Stereo, AmbientLightIsThatOfTheWornSurface) {
     for (const std::uint8_t value : image) ASSERT_NEAR(value, grey, 1.0);
 }
 
+TEST(Stereo, AmbientLightAddsItsNoiseAndSaturates) {
+  Targets targets;
+  add_plate(targets, 1.0);
+  Device device;
+  device.setup.imager.read_noise = 0.0;
+  device.setup.imager.bits = 16;  // what is left is shot noise: its variance goes with all light
+  const auto lit_by = [&](double ambient) {
+    device.setup.imager.ambient = ambient;
+    return shoot(targets, device, false);
+  };
+  const Shot dark = lit_by(0.0), day = lit_by(0.3), sun = lit_by(2.0);
+  const std::size_t middle = dark.sigma.size() / 2 + 160;
+  const double s = dark.measured.intensity[middle];
+  EXPECT_NEAR(day.measured.intensity[middle], s + 0.3 * 0.6, 1e-6);
+  const double depth = dark.view.depth[middle], step = depth * depth / (device.camera.fx * 0.1) / 16.0;
+  const auto of_light = [&](const Shot& shot) { return std::pow(shot.sigma[middle], 2) - step * step / 12.0; };
+  EXPECT_NEAR(of_light(day) / of_light(dark), (s + 0.3 * 0.6) / s, 1e-3);
+  EXPECT_EQ(sun.measured.validity[middle], Validity::saturated) << "as the images of `decoded` are";
+}
+
 /// A bright and a dark half, of which one exposure loses one. A pixel is that of the longer exposure, bit for bit,
 /// where that one finds it and does not saturate, else that of the shorter.
 TEST(Stereo, ExposuresAreMerged) {
