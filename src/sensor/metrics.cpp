@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -70,7 +71,7 @@ double range_of(std::vector<double> residuals) {
   return residuals[residuals.size() - 1 - out] - residuals[out];
 }
 
-/// Half the width and height of the field at a distance, as far as camera and projector both see.
+/// Half the width and height of the camera's field at a distance.
 Eigen::Vector2d half_field(const Sensor& sensor, double distance) {
   const Lens lens = lens_of(sensor);
   return 0.5 * distance * Eigen::Vector2d(lens.width / lens.fx, lens.height / lens.fy);
@@ -103,8 +104,8 @@ void measure_balls(const Sensor& sensor, SensorMetrics& m) {
   for (int a = 0; a < 7; ++a) {
     for (int b = 0; b < a; ++b) {
       const double right = (places[a] - places[b]).norm(), error = std::abs((middles[a] - middles[b]).norm() - right);
-      m.sphere_spacing = std::max(m.sphere_spacing, error);
-      m.dimension_trueness = std::max(m.dimension_trueness, error / right);
+      m.sphere_spacing = std::fmax(m.sphere_spacing, error);  // of a ball that was not seen: no number
+      m.dimension_trueness = std::fmax(m.dimension_trueness, error / right);
     }
   }
 }
@@ -204,6 +205,7 @@ void measure_noise(const Sensor& sensor, SensorMetrics& m) {
 SensorMetrics measure_sensor(const Sensor& given) {
   const Sensor sensor = at_origin(given);
   SensorMetrics m;
+  m.sphere_spacing = m.dimension_trueness = m.global_planarity = std::numeric_limits<double>::quiet_NaN();
   const double middle = std::sqrt(sensor.near * sensor.far);
   m.distances = {std::max(0.8 * middle, 1.02 * sensor.near), middle, std::min(1.2 * middle, 0.98 * sensor.far)};
   const Eigen::Vector2d half = half_field(sensor, middle);

@@ -52,15 +52,23 @@ Json json_of(const Sensor& sensor, const SensorMetrics& m) {
   return json;
 }
 
+void print_value(double value) {
+  if (std::isnan(value))
+    std::printf(" %8s", "unseen");
+  else
+    std::printf(" %8.4f", value);
+}
+
+/// @param factor  of the unit: 1e3 prints mm
+void print_figure(const char* name, double value, double factor = 1e3, const char* unit = "") {
+  std::printf("%-26s", name);
+  print_value(factor * value);
+  std::printf("%s\n", std::isnan(value) ? "" : unit);
+}
+
 void print_row(const char* name, const std::array<double, 7>& values) {
   std::printf("%-26s", name);
-  for (const double v : values) {
-    if (std::isnan(v)) {
-      std::printf(" %8s", "unseen");
-    } else {
-      std::printf(" %8.4f", 1e3 * v);
-    }
-  }
+  for (const double v : values) print_value(1e3 * v);
   std::printf("\n");
 }
 
@@ -83,12 +91,13 @@ void print_text(const Sensor& sensor, const SensorMetrics& m) {
   print_row("probing error, form", m.probing_form);
   print_row("probing error, size", m.probing_size);
   print_row("flatness error", m.flatness);
-  std::printf("%-26s %8.4f\n\nas vendors print them\n", "sphere spacing error", 1e3 * m.sphere_spacing);
-  std::printf("%-26s %8.4f\n", "point precision", 1e3 * m.point_precision);
-  std::printf("%-26s %8.4f\n", "temporal noise", 1e3 * m.temporal_noise);
-  std::printf("%-26s %8.4f\n", "local planarity", 1e3 * m.local_planarity);
-  std::printf("%-26s %8.4f\n", "global planarity trueness", 1e3 * m.global_planarity);
-  std::printf("%-26s %8.4f %%\n", "dimension trueness", 100.0 * m.dimension_trueness);
+  print_figure("sphere spacing error", m.sphere_spacing);
+  std::printf("\nas vendors print them\n");
+  print_figure("point precision", m.point_precision);
+  print_figure("temporal noise", m.temporal_noise);
+  print_figure("local planarity", m.local_planarity);
+  print_figure("global planarity trueness", m.global_planarity);
+  print_figure("dimension trueness", m.dimension_trueness, 100.0, " %");
   std::printf("%-26s %zu\n", "points a plate", m.valid_points);
 }
 

@@ -80,5 +80,16 @@ TEST(SensorMetrics, NoiseIsNearTheOnePredicted) {
   }
 }
 
+TEST(SensorMetrics, WhatIsNotMeasuredHasNoFigure) {
+  Sensor blind = small("structured_light");
+  blind.width = 64, blind.height = 48;
+  blind.settings.of<StructuredLightSettings>().min_modulation = 0.99;
+  const SensorMetrics m = measure_sensor(blind);
+  EXPECT_EQ(m.valid_points, 0u);
+  for (const double figure : {m.sphere_spacing, m.dimension_trueness, m.point_precision, m.temporal_noise,
+                              m.local_planarity, m.global_planarity, m.probing_form[0], m.flatness[0]})
+    EXPECT_TRUE(std::isnan(figure)) << figure;
+}
+
 }  // namespace
 }  // namespace bin_scenes

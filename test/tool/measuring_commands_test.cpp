@@ -73,6 +73,11 @@ TEST_F(CommandLine, ASensorIsMeasuredBeforeAnyScene) {
   EXPECT_EQ(j["probing_error_form"].size(), 7u);
   EXPECT_NE(text("noise.svg").find("</svg>"), std::string::npos);
   expect_failure("sensor structured_lihgt_0.7m_750mm", 2, {"structured_light_0.7m_750mm"});
+  put("blind.yaml", text("sensor.yaml") + "structured_light: {min_modulation: 0.99}\n");
+  const std::string blind = run("sensor blind.yaml").out;
+  EXPECT_NE(blind.find("sphere spacing error         unseen\n"), std::string::npos) << blind;
+  EXPECT_NE(blind.find("dimension trueness           unseen\n"), std::string::npos) << blind;
+  EXPECT_EQ(blind.find("nan"), std::string::npos) << blind;
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct PredictedSigma {
   double sigma;      ///< m
 };
 
-/// Lengths in m. Where a figure has seven positions, they are the middle of the volume, left, right, up, down, near,
-/// far.
+/// Lengths in m; NaN of what is not measured. Where a figure has seven positions, they are the middle of the volume,
+/// left, right, up, down, near, far.
 struct SensorMetrics {
   std::array<double, 3> distances{};  ///< nearest, middle and farthest plane of the volume measured in
   std::vector<PredictedSigma> predicted;
