@@ -246,11 +246,11 @@ std::vector<int> HeapMaker::object_ids(const Request& request) const {
 }
 
 double HeapMaker::volume_of(const PartLine& line) {
-  double& volume = volumes_[line.sha256 + "|" + std::to_string(line.scale) + "|" +
-                            std::to_string(line.unit ? metres_per(*line.unit) : 0.0) + "|" +
-                            std::to_string(line.thickness.value_or(0.0)) + "|" + line.solid];
+  const LoadOptions options = load_options(line);
+  double& volume = volumes_[{line.sha256, options.unit, options.scale, options.thickness, options.tessellation.chord,
+                             options.tessellation.angle, options.solid}];
   if (volume == 0.0) {
-    volume = PartModel::load(line.path, load_options(line))->mass().volume;
+    volume = PartModel::load(line.path, options)->mass().volume;
   }
   return volume;
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace bin_scenes {
 
@@ -50,7 +51,10 @@ class HeapMaker {
   DataSetFacts facts_;
   std::size_t first_;
   Generator generator_;
-  std::map<std::string, double> volumes_;  ///< m3, by digest and size of the model
+  /// Digest of the file, and all that decides what is loaded from it: heaps must not depend on those made before.
+  using Model = std::tuple<std::string, std::optional<Unit>, double, std::optional<double>, std::optional<double>,
+                           double, std::string>;
+  std::map<Model, double> volumes_;  ///< m3
 };
 
 /// What lies on the disk of a heap, if it is all there: for folders whose index is lost or behind.

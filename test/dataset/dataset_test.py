@@ -158,6 +158,26 @@ request: {parts: [{model: box.stl, count: 1}], sensors: [{name: camera, width: 4
         self.assertTrue(all(3 <= n <= 6 for n in counts) and len(set(counts)) > 2, counts)
         self.assertTrue(all(0.5 <= d <= 0.6 for d in distances), distances)
 
+    def test_a_fill_goes_by_the_volume_of_the_models_drawn(self):
+        # Of one file, at two scales that only differ after the sixth digit.
+        box_stl(self.folder / "huge.stl", (1e5, 1e5, 1e5))
+        (self.folder / "plan.yaml").write_text("""scenes: 6
+outputs: [json]
+request:
+  bin: {inner_size: [0.24, 0.2, 0.15]}
+  solver: {type: bullet}
+  parts: [{model: huge.stl, count: 1}]
+  sensors: [{name: camera, width: 32, height: 24}]
+draw: {'parts[0].scale': {choice: [3.0e-7, 4.0e-7]}}
+amount: {fill: 0.05}
+""")
+        self.make("plan.yaml", "out", "--workers", 1)
+        counts = set()
+        for path in (self.folder / "out/scenes").iterdir():
+            scale = re.search("scale: (.*)", (path / "request.yaml").read_text()).group(1)
+            counts.add((float(scale), len(json.loads((path / "scene.json").read_text())["parts"])))
+        self.assertEqual(counts, {(3e-7, 14), (4e-7, 6)})
+
 
 class Repeatability(DataSetTest):
     def test_workers_shares_kills_and_full_disks_change_no_byte(self):
