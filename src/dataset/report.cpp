@@ -88,10 +88,14 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
 Json model_of(const fs::path& path) {
   const std::string bytes = read_file(path.string()), end = "end_header\n";
   const auto count = [&](const std::string& element) {
-    return std::stoul(bytes.substr(bytes.find("element " + element + " ") + 9 + element.size(), 12));
+    const std::size_t found = bytes.find("element " + element + " ");
+    return found == std::string::npos ? 0 : std::strtoul(bytes.c_str() + found + 9 + element.size(), nullptr, 10);
   };
-  const std::size_t vertices = count("vertex"), faces = count("face");
-  const char* at = bytes.data() + bytes.find(end) + end.size();
+  const std::size_t vertices = count("vertex"), faces = count("face"), head = bytes.find(end);
+  if (head == std::string::npos || vertices > bytes.size() || faces > bytes.size() ||
+      bytes.size() != head + end.size() + 12 * vertices + 13 * faces)
+    throw input_error("is no whole PLY of this project", path.string(), "run the plan into its folder again");
+  const char* at = bytes.data() + head + end.size();
   Json model = {{"vertices", Json::array()}, {"triangles", Json::array()}};
   for (std::size_t i = 0; i < 3 * vertices; ++i, at += 4) {
     float mm;

@@ -110,9 +110,12 @@ LoadedImage load_tiff(const std::string& path) {
   image.bits = image.channels == 1 ? static_cast<int>(tags[sample_bits])
                                    : static_cast<int>(number_at<std::uint16_t>(bytes, tags[sample_bits]));
   const std::size_t begin = tags[strip_begin], size = tags[strip_bytes], wide = image.bits == 16 ? 2 : 1;
-  std::string plain(std::size_t{tags[columns]} * tags[rows] * tags[samples_a_pixel] * wide, '\0');
+  constexpr double most_packed = 1040.0;  // bytes of zlib in one: a damaged header must not ask for all memory
+  const double told = 1.0 * tags[columns] * tags[rows] * tags[samples_a_pixel] * static_cast<double>(wide);
+  const bool there = bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size() &&
+                     told <= most_packed * static_cast<double>(size);
+  std::string plain(there ? static_cast<std::size_t>(told) : 0, '\0');
   uLongf length = plain.size();
-  const bool there = bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size();
   if (!there ||
       uncompress(reinterpret_cast<Bytef*>(plain.data()), &length, reinterpret_cast<const Bytef*>(bytes.data() + begin),
                  size) != Z_OK ||

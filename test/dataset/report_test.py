@@ -39,6 +39,16 @@ class Report(DataSetTest):
         self.assertIn("not at rest", page)
         self.assertIn("parts[0].friction", page)
 
+    def test_a_model_that_is_cut_off_is_named(self):
+        self.make(self.plan(scenes=1, outputs="bop"), "out")
+        for path in sorted((self.folder / "out/bop/models").glob("*.ply")):
+            whole = path.read_bytes()
+            for left in (0, 60, len(whole) - 1, 2 * len(whole) // 3):
+                path.write_bytes(whole[:left])
+                self.assertRegex(self.run_tool("report", "out", code=2).stderr, path.name + ".*is no whole PLY")
+            path.write_bytes(whole)
+        self.run_tool("report", "out")
+
     def test_published_figures_stand_beside_those_of_the_images(self):
         path = self.folder / self.plan(scenes=3, outputs="json, bop")
         path.write_text(path.read_text().replace("    - {name: camera, width: 96, height: 72}", """    - {name: camera, model: structured_light,

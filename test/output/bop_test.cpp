@@ -182,6 +182,20 @@ TEST_F(Bop, ColoursAreInRgb) {
   EXPECT_TRUE(std::filesystem::exists(path("gray/000000.tiff")));
 }
 
+/// Such a file is refused before the memory of the image that it tells of is taken.
+TEST_F(Bop, ATiffWithADamagedSizeIsRefused) {
+  const int width = 40, height = 30;
+  const Bytes whole = tiff8(width, height, 1, std::vector<std::uint8_t>(width * height, 7));
+  const auto directory = static_cast<std::size_t>(whole[4] | whole[5] << 8);
+  for (const std::size_t at : {directory + 2 + 8, directory + 2 + 12 + 8}) {  // values of the first two entries
+    Bytes broken = whole;
+    broken[at + 3] = 0x70;
+    std::ofstream(path("broken.tiff"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(broken.data()), static_cast<std::streamsize>(broken.size()));
+    EXPECT_THROW(load_tiff(path("broken.tiff")), Error);
+  }
+}
+
 TEST_F(Bop, WhatIsNoPinholeImageIsRefused) {
   RangeImage image = small_image();
   image.sensor.distortion[0] = 0.1;
