@@ -1,5 +1,6 @@
 #include "config/plan_objects.hpp"
 
+#include "config/read_document.hpp"
 #include "config/suggest.hpp"
 #include "config/values.hpp"
 
@@ -31,7 +32,7 @@ void read_symmetries(const YAML::Node& given, PlanObject& object) {
 }  // namespace
 
 void PlanObjects::add(const Request& request, const Complain& complain) {
-  digests += request.bin.mesh_sha256;
+  digests += request.bin.mesh_sha256 + digests_of_pictures(request);
   for (const PartLine& line : request.parts) {
     const auto same = [&](const PlanObject& object) { return is_of(object, line); };
     if (std::any_of(all.begin(), all.end(), same)) continue;

@@ -14,7 +14,7 @@ namespace bin_scenes::config {
 struct PlanObjects {
   YAML::Node symmetries;        ///< by model; may be undefined
   std::vector<PlanObject> all;  ///< in order of their first appearance
-  std::string digests;          ///< of their files, and of the bins'
+  std::string digests;          ///< of their files, and of those of bins and lamps
 
   using Complain = std::function<void(const std::string& problem, const std::string& remedy)>;
   /// Notes what a request names. Symmetries that are none are complained of.

@@ -356,7 +356,8 @@ class PlanFile {
   }
 
   std::string digest() const {
-    return sha256_hex(deciding_ + "\n" + write_request(plan_.reference) + "\n" + objects_.digests);
+    const std::string reference = write_request(config::without_places(plan_.reference));
+    return sha256_hex(deciding_ + "\n" + reference + "\n" + objects_.digests);
   }
 
   std::string path_;

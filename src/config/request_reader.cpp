@@ -143,11 +143,16 @@ void go_on_from_scene(Request& request, const Where& where, const std::function<
 }
 
 void find_pictures(std::vector<Sensor>& sensors, const std::string& base, const PathRules& rules, const Where& where) {
+  std::map<std::string, std::string> digests;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     std::vector<ImageLamp>& lamps = sensors[i].settings.of<ImageSettings>().lamps;
     for (std::size_t k = 0; k < lamps.size(); ++k) {
       const std::string key = "sensors[" + std::to_string(i) + "].lamps[" + std::to_string(k) + "].picture";
-      if (!lamps[k].picture.empty()) lamps[k].picture = resolve_file(lamps[k].picture, base, rules, where(key));
+      if (lamps[k].picture.empty()) continue;
+      lamps[k].picture = resolve_file(lamps[k].picture, base, rules, where(key));
+      std::string& digest = digests[lamps[k].picture];
+      if (digest.empty()) digest = sha256_of_file(lamps[k].picture);
+      lamps[k].picture_sha256 = digest;
     }
   }
 }
@@ -231,6 +236,22 @@ Request read_document(YAML::Node root, const std::string& file, const std::strin
   return request;
 }
 
+Request without_places(Request request) {
+  if (!request.bin.mesh.empty()) request.bin.mesh = "mesh";
+  for (Sensor& sensor : request.sensors)
+    for (ImageLamp& lamp : sensor.settings.of<ImageSettings>().lamps)
+      if (!lamp.picture_sha256.empty()) lamp.picture = "picture";
+  return request;
+}
+
+std::string digests_of_pictures(const Request& request) {
+  std::string text;
+  for (const Sensor& sensor : request.sensors)
+    for (const ImageLamp& lamp : sensor.settings.of<ImageSettings>().lamps)
+      if (!lamp.picture.empty()) text += lamp.picture_sha256 + "\n";
+  return text;
+}
+
 namespace {
 
 Request read(const std::string& text, const std::string& file, const std::string& base,
@@ -260,18 +281,15 @@ Request read_request_text(const std::string& yaml, const std::string& base_direc
 }
 
 std::string request_hash(const Request& request) {
-  Request content = request;
+  Request content = config::without_places(request);
   content.scenes = 1;
   content.first = 0;
   std::string text;
-  if (!content.bin.mesh.empty()) {  // where a file lies does not matter, what is in it does
-    text += content.bin.mesh_sha256 + "\n";
-    content.bin.mesh = "mesh";
-  }
+  if (!content.bin.mesh.empty()) text += content.bin.mesh_sha256 + "\n";
   for (const PartLine& line : content.parts) {
     if (!line.path.empty()) text += line.sha256 + "\n";
   }
-  return sha256_hex(write_request(content) + text);
+  return sha256_hex(write_request(content) + text + config::digests_of_pictures(content));
 }
 
 }  // namespace bin_scenes

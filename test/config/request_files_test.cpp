@@ -118,6 +118,18 @@ TEST_F(ConfigTest, PartsThatWereNeverPouredHaveNothingToGoOnFrom) {
   EXPECT_EQ(r.parts[0].poses[0].position.z(), 0.5);
 }
 
+/// A hash is that of what a request's files hold, not that of where they lie.
+TEST_F(ConfigTest, ThePicturesOfLampsCount) {
+  const auto hash = [&](const std::string& picture, char shade) {
+    put(picture, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + std::string(4, shade) + "\x10\x20\x30\x80");
+    return request_hash(read("sensors: [{model: image, lamps: [{type: dome, picture: " + picture + "}]}]\n" + bolts));
+  };
+  const std::string before = hash("sky.hdr", 'a');
+  EXPECT_NE(before, hash("sky.hdr", 'b'));
+  EXPECT_EQ(before, hash("sky.hdr", 'a'));
+  EXPECT_EQ(before, hash("elsewhere/sky.hdr", 'a'));
+}
+
 TEST_F(ConfigTest, ModelsAreNotTakenForDirectories) {
   std::filesystem::create_directories(dir / "out");
   std::filesystem::create_directories(dir / "bolt.st");

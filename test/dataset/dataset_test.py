@@ -7,6 +7,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -84,6 +85,29 @@ draw:
         self.assertIn("no data set", self.make("plan.yaml", "full", code=2).stderr)
         self.assertIn("--shard", self.make("plan.yaml", "out2", "--shard", "3/2", code=2).stderr)
         self.run_tool("dataset", "plan.yaml", code=2)
+
+    def test_a_folder_goes_on_elsewhere_but_not_with_other_files(self):
+        box_stl(self.folder / "floor.stl", (0.3, 0.3, 0.01))
+
+        def made(picture):
+            (self.folder / "sky.hdr").write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + picture)
+        made(b"\x40\x40\x40\x81" * 2)
+        (self.folder / "plan.yaml").write_text("""scenes: 1
+outputs: [json, png]
+request:
+  bin: {mesh: floor.stl, unit: m}
+  solver: {type: bullet}
+  pour: {pattern: given}
+  parts: [{model: box.stl, poses: [[0, 0, 0.04, 0, 0, 0, 1]]}]
+  sensors: [{name: camera, model: image, width: 32, height: 24, lamps: [{type: dome, picture: sky.hdr}]}]
+""")
+        self.make("plan.yaml", "out")
+        moved = self.folder.parent / (self.folder.name + "_moved")
+        self.addCleanup(shutil.rmtree, moved, True)
+        shutil.copytree(self.folder, moved)
+        self.make(moved / "plan.yaml", moved / "out")
+        made(b"\x80\x40\x40\x81" * 2)
+        self.assertIn("another plan", self.make("plan.yaml", "out", code=2).stderr)
 
     def test_a_request_file_keeps_its_own_keys_to_itself(self):
         (self.folder / "request.yaml").write_text("seed: 7\nscenes: 5\nparts: [{model: box.stl, count: 2}]\nsolver: {type: bullet}\n")

@@ -35,8 +35,8 @@ Request read_request_text(const std::string& yaml, const std::string& base_direc
 /// Every key with its value, readable back.
 std::string write_request(const Request& request);
 
-/// SHA-256 of what decides the scenes of a request: every key but `scenes` and `first`, and the bytes of its models, by
-/// the digests that the reader filled in.
+/// SHA-256 of what decides the scenes of a request: every key but `scenes` and `first`, and the bytes of its models
+/// and of its lamps' pictures, by the digests that the reader filled in.
 /// Two scenes with the same index and hash are the same scene.
 std::string request_hash(const Request& request);
 

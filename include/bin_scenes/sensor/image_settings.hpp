@@ -26,6 +26,7 @@ struct ImageLamp {
   double inner = 0.045;        ///< ring: radius (m)
   double horizon = 0.5;        ///< dome: radiance at the horizon and below it / that of the zenith
   std::string picture;         ///< dome: file of an equirectangular picture; none: even from horizon to zenith
+  std::string picture_sha256;  ///< picture: of the file's bytes as the reader saw them; empty: not known
   double turn = 0.0;           ///< dome: rad, of the picture about the vertical
 };
 
