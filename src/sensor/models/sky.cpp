@@ -2,13 +2,14 @@
 #include "sensor/models/sky.hpp"
 
 #include "bin_scenes/core/error.hpp"
+#include "core/read_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <deque>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -18,6 +19,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int most_columns = 4096, most_rows = 2048;
+constexpr std::size_t most_unused = 4;  ///< panoramas that are kept although nobody uses them, 100 MB each
 
 Error no_panorama(const std::string& problem, const std::string& path) {
   return input_error(problem, path, "save it as Radiance RGBE (.hdr), twice as wide as high, at most 4096 x 2048");
@@ -27,9 +29,12 @@ Error no_panorama(const std::string& problem, const std::string& path) {
 class RgbeReader {
  public:
   explicit RgbeReader(const std::string& path) : path_(path) {
-    std::ifstream file(path, std::ios::binary);
-    bytes_.assign(std::istreambuf_iterator<char>(file), {});
-    if (!file) throw no_panorama("cannot be read", path);
+    try {
+      bytes_ = read_file(path);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;
+      throw no_panorama(error.problem(), path);
+    }
   }
 
   Panorama read() {
@@ -98,11 +103,27 @@ class RgbeReader {
 }  // namespace
 
 std::shared_ptr<const Panorama> read_panorama(const std::string& path) {
+  namespace fs = std::filesystem;
+  struct Known {
+    std::uintmax_t bytes;
+    fs::file_time_type changed;
+    std::weak_ptr<const Panorama> panorama;
+  };
   static std::mutex mutex;
-  static std::map<std::string, std::shared_ptr<const Panorama>> known;
+  static std::map<std::string, Known> all;
+  static std::deque<std::shared_ptr<const Panorama>> last;
   const std::lock_guard<std::mutex> lock(mutex);
-  std::shared_ptr<const Panorama>& panorama = known[path];
-  if (!panorama) panorama = std::make_shared<const Panorama>(RgbeReader(path).read());
+  std::error_code ignored;
+  const std::uintmax_t bytes = fs::file_size(path, ignored);
+  const fs::file_time_type changed = fs::last_write_time(path, ignored);
+  Known& known = all[path];
+  std::shared_ptr<const Panorama> panorama = known.panorama.lock();
+  if (!panorama || known.bytes != bytes || known.changed != changed) {
+    panorama = std::make_shared<const Panorama>(RgbeReader(path).read());
+    known = {bytes, changed, panorama};
+  }
+  if (std::find(last.begin(), last.end(), panorama) == last.end()) last.push_back(panorama);
+  if (last.size() > most_unused) last.pop_front();
   return panorama;
 }
 

@@ -16,7 +16,8 @@ struct Panorama {
   int width = 0, height = 0;
   std::vector<Eigen::Array3f> radiance;  ///< row-major
 };
-/// Of a Radiance file (.hdr). Kept while somebody uses it. Throws an input Error that names the file.
+/// Of a Radiance file (.hdr). Kept while somebody uses it, and the last few longer; read again once the file has
+/// changed. Throws an input Error that names the file.
 std::shared_ptr<const Panorama> read_panorama(const std::string& path);
 
 class Sky {

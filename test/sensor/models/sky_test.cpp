@@ -7,10 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace bin_scenes {
@@ -131,6 +134,18 @@ TEST(Sky, AllWaysFindTheSamePicture) {
   }
 }
 
+TEST(Sky, AChangedPictureIsReadAgainAndAnOldOneIsForgotten) {
+  const auto of_shade = [](int shade) { return [shade](int, int) { return std::array<int, 4>{shade, 9, 9, 129}; }; };
+  const std::string path = written("changes.hdr", 16, 8, of_shade(64));
+  std::weak_ptr<const Panorama> first = read_panorama(path);
+  EXPECT_EQ(read_panorama(path), first.lock()) << "not read twice";
+  written("changes.hdr", 16, 8, of_shade(128));
+  std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
+  EXPECT_EQ(read_panorama(path)->radiance[0][0], 1.0f);
+  for (int i = 0; i < 8; ++i) read_panorama(written("sky" + std::to_string(i) + ".hdr", 16, 8, of_shade(i)));
+  EXPECT_TRUE(first.expired());
+}
+
 TEST(Sky, MistakesOfPicturesAreTold) {
   const auto refused = [](const ImageLamp& lamp, const std::string& problem) {
     try {
@@ -145,6 +160,7 @@ TEST(Sky, MistakesOfPicturesAreTold) {
   refused(sky(written("black.hdr", 16, 8, black)), "is black");
   refused(sky(written("square.hdr", 16, 16, black)), "16 x 16");
   refused(sky(::testing::TempDir() + "none.hdr"), "cannot be read");
+  refused(sky(::testing::TempDir()), "not a regular file");
   std::ofstream(::testing::TempDir() + "text.hdr") << "P5 3 3\n";
   refused(sky(::testing::TempDir() + "text.hdr"), "no Radiance picture");
   std::ofstream(::testing::TempDir() + "cut.hdr") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\nab";
