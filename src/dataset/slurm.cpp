@@ -11,8 +11,11 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <thread>
 
@@ -26,17 +29,18 @@ constexpr std::chrono::milliseconds between_looks(1000);
 
 struct Outcome {
   int code = -1;
-  std::string out;  ///< standard output and standard error
+  std::string out, errors;  ///< apart: sites have sbatch say things to its user, too
 };
 
 /// A command of Slurm, without a shell between.
 Outcome call(const std::vector<std::string>& words) {
   int ends[2];
-  if (pipe(ends) != 0) throw environment_error(std::strerror(errno), words[0], "close programs");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors(std::tmpfile(), std::fclose);
+  if (!errors || pipe(ends) != 0) throw environment_error(std::strerror(errno), words[0], "close programs");
   const pid_t pid = fork();
   if (pid == 0) {
     dup2(ends[1], STDOUT_FILENO);
-    dup2(ends[1], STDERR_FILENO);
+    dup2(fileno(errors.get()), STDERR_FILENO);
     close(ends[0]);
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -54,6 +58,8 @@ Outcome call(const std::vector<std::string>& words) {
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  std::rewind(errors.get());
+  while (const std::size_t n = std::fread(text, 1, sizeof text, errors.get())) outcome.errors.append(text, n);
   return outcome;
 }
 
@@ -72,8 +78,8 @@ std::map<std::string, int> states_of(const std::string& id) {
   const Outcome outcome = call({"squeue", "--noheader", "--array", "--jobs=" + id, "--format=%T"});
   std::map<std::string, int> states;
   if (outcome.code != 0) {
-    if (outcome.out.find("Invalid job id") != std::string::npos) return states;
-    throw environment_error("squeue: " + outcome.out, "Slurm", "ask again when Slurm answers: the job goes on");
+    if (outcome.errors.find("Invalid job id") != std::string::npos) return states;
+    throw environment_error("squeue: " + outcome.errors, "Slurm", "ask again when Slurm answers: the job goes on");
   }
   std::istringstream lines(outcome.out);
   for (std::string state; lines >> state;) ++states[state];
@@ -81,23 +87,24 @@ std::map<std::string, int> states_of(const std::string& id) {
 }
 
 std::string submit(const SlurmJob& job, const fs::path& folder) {
-  const std::string environment = "ALL,BIN_SCENES_TOOL=" + fs::read_symlink("/proc/self/exe").string() +
-                                  ",BIN_SCENES_PLAN=" + fs::absolute(job.plan).string() +
-                                  ",BIN_SCENES_OUT=" + folder.string() +
-                                  ",BIN_SCENES_SHARES=" + std::to_string(job.shares);
+  // Not as words of --export, which end at a comma.
+  setenv("BIN_SCENES_TOOL", fs::read_symlink("/proc/self/exe").c_str(), 1);
+  setenv("BIN_SCENES_PLAN", fs::absolute(job.plan).c_str(), 1);
+  setenv("BIN_SCENES_OUT", folder.c_str(), 1);
+  setenv("BIN_SCENES_SHARES", std::to_string(job.shares).c_str(), 1);
   std::vector<std::string> words = {"sbatch",
                                     "--parsable",
                                     "--array=0-" + std::to_string(job.shares - 1),
                                     "--cpus-per-task=" + std::to_string(job.cpus),
                                     "--output=" + (folder / "share_%a.log").string(),
-                                    "--export=" + environment};
+                                    "--export=ALL"};
   words.insert(words.end(), job.options.begin(), job.options.end());
   words.push_back(script());
   const Outcome outcome = call(words);
   if (outcome.code == 127)
     throw environment_error("there is no sbatch", "Slurm", "submit on a machine that has Slurm (Debian: slurm-client)");
   if (outcome.code != 0)
-    throw environment_error("sbatch: " + outcome.out, "Slurm",
+    throw environment_error("sbatch: " + outcome.errors, "Slurm",
                             "correct what it says; --sbatch passes options on to it");
   return outcome.out.substr(0, outcome.out.find_first_of(";\n"));
 }

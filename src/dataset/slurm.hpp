@@ -9,7 +9,7 @@
 namespace bin_scenes {
 
 struct SlurmJob {
-  std::string plan, out;             ///< shares lie in OUT/shares until they are merged into OUT
+  std::string plan, out;             ///< shares lie in OUT/.shares until they are merged into OUT
   std::size_t shares = 4, cpus = 1;  ///< tasks; cores a task
   std::vector<std::string> options;  ///< further ones of sbatch
   std::function<void(const std::string&)> tell;

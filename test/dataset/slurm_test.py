@@ -90,6 +90,42 @@ class Cluster:
                 daemon.wait()
 
 
+class Commands(DataSetTest):
+    """What is asked of Slurm's commands; here scripts that speak as they do."""
+
+    def environment(self):
+        return dict(os.environ, PATH=str(self.folder / "bin") + ":" + os.environ["PATH"])
+
+    def put(self, name, text):
+        (self.folder / "bin").mkdir(exist_ok=True)
+        (self.folder / "bin" / name).write_text("#!/bin/bash\n" + text)
+        (self.folder / "bin" / name).chmod(0o755)
+
+    def test_words_to_the_user_are_no_job_and_a_comma_ends_no_path(self):
+        self.put("sbatch", """echo "sbatch: warning: this account has 7 hours left" >&2
+for word in "$@"; do
+  case $word in
+    --export=*) IFS=, read -ra names <<< "${word#--export=}"
+                for name in "${names[@]}"; do [[ $name == *=* ]] && export "$name"; done ;;
+    --array=*) last=${word#--array=0-} ;;
+  esac
+done
+for ((i = 0; i <= last; ++i)); do SLURM_ARRAY_TASK_ID=$i bash "${@: -1}" >&2 || exit 1; done
+echo "4711;here"
+""")
+        self.put("squeue", """echo "squeue: warning: the daemon is slow" >&2
+[[ $* == *--jobs=4711* ]] || { echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1; }
+[[ -e asked ]] || echo RUNNING
+touch asked
+""")
+        plan = self.plan(scenes=2, outputs="json")
+        done = self.run_tool("dataset", "submit", "--slurm", plan, "--out", "bolts,2", "--shares", 2)
+        self.assertIn("job 4711: 1 RUNNING\n", done.stdout + done.stderr)
+        self.assertEqual((self.folder / "bolts,2/.shares/job").read_text(), "4711")
+        self.make(plan, "here")
+        self.assert_same("here", "bolts,2")
+
+
 @unittest.skipUnless(FOUND, "needs root and Debian's packages slurmctld, slurmd, slurm-client and munge")
 class Slurm(DataSetTest):
     def setUp(self):
