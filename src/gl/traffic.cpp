@@ -3,7 +3,7 @@
 namespace bin_scenes::gl {
 
 Traffic& traffic() {
-  static Traffic sum;
+  static thread_local Traffic sum;
   return sum;
 }
 

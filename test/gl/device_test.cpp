@@ -1,8 +1,10 @@
 #include "bin_scenes/gl/device.hpp"
+#include "bin_scenes/gl/traffic.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <thread>
 
 namespace bin_scenes::gl {
 namespace {
@@ -14,6 +16,16 @@ TEST(Device, OpensTheSoftwareRendererWhenAsked) {
     GTEST_SKIP() << "there is none here, but " << device.renderer();
   EXPECT_TRUE(device.software()) << device.renderer();
   EXPECT_FALSE(device.version().empty());
+}
+
+TEST(Device, EachThreadCountsItsOwnTraffic) {
+  Profile profile;
+  {
+    const TrafficCount count(profile);
+    ++traffic().dispatches;
+    std::thread([] { traffic().dispatches += 100; }).join();
+  }
+  EXPECT_EQ(profile.counters.at("gl_dispatches"), 1u);
 }
 
 TEST(Device, LimitsHoldWhatThePassesRelyOn) {

@@ -13,7 +13,7 @@ struct Traffic {
   std::uint64_t bytes_uploaded = 0, bytes_read_back = 0;  ///< between host and device
 };
 
-/// Totals of the process; one thread owns GL. The functions of this layer add to them.
+/// Totals of this thread, which has a device of its own. The functions of this layer add to them.
 Traffic& traffic();
 
 /// Adds the counts during the object's lifetime to the counters gl_dispatches, gl_barriers, gl_argument_barriers,
