@@ -1,3 +1,4 @@
+/// Submits an array job, looks at it once a second, and tells its shares once Slurm no longer knows it.
 #include "dataset/slurm.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
