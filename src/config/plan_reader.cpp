@@ -303,9 +303,18 @@ class PlanFile {
                "amount.shares", "give one a line");
   }
 
+  /// `amount` sets the counts of all lines but the fixed ones.
+  bool set_by_amount(const std::string& path) const {
+    const std::string line = path.substr(0, path.rfind('.'));
+    if (path != line + ".count" || line.rfind("parts", 0) != 0) return false;
+    const YAML::Node fixed = own_value(state_->request, line + ".fixed");
+    return (state_->amount.parts || state_->amount.fill) && !(fixed && fixed.as<bool>());
+  }
+
   /// A draw that cannot be right is found here instead of after hours: each end is put into the request alone.
   void try_ends() {
     for (const config::Draw& draw : state_->draws) {
+      if (set_by_amount(draw.path)) complain("amount sets it", "draw." + draw.path, "keep one of the two");
       const YAML::Node own = own_value(state_->request, draw.path);
       if (draw.distribution.kind == Kind::times && !own) {
         complain("the request has no value to multiply", "draw." + draw.path, "write the value into the request");

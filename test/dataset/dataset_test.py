@@ -54,6 +54,18 @@ draw:
         for line, words in ((4, "-0.5"), (5, "count"), (6, "missing.stl"), (7, "perfect")):
             self.assertEqual(len([t for t in lines if "bad.yaml:%d: " % line in t and words in t]), 1, "\n".join(lines))
 
+    def test_a_count_is_not_drawn_and_set_by_amount(self):
+        text = """scenes: 1
+request: {parts: [{model: box.stl%s}, {model: bar.stl}]}
+draw: {'parts[0].count': {choice: [1]}}
+amount: {parts: 3}
+"""
+        lines = self.errors(text % "")
+        self.assertIn("bad.yaml:3: 'draw.parts[0].count': amount sets it (keep one of the two)", "\n".join(lines))
+        self.assertEqual(len(lines), 1, lines)
+        (self.folder / "fixed.yaml").write_text(text % ", fixed: true, poses: [[0, 0, 0.1, 0, 0, 0, 1]]")  # which amount leaves alone
+        self.make("fixed.yaml", "out")
+
     def test_symmetries_of_no_model_of_the_plan_are_refused(self):
         (self.folder / "parts").mkdir()
         (self.folder / "box.stl").rename(self.folder / "parts/box.stl")
