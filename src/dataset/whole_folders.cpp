@@ -49,8 +49,7 @@ void check_writable(const fs::path& directory) {
   std::error_code error;
   while (!fs::exists(place, error) && place.has_relative_path()) place = place.parent_path();
   if (!fs::is_directory(place, error)) {
-    throw environment_error("'" + place.string() + "' is not a directory", directory.string(),
-                            "name a directory for --out");
+    throw input_error("'" + place.string() + "' is not a directory", directory.string(), "name a directory for --out");
   }
   if (::access(place.c_str(), W_OK | X_OK) != 0) {
     throw environment_error("'" + place.string() + "' cannot be written", directory.string(),

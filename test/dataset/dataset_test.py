@@ -95,6 +95,7 @@ amount: {parts: 3}
         (self.folder / "full").mkdir()
         (self.folder / "full/thesis.txt").write_text("mine")
         self.assertIn("no data set", self.make("plan.yaml", "full", code=2).stderr)
+        self.assertIn("not a directory", self.make("plan.yaml", "plan.yaml", code=2).stderr)
         self.assertIn("--shard", self.make("plan.yaml", "out2", "--shard", "3/2", code=2).stderr)
         self.run_tool("dataset", "plan.yaml", code=2)
 

@@ -13,6 +13,7 @@ TEST_F(CommandLine, BadRequestsEndWithCodeTwoAndNothingWritten) {
   expect_failure("generate request.yaml", 2, {"--out"});
   expect_failure("generate request.yaml --out out --colour red", 2, {"--colour"});
   expect_failure("generate nowhere.yaml --out out", 2, {"nowhere.yaml"});
+  expect_failure("generate request.yaml --out request.yaml/deeper", 2, {"not a directory"});
   expect_failure("generate request.yaml --out out --formats json,exr", 2, {"exr", "json, pcd"});
   expect_failure("generate request.yaml --out out --formats png", 2, {"sensors"});
   expect_failure("generate request.yaml --out out --set solver.typ=bullet", 2, {"solver.typ", "'type'"});
