@@ -87,6 +87,13 @@ std::map<std::string, int> states_of(const std::string& id) {
   return states;
 }
 
+/// As a pattern of Slurm, where % begins the number of a task and the like.
+std::string as_pattern(const std::string& path) {
+  std::string pattern;
+  for (const char c : path) pattern += c == '%' ? "%%" : std::string(1, c);
+  return pattern;
+}
+
 std::string submit(const SlurmJob& job, const fs::path& folder) {
   // Not as words of --export, which end at a comma.
   setenv("BIN_SCENES_TOOL", fs::read_symlink("/proc/self/exe").c_str(), 1);
@@ -97,7 +104,7 @@ std::string submit(const SlurmJob& job, const fs::path& folder) {
                                     "--parsable",
                                     "--array=0-" + std::to_string(job.shares - 1),
                                     "--cpus-per-task=" + std::to_string(job.cpus),
-                                    "--output=" + (folder / "share_%a.log").string(),
+                                    "--output=" + as_pattern(folder.string()) + "/share_%a.log",
                                     "--export=ALL"};
   words.insert(words.end(), job.options.begin(), job.options.end());
   words.push_back(script());

@@ -101,16 +101,19 @@ class Commands(DataSetTest):
         (self.folder / "bin" / name).write_text("#!/bin/bash\n" + text)
         (self.folder / "bin" / name).chmod(0o755)
 
-    def test_words_to_the_user_are_no_job_and_a_comma_ends_no_path(self):
+    def test_words_to_the_user_are_no_job_and_a_path_may_hold_a_comma_or_a_percent_sign(self):
         self.put("sbatch", """echo "sbatch: warning: this account has 7 hours left" >&2
 for word in "$@"; do
   case $word in
+    --output=*) pattern=${word#--output=} ;;
     --export=*) IFS=, read -ra names <<< "${word#--export=}"
                 for name in "${names[@]}"; do [[ $name == *=* ]] && export "$name"; done ;;
     --array=*) last=${word#--array=0-} ;;
   esac
 done
-for ((i = 0; i <= last; ++i)); do SLURM_ARRAY_TASK_ID=$i bash "${@: -1}" >&2 || exit 1; done
+for ((i = 0; i <= last; ++i)); do
+  SLURM_ARRAY_TASK_ID=$i bash "${@: -1}" > "$(sed "s/%%/|/g; s/%a/$i/g; s/|/%/g" <<< "$pattern")" 2>&1 || exit 1
+done
 echo "4711;here"
 """)
         self.put("squeue", """echo "squeue: warning: the daemon is slow" >&2
@@ -119,11 +122,12 @@ echo "4711;here"
 touch asked
 """)
         plan = self.plan(scenes=2, outputs="json")
-        done = self.run_tool("dataset", "submit", "--slurm", plan, "--out", "bolts,2", "--shares", 2)
+        done = self.run_tool("dataset", "submit", "--slurm", plan, "--out", "bolts,2%a", "--shares", 2)
         self.assertIn("job 4711: 1 RUNNING\n", done.stdout + done.stderr)
-        self.assertEqual((self.folder / "bolts,2/.shares/job").read_text(), "4711")
+        self.assertEqual((self.folder / "bolts,2%a/.shares/job").read_text(), "4711")
+        self.assertTrue((self.folder / "bolts,2%a/.shares/share_1.log").exists())
         self.make(plan, "here")
-        self.assert_same("here", "bolts,2")
+        self.assert_same("here", "bolts,2%a")
 
 
 @unittest.skipUnless(FOUND, "needs root and Debian's packages slurmctld, slurmd, slurm-client and munge")
