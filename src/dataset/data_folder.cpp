@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 
@@ -204,6 +205,14 @@ FolderLock::FolderLock(const fs::path& root) : descriptor_(::open(root.c_str(), 
 }
 FolderLock::~FolderLock() {
   ::close(descriptor_);
+}
+
+bool is_worked_in(const fs::path& root) {
+  const int folder = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return false;
+  const bool locked = flock(folder, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(folder);
+  return locked;
 }
 
 std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts) {

@@ -78,6 +78,9 @@ class FolderLock {
   int descriptor_;
 };
 
+/// Whether another process has that lock.
+bool is_worked_in(const std::filesystem::path& root);
+
 /// Heaps of which there is a folder, whole or not: what a start has to look through, however many a plan asks for.
 std::set<std::size_t> heaps_in(const DataFolder& folder, const DataSetFacts& facts);
 

@@ -2,6 +2,7 @@
 /// src/dataset.
 #include "bin_scenes/config/plan.hpp"
 #include "dataset/bop_root.hpp"
+#include "dataset/data_folder.hpp"
 #include "dataset/merge.hpp"
 #include "dataset/run.hpp"
 #include "dataset/slurm.hpp"
@@ -123,6 +124,9 @@ int dataset_verify(const VerifyOptions& options) {
     throw input_error("no directory is named", "dataset verify", "name that of a data set");
   constexpr std::size_t most = 100;  // findings that are printed
   Findings findings;
+  if (is_worked_in(options.directory))
+    std::fprintf(stderr, "bin_scenes: note: another process works in %s: what it has yet to make is found missing\n",
+                 options.directory.c_str());
   {
     ProgressBar bar;
     bar.stage(0.0, 1.0, "reading the data set");

@@ -4,7 +4,9 @@ sound data set.
 
     verify_test.py TOOL
 """
+import fcntl
 import json
+import os
 import re
 import shutil
 import sqlite3
@@ -257,6 +259,14 @@ class Verify(DataSetTest):
         self.make(plan, "other", "--shard", "0/2")
         self.run_tool("dataset", "merge", "other", "--out", "half", code=1)
         self.assertIn("nothing is known of heap 1", self.run_tool("dataset", "verify", "half", code=1).stdout)
+
+    def test_a_run_that_goes_on_is_told(self):
+        self.make(self.plan(scenes=1, outputs="json"), "out")
+        self.assertEqual(self.run_tool("dataset", "verify", "out").stderr, "")
+        folder = os.open(self.folder / "out", os.O_RDONLY)
+        self.addCleanup(os.close, folder)
+        fcntl.flock(folder, fcntl.LOCK_EX)  # as a run has it
+        self.assertIn("note: another process works in out", self.run_tool("dataset", "verify", "out").stderr)
 
     def test_what_is_no_data_set_is_refused(self):
         (self.folder / "empty").mkdir()
