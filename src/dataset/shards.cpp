@@ -39,6 +39,16 @@ std::string offsets_path(const DataFolder& folder, std::size_t shard) {
   return fs::path(folder.shard(shard)).replace_extension(".json").string();
 }
 
+/// What pack_one() wrote beside a shard.
+OrderedJson offsets_of(const DataFolder& folder, std::size_t shard) {
+  const std::string path = offsets_path(folder, shard);
+  const OrderedJson offsets = fs::exists(path) ? OrderedJson::parse(read_file(path), nullptr, false) : OrderedJson();
+  if (!offsets.is_object())
+    throw input_error("is missing or damaged", path,
+                      "remove " + folder.shard(shard).string() + ", and a run makes its scenes again");
+  return offsets;
+}
+
 void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t shard) {
   std::vector<std::pair<std::string, fs::path>> files;
   const std::size_t first = shard * scenes_per_shard(facts);
@@ -171,7 +181,7 @@ void ShardPacker::pack(std::size_t shard) {
 }
 
 void ShardPacker::note(std::size_t shard) {
-  const OrderedJson offsets = OrderedJson::parse(read_file(offsets_path(folder_, shard)));
+  const OrderedJson offsets = offsets_of(folder_, shard);
   for (const auto& [key, files] : offsets.items()) shard_of_key_[key] = shard;
 }
 

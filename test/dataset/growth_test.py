@@ -67,6 +67,12 @@ class Growth(DataSetTest):
                 subprocess.run(["rm", "-r", self.folder / "out" / lost], check=True)
                 self.make(plan, "out")
                 self.assert_same("once", "out")
+        (self.folder / "out/shards/shard-000001.json").unlink()  # alone
+        told = self.make(plan, "out", code=2).stderr
+        self.assertRegex(told, r"out/shards/shard-000001.json: is missing or damaged \(remove out/shards/shard-000001.tar,")
+        (self.folder / "out/shards/shard-000001.tar").unlink()
+        self.make(plan, "out")
+        self.assert_same("once", "out")
 
     def test_a_share_that_is_the_whole_set_is_merged(self):
         plan = self.plan(scenes=5, outputs="json, shards", more=SMALL)
