@@ -162,7 +162,8 @@ Json inspection(const InspectOptions& options) {
     throw input_error("an open surface has no convex hulls", options.model,
                       "close its " + std::to_string(report.open_edges) + " open edges, or leave out --hulls");
   }
-  const std::size_t made = files_below(cache) - before;
+  const std::size_t after = files_below(cache),
+                    made = after - std::min(before, after);  // others may clear it meanwhile
   json["cache"] = {{"directory", cache},
                    {"state", cache.empty() ? "off"
                              : made == 0   ? "warm"
@@ -236,7 +237,7 @@ void print_text(const Json& j) {
 int inspect(const InspectOptions& options) {
   const Json json = inspection(options);
   if (options.json) {
-    std::cout << json.dump(1) << "\n";
+    std::cout << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";  // names of files are any bytes
   } else {
     print_text(json);
   }

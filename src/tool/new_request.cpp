@@ -29,7 +29,12 @@ std::string quoted(const std::string& text) {
   const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+";
   const bool is_plain =
       text.find_first_not_of(plain) == std::string::npos && text.find_first_not_of("0123456789.+") != std::string::npos;
-  return is_plain ? text : nlohmann::json(text).dump();
+  if (is_plain) return text;
+  try {
+    return nlohmann::json(text).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw input_error("this name is no UTF-8, which a request is", text, "rename the file, folder or solid");
+  }
 }
 
 template <class... Values>

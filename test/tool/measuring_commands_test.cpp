@@ -47,6 +47,8 @@ TEST_F(CommandLine, InspectMeasuresAModel) {
   EXPECT_EQ(Json::parse(open.out).at("file").at("flags").at(0).at("code"), "surface_open");
   const std::string text_of_open = run("inspect open.stl").out;
   EXPECT_NE(text_of_open.find("flag        the surface is not closed"), std::string::npos) << text_of_open;
+  put("n\xff.stl", box_stl(0.04));
+  EXPECT_EQ(Json::parse(run("inspect n\xff.stl --json").out).at("model"), "n\xef\xbf\xbd.stl") << "no UTF-8";
 }
 
 TEST_F(CommandLine, DoctorTestsEachSolverAndReferenceIsTheDocument) {

@@ -82,6 +82,8 @@ TEST_F(CommandLine, NewRefusesBadInputAndOverwritesNothing) {
   refused("box.stl --unit parsec", {"parsec", "mm"});
   put("open.stl", box_stl(0.04, 10));
   refused("open.stl", {"open.stl", "--thickness"});
+  put("n\xff.stl", box_stl(0.04));
+  refused("n\xff.stl --count 3", {"n\\xff.stl", "no UTF-8", "rename"});
   expect_failure("new box.stl --out none/new.yaml", 2, {"none"});
   expect_failure("new box.stl --out new", 2, {".yaml"});
   EXPECT_EQ(run("new open.stl --out new.yaml --thickness 0.002 --no-pour").code, 0);
