@@ -113,6 +113,14 @@ struct Generator::State {
     resolved_sensors(models.loaded());  // says what is wrong before hours of simulation
   }
 
+  static void add_flags_of_bin(const PartModel& bin, Report& report) {
+    for (Flag flag : bin.load_report().flags) {
+      flag.text = "bin: " + flag.text;
+      if (flag.code == "surface_open") flag.remedy = "close it in the modeller";  // a bin takes no thickness
+      report.flags.push_back(flag);
+    }
+  }
+
   /// A settled heap's scene, with what the report says of models and solver.
   static Scene scene_of(const Heap& heap) {
     Scene scene = heap.scene();
@@ -122,6 +130,7 @@ struct Generator::State {
       if (std::find(heap.parts().begin(), part, *part) != part) continue;
       for (const Flag& flag : (*part)->load_report().flags) scene.report.flags.push_back(flag);
     }
+    if (const PartModelPtr bin = heap.loaded().bin_model) add_flags_of_bin(*bin, scene.report);
     return scene;
   }
 

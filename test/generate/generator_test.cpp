@@ -70,7 +70,12 @@ TEST_F(GeneratorTest, ABinOfSheetsWithoutThicknessIsRefusedWhereItWouldHoldNothi
   request.bin.mesh = (dir / "bin.stl").string();
   request.bin.pose.orientation = Quat(Eigen::AngleAxisd(-M_PI / 2.0, Vec3::UnitY()));  // its open side up
   std::ofstream(request.bin.mesh) << box_stl(0.2, but_one_side);
-  EXPECT_TRUE(run(request).at(0).scene.report.accepted) << "by Bullet";
+  const Report report = run(request).at(0).scene.report;
+  EXPECT_TRUE(report.accepted) << "by Bullet";
+  ASSERT_EQ(report.flags.size(), 1u);
+  EXPECT_EQ(report.flags[0].code, "surface_open");
+  EXPECT_EQ(report.flags[0].text.rfind("bin: the surface is not closed", 0), 0u) << report.flags[0].text;
+  EXPECT_EQ(report.flags[0].remedy.find("thickness"), std::string::npos) << report.flags[0].remedy;
   for (const SolverType type : {SolverType::sphere, SolverType::automatic}) {
     request.solver.type = type;
     EXPECT_EQ(failure(request), ErrorKind::input) << name_of(type);
