@@ -128,6 +128,8 @@ TEST(Check, RefusesEachAbsurdValueByItsKey) {
             "sensors[0].stereo.baseline");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().disparities = 100; }),
             "sensors[0].stereo.disparities");
+  EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().disparities = 2048; }),
+            "sensors[0].stereo.disparities");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<StereoSettings>().window = 8; }),
             "sensors[0].stereo.window");
   EXPECT_EQ(refused([](Request& r) { r.sensors[0].settings.of<TimeOfFlightSettings>().axial = -0.1; }),

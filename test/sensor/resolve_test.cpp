@@ -127,6 +127,22 @@ TEST(Resolve, ProjectorIsChecked) {
   EXPECT_NE(refusal(sensor).find("no triangle"), std::string::npos);
 }
 
+TEST(Resolve, DisparitiesThatAreMatchedFitInSixteenBits) {
+  Sensor sensor;
+  sensor.model = "stereo";
+  sensor.fidelity = Fidelity::decoded;
+  sensor.far = 1.0;
+  auto& stereo = sensor.settings.of<StereoSettings>();
+  stereo.disparities = 1024;
+  const double fx = resolved(sensor, Bin()).k[0];
+  stereo.baseline = 1022.0 / fx;
+  EXPECT_EQ(refusal(sensor), "");
+  stereo.baseline = 1024.0 / fx;
+  EXPECT_EQ(refusal(sensor), "disparities of 1024 (at far) to 2048 pixels, more than the 2047 that are matched");
+  sensor.fidelity = Fidelity::analytic;
+  EXPECT_EQ(refusal(sensor), "");
+}
+
 TEST(Resolve, ACameraInTheWallIsToldSo) {
   Sensor sensor;
   sensor.model = "structured_light";

@@ -19,8 +19,9 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.baseline);
   v.field(
       {"disparities", "pixel",
-       "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it",
-       at_least(16.0, 4096.0)},
+       "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it; "
+       "decoded: with focal length * baseline / far at most 2047, which 16 bits hold",
+       at_least(16.0, 2032.0)},
       s.disparities);
   v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges", at_least(1.0, 51.0)},
           s.window);
@@ -57,6 +58,18 @@ void check(const Sensor& sensor, const std::string& key) {
   }
 }
 
+/// The matcher's disparities are sixteenths of a pixel in 16 bits.
+void check_places(const Sensor& sensor, const std::string& where) {
+  constexpr int most = 2047;
+  const auto& s = sensor.settings.of<StereoSettings>();
+  const double least = lens_of(sensor).fx * s.baseline / sensor.far;
+  if (sensor.fidelity == Fidelity::decoded && least + s.disparities > most)
+    throw input_error("disparities of " + std::to_string(std::lround(least)) + " (at far) to " +
+                          std::to_string(std::lround(least + s.disparities)) + " pixels, more than the " +
+                          std::to_string(most) + " that are matched",
+                      where, "lower stereo.disparities, baseline or width, or set far farther away");
+}
+
 RangeImage measured(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                     const Draw& draw) {
   const Stereo model(scenery, view, surfaces, stereo_setup(sensor), rays_of(draw));
@@ -77,7 +90,7 @@ double sigma(const Sensor& sensor, double distance, double incidence, double alb
 }
 
 constexpr SensorModel model() {
-  SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, nullptr, measured, sigma};
+  SensorModel m{"stereo", "the second camera, dots and matching", visit_keys, check, check_places, measured, sigma};
   m.imager = m.projector = m.fidelity = m.indirect = true;
   m.report = report;
   return m;
