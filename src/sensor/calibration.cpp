@@ -54,9 +54,11 @@ void err_in_pose(const CalibrationSettings& sigma, Random draw, Sensor& device) 
 void keep_ranges(RangeImage& image, const Sensor& device, const Sensor& believed) {
   const Lens eye = lens_of(device), read = lens_of(believed);
   const double offset = device.settings.of<CalibrationSettings>().range;
-  report_depths(image, [&](double column, double row, double depth) {
-    return (depth * eye.ray(column, row).norm() + offset) / read.ray(column, row).norm();
-  });
+  const auto depth_of = [&](double column, double row, double depth) {
+    const double range = depth * eye.ray(column, row).norm() + offset;
+    return range > 0.0 ? range / read.ray(column, row).norm() : std::numeric_limits<double>::quiet_NaN();
+  };
+  report_depths(image, depth_of, Validity::nothing);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@
 namespace bin_scenes {
 
 /// @param depth_of  (column, row, depth) -> depth; not finite: there is none
+/// @param none      code of pixels that have no depth then
 template <class DepthOf>
-void report_depths(RangeImage& image, const DepthOf& depth_of) {
+void report_depths(RangeImage& image, const DepthOf& depth_of, Validity none = Validity::decoding) {
   const auto width = static_cast<std::size_t>(image.width);
   in_parallel(static_cast<std::size_t>(image.height), [&](std::size_t row) {
     for (std::size_t column = 0; column < width; ++column) {
@@ -21,7 +22,7 @@ void report_depths(RangeImage& image, const DepthOf& depth_of) {
       image.depth[i] = static_cast<float>(depth);
       if (std::isfinite(depth)) continue;
       image.depth[i] = std::numeric_limits<float>::quiet_NaN();
-      image.validity[i] = static_cast<std::uint8_t>(Validity::decoding);
+      image.validity[i] = static_cast<std::uint8_t>(none);
       image.label[i] = 0;
       image.snr[i] = 0.0f;
     }

@@ -135,6 +135,26 @@ TEST(Calibration, AnOffsetLengthensRanges) {
     ASSERT_LT((p.reported - (p.exact.norm() + small) * p.exact.normalized()).norm(), second);
 }
 
+TEST(Calibration, AnOffsetBelowTheNearestSurfaceLeavesNothing) {
+  Sensor believed = resolved(exact("time_of_flight"), no_bin());
+  believed.settings.of<CalibrationSettings>().range = 1.0;  // m
+  Sensor device = believed;
+  device.settings.of<CalibrationSettings>().range = -0.8;
+  RangeImage image;
+  image.width = believed.width;
+  image.height = believed.height;
+  image.depth.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 0.75f);
+  image.depth[0] = 1.0f;
+  image.label.assign(image.depth.size(), 1);
+  image.snr.assign(image.depth.size(), 10.0f);
+  image.validity.assign(image.depth.size(), static_cast<std::uint8_t>(Validity::valid));
+  report_as_believed(image, device, believed);
+  EXPECT_GT(image.depth[0], 0.2f);
+  const std::size_t middle = (image.depth.size() + static_cast<std::size_t>(image.width)) / 2;
+  EXPECT_TRUE(std::isnan(image.depth[middle])) << image.depth[middle];
+  EXPECT_EQ(image.validity[middle], static_cast<std::uint8_t>(Validity::nothing));
+}
+
 TEST(Calibration, PoseMovesTheDeviceAndNothingInIt) {
   for (const char* model : {"structured_light", "stereo", "time_of_flight", "laser_line"}) {
     Sensor sensor = resolved(exact(model), no_bin());
