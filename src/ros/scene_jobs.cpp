@@ -19,6 +19,13 @@ namespace {
 using Code = bin_scenes_msgs::ErrorCode;
 
 Lift lift_of(const bin_scenes_msgs::PickPart::Request& request) {
+  const auto& p = request.grasp.position;
+  const auto& q = request.grasp.orientation;
+  for (const double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
+    if (number != 0.0)
+      throw input_error("there is a grasp, but no gripper", "pick_part",
+                        "name the gripper that get_grasps tells with the grasp, or leave the grasp out");
+  }
   Lift lift;
   const auto& d = request.lift_direction;
   if (d.x != 0.0 || d.y != 0.0 || d.z != 0.0) lift.direction = Vec3(d.x, d.y, d.z);

@@ -101,6 +101,7 @@ class HeapTest(NodeTestCase):
                 ({"ids": [told.parts[other]]}, "is one of part %d, not of part %d" % (told.parts[0], told.parts[other])),
                 ({"ids": [told.parts[blocked]], "gripper": told.grippers[blocked], "grasp": told.poses.poses[blocked]},
                  "the grasp is not free: " + told.reasons[blocked]),
+                ({"gripper": ""}, "there is a grasp, but no gripper"),
                 ({"ids": []}, "name one part"), ({"ids": [0, 1]}, "name one part"), ({"ids": [99]}, "no part 99"),
                 ({"lift_direction": Vector3(1, 0, 0)}, "straight up"), ({"lift_distance": 11}, "the distance is 11")):
             response = self.doors.pick(**dict(best, **change))
