@@ -201,8 +201,8 @@ void Publication::show_images() {
     }
     for (const auto& topics : sensors_) topics->show();
   } catch (const std::exception& error) {
-    ++render_failures_;
-    ROS_ERROR("no image: %s", error.what());
+    // Once a scene: publish_rate would repeat it for ever.
+    if (render_failures_++ == 0) ROS_ERROR("no image: %s", error.what());
   }
 }
 

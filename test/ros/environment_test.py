@@ -15,6 +15,9 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from bin_scenes.msg import ErrorCode, SceneRequest  # noqa: E402
 from scene_client import Doors, NodeTestCase, run, wait_until  # noqa: E402
+from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
+from rosgraph_msgs.msg import Log  # noqa: E402
+from sensor_msgs.msg import PointCloud2  # noqa: E402
 
 ONE = "{parts: [{model: nut_hex.stl, unit: mm, count: 1}], solver: {type: sphere}}"
 DRIVERS = glob.glob("/usr/lib/*/dri/*_dri.so")
@@ -125,6 +128,27 @@ class EnvironmentTest(NodeTestCase):
                     self.assertTrue(whole.success, whole.message)
                     self.assertEqual([part.pose for part in whole.scene.parts], poses)
                 self.assertTrue(doors.generate(SceneRequest(yaml=ONE)).success)
+
+    def test_a_picture_that_is_gone_is_told_once_a_scene_not_at_each_publication(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sky = os.path.join(folder, "sky.hdr")
+            with open(sky, "wb") as file:
+                file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + 2 * b"\x40\x40\x40\x81")
+            rospy.set_param("/bin_scenes", {"model_roots": [os.environ["BIN_SCENES_MODELS"], folder], "publish_rate": 20})
+            self.addCleanup(rospy.delete_param, "/bin_scenes")
+            log, said = [], {}
+            rospy.Subscriber("/rosout", Log, lambda message: log.append(message.msg))
+            rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: said.update(
+                (s.name, {v.key: v.value for v in s.values}) for s in array.status))
+            yaml = ONE[:-1] + (", sensors: [{name: camera, model: image, width: 16, height: 12, "
+                               "lamps: [{type: dome, picture: sky.hdr}]}]}")
+            with Process(rospy.get_param("/node"), "__name:=bin_scenes"):
+                doors = Doors()
+                wait_until(lambda: doors.scene(yaml) and any("scene 0 of seed" in line for line in log))
+                os.remove(sky)
+                rospy.Subscriber("points", PointCloud2, lambda _: None)
+                wait_until(lambda: int(said.get("bin_scenes: sensors", {}).get("failures since the last scene", 0)) > 2)
+            self.assertEqual(len([line for line in log if line.startswith("no image: ")]), 1, log)
 
 
 if __name__ == "__main__":
