@@ -3,12 +3,14 @@
 ///
 ///     points   ─► one cloud a label ──────┐
 ///     markers  ─► points on the model ────┼─► ICP ─► TF frame icp_<part>, and a line of the log
-///     /tf      ─► a displaced first guess ┘
+///     scene,   ─► a displaced first guess ┘
+///     /tf
 ///
 /// A real pipeline has segments and first guesses of its own; the truth tells how good they are.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
+#include "messages.hpp"
 
 #include <pcl/point_types.h>
 #include <pcl/registration/correspondence_rejection_surface_normal.h>
@@ -29,6 +31,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The fields of the cloud that are used here, under the names that they have there.
@@ -184,15 +187,34 @@ class IcpCheck {
     params.param("turn", turn_, turn_);
     params.param("least_points", least_points_, least_points_);
     params.param("tolerance", tolerance_, tolerance_);
-    markers_ = node_.subscribe("markers", 1, &IcpCheck::remember, this);
-    points_ = node_.subscribe("points", 1, &IcpCheck::check, this);
+    subscribers_ = {keep("scene", scene_), keep("markers", markers_), keep("points", points_)};
   }
 
  private:
-  void remember(const visualization_msgs::MarkerArray& array) {
-    marker_of_.clear();
-    for (const auto& marker : array.markers)
-      if (marker.ns == "parts" && marker.action == visualization_msgs::Marker::ADD) marker_of_[marker.id] = marker;
+  /// Topics arrive in any order: those of one scene have one stamp.
+  template <class Message>
+  ros::Subscriber keep(const char* topic, boost::shared_ptr<const Message>& last) {
+    using Pointer = boost::shared_ptr<const Message>;
+    const boost::function<void(const Pointer&)> callback = [this, &last](const Pointer& message) {
+      last = message;
+      if (!scene_ || !markers_ || markers_->markers.empty() || !points_) return;
+      const ros::Time stamp = points_->header.stamp;
+      if (scene_->header.stamp != stamp || markers_->markers[0].header.stamp != stamp) return;
+      check(*std::exchange(points_, nullptr));
+    };
+    return node_.subscribe<Message>(topic, 1, callback);
+  }
+
+  struct Part {
+    std::string frame;
+    visualization_msgs::Marker marker;
+  };
+  std::map<int, Part> parts_by_id() const {
+    std::map<int, Part> parts;
+    for (const auto& part : scene_->parts) parts[part.id].frame = part.frame_id;
+    for (const auto& marker : markers_->markers)
+      if (marker.ns == "parts") parts.at(marker.id).marker = marker;
+    return parts;
   }
 
   Model& model_of(const visualization_msgs::Marker& marker) {
@@ -220,13 +242,13 @@ class IcpCheck {
       if (!segment) segment = pcl::make_shared<Cloud>();
       segment->push_back(point(p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()));
     }
+    const std::map<int, Part> parts = parts_by_id();
     int checked = 0, agree = 0, lost = 0;
     for (const auto& [id, segment] : segments) {
-      const auto marker = marker_of_.find(id);
-      if (marker == marker_of_.end() || static_cast<int>(segment->size()) < least_points_) continue;
+      if (static_cast<int>(segment->size()) < least_points_) continue;
       try {
         ++checked;
-        const std::optional<double> apart = check_part(marker->second, segment, message.header);
+        const std::optional<double> apart = check_part(parts.at(id), segment, message.header);
         lost += !apart;
         agree += apart && *apart <= tolerance_;
       } catch (const std::exception& error) {
@@ -238,14 +260,12 @@ class IcpCheck {
   }
 
   /// Distance of the surfaces (m); none if ICP did not converge.
-  std::optional<double> check_part(const visualization_msgs::Marker& marker, const Cloud::Ptr& segment,
-                                   const std_msgs::Header& header) {
-    char frame[32];
-    std::snprintf(frame, sizeof frame, "part_%04d", marker.id);
+  std::optional<double> check_part(const Part& part, const Cloud::Ptr& segment, const std_msgs::Header& header) {
+    const char* const frame = part.frame.c_str();
     // The cloud's own stamp: part frames are found there however late this is.
     const Isometry3d truth =
-        pose_of(buffer_.lookupTransform(header.frame_id, frame, header.stamp, ros::Duration(1.0)).transform);
-    Model& model = model_of(marker);
+        pose_of(buffer_.lookupTransform(header.frame_id, part.frame, header.stamp, ros::Duration(1.0)).transform);
+    Model& model = model_of(part.marker);
     const std::optional<Isometry3d> found = model.pose(segment, displaced(truth));
     if (!found) {
       ROS_INFO("%s: %zu points, ICP did not converge", frame, segment->size());
@@ -255,7 +275,7 @@ class IcpCheck {
     ROS_INFO("%s: %zu points, the model's surface %.3f mm from that on TF", frame, segment->size(), 1e3 * apart);
     geometry_msgs::TransformStamped message;
     message.header = header;
-    message.child_frame_id = std::string("icp_") + frame;
+    message.child_frame_id = "icp_" + part.frame;
     message.transform = transform_of(*found);
     broadcaster_.sendTransform(message);
     return apart;
@@ -270,9 +290,11 @@ class IcpCheck {
   tf2_ros::TransformListener listener_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::mt19937 random_;
-  std::map<int, visualization_msgs::Marker> marker_of_;  ///< by part id
   std::map<std::string, Model> models_;
-  ros::Subscriber markers_, points_;
+  bin_scenes_msgs::SceneConstPtr scene_;
+  visualization_msgs::MarkerArrayConstPtr markers_;
+  sensor_msgs::PointCloud2ConstPtr points_;
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace

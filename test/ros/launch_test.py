@@ -160,6 +160,7 @@ class LaunchTest(LaunchTestCase):
 
     def test_icp_check(self):
         """ICP of what the camera sees ends where TF says that the parts are, and nothing had to be remapped."""
+        rospy.set_param("/bin_scenes/frame_prefix", "left/")
         with Launched("icp_check.launch", "request:=" + self.request) as launched:
             tf = tf2_ros.Buffer()
             tf2_ros.TransformListener(tf)
