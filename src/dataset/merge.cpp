@@ -43,6 +43,7 @@ void take_over(const fs::path& from, const fs::path& to) {
 void take_shards(const DataFolder& from, const DataFolder& to, const DataSetFacts& facts) {
   for (std::size_t shard = 0; shard < shard_count(facts); ++shard) {
     if (!fs::exists(from.shard(shard)) || fs::exists(to.shard(shard))) continue;
+    offsets_of(from, shard);  // throws if the shard is of no use
     make_directory(to.shards());
     const fs::path tar = from.shard(shard);
     for (const fs::path& file : {fs::path(tar).replace_extension(".json"), tar}) {  // where the tar is, its offsets are

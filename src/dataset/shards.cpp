@@ -39,16 +39,6 @@ std::string offsets_path(const DataFolder& folder, std::size_t shard) {
   return fs::path(folder.shard(shard)).replace_extension(".json").string();
 }
 
-/// What pack_one() wrote beside a shard.
-OrderedJson offsets_of(const DataFolder& folder, std::size_t shard) {
-  const std::string path = offsets_path(folder, shard);
-  const OrderedJson offsets = fs::exists(path) ? OrderedJson::parse(read_file(path), nullptr, false) : OrderedJson();
-  if (!offsets.is_object())
-    throw input_error("is missing or damaged", path,
-                      "remove " + folder.shard(shard).string() + ", and a run makes its scenes again");
-  return offsets;
-}
-
 void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t shard) {
   std::vector<std::pair<std::string, fs::path>> files;
   const std::size_t first = shard * scenes_per_shard(facts);
@@ -83,6 +73,15 @@ std::size_t shard_of(const DataSetFacts& facts, std::size_t scene) {
 }
 std::size_t shard_count(const DataSetFacts& facts) {
   return (facts.scenes() + scenes_per_shard(facts) - 1) / scenes_per_shard(facts);
+}
+
+nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard) {
+  const std::string path = offsets_path(folder, shard);
+  const OrderedJson offsets = fs::exists(path) ? OrderedJson::parse(read_file(path), nullptr, false) : OrderedJson();
+  if (!offsets.is_object())
+    throw input_error("is missing or damaged", path,
+                      "remove " + folder.shard(shard).string() + ", and a run makes its scenes again");
+  return offsets;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> write_tar(const std::string& path,

@@ -20,6 +20,9 @@ std::size_t scenes_per_shard(const DataSetFacts& facts);
 std::size_t shard_of(const DataSetFacts& facts, std::size_t scene);
 std::size_t shard_count(const DataSetFacts& facts);
 
+/// The offset index beside a shard. Throws an input Error if it is missing or damaged.
+nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
+
 /// Packs samples into shards, with an offset index beside each (shard-000000.json: key -> file -> [offset, bytes]),
 /// tells in key_to_shard.json where each image is, and removes the samples. What was packed before is kept; killed at
 /// any instant, it goes on from there. Throws Error.

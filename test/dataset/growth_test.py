@@ -79,6 +79,11 @@ class Growth(DataSetTest):
         self.make(plan, "share", "--shard", "0/1")
         self.run_tool("dataset", "merge", "share", "--out", "merged")
         self.assert_same("share", "merged")
+        lost = self.folder / "share/shards/shard-000000.json"
+        offsets = lost.read_text()
+        lost.unlink()
+        self.assertIn("remove share/shards/shard-000000.tar", self.run_tool("dataset", "merge", "share", "--out", "lost", code=2).stderr)
+        lost.write_text(offsets)
         self.make(plan, "other", "--shard", "1/2")  # its samples are not packed
         self.run_tool("dataset", "merge", "other", "share", "--out", "both")
         self.assert_same("share", "both")
