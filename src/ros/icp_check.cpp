@@ -212,8 +212,10 @@ class IcpCheck {
   std::map<int, Part> parts_by_id() const {
     std::map<int, Part> parts;
     for (const auto& part : scene_->parts) parts[part.id].frame = part.frame_id;
-    for (const auto& marker : markers_->markers)
-      if (marker.ns == "parts") parts.at(marker.id).marker = marker;
+    for (const auto& marker : markers_->markers) {
+      const auto part = parts.find(marker.id);
+      if (marker.ns == "parts" && marker.action == marker.ADD && part != parts.end()) part->second.marker = marker;
+    }
     return parts;
   }
 
