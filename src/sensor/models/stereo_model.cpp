@@ -20,7 +20,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field(
       {"disparities", "pixel",
        "multiple of 16; what lies nearer than focal length * baseline / disparities is unmatched; time grows with it; "
-       "decoded: with focal length * baseline / far at most 2047, which 16 bits hold",
+       "decoded: at most 2047 less focal length * baseline / far",
        at_least(16.0, 2032.0)},
       s.disparities);
   v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges", at_least(1.0, 51.0)},
