@@ -209,13 +209,14 @@ class IcpCheck {
     std::string frame;
     visualization_msgs::Marker marker;
   };
+  /// Those with a marker.
   std::map<int, Part> parts_by_id() const {
+    std::map<int, std::string> frames;
+    for (const auto& part : scene_->parts) frames[part.id] = part.frame_id;
     std::map<int, Part> parts;
-    for (const auto& part : scene_->parts) parts[part.id].frame = part.frame_id;
-    for (const auto& marker : markers_->markers) {
-      const auto part = parts.find(marker.id);
-      if (marker.ns == "parts" && marker.action == marker.ADD && part != parts.end()) part->second.marker = marker;
-    }
+    for (const auto& marker : markers_->markers)
+      if (marker.ns == "parts" && marker.action == marker.ADD && frames.count(marker.id))
+        parts[marker.id] = {frames[marker.id], marker};
     return parts;
   }
 
@@ -247,10 +248,11 @@ class IcpCheck {
     const std::map<int, Part> parts = parts_by_id();
     int checked = 0, agree = 0, lost = 0;
     for (const auto& [id, segment] : segments) {
-      if (static_cast<int>(segment->size()) < least_points_) continue;
+      const auto part = parts.find(id);
+      if (part == parts.end() || static_cast<int>(segment->size()) < least_points_) continue;
       try {
         ++checked;
-        const std::optional<double> apart = check_part(parts.at(id), segment, message.header);
+        const std::optional<double> apart = check_part(part->second, segment, message.header);
         lost += !apart;
         agree += apart && *apart <= tolerance_;
       } catch (const std::exception& error) {

@@ -11,7 +11,7 @@ namespace sphere_gl {
 struct Capacity {
   std::size_t pairs = 4;            ///< of bodies near each other, per body of a world
   std::size_t rows = 12;            ///< of contacts that are solved, per body of a world
-  std::size_t candidates = 4;       ///< contacts to choose from, per body near another one (pairs), of all worlds
+  std::size_t candidates = 4;       ///< and samples that they come from, per pair that there is room for
   std::size_t most_candidates = 0;  ///< of one step; 0: as many as fit a quarter of `memory`
   std::size_t bodies = 0;           ///< expected in a world; the more, the fewer worlds at once
   double memory = 1e9;              ///< bytes on the device for the worlds that run at once

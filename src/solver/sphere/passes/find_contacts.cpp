@@ -1,5 +1,6 @@
 /// Samples of each body of a pair against the other's field; of all that touch, the few that stand for the rest. GPU
-/// form: shaders/sphere/find_contacts.comp; what both compute is in shaders/shared/sphere.
+/// form: collect_samples, test_samples and choose_contacts in shaders/sphere; what both compute is in
+/// shaders/shared/sphere.
 #include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/math.hpp"
