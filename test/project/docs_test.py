@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The docs: links lead somewhere, the text stays short, pages and pictures are linked, the version is one."""
+"""The docs: links lead somewhere, every page and picture is linked, the README is short, the version is one."""
 import pathlib
 import re
 import unittest
@@ -23,12 +23,6 @@ def links(page):
             yield link, (page.parent / path).resolve() if path else page, anchor
 
 
-def words(pages, tables=False):
-    """Of running text, or with the rows of tables, as wc counts them."""
-    return sum(len(line.split()) for page in pages for line in page.read_text().splitlines()
-               if tables or not line.lstrip().startswith("|"))
-
-
 class Docs(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for page in PAGES:
@@ -43,12 +37,9 @@ class Docs(unittest.TestCase):
         for path in (ROOT / "docs").rglob("*.*"):
             self.assertIn(path, linked, "nothing leads to it")
 
-    def test_text_is_short(self):
-        docs = [page for page in PAGES if "docs" in page.relative_to(ROOT).parts or page.parent == ROOT]
-        self.assertLessEqual(words(docs), 15000)
-        self.assertLessEqual(words(docs, tables=True), 28000, "rows belong in bench/results; show the goals and link them")
-        self.assertLessEqual(words([ROOT / "README.md"]), 900)
-        self.assertLessEqual(len((ROOT / "docs/develop/solver.md").read_text().splitlines()), 150)
+    def test_the_readme_is_read_in_a_few_minutes(self):
+        """The only page with a limit: a reader decides there whether this is the tool for the job."""
+        self.assertLess(len((ROOT / "README.md").read_text().split()), 1500, "details belong in docs/")
 
     def test_a_finding_answers_in_its_first_two_lines(self):
         for page in (ROOT / "docs/lab/findings").glob("*.md"):
