@@ -76,13 +76,13 @@ Program Program::link(const std::string& name, const std::vector<std::pair<unsig
 
   Program program;
   program.name_ = name;
-  program.id_ = load_program_binary(key);
+  program.id_ = load_program_binary(name, key);
   program.from_cache_ = program.id_ != 0;
   if (!program.id_) {
     std::vector<unsigned> shaders;
     for (std::size_t i = 0; i < stages.size(); ++i) shaders.push_back(compile(stages[i].first, sources[i]));
     program.id_ = link_shaders(name, shaders);
-    store_program_binary(key, program.id_);
+    store_program_binary(name, key, program.id_);
   }
   glObjectLabel(GL_PROGRAM, program.id_, static_cast<GLsizei>(name.size()), name.data());
   if (stages.front().first == GL_COMPUTE_SHADER) {

@@ -39,7 +39,7 @@ Header header_of(const std::string& key) {
   return header;
 }
 
-fs::path file_of(const Header& header) {
+fs::path file_of(const std::string& name, const Header& header) {
   if (const char* off = std::getenv("BIN_SCENES_CACHE"); off && std::strcmp(off, "off") == 0) return {};
   fs::path cache;
   if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) {
@@ -49,17 +49,17 @@ fs::path file_of(const Header& header) {
   } else {
     return {};
   }
-  char name[40];
-  std::snprintf(name, sizeof name, "%016llx%016llx", static_cast<unsigned long long>(header.key[0]),
+  char hashed[40];
+  std::snprintf(hashed, sizeof hashed, "-%016llx%016llx", static_cast<unsigned long long>(header.key[0]),
                 static_cast<unsigned long long>(header.key[1]));
-  return cache / "bin_scenes" / "programs" / name;
+  return cache / "bin_scenes" / "programs" / (name + hashed);
 }
 
 }  // namespace
 
-unsigned load_program_binary(const std::string& key) {
+unsigned load_program_binary(const std::string& name, const std::string& key) {
   const Header wanted = header_of(key);
-  const fs::path path = file_of(wanted);
+  const fs::path path = file_of(name, wanted);
   std::ifstream in(path, std::ios::binary);
   Header header;
   if (path.empty() || !in.read(reinterpret_cast<char*>(&header), sizeof header)) return 0;
@@ -82,9 +82,9 @@ unsigned load_program_binary(const std::string& key) {
   return 0;
 }
 
-void store_program_binary(const std::string& key, unsigned program) {
+void store_program_binary(const std::string& name, const std::string& key, unsigned program) {
   Header header = header_of(key);
-  const fs::path path = file_of(header);
+  const fs::path path = file_of(name, header);
   GLint formats = 0, size = 0;
   glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
   glGetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &size);

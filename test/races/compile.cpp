@@ -33,11 +33,13 @@ std::string content(const std::string& file) {
 
 }  // namespace
 
-Module compile(const std::string& source, const std::string& name) {
+Module compile(const std::string& source, const std::string& name, Optimise optimise) {
   char folder[] = "/tmp/bin_scenes_races_XXXXXX";
   if (!mkdtemp(folder)) throw std::runtime_error("no folder for temporary files");
   const std::string out = std::string(folder) + "/binary", log = std::string(folder) + "/log";
-  const std::string command = GLSLANG " -g -G --amb --aml --stdin -S comp -o " + out + " > " + log;
+  std::string command = GLSLANG " -g -G --amb --aml --stdin -S comp -o " + out + " > " + log;
+  if (optimise == Optimise::yes)
+    command += " && " SPIRV_OPT " --target-env=opengl4.5 -O " + out + " -o " + out + " >> " + log + " 2>&1";
   FILE* compiler = popen(command.c_str(), "w");
   const std::string text = with_joined_lines(source);
   fwrite(text.data(), 1, text.size(), compiler);

@@ -7,6 +7,7 @@
 namespace bin_scenes::races {
 
 void Decoder::instruction(Op op, const Word* o, Word n) {
+  if (op != Op::OpNop && op != Op::OpNoLine) ++module_.instructions;
   switch (op) {
     case Op::OpAccessChain:
     case Op::OpInBoundsAccessChain:
@@ -33,6 +34,30 @@ void Decoder::instruction(Op op, const Word* o, Word n) {
       emit(copy_list, static_cast<Word>(places.size()), to, 0, 0, list(places));
       return;
     }
+    // What follows up to OpNoLine is left by spirv-opt alone.
+    case Op::OpCopyObject:
+    case Op::OpCopyLogical: {
+      type_[o[1]] = o[0];
+      place_[o[1]] = place(o[2]);
+      if (known_.count(o[2])) known_.insert(o[1]);
+      return;
+    }
+    case Op::OpCompositeInsert: {
+      Word type = o[0], at = 0;
+      for (Word k = 4; k < n; ++k) {
+        at += types_.distance(type, o[k], false);
+        type = types_.inner(type, o[k]);
+      }
+      const Word words = types_.at(o[0]).words, from = place(o[3]);
+      const Word part = types_.at(type_.at(o[2])).words, what = place(o[2]);
+      const Word to = result(o[0], o[1]);
+      emit(copy, words, to, from);
+      emit(copy, part, to + at, what);
+      return;
+    }
+    case Op::OpNop:
+    case Op::OpNoLine:
+      return;
     case Op::OpVectorShuffle: {
       const Word size = types_.at(types_.at(o[0]).element).words, first = types_.at(type_.at(o[2])).count;
       std::vector<Word> places;
@@ -45,9 +70,10 @@ void Decoder::instruction(Op op, const Word* o, Word n) {
     }
     case Op::OpPhi: {
       std::vector<Word> from;
-      for (Word k = 2; k + 1 < n; k += 2) from.insert(from.end(), {o[k + 1], place(o[k])});
-      const Word to = result(o[0], o[1]);
-      emit(static_cast<Word>(op), types_.at(o[0]).words, to, static_cast<Word>(from.size() / 2), 0, list(from));
+      for (Word k = 2; k + 1 < n; k += 2) from.insert(from.end(), {o[k + 1], o[k]});
+      const Word to = result(o[0], o[1]), at = list(from);
+      for (Word k = 0; k < from.size(); k += 2) phis_.push_back(at + k + 1);
+      emit(static_cast<Word>(op), types_.at(o[0]).words, to, static_cast<Word>(from.size() / 2), 0, at);
       return;
     }
     case Op::OpFunctionCall: {

@@ -84,6 +84,7 @@ class Decoder {
   std::unordered_map<Word, std::vector<Word>> parameters_;
   std::unordered_set<Word> known_;  ///< pointers
   std::vector<Call> calls_;
+  std::vector<Word> phis_;  ///< ids in lists that may be defined later; resolved to places at the end
   Word entry_ = 0, function_ = 0, line_ = 0;
 };
 

@@ -59,6 +59,7 @@ struct Module {
   Word shared_words = 0;
   Word group_size = 1;
   Word entry = 0;                  ///< of main in `code`
+  Word instructions = 0;           ///< of SPIR-V in functions, without labels, lines and merges
   std::vector<Word> barriers;      ///< where in `code`: control and memory barriers
   std::vector<std::string> files;  ///< by line / lines_per_file; filled by who compiles
 
@@ -71,7 +72,11 @@ constexpr Word lines_per_file = 10000;
 /// Throws std::runtime_error at what no pass has used so far.
 Module decode(const std::vector<Word>& binary);
 
+/// Whether spirv-opt works over the compiler's output: it inlines all calls and moves values from variables to
+/// registers, as a driver's compiler does.
+enum class Optimise { no, yes };
+
 /// The reference compiler on what the driver gets as source; throws with what it complains about.
-Module compile(const std::string& source, const std::string& name);
+Module compile(const std::string& source, const std::string& name, Optimise optimise = Optimise::no);
 
 }  // namespace bin_scenes::races

@@ -1,22 +1,16 @@
-/// Stands between the product and OpenGL: what is dispatched runs in the interpreter first, on copies of the buffers,
-/// and then on the device, which must make the same of them.
+/// What is dispatched runs in the interpreter first, on copies of the buffers, and then on the device, which must make
+/// the same of them.
 #pragma once
 
-#include "races/module.hpp"
+#include "races/gl_listener.hpp"
 #include "races/referee.hpp"
 #include "races/run.hpp"
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace bin_scenes::races {
-
-struct Pass {
-  std::string name;
-  std::shared_ptr<const Module> module;
-};
 
 /// A dispatch that can be repeated.
 struct Record {
@@ -41,32 +35,22 @@ struct Observations {
   std::uint64_t steps = 0;              ///< instructions
 };
 
-/// One at a time. Programs must be made while it lives, without the cache of their binaries.
-class Recorder {
+class Recorder final : public GlListener {
  public:
-  Recorder();
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
+  Recorder() : GlListener(Optimise::no) {}
 
   /// Dispatches are checked from now on; the first is in order with all before it. Where room runs out, who comes first
   /// has it, and results are not those of the device.
   void begin(bool compares = true);
-  void end() { watching_ = false; }
+  void end() { watch(false); }
   const Observations& seen() const { return seen_; }
 
-  // What OpenGL is asked for.
-  void take_source(unsigned shader, const std::string& text) { sources_[shader] = text; }
-  void attach(unsigned program, unsigned shader) { programs_[program] = sources_[shader]; }
-  void take_barrier(unsigned bits);
-  template <class Issue>
-  void dispatch(const std::array<Word, 3>& groups, Issue issue);
-  void before_indirect(unsigned buffer, std::size_t offset, std::array<Word, 3>& groups);
-  bool watching() const { return watching_; }
+  void take_barrier(unsigned bits) override;
+  void take_arguments(unsigned buffer, std::size_t offset) override;
+  void take_dispatch(const Groups& groups, const std::function<void()>& issue) override;
 
  private:
-  Pass current_pass();
-  Dispatch prepare(const Pass& pass, const std::array<Word, 3>& groups);
+  Dispatch prepare(const Pass& pass, const Groups& groups);
   Memory& download(unsigned buffer, const std::string& name);
   void compare(const Record& record, const std::vector<Memory>& first, const std::vector<Memory>& second,
                const std::vector<Memory>& device);
@@ -74,9 +58,7 @@ class Recorder {
   void take_findings(const Pass& pass, Referee& referee);
   void keep(const Record& record);
 
-  bool watching_ = false, compares_ = true;
-  std::map<unsigned, std::string> sources_, programs_;
-  std::map<std::string, Pass> passes_;   ///< by source
+  bool compares_ = true;
   std::map<unsigned, Memory> memories_;  ///< by name of the buffer
   std::vector<unsigned> bound_;          ///< of the dispatch under way
   Referee referee_;
