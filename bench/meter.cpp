@@ -87,6 +87,7 @@ sphere_gl::Capacity capacity_of(const Case& of, std::size_t bodies) {
   capacity.world_group = of.world_group;
   capacity.pair_group = of.pair_group;
   capacity.bodies = bodies;
+  capacity.as_on_card = true;
   return capacity;
 }
 

@@ -15,9 +15,13 @@ namespace {
 constexpr std::size_t status_words = sizeof(gpu::SphereStatus) / sizeof(gpu::uint);
 constexpr std::size_t job_words = sizeof(gpu::SphereJob) / sizeof(gpu::uint);
 
+bool is_software(const Capacity& capacity) {
+  return gl::Device::current().software() && !capacity.as_on_card;
+}
+
 /// Groups that fill a device; each takes pair after pair.
-std::size_t groups_at_once() {
-  return gl::Device::current().software() ? 8 : 2048;
+std::size_t groups_at_once(const Capacity& capacity) {
+  return is_software(capacity) ? 8 : 2048;
 }
 
 /// Grows by an eighth at least: few copies, little room that is never used.
@@ -58,14 +62,14 @@ gl::Program pass(const char* name, const gl::Defines& defines = {}) {
 /// on a software device an invocation that waits costs as much as one that works.
 gl::Program world_pass(const char* name, const Capacity& capacity) {
   std::size_t group = capacity.world_group;
-  if (group == 0) group = gl::Device::current().software() ? SPHERE_WORLD_GROUP : 256;
+  if (group == 0) group = is_software(capacity) ? SPHERE_WORLD_GROUP : 256;
   return pass(name, {{"SPHERE_WORLD_GROUP", std::to_string(group)}});
 }
 
 /// On an H200 groups of 32 found the contacts of 264 worlds in 101 ms a step, groups of 64 in 441 ms (gpu.md).
 std::size_t pair_group(const Capacity& capacity) {
   if (capacity.pair_group > 0) return capacity.pair_group;
-  return gl::Device::current().software() ? SPHERE_PAIR_GROUP : 32;
+  return is_software(capacity) ? SPHERE_PAIR_GROUP : 32;
 }
 
 /// What the passes over many groups need to know of a world.
@@ -87,7 +91,7 @@ LargeWorld large_world(const sphere::World& world, std::size_t slot) {
 
 Batch::Batch(const Capacity& capacity)
     : capacity_(capacity),
-      contact_groups_(groups_at_once()),
+      contact_groups_(groups_at_once(capacity)),
       pair_group_(pair_group(capacity)),
       find_pairs_(world_pass("find_pairs", capacity)),
       color_manifolds_(world_pass("color_manifolds", capacity)),

@@ -69,10 +69,16 @@ void Batch::find_pairs() {
 }
 
 void Batch::find_contacts() {
-  gl::Stage stage(timer_, "find_contacts");
   const gl::Storage& status = jobs_.storage();
-  gl::dispatch_indirect(collect_samples_, status, offsetof(gpu::SphereStatus, groups), gl::Barrier::arguments);
-  gl::dispatch_indirect(test_samples_, status, offsetof(gpu::SphereStatus, sample_groups));
+  {
+    gl::Stage stage(timer_, "collect_samples");
+    gl::dispatch_indirect(collect_samples_, status, offsetof(gpu::SphereStatus, groups), gl::Barrier::arguments);
+  }
+  {
+    gl::Stage stage(timer_, "test_samples");
+    gl::dispatch_indirect(test_samples_, status, offsetof(gpu::SphereStatus, sample_groups));
+  }
+  gl::Stage stage(timer_, "choose_contacts");
   gl::dispatch_indirect(choose_contacts_, status, offsetof(gpu::SphereStatus, groups));
 }
 

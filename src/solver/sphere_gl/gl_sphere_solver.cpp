@@ -46,7 +46,8 @@ struct Flight {
 
 /// What the device can do of it.
 Capacity fitting(Capacity capacity, const gl::Device& device) {
-  if (device.software()) capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
+  if (device.software() && !capacity.as_on_card)
+    capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
   return capacity;
 }
 
@@ -55,8 +56,9 @@ class GlSphereSolver final : public Solver {
   GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
       : device_(std::move(device)),
         settings_(settings),
+        software_(device_->software() && !capacity.as_on_card),
         at_once_(sphere_gl::worlds_at_once(capacity, static_cast<std::size_t>(device_->limits().storage_bytes),
-                                           device_->software())),
+                                           software_)),
         shapes_(settings),
         batch_(fitting(capacity, *device_)) {}
   ~GlSphereSolver() override { device_->try_make_current(); }
@@ -73,7 +75,7 @@ class GlSphereSolver final : public Solver {
     r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
       return shapes_.of(part, profile_);
     });
-    if (device_->software())
+    if (software_)
       r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
@@ -204,7 +206,7 @@ class GlSphereSolver final : public Solver {
 
   /// How its world's contacts are to be solved.
   void tell(Resident& r) const {
-    if (device_->software() && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
+    if (software_ && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
     tell_phase(r.world, r.progress);
   }
 
@@ -320,6 +322,7 @@ class GlSphereSolver final : public Solver {
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
   SphereSettings settings_;
+  bool software_;  ///< and used like one
   std::size_t at_once_;  ///< worlds
   sphere::ShapeCache shapes_;
   mutable Batch batch_;

@@ -21,6 +21,7 @@ struct Capacity {
   bool share_impacts = true;        ///< such a world sweeps until impacts are shared; larger ones never do
   std::size_t rounds = 24;          ///< of coloring that a large world has dispatches for; others share one group
   std::size_t colors = 32;          ///< of a large world that may have dispatches of their own; others share a group
+  bool as_on_card = false;          ///< a software device is used like a card, whose passes test/meter counts
 };
 
 /// Largest Capacity::group_bodies on a software device. A group that pressed 358 bodies in a heap of random overlaps
