@@ -32,7 +32,6 @@
 #define BIND_ROWS 31
 #define BIND_SAMPLES 32
 
-#define SPHERE_GROUP 64             // invocations of a group, but where one group takes a world or a pair
 #ifndef SPHERE_PAIR_GROUP
 #define SPHERE_PAIR_GROUP 64        // of a group that takes pairs: Capacity::pair_group
 #endif
@@ -127,7 +126,7 @@ struct SphereProgress {
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
-  uint wide_colors;                          // one more than the most of a step, since the host last observed it; 0: none
+  uint unused;
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
   // Counters, since the host last observed it.
   uint asleep_steps, pairs_culled;

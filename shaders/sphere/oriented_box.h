@@ -21,7 +21,3 @@ bool upright_boxes_meet(Box a, Box b) {
   if (any(greaterThan(abs(a.center.xyz - b.center.xyz), a.half_size.xyz + b.half_size.xyz))) return false;
   return a.half_size.w + b.half_size.w > 0.0;
 }
-
-bool boxes_meet(uint a, Box box_a, uint b, Box box_b) {
-  return upright_boxes_meet(box_a, box_b) && !oriented_boxes_apart(a, b, box_a.center.w + box_b.center.w);
-}

@@ -21,8 +21,8 @@ float speed_of(uint i) {
   return sqrt(dot(velocity_of(i).xyz, velocity_of(i).xyz) + radius * radius * dot(spin_of(i).xyz, spin_of(i).xyz));
 }
 
-// sum += change, and what single precision is too coarse for stays in `rest` for the next time. In double precision: with
-// the exact sum of floats the layouts of small and of large worlds round apart.
+// sum += change, and what single precision is too coarse for stays in `rest` for the next time. In double
+// precision: compilers may reorder an exact sum of floats.
 void add_exactly(vec3 change, inout vec3 sum, inout vec3 rest) {
   dvec3 exact = dvec3(sum) + (dvec3(rest) + dvec3(change));
   sum = vec3(exact);

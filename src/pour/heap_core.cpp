@@ -84,6 +84,7 @@ void HeapCore::start_clock() {
 }
 
 void HeapCore::extend(std::shared_ptr<const PourPlan> plan) {
+  solver_.check(plan->world);
   states();
   const std::size_t first = states_.size();
   if (course_ == Course::over) {

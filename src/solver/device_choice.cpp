@@ -30,7 +30,7 @@ namespace {
 constexpr double clearly = 0.8;           ///< the GPU's time / the CPU's, at most
 constexpr int settling = 80, timed = 20;  ///< steps
 constexpr const char* kind = "device";
-const std::string format = "1\n";  ///< another one for another heap or another meaning
+const std::string format = "2\n";  ///< another one for another heap or another meaning
 
 /// An angle iron of 60 x 40 x 20 mm: concave, and known in closed form.
 PartModelPtr angle_iron() {
@@ -216,7 +216,8 @@ DeviceChoice choose_device(const Request& request) {
                                                              [](const PartLine& line) { return line.motion.any(); });
   if (moves) return {false, "on the CPU: motion is not simulated on the GPU"};
   if (bodies > most_gl_bodies())
-    return {false, "on the CPU: the GPU form takes up to " + std::to_string(most_gl_bodies()) + " parts"};
+    return {false, "on the CPU: the GPU form takes at most " + std::to_string(most_gl_bodies()) +
+                       " bodies per scene, this one has " + std::to_string(bodies)};
   // Of each thread, as the device is: a loss of it is met by a new one.
   thread_local const std::optional<DeviceFigures> figures = device_figures();
   if (!figures) return {false, "on the CPU: there is no GPU with OpenGL 4.5"};

@@ -17,7 +17,7 @@ struct StepTimes {
 
 /// What was measured on this machine.
 struct DeviceFigures {
-  static constexpr std::size_t few = 64, many = 512, worlds = 64;
+  static constexpr std::size_t few = 64, many = 384, worlds = 64;
   std::string cpu, gpu;  ///< names
   StepTimes on_cpu, on_gpu;
 };

@@ -3,6 +3,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "solver/fixture.hpp"
+#include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -89,6 +90,26 @@ TEST_P(HeapTest, APickMovesWhatThePartCarriedAndNothingElse) {
   for (const int id : {1, 2}) EXPECT_NEAR(height(after, id), height(before, id) - 0.02, 2e-4) << id;
   for (const int id : {3, 4, 5}) EXPECT_TRUE(same_bits(after.parts[id].pose, before.parts[id].pose)) << id;
   EXPECT_LT(after.report.simulated_s, 2.0) << "the clock of this settle";
+}
+
+/// The GPU form holds so many bodies in a scene: what is refused leaves the heap as it was.
+TEST(HeapOnTheGpu, RefusesMorePartsThanItHoldsAndGoesOn) {
+  Request request;
+  request.seed = 3;
+  request.bin.inner_size = Vec3(0.30, 0.30, 0.12);
+  PartLine line = line_of(cube(), 2);
+  line.poses = towers({0.0}, 2);
+  request.parts = {line};
+  request.pour.pattern = Pour::Pattern::given;
+  sphere_gl::Capacity capacity;
+  capacity.group_bodies = 3;
+  Heap heap({request, {cube()}}, make_gl_sphere_solver({}, capacity));
+  ASSERT_TRUE(heap.settle());
+  EXPECT_THROW(heap.add({{line_of(cube(), 2), cube()}}), Error);
+  EXPECT_EQ(heap.scene().parts.size(), 2u);
+  EXPECT_EQ(heap.add({{line_of(cube(), 1), cube()}}), std::vector<int>{2});
+  ASSERT_TRUE(heap.settle());
+  EXPECT_NEAR(height(heap.scene(), 1), 0.03, 2e-4);
 }
 
 TEST_P(HeapTest, WhatLayOnAFixedPartFallsWhenThatIsTakenOut) {

@@ -33,27 +33,14 @@ Observations watch(Scene scene) {
   return recorder.seen();
 }
 
-void watch_layout(Recorder& recorder, const Capacity& capacity) {
-  watch_heaps(recorder, capacity);
-  watch_carpet(recorder, capacity);
-  watch_overflow(recorder, capacity);
-}
-
-const Observations& one_group() {
+const Observations& sphere() {
   static const Observations seen = watch([](Recorder& recorder) {
-    watch_layout(recorder, {});
+    watch_heaps(recorder, {});
+    watch_carpet(recorder, {});
+    watch_overflow(recorder, {});
     Capacity as_on_a_gpu;
     as_on_a_gpu.world_group = 256;
     watch_carpet(recorder, as_on_a_gpu);
-  });
-  return seen;
-}
-const Observations& many_groups() {
-  static const Observations seen = watch([](Recorder& recorder) {
-    Capacity spread;
-    spread.group_bodies = 0;
-    spread.rounds = 2;
-    watch_layout(recorder, spread);
   });
   return seen;
 }
@@ -97,12 +84,8 @@ std::string unnoticed(const Observations& seen) {
   return text;
 }
 
-TEST(Races, OfWorldsInOneGroup) {
-  EXPECT_EQ(joined(one_group().findings), "");
-}
-
-TEST(Races, OfWorldsInManyGroups) {
-  EXPECT_EQ(joined(many_groups().findings), "");
+TEST(Races, OfTheSphereSolver) {
+  EXPECT_EQ(joined(sphere().findings), "");
 }
 
 TEST(Races, OfTheThesis) {
@@ -113,12 +96,8 @@ TEST(Races, WithoutABarrierInTheThesis) {
   EXPECT_EQ(unnoticed(thesis()), "");
 }
 
-TEST(Races, WithoutABarrierInOneGroup) {
-  EXPECT_EQ(unnoticed(one_group()), "");
-}
-
-TEST(Races, WithoutABarrierInManyGroups) {
-  EXPECT_EQ(unnoticed(many_groups()), "");
+TEST(Races, WithoutABarrierInTheSphereSolver) {
+  EXPECT_EQ(unnoticed(sphere()), "");
 }
 
 }  // namespace

@@ -109,6 +109,8 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
+  /// Throws the input Error that add_world() would, before anything has been changed for the sake of such a world.
+  virtual void check(const WorldDef& /*def*/) const {}
   /// All bodies absent. Throws on what the solver cannot do or what does not fit the memory budget.
   virtual WorldId add_world(const WorldDef& def) = 0;
   virtual void remove_world(WorldId world) = 0;

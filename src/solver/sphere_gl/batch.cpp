@@ -1,6 +1,7 @@
 /// Buffers of all worlds, their growth, and the dispatches of a step. CPU form of each pass: src/solver/sphere/passes.
 #include "solver/sphere_gl/batch.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/gl/device.hpp"
 
 #include <algorithm>
@@ -72,21 +73,6 @@ std::size_t pair_group(const Capacity& capacity) {
   return is_software(capacity) ? SPHERE_PAIR_GROUP : 32;
 }
 
-/// What the passes over many groups need to know of a world.
-LargeWorld large_world(const sphere::World& world, std::size_t slot) {
-  LargeWorld large;
-  large.world = static_cast<gpu::uint>(slot);
-  large.bodies = world.bodies.size();
-  large.restitution = world.ground_restitution > 0;
-  for (const sphere::Body& b : world.bodies) {
-    large.restitution = large.restitution || b.restitution > 0;
-    if (b.inverse_mass > 0)
-      large.smallest_cell = std::max(large.smallest_cell, 2 * world.shapes[b.shape]->box_half.norm());
-  }
-  if (large.smallest_cell == 0) large.smallest_cell = 1;  // nothing moves
-  return large;
-}
-
 }  // namespace
 
 Batch::Batch(const Capacity& capacity)
@@ -150,8 +136,8 @@ void Batch::make_room() {
 void Batch::take_region(Slot slot, const sphere::World& world) {
   Region& r = regions_[slot];
   r.bodies = world.bodies.size();
-  r.large = r.bodies > capacity_.group_bodies ? large_world(world, slot) : LargeWorld{};
-  r.words = r.large.bodies > 0 ? 0 : (r.bodies + 31) / 32;
+  BIN_SCENES_ASSERT(r.bodies <= SPHERE_MAX_BODIES);
+  r.words = (r.bodies + 31) / 32;
   r.planes = world.planes.size();
   r.capacity = std::max(capacity_.pairs * r.bodies, world.manifolds.size());
   std::size_t contacts = 0;
@@ -162,9 +148,8 @@ void Batch::take_region(Slot slot, const sphere::World& world) {
   r.first_plane = plane_arena_.take(r.planes);
   r.first_pair = pair_arena_.take(r.capacity);
   r.first_row = row_arena_.take(r.rows);
-  const bool shares = capacity_.share_impacts && r.large.bodies == 0;
-  r.sharing_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(false)) : 0;
-  r.impact_sweeps = shares ? static_cast<std::size_t>(world.impact_sweeps(true)) : 0;
+  r.sharing_sweeps = static_cast<std::size_t>(world.impact_sweeps(false));
+  r.impact_sweeps = static_cast<std::size_t>(world.impact_sweeps(true));
 }
 
 Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress) {
@@ -178,10 +163,6 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   settings_block_ = to_gpu(world.settings);
   settings_block_.contact_groups = static_cast<gpu::uint>(contact_groups_);
   make_room();
-  if (r.large.bodies > 0) {
-    if (!large_) large_ = std::make_unique<LargePasses>(capacity_);
-    large_->make_room(r.bodies);
-  }
 
   gpu::SphereWorld& w = host_worlds_[slot];
   w.gravity = vec4(world.gravity, world.smallest_size);
@@ -198,7 +179,6 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   progress = upload_pairs(slot, world);
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
-  progress.wide_colors = static_cast<gpu::uint>(capacity_.colors);
   upload_progress({{slot, progress}});
   return slot;
 }
@@ -260,15 +240,7 @@ void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> wo
   std::sort(worlds.begin(), worlds.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<gpu::SphereProgress> neighbours;
   for (std::size_t i = 0; i < worlds.size(); ++i) {
-    auto& [slot, progress] = worlds[i];
-    Region& r = regions_[slot];
-    r.stiffness = progress.stiffness;
-    r.cold = progress.cold_steps != 0;
-    r.refinement = progress.refinement;
-    r.effort = progress.effort;
-    const std::size_t wide = std::min<std::size_t>({progress.wide_colors, capacity_.colors, SPHERE_COLORS - 1});
-    if (progress.wide_colors > 0) r.large.colors = static_cast<unsigned>(wide);
-    progress.wide_colors = 0;
+    const auto& [slot, progress] = worlds[i];
     neighbours.push_back(progress);
     if (i + 1 < worlds.size() && worlds[i + 1].first == slot + 1) continue;
     progress_.upload(slot + 1 - neighbours.size(), neighbours.data(), neighbours.size());

@@ -19,9 +19,8 @@
 ///     group/world   group/pair         thread/sample   group/pair         group/world        group/world   group/world
 ///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
-/// run without leaving the group. A world of more bodies than a group holds takes a step by itself, with passes of many
-/// dispatches (large_world.hpp). A world that has done its steps, or for whose pairs there is no room, is left as it
-/// is until the host has observed it.
+/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it is
+/// until the host has observed it.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -30,7 +29,6 @@
 #include "solver/sphere_gl/arena.hpp"
 #include "solver/sphere_gl/convert.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
-#include "solver/sphere_gl/large_world.hpp"
 #include "solver/sphere_gl/shape_table.hpp"
 
 #include <memory>
@@ -78,14 +76,12 @@ class Batch {
   void run(const std::vector<Slot>& slots, float share = 1.0f);
   void step();
 
-  // The passes in their order, for what is at turn: at first the worlds of one group each, or the first large one.
+  // The passes in their order.
   void find_pairs();
   void find_contacts();
   void color_manifolds();
   void solve();
   void update_sleep();
-
-  bool in_one_group(Slot slot) const { return regions_[slot].large.bodies == 0; }
 
   gl::Timer& timer() { return timer_; }
   std::size_t bytes() const;         ///< of all buffers on the device
@@ -95,37 +91,27 @@ class Batch {
   struct Region {
     std::size_t first_body = 0, bodies = 0, first_word = 0, words = 0, first_pair = 0, capacity = 0, first_row = 0,
                 rows = 0, sharing_sweeps = 0, impact_sweeps = 0, first_plane = 0, planes = 0;
-    gpu::uint stiffness = 0;
-    bool cold = false;
-    gpu::uint refinement = 1, effort = 1;
-    LargeWorld large;  ///< no bodies: one group holds the world
   };
   void make_room();
   std::size_t most_candidates() const;
   void upload_world(Slot slot);
   void bind() const;
-  void bind_first() const;
-  void step_at_turn();
   /// Places in all lists.
   void take_region(Slot slot, const sphere::World& world);
   /// Pairs with their manifolds and contacts; returns where a world stands that has them.
   gpu::SphereProgress upload_pairs(Slot slot, const sphere::World& world);
-  unsigned sub_steps(const Region& r) const;
 
   std::vector<Region> regions_;
   std::vector<gpu::SphereWorld> host_worlds_;
   Arena slots_, body_arena_, word_arena_, pair_arena_, row_arena_, plane_arena_;
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
-  std::size_t running_count_ = 0, contact_groups_ = 1;    ///< worlds of one group each
+  std::size_t running_count_ = 0, contact_groups_ = 1;
   std::size_t pair_group_;                                ///< invocations of a group that takes a pair
   std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
-  std::vector<LargeWorld> running_large_;
-  const LargeWorld* at_turn_ = nullptr;  ///< none: the worlds of one group each
   bool bound_ = false;
 
   gl::Program find_pairs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_, solve_, update_sleep_;
-  std::unique_ptr<LargePasses> large_;
   gl::Timer timer_;
 
   ShapeTable shapes_;

@@ -44,11 +44,23 @@ struct Flight {
   float rest = 0.0f;   ///< the same of a last one that is yet to come; 0: none
 };
 
-/// What the device can do of it.
-Capacity fitting(Capacity capacity, const gl::Device& device) {
-  if (device.software() && !capacity.as_on_card)
-    capacity.group_bodies = std::min(capacity.group_bodies, software_group_bodies);
-  return capacity;
+/// Whether it is a software device that is also used like one.
+bool is_software(const Capacity& capacity, const gl::Device& device) {
+  return device.software() && !capacity.as_on_card;
+}
+
+/// Bodies of a world that a work group of the device can hold.
+std::size_t most_bodies(const Capacity& capacity, const gl::Device& device) {
+  if (capacity.group_bodies > 0) return std::min<std::size_t>(capacity.group_bodies, SPHERE_MAX_BODIES);
+  return is_software(capacity, device) ? software_group_bodies : SPHERE_MAX_BODIES;
+}
+
+/// Throws for a world of more bodies than that.
+void check_bodies(std::size_t bodies, std::size_t most, const gl::Device& device) {
+  if (bodies <= most) return;
+  throw input_error("on " + device.renderer() + " the sphere solver takes at most " + std::to_string(most) +
+                        " bodies per scene, a mesh bin counted; this scene has " + std::to_string(bodies),
+                    "solver.sphere.device", "set solver.sphere.device: cpu");
 }
 
 class GlSphereSolver final : public Solver {
@@ -56,18 +68,20 @@ class GlSphereSolver final : public Solver {
   GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
       : device_(std::move(device)),
         settings_(settings),
-        software_(device_->software() && !capacity.as_on_card),
-        at_once_(sphere_gl::worlds_at_once(capacity, static_cast<std::size_t>(device_->limits().storage_bytes),
-                                           software_)),
+        software_(is_software(capacity, *device_)),
+        at_once_(
+            sphere_gl::worlds_at_once(capacity, static_cast<std::size_t>(device_->limits().storage_bytes), software_)),
+        most_bodies_(most_bodies(capacity, *device_)),
         shapes_(settings),
-        batch_(fitting(capacity, *device_)) {}
+        batch_(capacity) {}
   ~GlSphereSolver() override { device_->try_make_current(); }
 
+  void check(const WorldDef& def) const override {
+    check_bodies(def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0), most_bodies_, *device_);
+  }
+
   WorldId add_world(const WorldDef& def) override {
-    if (def.bodies.size() + (def.bin.kind == Bin::Kind::mesh ? 1 : 0) > most_gl_bodies())
-      throw input_error("the sphere solver takes up to " + std::to_string(most_gl_bodies()) +
-                            " bodies per world on the GPU, asked for " + std::to_string(def.bodies.size()),
-                        "solver.sphere.device", "set solver.sphere.device: cpu");
+    check(def);
     device_->make_current();
     const gl::TrafficCount count(profile_);
     Resident r;
@@ -75,8 +89,7 @@ class GlSphereSolver final : public Solver {
     r.world = sphere::make_world(def, settings_, [this](const PartModelPtr& part) -> const sphere::Shape& {
       return shapes_.of(part, profile_);
     });
-    if (software_)
-      r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
+    if (software_) r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
     tell(r);
     worlds_.emplace(next_, std::move(r));
@@ -206,7 +219,7 @@ class GlSphereSolver final : public Solver {
 
   /// How its world's contacts are to be solved.
   void tell(Resident& r) const {
-    if (software_ && batch_.in_one_group(r.slot)) r.world.effort = 1;  // software_group_bodies
+    if (software_) r.world.effort = 1;  // software_group_bodies
     tell_phase(r.world, r.progress);
   }
 
@@ -322,8 +335,9 @@ class GlSphereSolver final : public Solver {
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
   SphereSettings settings_;
-  bool software_;  ///< and used like one
+  bool software_;        ///< and used like one
   std::size_t at_once_;  ///< worlds
+  std::size_t most_bodies_;
   sphere::ShapeCache shapes_;
   mutable Batch batch_;
   mutable std::map<WorldId, Resident> worlds_;
@@ -338,17 +352,17 @@ class GlSphereSolver final : public Solver {
 
 std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
   constexpr double body_bytes = 6000.0;  // on the device, with a share of the common lists: docs/develop/gpu.md
-  const double most = software ? 4.0 : capacity.bodies > capacity.group_bodies ? 256.0 : 1024.0;
+  const double most = software ? 4.0 : 1024.0;
   const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
   const double largest_list =
       static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;
-  const double fit = std::min({most, most * SPHERE_MAX_BODIES / bodies, capacity.memory / (body_bytes * bodies),
-                               0.5 * static_cast<double>(storage_bytes) / largest_list});
+  const double fit = std::min(
+      {most, capacity.memory / (body_bytes * bodies), 0.5 * static_cast<double>(storage_bytes) / largest_list});
   return static_cast<std::size_t>(std::max(1.0, fit));
 }
 
 std::size_t most_gl_bodies() {
-  return 65536;  // keys of pairs (shaders/sphere/color.h)
+  return SPHERE_MAX_BODIES;
 }
 
 std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, const Capacity& capacity) {
@@ -362,6 +376,7 @@ std::unique_ptr<Solver> make_gl_sphere_solver(const SphereSettings& settings, co
                                 " storage blocks a shader, the solver needs " + std::to_string(blocks),
                             device->renderer(), "use solver.sphere.device: cpu");
   }
+  check_bodies(capacity.bodies, most_bodies(capacity, *device), *device);  // before shaders are compiled
   return std::make_unique<GlSphereSolver>(device, settings, capacity);
 }
 

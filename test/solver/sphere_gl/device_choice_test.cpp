@@ -13,31 +13,30 @@ DeviceFigures figures() {
   DeviceFigures f;
   f.cpu = "a processor";
   f.gpu = "a card";
-  f.on_cpu = {1e-3, 8e-3, 0.5e-3};     // in proportion to the parts; two cores
+  f.on_cpu = {1e-3, 6e-3, 0.5e-3};     // in proportion to the parts; two cores
   f.on_gpu = {4e-3, 4e-3, 4e-3 / 64};  // fills up by worlds and parts
   return f;
 }
 
 TEST(DeviceChoice, GoesByPartsAndScenes) {
   EXPECT_FALSE(choose_device(figures(), 64, 1).gpu);    // 1 against 4 ms
-  EXPECT_TRUE(choose_device(figures(), 512, 1).gpu);    // 8 against 4 ms
+  EXPECT_TRUE(choose_device(figures(), 384, 1).gpu);    // 6 against 4 ms
   EXPECT_TRUE(choose_device(figures(), 64, 64).gpu);    // 0.5 against 0.06 ms
   EXPECT_FALSE(choose_device(figures(), 8, 2).gpu);     // 0.06 against 2 ms
-  EXPECT_TRUE(choose_device(figures(), 65536, 1).gpu);  // 1,024 against 64 ms
 }
 
 TEST(DeviceChoice, ASlowerGpuIsNotTaken) {
   DeviceFigures slow = figures();
   slow.on_gpu = {1.0, 8.0, 0.9};
-  for (const std::size_t parts : {1, 64, 512, 65536})
+  for (const std::size_t parts : {1, 64, 384})
     for (const std::size_t scenes : {1, 64, 100000}) EXPECT_FALSE(choose_device(slow, parts, scenes).gpu);
   slow.on_gpu = slow.on_cpu;  // nor one as fast: noise would decide
-  EXPECT_FALSE(choose_device(slow, 512, 1).gpu);
+  EXPECT_FALSE(choose_device(slow, 384, 1).gpu);
 }
 
 TEST(DeviceChoice, SaysTheFigures) {
-  const std::string reason = choose_device(figures(), 512, 1).reason;
-  EXPECT_NE(reason.find("on the GPU: a step of 512 parts takes about 8 ms on the CPU, 4 ms on the GPU"),
+  const std::string reason = choose_device(figures(), 384, 1).reason;
+  EXPECT_NE(reason.find("on the GPU: a step of 384 parts takes about 6 ms on the CPU, 4 ms on the GPU"),
             std::string::npos)
       << reason;
 }
@@ -47,6 +46,37 @@ TEST(DeviceChoice, WhatTheGpuCannotDoStaysOnTheCpu) {
   request.parts.emplace_back();
   request.bin.motion.shake = Vec3(0.01, 0, 0);
   EXPECT_EQ(choose_device(request).reason, "on the CPU: motion is not simulated on the GPU");
+}
+
+TEST(DeviceChoice, AWorldThatNoGroupHoldsRunsOnTheCpuAndSaysWhy) {
+  Request request;
+  request.parts.emplace_back();
+  request.parts[0].count = 384;
+  request.bin.kind = Bin::Kind::mesh;  // one body more
+  std::string reason;
+  const auto solver = make_solver({request, {}}, reason);
+  EXPECT_EQ(solver->device(), "cpu");
+  EXPECT_NE(reason.find("on the CPU: the GPU form takes at most 384 bodies per scene, this one has 385"),
+            std::string::npos)
+      << reason;
+}
+
+/// What is asked for by name is done there or refused, as where there is no OpenGL at all.
+TEST(DeviceChoice, AGpuThatWasAskedForRefusesMoreBodiesThanAGroupHolds) {
+  Request request;
+  request.parts.emplace_back();
+  request.parts[0].count = 385;
+  request.solver.sphere.device = SphereSettings::Device::gpu;
+  try {
+    std::string reason;
+    make_solver({request, {}}, reason);
+    FAIL() << "385 bodies were taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    const std::string text = error.what();
+    for (const char* part : {"at most", "this scene has 385", "solver.sphere.device: cpu"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
 }
 
 TEST(DeviceChoice, SoftwareOpenGlIsNoGpu) {

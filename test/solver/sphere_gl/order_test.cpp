@@ -15,19 +15,13 @@ class Shuffled {
   ~Shuffled() { unsetenv("BIN_SCENES_SHUFFLE"); }
 };
 
-std::uint64_t shuffled(int variant, const Capacity& capacity = {}) {
+std::uint64_t shuffled(int variant) {
   const Shuffled other_order;
-  return fallen(variant, capacity);
+  return fallen(variant);
 }
 
-TEST(SphereGlOrder, OfInvocationsDoesNotMatterInOneGroup) {
+TEST(SphereGlOrder, OfInvocationsAndGroupsDoesNotMatter) {
   EXPECT_EQ(shuffled(2), fallen(2));
-}
-
-TEST(SphereGlOrder, OfGroupsDoesNotMatterWhereManyShareAWorld) {
-  Capacity spread;
-  spread.group_bodies = 0;
-  EXPECT_EQ(shuffled(2, spread), fallen(2, spread));
 }
 
 }  // namespace

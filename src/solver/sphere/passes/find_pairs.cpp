@@ -1,5 +1,4 @@
-/// Sweeps upright boxes along strips, then tests oriented boxes. GPU forms: shaders/sphere/find_pairs.comp, and
-/// shaders/sphere/large for wide worlds.
+/// Sweeps upright boxes along strips, then tests oriented boxes. GPU form: shaders/sphere/find_pairs.comp.
 #include "bin_scenes/core/cancel.hpp"
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/counting_sort.hpp"
