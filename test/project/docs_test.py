@@ -5,7 +5,7 @@ import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "models/README.md", ROOT / "bench/results/README.md",
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "models/README.md", ROOT / "bench/results/README.md",
          *sorted((ROOT / "docs").rglob("*.md"))]
 
 
@@ -53,6 +53,9 @@ class Docs(unittest.TestCase):
         self.assertIn("<version>%s</version>" % version, (ROOT / "package.xml").read_text())
         newest = re.search(r"^([\d.]+) \(\d{4}-\d\d-\d\d\)$", (ROOT / "CHANGELOG.rst").read_text(), re.M)
         self.assertEqual(newest and newest[1], version)
+        citation = (ROOT / "CITATION.cff").read_text()
+        released = re.search(r"^%s \(([\d-]+)\)$" % re.escape(version), (ROOT / "CHANGELOG.rst").read_text(), re.M)
+        self.assertIn("version: %s\ndate-released: %s\n" % (version, released[1]), citation)
 
 
 if __name__ == "__main__":
