@@ -34,6 +34,7 @@ OURS = {"g++", "cmake", "ninja-build", "ccache", "pkg-config", "python3", "assim
         "catkin-lint", "clang", "libclang-rt-dev",  # for the tests; for the fuzzers
         "glslang-tools", "spirv-tools", "spirv-headers",  # rosdep has no key of them; where one is missing its test is skipped
         "libembree-dev",  # rosdep has no key of it: scripts/install_deps installs it for catkin's users too
+        "mkdocs", "mkdocs-material", "doxygen",  # for the documentation site
         "libfastcdr-dev",  # neither of it: its key is of ROS 2
         "libocct-data-exchange-dev",  # without it STEP and IGES are not read
         "libjs-three",  # for reports; without it they have no 3-D view
@@ -69,7 +70,7 @@ class PackageXml(unittest.TestCase):
 
     def test_the_list_is_read_whole(self):
         self.assertEqual(set(self.arrays) - {"root", "failed", "wanted"},
-                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "package", "fuzz",
+                         {"build", "libraries", "pcd", "cad", "python", "run", "report", "tests", "dataset_tests", "bench", "package", "fuzz", "docs",
                           "readers", "ros",
                           "ros_pcl", "ros_tests"})
         self.assertIn("libtinyxml2-dev", self.arrays["libraries"])
@@ -78,7 +79,7 @@ class PackageXml(unittest.TestCase):
     def test_what_is_installed_has_a_key(self):
         provided = {p for key in self.keys for p in DEBIAN.get(key, [key])}
         missing = []
-        for name in ("build", "libraries", "pcd", "python", "run", "report", "tests", "dataset_tests", "ros",
+        for name in ("build", "libraries", "pcd", "python", "run", "report", "tests", "dataset_tests", "docs", "ros",
                      "ros_pcl", "ros_tests"):
             for package in self.arrays[name]:
                 known = package in provided or name.startswith("ros") and ros_package(package) in self.keys
