@@ -23,6 +23,18 @@ def links(page):
             yield link, (page.parent / path).resolve() if path else page, anchor
 
 
+# Words that these pages used in a private sense, and the field's terms. request.md is made from descriptions of keys.
+INSTEAD = {"tell": "state", "tells": "states", "told": "stated", "grip": "friction scale", "middle": "centre",
+           "shade": "occlusion", "rubs": "slides", "foretell": "predict", "foretold": "predicted",
+           "lately": "recently"}
+WRITTEN = [page for page in PAGES if page.name != "request.md"]
+
+
+def running_text(page):
+    """Without code."""
+    return re.sub(r"^```.*?^```|^    .*?$|`[^`\n]*`", "", page.read_text(), flags=re.M | re.S)
+
+
 class Docs(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for page in PAGES:
@@ -40,6 +52,12 @@ class Docs(unittest.TestCase):
     def test_the_readme_is_read_in_a_few_minutes(self):
         """The only page with a limit: a reader decides there whether this is the tool for the job."""
         self.assertLess(len((ROOT / "README.md").read_text().split()), 1500, "details belong in docs/")
+
+    def test_words_are_those_of_the_field(self):
+        for page in WRITTEN:
+            for word in re.findall(r"[a-z]+", running_text(page).lower()):
+                with self.subTest(page=page.relative_to(ROOT).as_posix()):
+                    self.assertNotIn(word, INSTEAD, "write: " + INSTEAD.get(word, ""))
 
     def test_a_finding_answers_in_its_first_two_lines(self):
         for page in (ROOT / "docs/lab/findings").glob("*.md"):
