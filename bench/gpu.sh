@@ -7,7 +7,8 @@
 #   BIN_SCENES_GL=software bench/gpu.sh  on llvmpipe, without any limit of time
 #   QUICK=1       small forms of all, as there is no GPU to measure
 #   STEPS='a b'   only these: doctor binaries probe passes variants one_scene batch tests teapots
-#   VARIANTS=FOLDER   a shader tree beside the archive's own in each of its folders, to be timed in the same run
+#   VARIANTS=FOLDER   in each of its folders, files that replace shaders of the archive: the passes are timed so, too;
+#                     a form that a define chooses is a file that defines it
 # To keep the rows: copy FOLDER/results/<device> into bench/results of a checkout, then bench/publish there. Small forms
 # are in FOLDER/quick/<device>: to look at only.
 set -u
@@ -77,12 +78,11 @@ binaries() {
 # The same pass times with other shader trees, each made of the archive's own with files replaced.
 variants() {
   local folder tree
-  for folder in "${VARIANTS:-}"/*/; do
-    [[ -d $folder ]] || continue
+  for folder in "$VARIANTS"/*/; do
     tree=$out/shaders_$(basename "$folder")
     cp -r "$shaders" "$tree" && cp -r "$folder". "$tree/" || return
     BIN_SCENES_SHADERS=$tree "$bundle/run" bin_scenes_bench --out "$out/variant_$(basename "$folder")" ${small:+--quick} \
-      --filter passes "${passes_rows[@]}" || return
+      --filter passes --rows "${compared[@]}" || return
   done
 }
 
@@ -111,7 +111,7 @@ tests() {
     xargs -P "$(( $(nproc) < 16 ? $(nproc) : 16 ))" -I{} bash -c '
       log=$2/$(basename {}).log
       ${3:+timeout "$3"} "$1/run" tests/{} > "$log" 2>&1 </dev/null; echo $? > "${log%.log}.code"
-    ' - "$bundle" "$out/tests" "${unlimited:+}${limited:+$limit}"
+    ' - "$bundle" "$out/tests" "${limited:+$limit}"
   for code in "$out"/tests/*.code; do
     name=$(basename "$code" .code)
     if [[ $(< "$code") == 0 ]]; then
@@ -138,12 +138,13 @@ cat "$out/doctor.log"
 software=$(grep -qiE 'llvmpipe|softpipe|swrast' "$out/doctor.log" && echo 1)
 unlimited=$software limited=$([[ $software ]] || echo 1) small=$quick$software
 shaders=${BIN_SCENES_SHADERS:-$bundle/shaders}
-passes_rows=()
-[[ $small ]] || passes_rows=(--rows 'phase=settle' 'worlds=264' 'world_group=64' 'pair_group=32')
+# What is compared between shader trees; a small form has one size of groups.
+compared=('phase=settle' 'worlds=264' 'world_group=64' 'pair_group=32') usual=('world_group=256' 'pair_group=32')
+teapots=(--seconds 6)
+[[ $small ]] && compared=('phase=settle' 'worlds=2') usual=() teapots=(--seconds 0.5 --set 'parts[0].count=16')
 
 # The first figure: one phase of one world.
-bench first_figure 30 --filter passes --rows phase=settle worlds=1 ${small:+world_group=64} ${small:-world_group=256} \
-  ${small:+pair_group=64} ${small:-pair_group=32}
+bench first_figure 30 --filter passes --rows phase=settle worlds=1 ${usual[@]+"${usual[@]}"}
 is_chosen binaries && step binaries 20 binaries && cat "$out/binaries.log"
 
 # 40 s. Which of L2, residency and instruction fetch limits what.
@@ -162,7 +163,10 @@ if is_chosen passes; then
 fi
 
 # 260 s. Other forms of the same passes.
-is_chosen variants && step variants 70 variants && cat "$out/variants.log"
+if is_chosen variants && [[ ${VARIANTS:-} ]]; then
+  step variants 70 variants
+  grep -E '^passes: ' "$out/variants.log" | cut -c1-300
+fi
 
 # 330 s. One scene alone; then a batch, stopped after a minute.
 is_chosen one_scene && bench one_scene 40 --filter throughput --rows solver=sphere/gpu scenes=1
@@ -178,8 +182,8 @@ is_chosen tests && tests 80 gl solver generate
 # a property of that method.
 # shellcheck disable=SC2016  # the inner shell expands them
 is_chosen teapots && step teapots 40 bash -c '"$@" || (( $? == 1 ))' - \
-  "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite --seconds 6 \
-  --set solver.thesis.iterations=5 --verbose ${small:+--set "parts[0].count=16" --seconds 0.5}
+  "$bundle/run" bin_scenes generate "$bundle/config/thesis_teapots.yaml" --out "$out/teapots" --overwrite --verbose \
+  --set solver.thesis.iterations=5 "${teapots[@]}"
 
 if (( ${#failed[@]} )); then
   echo "failed: ${failed[*]}" | tee "$out/failed.txt"

@@ -47,13 +47,13 @@ class Sampled final : public Solver {
       : solver_(std::move(solver)), watch_(watch), every_(every) {}
 
   double advance(const std::vector<WorldId>& worlds, double seconds) override {
-    if (++slices_ % every_ != 0 || seconds < 2 * step_size()) return solver_->advance(worlds, seconds);
+    if (++slices_ % every_ != 0) return solver_->advance(worlds, seconds);
     const std::uint64_t before = steps(worlds.front());
     watch_.begin();
-    const double first = solver_->advance(worlds, step_size());
+    const double first = solver_->advance(worlds, std::min(seconds, step_size()));
     watch_.end();
     watched_ += static_cast<double>(steps(worlds.front()) - before);
-    return first + solver_->advance(worlds, seconds - first);
+    return first < seconds ? first + solver_->advance(worlds, seconds - first) : first;
   }
   double watched() const { return watched_; }
 
@@ -116,13 +116,12 @@ Seen seen_pour(const LoadedRequest& all, const Case& of, unsigned every) {
   return {watch.passes(), solver.watched(), watch.card()};
 }
 
-/// A step of the thesis preset after `before` others.
-Seen seen_thesis(const LoadedRequest& all, double before_s) {
+/// Steps of the thesis preset, one in `every` slices of so many simulated seconds.
+Seen seen_thesis(LoadedRequest all, double seconds, unsigned every) {
   Watch watch;
-  Sampled solver(solver_of(all), watch, static_cast<unsigned>(std::max(1.0, before_s * 60)));
-  LoadedRequest some = all;
-  some.request.seconds = before_s + 1.0 / 30;
-  pour(some, solver, {0});
+  Sampled solver(solver_of(all), watch, every);
+  all.request.seconds = seconds;
+  pour(all, solver, {0});
   return {watch.passes(), solver.watched(), watch.card()};
 }
 
@@ -232,7 +231,7 @@ void run_teapots(Run& out, MakeTable make) {
     Request request = read_request((models / "../config/thesis_teapots.yaml").string());
     request.solver.thesis.iterations = 5;
     if (out.quick()) request.parts[0].count = 12;
-    return seen_thesis(loaded(request), out.quick() ? 0.2 : 2.0);
+    return seen_thesis(loaded(request), out.quick() ? 0.2 : 2.05, out.quick() ? 10 : 60);
   });
 }
 
