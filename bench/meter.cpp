@@ -94,8 +94,7 @@ sphere_gl::Capacity capacity_of(const Case& of, std::size_t bodies) {
 /// The step after `before` others of a heap that is put into a phase.
 Seen seen_step(const LoadedRequest& all, const std::vector<ScenePart>& heap, const Case& of, int before) {
   Watch watch;
-  const std::unique_ptr<Solver> solver =
-      make_gl_sphere_solver(all.request.solver.sphere, capacity_of(of, heap.size()));
+  const std::unique_ptr<Solver> solver = make_gl_sphere_solver(all.request.solver.sphere, capacity_of(of, heap.size()));
   const WorldId id = solver->add_world(world_of(all));
   solver->set_phase(id, phase_of(of.phase));
   for (std::size_t i = 0; i < heap.size(); ++i) solver->insert(id, i, {heap[i].pose, {}});
@@ -247,8 +246,10 @@ void run_lines(Run& out) {
 
 const std::vector<std::string> keys = {"phase", "world_group", "pair_group", "pass"};
 const Registration passes{"meter", "cost of each pass on a card, counted without one", keys, run};
-const Registration lines{"meter_lines", "the same by line of source: choose a pass with --rows",
-                         {"phase", "world_group", "pair_group", "pass", "line"}, run_lines};
+const Registration lines{"meter_lines",
+                         "the same by line of source: choose a pass with --rows",
+                         {"phase", "world_group", "pair_group", "pass", "line"},
+                         run_lines};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -27,8 +27,10 @@ Row keys_of(const Case& of) {
 }
 
 Phase phase_of(const std::string& name) {
-  return name == "pour" ? phases::pour : name == "settle" ? phases::settle : name == "press" ? phases::press
-                                                                                              : phases::probe;
+  return name == "pour"     ? phases::pour
+         : name == "settle" ? phases::settle
+         : name == "press"  ? phases::press
+                            : phases::probe;
 }
 
 using Heap = std::vector<ScenePart>;

@@ -75,8 +75,8 @@ Row residency(std::size_t kilobytes, std::size_t group, unsigned rounds, std::si
   gl::Buffer<std::uint32_t> result("result");
   result.resize(2 + 1024);
   result.bind(0);
-  const Program program = Program::compute("probe/residency.comp",
-                                           {{"SHARED", text(256 * kilobytes)}, {"GROUP", text(group)}});
+  const Program program =
+      Program::compute("probe/residency.comp", {{"SHARED", text(256 * kilobytes)}, {"GROUP", text(group)}});
   program.set("rounds", rounds);
   gl::dispatch_groups(program, groups, gl::Barrier::all);
   const std::vector<std::uint32_t> words = result.download();
@@ -129,8 +129,7 @@ void run(Run& out) {
       add(out, "straight", kb, 32 * warps, [&] { return straight(kb, warps, quick ? 10 : 100); });
   for (const bool in_registers : {false, true})
     add(out, in_registers ? "registers" : "local_array", 0, 32, [&] { return local_array(in_registers, rounds); });
-  for (const std::size_t group : {32, 64, 256})
-    add(out, "barriers", 0, group, [&] { return barriers(group, rounds); });
+  for (const std::size_t group : {32, 64, 256}) add(out, "barriers", 0, group, [&] { return barriers(group, rounds); });
 }
 
 const Registration registration{

@@ -7,8 +7,9 @@
 namespace bin_scenes::meter {
 namespace {
 
-/// Dispatches of one world of 256 connecting rods, settling, as commit 94d5a298 made them (bin_scenes_record_dispatches),
-/// and what the same passes took on an NVIDIA H200: bench/results/nvidia-h200/trial.txt, V0, "256 worlds 1 settle".
+/// Dispatches of one world of 256 connecting rods, settling, as commit 94d5a298 made them
+/// (bin_scenes_record_dispatches), and what the same passes took on an NVIDIA H200:
+/// bench/results/nvidia-h200/trial.txt, V0, "256 worlds 1 settle".
 struct Measured {
   const char* pass;
   double us;

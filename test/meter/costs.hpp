@@ -1,8 +1,9 @@
 /// What an instruction costs on a card of NVIDIA's Hopper generation, and the card that it is counted for.
 ///
-/// Sources: [1] Luo et al., "Benchmarking and Dissecting the Nvidia Hopper GPU Architecture", arXiv:2402.13499, tables of
-/// memory latency. [2] Jia et al., "Dissecting the NVIDIA Volta GPU Architecture via Microbenchmarking",
-/// arXiv:1804.06826, table 4.1 (arithmetic latency). [3] bench/results/nvidia-h200/trial.txt, what this project measured.
+/// Sources: [1] Luo et al., "Benchmarking and Dissecting the Nvidia Hopper GPU Architecture", arXiv:2402.13499, tables
+/// of memory latency. [2] Jia et al., "Dissecting the NVIDIA Volta GPU Architecture via Microbenchmarking",
+/// arXiv:1804.06826, table 4.1 (arithmetic latency). [3] bench/results/nvidia-h200/trial.txt, what this project
+/// measured.
 #pragma once
 
 #include "races/module.hpp"

@@ -23,13 +23,13 @@ struct LineCost {
 
 struct Counts {
   std::uint64_t dispatches = 0, groups = 0, warps = 0;
-  double slots = 0;       ///< instructions issued, weighted (cost_of)
-  double lane_slots = 0;  ///< the same times the lanes that took part
+  double slots = 0;                                  ///< instructions issued, weighted (cost_of)
+  double lane_slots = 0;                             ///< the same times the lanes that took part
   std::uint64_t loads = 0, stores = 0, l1_hits = 0;  ///< of buffers, by warp; hits by sector
   Sectors sectors;
   std::uint64_t shared_loads = 0, shared_stores = 0;
-  std::uint64_t atomics = 0;   ///< by warp
-  std::uint64_t barriers = 0;  ///< by group
+  std::uint64_t atomics = 0;                  ///< by warp
+  std::uint64_t barriers = 0;                 ///< by group
   std::uint64_t branches = 0, divergent = 0;  ///< conditional ones, by warp; those of which both sides were taken
   double latency = 0, longest = 0;            ///< cycles of all groups, and of the slowest
   double dispatch_us = 0;                     ///< by which the dispatches ended, one after the other

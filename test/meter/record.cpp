@@ -1,5 +1,5 @@
-/// Records the dispatches of one step of a settled heap, each into FOLDER/<pass>: what test/meter/card_test.cpp compares
-/// with the times of a card.
+/// Records the dispatches of one step of a settled heap, each into FOLDER/<pass>: what test/meter/card_test.cpp
+/// compares with the times of a card.
 ///   bin_scenes_record_dispatches HEAP.json PART.stl settle|press|probe FOLDER PASS...
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/part_model.hpp"

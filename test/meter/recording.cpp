@@ -109,8 +109,9 @@ Taken load(const std::string& file) {
   std::memcpy(&plain, packed.data(), sizeof plain);
   std::string bytes(plain, '\0');
   uLongf size = plain;
-  const int code = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                              reinterpret_cast<const Bytef*>(packed.data() + sizeof plain), packed.size() - sizeof plain);
+  const int code =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                 reinterpret_cast<const Bytef*>(packed.data() + sizeof plain), packed.size() - sizeof plain);
   if (code != Z_OK || size != plain) throw std::runtime_error("a damaged recorded dispatch: " + file);
 
   Reader in(bytes);

@@ -74,8 +74,7 @@ TEST(Meter, CountsTheLanesOfABranch) {
 
 TEST(Meter, LanesMeetAgainBehindALoop) {
   // Lane i makes i + 1 rounds; what follows the loop is issued once, for all.
-  const Measured m =
-      measured("uint n = 0u; for (uint k = 0u; k <= i; ++k) n += data[k]; atomicAdd(data[100], n);", 32);
+  const Measured m = measured("uint n = 0u; for (uint k = 0u; k <= i; ++k) n += data[k]; atomicAdd(data[100], n);", 32);
   EXPECT_EQ(m.counts.atomics, 1u);
   EXPECT_EQ(m.counts.loads, 32u);
   EXPECT_EQ(m.counts.divergent, 31u);  // a lane leaves after each round but the last, when the last one goes
@@ -86,7 +85,8 @@ TEST(Meter, LanesMeetAgainBehindALoop) {
 
 TEST(Meter, CountsBarriersOfAGroup) {
   const std::string round = "s[i] += s[i ^ 33u]; barrier();";
-  const std::string loop = "s[i] = i; barrier(); for (uint k = 0u; k < data[5]; ++k) { " + round + " } data[1024u + i] = s[i];";
+  const std::string loop =
+      "s[i] = i; barrier(); for (uint k = 0u; k < data[5]; ++k) { " + round + " } data[1024u + i] = s[i];";
   EXPECT_EQ(measured(loop, 64, "shared uint s[64];").counts.barriers, 6u);
   EXPECT_EQ(measured(loop, 64, "shared uint s[64];", "", 3).counts.barriers, 18u);
   EXPECT_EQ(measured(loop, 64, "shared uint s[64];").counts.shared_words, 64u);
