@@ -21,21 +21,29 @@ layout(std430, binding = BIND_CANDIDATES) buffer Candidates { SphereCandidate ca
 #include "sphere/step_of_pair.h"
 #include "sphere/reduce.h"
 
-shared uint job_taken;
+shared uint job_taken, has_candidates[2];  // take turns
 
 // Contacts of balls are found anew in each attempt: they must not be chosen by those of the last one.
 bool is_kept(SpherePair pair) { return !is_ball(pair.a) && !is_ball(pair.b); }
 
 void main() {
+  if (gl_LocalInvocationIndex == 0u) has_candidates[0] = 0u;
   for (uint n = 0u; n < SPHERE_GROUP_JOBS; ++n) {
     if (gl_LocalInvocationIndex == 0u) job_taken = atomicAdd(status.next_choice, 1u);
     barrier();
     uint job = job_taken;
     if (job >= status.jobs) break;
+    if (gl_LocalInvocationIndex == 0u) has_candidates[~n & 1u] = 0u;  // for the next job
     SpherePair pair = pairs[jobs[job].pair];
     take_world_of(pair);
     take_chain(job);
+    if (chain != 0u) atomicOr(has_candidates[n & 1u], 1u);
+    barrier();
     if (jobs[job].incomplete == 0u && (progress[world_index].overflow == 0u || is_kept(pair))) {
+      if (has_candidates[n & 1u] == 0u) {
+        if (gl_LocalInvocationIndex == 0u) end_choice(worlds[world_index], pair, 0u);
+        continue;
+      }
       begin_choice(worlds[world_index], pair.slot);
       barrier();
       begin_candidates();

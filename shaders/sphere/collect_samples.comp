@@ -30,11 +30,23 @@ uint clusters_tested, nodes_tested;
 shared uint job_taken;
 shared uint near_clusters[SPHERE_MAX_CLUSTERS], near_count;
 
-// Before the long way: most edges end here.
-bool is_worth_testing(View view, uint e) {
+// Nodes of the clusters at hand, one an invocation, in the field's frame: edges that end there read them.
+shared vec3 node_point[SPHERE_PAIR_GROUP], node_gradient[SPHERE_PAIR_GROUP];
+shared float node_distance[SPHERE_PAIR_GROUP];
+
+Touch held_node(uint slot) { return Touch(node_point[slot], node_gradient[slot], node_distance[slot]); }
+
+// Rejects most edges before test_samples. The edge starts in the cluster at hand, whose node number `first` is held at
+// `slot`.
+bool is_worth_testing(View view, uint e, uint first, uint slot) {
   Edge edge = edge_at(view.samples, e);
-  Touch p, q;
-  touches_of(view, edge.a, edge.b, p, q);
+  Touch p = held_node(slot + edge.a - first), q;
+  // By the distance of one end, before that of the other is looked up in another cluster.
+  if (p.distance - length_of(edge) >= view.margin + error_of(view.field)) return false;
+  if (edge.b - first < SPHERE_CLUSTER)
+    q = held_node(slot + edge.b - first);
+  else
+    q = touch_of(view, edge.b);
   if (!edge_may_touch(view, edge, p.distance, q.distance)) return false;
   vec3 along = q.point - p.point;
   return dot(p.gradient, along) < 0.0 && dot(q.gradient, along) > 0.0 || may_cross(view, edge, p.distance) ||
@@ -57,17 +69,26 @@ void collect(View view, uint feature) {
   atomicMax(status.sample_groups.y, groups.y);
 }
 
-// The samples of a cluster nearby that are worth testing; each invocation of a cluster has a node and every
-// SPHERE_CLUSTER-th edge.
-void collect_from(View view, uint c) {
-  uint lane = gl_LocalInvocationIndex % SPHERE_CLUSTER, node = c * SPHERE_CLUSTER + lane;
-  if (node < view.samples.nodes.y) {
+// The samples of clusters nearby that are worth testing, SPHERE_PAIR_GROUP / SPHERE_CLUSTER clusters at a time, from
+// number `from` of near_clusters on; each invocation of a cluster has a node and every SPHERE_CLUSTER-th edge.
+void collect_from(View view, uint from) {
+  uint thread = gl_LocalInvocationIndex, lane = thread % SPHERE_CLUSTER, k = from + thread / SPHERE_CLUSTER;
+  bool has_cluster = k < near_count;
+  uint c = has_cluster ? near_clusters[k] : 0u, first = c * SPHERE_CLUSTER, node = first + lane;
+  if (has_cluster && node < view.samples.nodes.y) {
     ++nodes_tested;
-    if (node_may_touch(view, touch_of(view, node).distance)) collect(view, node);
+    Touch touch = touch_of(view, node);
+    node_point[thread] = touch.point;
+    node_gradient[thread] = touch.gradient;
+    node_distance[thread] = touch.distance;
+    if (node_may_touch(view, touch.distance)) collect(view, node);
   }
-  uvec4 range = clusters[view.samples.clusters.x + c].edges;
+  barrier();
+  uvec4 range = uvec4(0u);
+  if (has_cluster) range = clusters[view.samples.clusters.x + c].edges;
   for (uint e = range.x + lane; e < range.y; e += SPHERE_CLUSTER)
-    if (is_worth_testing(view, e)) collect(view, e | SPHERE_EDGE);
+    if (is_worth_testing(view, e, first, thread - lane)) collect(view, e | SPHERE_EDGE);
+  barrier();
 }
 
 // 64-bit sum, for what a big world counts beyond 2^32 between two observations.
@@ -89,9 +110,8 @@ void collect_samples(View view) {
       near_clusters[atomicAdd(near_count, 1u)] = c;
   }
   barrier();
-  for (uint k = thread / SPHERE_CLUSTER; k < near_count; k += SPHERE_PAIR_GROUP / SPHERE_CLUSTER)
-    collect_from(view, near_clusters[k]);
-  barrier();
+  for (uint from = 0u; from < near_count; from += SPHERE_PAIR_GROUP / SPHERE_CLUSTER) collect_from(view, from);
+  barrier();  // all know how many there were
   if (thread == 0u) count_possible(view.samples.nodes.y);
 }
 
@@ -167,7 +187,8 @@ void main() {
       test_ground(pair, margin);
       barrier();  // all know of this job
     } else {  // in a loop: compilers put all that is called in place
-      for (uint turn = 0u; turn < 2u; ++turn) collect_samples(view_of(pair, turn == 0u, margin));
+      Placement a = placement_of(pair.a), b = placement_of(pair.b);
+      for (uint turn = 0u; turn < 2u; ++turn) collect_samples(view_of(pair, a, b, turn == 0u, margin));
     }
     atomicAdd(progress[world_index].clusters_tested, clusters_tested);
     atomicAdd(progress[world_index].nodes_tested, nodes_tested);

@@ -161,6 +161,18 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
   barrier();
 }
 
+// One invocation, when `count` contacts of those found are chosen.
+void end_choice(SphereWorld world, SpherePair pair, uint count) {
+  vec3 position;
+  vec4 orientation;
+  relative_pose(pair, position, orientation);
+  manifolds[world.pairs.x + pair.slot] = SphereManifold(uvec4(count, 0u, 1u, 0u), position, 0u, orientation);
+  if (count == 0u)
+    atomicAdd(progress[world_index].pairs_culled, 1u);
+  else
+    atomicAdd(progress[world_index].dropped, found_count - count);
+}
+
 void choose_contacts(SphereWorld world, SpherePair pair) {
   uint thread = gl_LocalInvocationIndex;
   bool ground = pair.b == SPHERE_GROUND;
@@ -185,13 +197,5 @@ void choose_contacts(SphereWorld world, SpherePair pair) {
     contacts[at].normal = vec4(normal, 0.0);
     contacts[at].force = source != NO_SOURCE ? old[source].force : vec4(0.0);
   }
-  if (thread == 0u) {
-    vec3 position;
-    vec4 orientation;
-    relative_pose(pair, position, orientation);
-    manifolds[world.pairs.x + pair.slot] =
-        SphereManifold(uvec4(count, 0u, 1u, 0u), position, 0u, orientation);
-    atomicAdd(progress[world_index].dropped, found_count - count);
-    if (found_count == 0u) atomicAdd(progress[world_index].pairs_culled, 1u);
-  }
+  if (thread == 0u) end_choice(world, pair, count);
 }

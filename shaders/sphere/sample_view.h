@@ -38,9 +38,9 @@ Drift drift_of(uint points, Placement at, uint over, Placement frame) {
                rest * ((w - frame_w) * frame.rotation));
 }
 
-// The samples of a, or of b, against the field of the other.
-View view_of(SpherePair pair, bool of_a, float margin) {
-  Placement a = placement_of(pair.a), b = placement_of(pair.b), at = b, frame = a;
+// The samples of a, or of b, against the field of the other, where the bodies are half way through the step.
+View view_of(SpherePair pair, Placement a, Placement b, bool of_a, float margin) {
+  Placement at = b, frame = a;
   mat3 b_to_a = transpose(a.rotation) * b.rotation, a_to_b = transpose(b_to_a);
   vec3 b_in_a = (b.position - a.position) * a.rotation;
   Carry to_a = Carry(b_to_a, b_in_a), to_field = to_a;

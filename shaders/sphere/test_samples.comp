@@ -45,5 +45,7 @@ void main() {
   SpherePair pair = pairs[jobs[job].pair];
   take_world_of(pair);
   uint feature = samples[at].feature;
-  test_sample(view_of(pair, (feature & SPHERE_SIDE_B) == 0u, margin_of(pair)), feature & ~SPHERE_SIDE_B);
+  bool of_a = (feature & SPHERE_SIDE_B) == 0u;
+  View view = view_of(pair, placement_of(pair.a), placement_of(pair.b), of_a, margin_of(pair));
+  test_sample(view, feature & ~SPHERE_SIDE_B);
 }
