@@ -1,7 +1,7 @@
 /// A plan's key `bop`, but for its symmetries: what BOP's files hold and where.
 #pragma once
 
-#include "bin_scenes/output/bop_layout.hpp"
+#include "bin_scenes/config/formats.hpp"
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,7 +1,5 @@
 #include "config/plan_misfit.hpp"
 
-#include "bin_scenes/output/scene_writer.hpp"
-
 namespace bin_scenes::config {
 
 std::optional<Error> misfit(const Plan& plan, const Request& request) {

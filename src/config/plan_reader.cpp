@@ -3,7 +3,6 @@
 #include "bin_scenes/config/plan.hpp"
 
 #include "bin_scenes/core/sha256.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "config/bop_plan.hpp"
 #include "config/plan_misfit.hpp"
 #include "config/plan_objects.hpp"

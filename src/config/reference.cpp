@@ -3,6 +3,7 @@
 
 #include "bin_scenes/config/request_reader.hpp"
 #include "bin_scenes/core/assertion.hpp"
+#include "config/key_collector.hpp"
 #include "config/values.hpp"
 
 #include <cmath>
@@ -26,42 +27,16 @@ std::string kind_in(const Range& range, const std::string& kind) {
   return plain + (range.above ? " above " + least : ", " + least + " or more");
 }
 
-class Collector {
- public:
+struct RequestColumns {
   template <class Value>
-  void field(const Key& key, Value& value) {
-    std::string text = text_of(value);
-    if (text == "[]" || text == "\"\"" || !key.written) text.clear();
-    entries.push_back({prefix_ + key.name, kind_in(key.range, kind_of(value)), text, key.unit, key.text});
+  static std::string kind(const Key& key, const Value& value) {
+    return kind_in(key.range, kind_of(value));
   }
   template <class Value>
-  void field(const Key& key, std::optional<Value>&) {
-    entries.push_back({prefix_ + key.name, kind_in(key.range, kind_of(Value{})), "", key.unit, key.text});
+  static std::string value(const Key& key, const Value& value) {
+    const std::string text = text_of(value);
+    return text == "[]" || text == "\"\"" || !key.written ? "" : text;
   }
-  template <class Struct>
-  void section(const Key& key, Struct& value) {
-    nested(key, "section", ".", value);
-  }
-  template <class Struct>
-  void list(const Key& key, std::vector<Struct>&) {
-    Struct item;
-    nested(key, "list", "[].", item);
-  }
-  void bin_kind(Bin&, const BinKeys&) {}
-
-  std::vector<Entry> entries;
-
- private:
-  template <class Struct>
-  void nested(const Key& key, const char* kind, const char* separator, Struct& value) {
-    entries.push_back({prefix_ + key.name, kind, "", key.unit, key.text});
-    const std::string outer = prefix_;
-    prefix_ += key.name + std::string(separator);
-    visit(*this, value);
-    prefix_ = outer;
-  }
-
-  std::string prefix_;
 };
 
 bool heading(const Entry& entry) {
@@ -73,44 +48,58 @@ std::string escaped(std::string text) {
   return text;
 }
 
-/// Chapters so far: what one has below its heading, and its path.
-using Chapters = std::map<std::string, std::string>;
+class ChapterWriter {
+ public:
+  ChapterWriter(const std::vector<Entry>& entries, bool defaults) : entries_(entries), defaults_(defaults) {}
 
-/// Rows of the keys directly below `prefix`, then a chapter for each section among them. One with the same keys and
-/// defaults as an earlier one names that.
-std::string chapter(const std::string& prefix, const std::string& level, Chapters& known) {
-  const auto directly_below = [&](const std::string& path) {
-    return path.size() > prefix.size() && path.compare(0, prefix.size(), prefix) == 0 &&
-           path.find('.', prefix.size()) == std::string::npos;
-  };
-  std::string text = "| key | value | default | unit | meaning |\n|---|---|---|---|---|\n";
-  for (const Entry& e : reference()) {
-    if (!directly_below(e.path)) continue;
-    const std::string name = e.path.substr(prefix.size());
+  /// Rows of the keys directly below `prefix`, then a chapter for each section among them. One with the same keys and
+  /// defaults as an earlier one names that.
+  std::string chapter(const std::string& prefix, const std::string& level) {
+    const auto directly_below = [&](const std::string& path) {
+      return path.size() > prefix.size() && path.compare(0, prefix.size(), prefix) == 0 &&
+             path.find('.', prefix.size()) == std::string::npos;
+    };
+    std::string text = defaults_ ? "| key | value | default | unit | meaning |\n|---|---|---|---|---|\n"
+                                 : "| key | value | unit | meaning |\n|---|---|---|---|\n";
+    for (const Entry& e : entries_)
+      if (directly_below(e.path)) text += row(e, prefix);
+    for (const Entry& e : entries_) {
+      if (!directly_below(e.path) || !heading(e)) continue;
+      const std::string below = chapter(e.path + (e.kind == "list" ? "[]." : "."), level + "#");
+      const auto [same, fresh] = known_.emplace(below, e.path);
+      text += "\n" + level + " `" + e.path + "`: " + e.text + "\n\n" +
+              (fresh ? below : "The keys of `" + same->second + "`.\n");
+    }
+    return text;
+  }
+
+ private:
+  std::string row(const Entry& e, const std::string& prefix) const {
     const std::string value = heading(e) ? (e.kind == "list" ? "list of maps, below" : "map, below") : escaped(e.kind);
-    text += "| `" + name + "` | " + value + " | " + (e.value.empty() ? "" : "`" + e.value + "`") + " | " + e.unit +
-            " | " + escaped(e.text) + " |\n";
+    const std::string by_default = e.value.empty() ? " | " : " | `" + e.value + "`";
+    return "| `" + e.path.substr(prefix.size()) + "` | " + value + (defaults_ ? by_default : "") + " | " + e.unit +
+           " | " + escaped(e.text) + " |\n";
   }
-  for (const Entry& e : reference()) {
-    if (!directly_below(e.path) || !heading(e)) continue;
-    const std::string below = chapter(e.path + (e.kind == "list" ? "[]." : "."), level + "#", known);
-    const auto [same, fresh] = known.emplace(below, e.path);
-    text += "\n" + level + " `" + e.path + "`: " + e.text + "\n\n" +
-            (fresh ? below : "The keys of `" + same->second + "`.\n");
-  }
-  return text;
-}
+
+  const std::vector<Entry>& entries_;
+  bool defaults_;
+  std::map<std::string, std::string> known_;  ///< what a chapter has below its heading -> its path
+};
 
 }  // namespace
 
 const std::vector<Entry>& reference() {
   static const std::vector<Entry> entries = [] {
-    Collector collector;
+    KeyCollector<RequestColumns> collector;
     Request defaults;
     visit(collector, defaults);
     return collector.entries;
   }();
   return entries;
+}
+
+std::string key_chapters(const std::vector<Entry>& entries, bool defaults) {
+  return ChapterWriter(entries, defaults).chapter("", "##");
 }
 
 }  // namespace config
@@ -148,8 +137,7 @@ std::string request_reference() {
       "\n"
       "## Keys\n"
       "\n";
-  config::Chapters chapters;
-  return text + config::chapter("", "##", chapters);
+  return text + config::key_chapters(config::reference(), true);
 }
 
 }  // namespace bin_scenes

@@ -16,4 +16,8 @@ struct Entry {
 /// Every key in the order of the table, made once.
 const std::vector<Entry>& reference();
 
+/// Markdown: a table of the outermost keys, then a chapter for each section and list.
+/// @param defaults  whether the tables have a column of defaults
+std::string key_chapters(const std::vector<Entry>& entries, bool defaults);
+
 }  // namespace bin_scenes::config

@@ -2,9 +2,9 @@
 /// replaces start poses.
 #include "bin_scenes/config/request_reader.hpp"
 
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
-#include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "config/key_reader.hpp"
 #include "config/paths.hpp"

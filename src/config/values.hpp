@@ -117,10 +117,7 @@ void read_value(const YAML::Node& node, Enum& value) {
 
 template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
 std::string text_of(Enum value) {
-  for (const auto& [name, meaning] : names(Enum{})) {
-    if (meaning == value) return name;
-  }
-  return "?";
+  return name_in_table(value);
 }
 
 }  // namespace bin_scenes::config

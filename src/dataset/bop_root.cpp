@@ -62,16 +62,9 @@ std::vector<SensorInfo> sensors_of(const DataFolder& folder, const DataSetFacts&
   for (const auto& [split, share] : facts.split) {
     const std::vector<std::size_t> scenes = scenes_of(folder, split);
     if (scenes.empty()) continue;
-    const auto json = scene_in(folder.scene(scenes.front()).string());
-    if (!json || !json->is_object()) continue;
-    std::vector<Sensor> sensors;
-    for (const auto& sensor : json->value("sensors", nlohmann::json::array())) {
-      sensors.emplace_back();
-      sensors.back().name = sensor.value("name", "");
-      sensors.back().view_of = sensor.value("view_of", "");
-      sensors.back().width = sensor.value("width", 0);
-      sensors.back().height = sensor.value("height", 0);
-    }
+    const auto scene = scene_in(folder.scene(scenes.front()));
+    if (!scene) continue;
+    const std::vector<Sensor> sensors(scene->sensors.begin(), scene->sensors.end());
     const std::vector<BopPlace> places = bop_places(facts.bop, sensors, split);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto known =

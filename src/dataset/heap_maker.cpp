@@ -81,10 +81,10 @@ std::vector<int> next_pick(const Scene& scene, const std::optional<SceneGrasps>&
   return {grasps->removal_order.front()};
 }
 
-SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const nlohmann::json& json) {
+SceneRecord record_of_scene(const DataFolder& folder, std::size_t scene, const SceneFile& file) {
   const fs::path path = folder.scene(scene);
   return {scene, path.lexically_relative(folder.root).string(), sha256_of_file((path / "files.json").string()),
-          summary_of(json)};
+          summary_of(file)};
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ HeapRecord HeapMaker::make(std::size_t heap) {
     folders.commit();
     record.stages_ms["commit"] += ms_since(before);
     for (std::size_t scene = first; scene < first + made.scenes; ++scene)
-      record.scenes.push_back(record_of_scene(folder_, scene, *scene_in(folder_.scene(scene).string())));
+      record.scenes.push_back(record_of_scene(folder_, scene, *scene_in(folder_.scene(scene))));
   }
   record.wall_s = ms_since(begin) / 1e3;
   record.cpu_s = cpu_seconds() - cpu_before;
@@ -269,13 +269,13 @@ std::optional<HeapRecord> found_on_disk(const DataFolder& folder, const DataSetF
     record.rejected.push_back(rejected);
   }
   for (std::size_t scene = first; scene <= first + facts.steps; ++scene) {
-    const auto json = scene_in(folder.scene(scene).string());
-    if (!json || !json->is_object() || !whole(folder.scene(scene), false)) break;
+    const auto file = scene_in(folder.scene(scene));
+    if (!file || !whole(folder.scene(scene), false)) break;
     if (facts.wants("bop") && !whole(folder.bop(facts, scene), false)) break;
     const bool packed = std::filesystem::exists(folder.shard(shard_of(facts, scene)));
     if (facts.wants("shards") && !packed && !whole(folder.samples(scene), false)) break;
-    record.scenes.push_back(record_of_scene(folder, scene, *json));
-    record.accepted = scene == first + facts.steps || is_empty(*json);
+    record.scenes.push_back(record_of_scene(folder, scene, *file));
+    record.accepted = scene == first + facts.steps || is_empty(*file);
     if (record.accepted) break;
   }
   if (record.accepted) return record;

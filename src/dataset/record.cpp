@@ -16,17 +16,15 @@ void count(std::vector<int>& histogram, double share) {
 }
 
 /// Angle between the model's z axis and the bin's, as a share of half a turn.
-double tilt_of(const nlohmann::json& q) {
-  const double x = q.at(0), y = q.at(1);
-  return std::acos(std::clamp(1.0 - 2.0 * (x * x + y * y), -1.0, 1.0)) / M_PI;
+double tilt_of(const Quat& q) {
+  return std::acos(std::clamp(1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y()), -1.0, 1.0)) / M_PI;
 }
 
 }  // namespace
 
-bool is_empty(const nlohmann::json& scene) {
-  for (const auto& part : scene.value("parts", nlohmann::json::array()))
-    if (part.value("pose", nlohmann::json()).is_object() && part.value("state", "") != "fixed") return false;
-  return true;
+bool is_empty(const SceneFile& scene) {
+  return std::none_of(scene.parts.begin(), scene.parts.end(),
+                      [](const ScenePart& part) { return part.pose.finite() && part.state != PartState::fixed; });
 }
 
 nlohmann::json json_of(const HeapRecord& record) {
@@ -65,56 +63,55 @@ namespace {
 
 /// Of each sensor's image: instances that are visible by a tenth and more, between which depths they lie (m), and how
 /// many of them have depth in less than 0.9, up to 0.99, and more of their visible pixels.
-nlohmann::json seen_by(const nlohmann::json& scene) {
+nlohmann::json seen_by(const SceneFile& scene) {
   nlohmann::json all = nlohmann::json::object();
-  for (const auto& sensor : scene.value("sensors", nlohmann::json::array())) {
-    if (!sensor.contains("truth")) continue;
+  for (const SceneSensor& sensor : scene.sensors) {
+    if (!sensor.truth) continue;
     std::size_t seen = 0;
     double near = 0.0, far = 0.0;
     std::array<std::size_t, 3> holes{};
-    for (const auto& part : sensor.at("truth")) {
-      if (part.at("visible_fraction").get<double>() < 0.1) continue;
-      const double depth = part.at("pose_in_camera").at("position").at(2);
+    for (const PartTruth& part : *sensor.truth) {
+      if (part.visible_fraction < 0.1) continue;
+      const double depth = part.pose_in_camera.position.z();
       near = seen == 0 ? depth : std::min(near, depth);
       far = std::max(far, depth);
       ++seen;
-      const double valid = part.at("px_count_measured").get<double>() / part.at("px_count_visib").get<double>();
+      const double valid = static_cast<double>(part.measured_pixels) / static_cast<double>(part.visible_pixels);
       ++holes[valid < 0.9 ? 0 : valid <= 0.99 ? 1 : 2];
     }
-    all[sensor.at("name").get<std::string>()] = {{"seen", seen}, {"depth", {near, far}}, {"holes", holes}};
+    all[sensor.name] = {{"seen", seen}, {"depth", {near, far}}, {"holes", holes}};
   }
   return all;
 }
 
 }  // namespace
 
-nlohmann::json summary_of(const nlohmann::json& scene) {
+nlohmann::json summary_of(const SceneFile& scene) {
   std::vector<int> visible(bins, 0), tilt(bins, 0);
   std::vector<double> heights;
   std::size_t asked_for = 0;
-  for (const auto& part : scene.at("parts")) {
-    asked_for += part.at("state") != "fixed";
-    if (!part.at("pose").is_object()) continue;
-    count(tilt, tilt_of(part.at("pose").at("orientation_xyzw")));
-    heights.push_back(part.at("pose").at("position").at(2).get<double>());
-    for (const auto& [sensor, fraction] : part.at("visible_fraction").items()) count(visible, fraction);
+  for (const ScenePart& part : scene.parts) {
+    asked_for += part.state != PartState::fixed;
+    if (!part.pose.finite()) continue;
+    count(tilt, tilt_of(part.pose.orientation));
+    heights.push_back(part.pose.position.z());
+    for (const auto& [sensor, fraction] : part.visible_fraction) count(visible, fraction);
   }
   double fill = 0.0;
-  if (scene.at("bin").contains("inner_size") && !heights.empty()) {
+  if (scene.bin.kind == Bin::Kind::box && !heights.empty()) {
     std::sort(heights.begin(), heights.end());
-    const double height = scene.at("bin").at("inner_size").at(2);
-    fill = heights[static_cast<std::size_t>(0.95 * static_cast<double>(heights.size() - 1))] / height;
+    fill = heights[static_cast<std::size_t>(0.95 * static_cast<double>(heights.size() - 1))] / scene.bin.inner_size.z();
   }
-  const auto& report = scene.at("report");
+  const Report& report = scene.report;
   return {{"parts", heights.size()},
-          {"not_poured", report.at("not_poured").size()},
+          {"not_poured", report.not_poured.size()},
           {"asked_for", asked_for},
           {"visible", visible},
           {"seen_by", seen_by(scene)},
           {"tilt", tilt},
           {"fill", fill},
-          {"penetration", report.at("penetration").at("p95_relative")},
-          {"rest_s", report.at("simulated_s")}};
+          {"penetration", report.penetration.p95_relative},
+          {"rest_s", report.simulated_s}};
 }
 
 }  // namespace bin_scenes

@@ -1,6 +1,8 @@
 /// What a worker tells of the heaps that it made; the index keeps it.
 #pragma once
 
+#include "bin_scenes/config/scene_file.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -34,12 +36,12 @@ struct HeapRecord {
 };
 
 /// Whether nothing is left that could be taken out: such a scene is the last of its heap.
-bool is_empty(const nlohmann::json& scene);
+bool is_empty(const SceneFile& scene);
 
 nlohmann::json json_of(const HeapRecord& record);
 HeapRecord record_of(const nlohmann::json& json);
 
-/// Histograms and figures of a scene for the report, from its scene.json alone.
-nlohmann::json summary_of(const nlohmann::json& scene);
+/// Histograms and figures of a scene for the report.
+nlohmann::json summary_of(const SceneFile& scene);
 
 }  // namespace bin_scenes

@@ -55,10 +55,8 @@ void brighten(std::vector<std::uint8_t>& shades) {
 /// A picture of the first sensor, made small; empty if the data set has none.
 std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, std::size_t scene) {
   std::vector<fs::path> candidates;
-  const auto json = scene_in(folder.scene(scene).string());
-  if (json && json->is_object())
-    for (const Json& sensor : json->value("sensors", Json::array()))
-      candidates.push_back(folder.scene(scene) / (sensor.value("name", "") + ".png"));
+  if (const auto file = scene_in(folder.scene(scene)))
+    for (const SceneSensor& sensor : file->sensors) candidates.push_back(folder.scene(scene) / (sensor.name + ".png"));
   candidates.push_back(folder.bop(facts, scene) / bop_picture(facts.bop));
   const auto path =
       std::find_if(candidates.begin(), candidates.end(), [](const fs::path& p) { return fs::is_regular_file(p); });
@@ -112,11 +110,12 @@ Json model_of(const fs::path& path) {
 
 /// Parts with their models, as far as the data set holds these (output bop); else the page draws boxes.
 Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_t number) {
-  const auto scene = scene_in(folder.scene(number).string());
-  if (!scene || !scene->is_object()) return {};
+  const auto scene = scene_in(folder.scene(number));
+  if (!scene) return {};
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
   view["told"] = grasp_view(folder.scene(number).string());
-  if (scene->at("bin").contains("inner_size")) view["size"] = scene->at("bin").at("inner_size");
+  const Vec3& size = scene->bin.inner_size;
+  if (scene->bin.kind == Bin::Kind::box) view["size"] = {size.x(), size.y(), size.z()};
   std::map<int, int> object_of;
   const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;
   const fs::path truth = folder.bop(facts, number) / ("scene_gt" + suffix + ".json");
@@ -126,10 +125,10 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   }
   std::map<int, std::size_t> models;
   std::size_t triangles = 0;
-  for (const Json& part : scene->at("parts")) {
-    if (!part.at("pose").is_object()) continue;
+  for (const ScenePart& part : scene->parts) {
+    if (!part.pose.finite()) continue;
     int place = -1;
-    const auto object = object_of.find(part.at("id"));
+    const auto object = object_of.find(part.id);
     if (object != object_of.end()) {
       char name[32];
       std::snprintf(name, sizeof name, "obj_%06d.ply", object->second);
@@ -144,8 +143,8 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
       if (models.count(object->second)) place = static_cast<int>(models[object->second]);
     }
     Json row = {place};
-    for (const double x : part.at("pose").at("position")) row.push_back(rounded(x));
-    for (const double x : part.at("pose").at("orientation_xyzw")) row.push_back(rounded(x));
+    for (int i = 0; i < 3; ++i) row.push_back(rounded(part.pose.position[i]));
+    for (int i = 0; i < 4; ++i) row.push_back(rounded(part.pose.orientation.coeffs()[i]));
     view["parts"].push_back(row);
   }
   return view;

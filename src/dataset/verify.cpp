@@ -91,13 +91,11 @@ std::vector<fs::path> entries(const fs::path& folder) {
 
 /// Two scenes with the same poses are one scene twice: drawn with one seed, or copied. Empty bins are all alike.
 void verify_differences(const DataFolder& folder, Findings& findings) {
-  std::map<std::string, std::string> first;
+  std::map<std::uint64_t, std::string> first;
   for (const fs::path& path : entries(folder.root / "scenes")) {
-    const auto scene = scene_in(path.string());
-    if (!scene || !scene->is_object() || !scene->contains("report")) continue;
-    const auto hash = (*scene)["report"].value("state_hash", nlohmann::json());
-    if (!hash.is_string() || is_empty(*scene)) continue;
-    const auto [known, is_new] = first.emplace(hash.get<std::string>(), path.filename().string());
+    const auto scene = scene_in(path);
+    if (!scene || scene->report.state_hash == 0 || is_empty(*scene)) continue;
+    const auto [known, is_new] = first.emplace(scene->report.state_hash, path.filename().string());
     findings.expect(is_new, "scenes_differ", path.string(), "has the poses of " + known->second);
   }
 }
@@ -222,8 +220,8 @@ void verify_dataset(const DataFolder& folder, Findings& findings) {
     const fs::path bop = folder.bop(facts, there[i]);
     if (findings.expect(fs::exists(bop), "bop_json", bop.string(), "is missing")) {
       verify_files(bop, findings);
-      const auto scene = scene_in(folder.scene(there[i]).string());
-      verify_bop(folder, facts, there[i], scene.value_or(nlohmann::json()), models, findings);
+      if (const auto scene = scene_in(folder.scene(there[i])))
+        verify_bop(folder, facts, there[i], *scene, models, findings);
     }
   });
   if (facts.wants("shards") && is_whole) verify_shards(folder, facts, findings);

@@ -1,6 +1,7 @@
 /// Whether a data set is what it says: files, formats, and geometry against labels.
 #pragma once
 
+#include "bin_scenes/config/scene_file.hpp"
 #include "dataset/data_folder.hpp"
 
 #include <nlohmann/json.hpp>
@@ -50,8 +51,8 @@ void verify_index(const DataFolder& folder, const DataSetFacts& facts, Findings&
 /// One folder against its files.json.
 void verify_files(const std::filesystem::path& folder, Findings& findings);
 void verify_scene(const DataFolder& folder, const DataSetFacts& facts, std::size_t scene, Findings& findings);
-void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t scene,
-                const nlohmann::json& scene_json, const std::map<int, BopModel>& models, Findings& findings);
+void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, const SceneFile& scene,
+                const std::map<int, BopModel>& models, Findings& findings);
 void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings& findings);
 
 std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findings);

@@ -33,9 +33,10 @@ Mat3 matrix_of(const Json& rows) {
 Vec3 vector_of(const Json& json) {
   return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
-Pose pose_of(const Json& json) {
-  const auto q = json.at("orientation_xyzw").get<std::array<double, 4>>();
-  return {vector_of(json.at("position")), Quat(q[3], q[0], q[1], q[2])};
+Mat3 matrix_of(const std::vector<double>& k) {
+  Mat3 m;
+  for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = k.at(static_cast<std::size_t>(i));
+  return m;
 }
 
 /// BOP has x, y, and last pixel less first.
@@ -70,13 +71,11 @@ struct BoxCamera {
 struct ImageFiles {
   fs::path folder;
   BopPlace place;
-  const Json& sensor;  ///< of scene.json
+  const SceneSensor& sensor;
   const Json &camera, &truth, &info;
   BoxCamera box_camera;
   const Json* annotations;  ///< of scene_gt_coco.json; null: the layout has none
 
-  int width() const { return sensor.at("width"); }
-  int height() const { return sensor.at("height"); }
   std::string name() const { return folder.string() + ", image " + std::to_string(place.image) + place.suffix; }
 };
 
@@ -97,7 +96,7 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
   const std::string name = six_digits(image.place.image) + "_" + six_digits(entry) + ".png";
   const std::string where = (image.folder / ("mask_visib" + image.place.suffix) / name).string();
   const Json& info = image.info[entry];
-  const int id = image.truth[entry].at("id"), width = image.width(), height = image.height();
+  const int id = image.truth[entry].at("id"), width = image.sensor.width, height = image.sensor.height;
   LoadedImage seen, whole;
   try {
     seen = load_png(where);
@@ -151,8 +150,8 @@ void verify_projection(const Json& truth, const Json& info, const ImageFiles& im
 }
 
 /// True labels of the scene's sensor; none without output png.
-std::optional<LoadedImage> true_labels(const fs::path& scene, const Json& sensor) {
-  const fs::path path = scene / (sensor.at("name").get<std::string>() + "_truth_labels.png");
+std::optional<LoadedImage> true_labels(const fs::path& scene, const Sensor& sensor) {
+  const fs::path path = scene / (sensor.name + "_truth_labels.png");
   try {
     return load_png(path.string());
   } catch (const Error&) {  // image_size tells it
@@ -162,10 +161,10 @@ std::optional<LoadedImage> true_labels(const fs::path& scene, const Json& sensor
 
 /// scene_camera against the sensor of scene.json.
 void verify_camera(const ImageFiles& image, Findings& findings) {
-  const Json &told = image.camera, &sensor = image.sensor;
-  const Pose bin_in_camera = pose_of(sensor.at("pose")).inverse();
-  const double scale = 1e3 * sensor.at("depth_scale").get<double>();
-  const bool same = (matrix_of(told.at("cam_K")) - matrix_of(sensor.at("K"))).norm() < 1e-6 &&
+  const Json& told = image.camera;
+  const Pose bin_in_camera = image.sensor.pose->inverse();
+  const double scale = 1e3 * image.sensor.depth_scale;
+  const bool same = (matrix_of(told.at("cam_K")) - matrix_of(image.sensor.k)).norm() < 1e-6 &&
                     std::abs(told.at("depth_scale").get<double>() - scale) < 1e-9 * scale &&
                     (matrix_of(told.at("cam_R_w2c")) - bin_in_camera.orientation.toRotationMatrix()).norm() < 1e-6 &&
                     (vector_of(told.at("cam_t_w2c")) - 1e3 * bin_in_camera.position).norm() < 1e-3;
@@ -181,7 +180,7 @@ void verify_pictures(const ImageFiles& image, Findings& findings) {
         continue;
       }
       const LoadedImage picture = file.extension == ".png" ? load_png(path) : load_tiff(path);
-      findings.expect(picture.width == image.width() && picture.height == image.height() &&
+      findings.expect(picture.width == image.sensor.width && picture.height == image.sensor.height &&
                           picture.channels == (file.modality == "rgb" ? 3 : 1) &&
                           picture.bits == (file.modality == "depth" ? 16 : 8),
                       "bop_image", path, "has another size than the sensor, or other channels than its modality");
@@ -208,29 +207,28 @@ std::vector<const Json*> annotations_of(const ImageFiles& image, Findings& findi
   return by_entry;
 }
 
-void verify_image(const ImageFiles& image, const Json& scene, const std::map<int, BopModel>& models, Owners& owners,
-                  Findings& findings) {
+void verify_image(const ImageFiles& image, const SceneFile& scene, const std::map<int, BopModel>& models,
+                  Owners& owners, Findings& findings) {
   const std::string where = image.name();
   const Json &truth = image.truth, &info = image.info;
   verify_camera(image, findings);
   verify_pictures(image, findings);
-  std::map<int, const Json*> parts;
-  for (const Json& part : scene.at("parts"))
-    if (part.at("pose").is_object()) parts[part.at("id")] = &part;
+  std::map<int, const ScenePart*> parts;
+  for (const ScenePart& part : scene.parts)
+    if (part.pose.finite()) parts[part.id] = &part;
   std::set<int> listed;
   for (const Json& entry : truth) listed.insert(entry.at("id").get<int>());
   bool all_there = truth.size() == parts.size() && info.size() == parts.size() && listed.size() == parts.size();
   for (const auto& [id, part] : parts) all_there &= listed.count(id) == 1;
   if (!findings.expect(all_there, "bop_parts", where, "does not list the parts of the scene")) return;
   const std::vector<const Json*> annotations = annotations_of(image, findings);
-  const Pose camera_in_bin = pose_of(image.sensor.at("pose"));
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const int id = truth[i].at("id");
     const std::string part = where + ", part " + std::to_string(id);
     const Mat3 turn = matrix_of(truth[i].at("cam_R_m2c"));
     findings.expect((turn * turn.transpose() - Mat3::Identity()).norm() < 1e-6 && turn.determinant() > 0.0,
                     "bop_rotation", part, "cam_R_m2c is no rotation");
-    const Pose pose = camera_in_bin.inverse() * pose_of(parts.at(id)->at("pose"));
+    const Pose pose = image.sensor.pose->inverse() * parts.at(id)->pose;
     const bool same = (turn - pose.orientation.toRotationMatrix()).norm() < 1e-6 &&
                       (vector_of(truth[i].at("cam_t_m2c")) - 1e3 * pose.position).norm() < 1e-3;
     findings.expect(same, "bop_pose", part, "is not where scene.json has it");
@@ -274,60 +272,48 @@ SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coc
 
 /// The sensors as they truly are. Errors of their calibration, which scene.json does not tell, are drawn again from
 /// request.yaml; its models may lie elsewhere now, and what is not needed is left out.
-std::vector<Sensor> true_devices(const fs::path& folder, const Json& scene) {
+std::vector<Sensor> true_devices(const fs::path& folder, const SceneFile& scene) {
   const std::string request = fs::absolute(folder / "request.yaml").string();
   std::vector<Override> overrides = {"parts=[{model: " + Json(request).dump() + "}]", "bin={none: true}", "pour={}"};
-  for (std::size_t i = 0; i < scene.at("sensors").size(); ++i) {
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
     const std::string sensor = "sensors[" + std::to_string(i) + "].";
     overrides.emplace_back(sensor + "preset=''");
-    if (scene.at("sensors")[i].at("model") == "image") overrides.emplace_back(sensor + "lamps=[]");
+    if (scene.sensors[i].model == "image") overrides.emplace_back(sensor + "lamps=[]");
   }
   Request told = read_request(request, overrides);
   for (std::size_t i = 0; i < told.sensors.size(); ++i) {
-    told.sensors[i].pose = pose_of(scene.at("sensors").at(i).at("pose"));
+    told.sensors[i].pose = scene.sensors.at(i).pose;
     told.sensors[i] = resolved(told.sensors[i], told.bin);
   }
   std::vector<Sensor> devices;
-  for (std::size_t i = 0; i < told.sensors.size(); ++i)
-    devices.push_back(true_device(told.sensors, i, scene.at("seed").get<std::uint64_t>()));
+  for (std::size_t i = 0; i < told.sensors.size(); ++i) devices.push_back(true_device(told.sensors, i, scene.seed));
   return devices;
 }
 
 /// By sensor. Boxes of masks that follow measured depth are those of the camera that is told; those of true masks are
 /// the true device's.
 std::vector<BoxCamera> cameras_of(const DataFolder& folder, const DataSetFacts& facts, std::size_t number,
-                                  const Json& scene) {
-  const Json& sensors = scene.at("sensors");
+                                  const SceneFile& scene) {
   std::vector<BoxCamera> cameras;
-  for (const Json& sensor : sensors) cameras.push_back({matrix_of(sensor.at("K")), Pose()});
-  const auto is_exact = [](const Json& sensor) { return sensor.at("model") == "ideal"; };
-  if (facts.tolerance > 0.0 || std::all_of(sensors.begin(), sensors.end(), is_exact)) return cameras;
+  for (const Sensor& sensor : scene.sensors) cameras.push_back({matrix_of(sensor.k), Pose()});
+  const auto is_exact = [](const Sensor& sensor) { return sensor.model == "ideal"; };
+  if (facts.tolerance > 0.0 || std::all_of(scene.sensors.begin(), scene.sensors.end(), is_exact)) return cameras;
   const std::vector<Sensor> devices = true_devices(folder.scene(number), scene);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const auto& k = devices.at(i).k;
-    cameras[i].k << k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7], k[8];
-    cameras[i].told_in_it = devices[i].pose->inverse() * pose_of(sensors[i].at("pose"));
+    cameras[i].k = matrix_of(devices.at(i).k);
+    cameras[i].told_in_it = devices[i].pose->inverse() * *scene.sensors[i].pose;
   }
   return cameras;
 }
 
-std::vector<Sensor> sensors_in(const Json& scene) {
-  std::vector<Sensor> sensors;
-  for (const Json& sensor : scene.at("sensors")) {
-    sensors.emplace_back();
-    sensors.back().name = sensor.at("name");
-    sensors.back().view_of = sensor.value("view_of", "");
-  }
-  return sensors;
-}
-
 }  // namespace
 
-void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, const Json& scene,
+void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, const SceneFile& scene,
                 const std::map<int, BopModel>& models, Findings& findings) {
   const fs::path path = folder.bop(facts, number);
   try {
-    const std::vector<BopPlace> places = bop_places(facts.bop, sensors_in(scene), facts.split_of_scene(number));
+    const std::vector<BopPlace> places =
+        bop_places(facts.bop, {scene.sensors.begin(), scene.sensors.end()}, facts.split_of_scene(number));
     const std::vector<BoxCamera> cameras = cameras_of(folder, facts, number, scene);
     std::map<std::string, std::size_t> images;  // by suffix
     for (const BopPlace& place : places) ++images[place.suffix];
@@ -341,7 +327,7 @@ void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t
       const std::string key = std::to_string(place.image);
       const ImageFiles image{path,
                              place,
-                             scene.at("sensors").at(n),
+                             scene.sensors.at(n),
                              of_sensor.camera->at(key),
                              of_sensor.truth->at(key),
                              of_sensor.info->at(key),

@@ -17,36 +17,32 @@
 namespace bin_scenes {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 
-std::string name_of(const Json& part) {
-  return "part " + std::to_string(part.at("id").get<int>());
+std::string part_name(int id) {
+  return "part " + std::to_string(id);
 }
 
-void verify_parts(const Json& scene, const std::string& where, Findings& findings) {
+void verify_parts(const SceneFile& scene, const std::string& where, Findings& findings) {
   std::set<int> ids;
-  const bool box = scene.at("bin").contains("inner_size");
-  for (const Json& part : scene.at("parts")) {
-    const int id = part.at("id");
-    ids.insert(id);
-    if (!part.at("pose").is_object()) continue;
-    const auto q = part.at("pose").at("orientation_xyzw").get<std::array<double, 4>>();
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    findings.expect(std::abs(length - 1.0) < 1e-6, "part_turn", where, name_of(part) + " has no unit quaternion");
-    const auto p = part.at("pose").at("position").get<std::array<double, 3>>();
-    if (box && part.at("state") != "escaped") {
-      const auto size = scene.at("bin").at("inner_size").get<std::array<double, 3>>();
+  for (const ScenePart& part : scene.parts) {
+    ids.insert(part.id);
+    if (!part.pose.finite()) continue;
+    findings.expect(std::abs(part.pose.orientation.norm() - 1.0) < 1e-6, "part_turn", where,
+                    part_name(part.id) + " has no unit quaternion");
+    if (scene.bin.kind == Bin::Kind::box && part.state != PartState::escaped) {
+      const Vec3 &size = scene.bin.inner_size, &p = part.pose.position;
       // A model's origin may lie beside the part; a part is smaller than the bin.
-      const bool in = std::abs(p[0]) <= size[0] && std::abs(p[1]) <= size[1] && p[2] > -size[2] && p[2] < 3.0 * size[2];
-      findings.expect(in, "part_place", where, name_of(part) + " lies far from the bin");
+      const bool in =
+          std::abs(p.x()) <= size.x() && std::abs(p.y()) <= size.y() && p.z() > -size.z() && p.z() < 3.0 * size.z();
+      findings.expect(in, "part_place", where, part_name(part.id) + " lies far from the bin");
     }
-    for (const auto& [sensor, fraction] : part.at("visible_fraction").items())
-      findings.expect(fraction.is_number() && fraction >= 0.0 && fraction <= 1.0, "fraction_range", where,
-                      name_of(part) + " is visible to more than all or less than nothing");
+    for (const auto& [sensor, fraction] : part.visible_fraction)
+      findings.expect(fraction >= 0.0 && fraction <= 1.0, "fraction_range", where,
+                      part_name(part.id) + " is visible to more than all or less than nothing");
   }
-  const auto count = static_cast<int>(scene.at("parts").size());
+  const auto count = static_cast<int>(scene.parts.size());
   findings.expect(
       static_cast<int>(ids.size()) == count && (count == 0 || (*ids.begin() == 0 && *ids.rbegin() == count - 1)),
       "part_ids", where, "ids do not count from 0 to " + std::to_string(count - 1));
@@ -58,29 +54,25 @@ std::array<int, 4> box_of(const Extent& e) {
   return {e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1};
 }
 
-void verify_truth(const Json& sensor, const std::string& where, Findings& findings) {
-  const int width = sensor.at("width"), height = sensor.at("height");
-  for (const Json& part : sensor.at("truth")) {
-    const std::size_t seen = part.at("px_count_visib"), all = part.at("px_count_all");
+void verify_truth(const SceneSensor& sensor, const std::string& where, Findings& findings) {
+  for (const PartTruth& part : *sensor.truth) {
+    const std::size_t seen = part.visible_pixels, all = part.all_pixels;
     const double ratio = all ? static_cast<double>(seen) / static_cast<double>(all) : 0.0;
-    findings.expect(seen <= all && std::abs(ratio - part.at("visible_fraction").get<double>()) < 1e-9, "truth_counts",
-                    where, name_of(part) + ": counts and fraction do not agree");
-    const auto box = part.at("bbox_visib").get<std::array<int, 4>>();
+    findings.expect(seen <= all && std::abs(ratio - part.visible_fraction) < 1e-9, "truth_counts", where,
+                    part_name(part.id) + ": counts and fraction do not agree");
+    const std::array<int, 4>& box = part.visible_box;
     const bool none = box == std::array<int, 4>{-1, -1, -1, -1};
-    const bool inside = box[0] >= 0 && box[1] >= 0 && box[0] + box[2] <= width && box[1] + box[3] <= height;
+    const bool inside =
+        box[0] >= 0 && box[1] >= 0 && box[0] + box[2] <= sensor.width && box[1] + box[3] <= sensor.height;
     findings.expect(seen == 0 ? none : inside, "truth_boxes", where,
-                    name_of(part) + ": its box is not that of its pixels");
+                    part_name(part.id) + ": its box is not that of its pixels");
   }
 }
 
-bool is_pinhole(const Json& sensor) {
-  return sensor.at("model") != "laser_line" && sensor.at("distortion") == Json({0.0, 0.0, 0.0, 0.0, 0.0});
-}
-
-void verify_images(const Json& scene, const Json& sensor, const fs::path& folder, Findings& findings) {
-  const std::string name = sensor.at("name"), where = (folder / name).string();
-  const int width = sensor.at("width"), height = sensor.at("height");
-  const bool pinhole = sensor.at("model") != "laser_line";
+void verify_images(const SceneFile& scene, const SceneSensor& sensor, const fs::path& folder, Findings& findings) {
+  const std::string &name = sensor.name, where = (folder / name).string();
+  const int width = sensor.width, height = sensor.height;
+  const bool pinhole = sensor.model != "laser_line";
   LoadedImage labels, measured, depth, validity;
   try {
     labels = load_png((folder / (name + "_truth_labels.png")).string());
@@ -96,7 +88,7 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
                      measured.height == depth.height && (!pinhole || (depth.width == width && depth.height == height));
   if (!findings.expect(sizes, "image_size", where, "images have other sizes than the sensor")) return;
 
-  const std::size_t parts = scene.at("parts").size();
+  const std::size_t parts = scene.parts.size();
   std::vector<Extent> extents(parts);
   std::size_t strange = 0;
   for (int y = 0, i = 0; y < height; ++y) {
@@ -111,14 +103,14 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
     }
   }
   findings.expect(strange == 0, "label_range", where, std::to_string(strange) + " pixels carry the label of no part");
-  for (const Json& part : sensor.at("truth")) {
-    const Extent& e = extents.at(part.at("id").get<std::size_t>());
-    findings.expect(e.count == part.at("px_count_visib").get<std::size_t>(), "label_counts", where,
-                    name_of(part) + " has " + std::to_string(e.count) + " pixels");
-    findings.expect(box_of(e) == part.at("bbox_visib").get<std::array<int, 4>>(), "label_boxes", where,
-                    name_of(part) + ": pixels do not fill the box");
+  for (const PartTruth& part : *sensor.truth) {
+    const Extent& e = extents.at(static_cast<std::size_t>(part.id));
+    findings.expect(e.count == part.visible_pixels, "label_counts", where,
+                    part_name(part.id) + " has " + std::to_string(e.count) + " pixels");
+    findings.expect(box_of(e) == part.visible_box, "label_boxes", where,
+                    part_name(part.id) + ": pixels do not fill the box");
   }
-  const double scale = sensor.at("depth_scale"), near = sensor.at("near"), far = sensor.at("far");
+  const double scale = sensor.depth_scale, near = sensor.near, far = sensor.far;
   std::size_t outside = 0, codes = 0, mislabelled = 0;
   for (std::size_t i = 0; i < depth.samples.size(); ++i) {
     const double z = depth.samples[i] * scale;
@@ -144,25 +136,22 @@ void verify_images(const Json& scene, const Json& sensor, const fs::path& folder
 void verify_scene(const DataFolder& folder, const DataSetFacts& facts, std::size_t number, Findings& findings) {
   const fs::path path = folder.scene(number);
   const std::string where = path.string();
-  const auto scene = scene_in(where);
-  const bool good = scene && scene->is_object() && scene->value("format", Json()) == "bin_scenes/1";
-  if (!findings.expect(good, "scene_json", where, "scene.json is missing, damaged or of another format")) return;
   findings.expect(fs::exists(path / "request.yaml"), "request_there", where, "has no request.yaml");
   try {
-    findings.expect(scene->at("index") == number, "scene_number", where, "scene.json has another number");
-    const Json& report = scene->at("report");
-    findings.expect(report.at("accepted") == true && report.at("reasons").empty(), "scene_accepted", where,
-                    "was not accepted");
-    verify_parts(*scene, where, findings);
-    for (const Json& sensor : scene->at("sensors")) {
+    const SceneFile scene = read_scene_file((path / "scene.json").string(), Strictness::strict);
+    findings.expect(true, "scene_json", where, "");
+    findings.expect(scene.index == number, "scene_number", where, "scene.json has another number");
+    findings.expect(scene.report.accepted && scene.report.reasons.empty(), "scene_accepted", where, "was not accepted");
+    verify_parts(scene, where, findings);
+    for (const SceneSensor& sensor : scene.sensors) {
       if (facts.wants("bop") || facts.wants("shards"))
-        findings.expect(is_pinhole(sensor), "bop_pinhole", where,
-                        "the lens of sensor '" + sensor.value("name", "") + "' distorts, or it is none");
-      if (!sensor.contains("truth")) continue;
+        findings.expect(bop_misfit(sensor).empty(), "bop_pinhole", where,
+                        "the lens of sensor '" + sensor.name + "' distorts, or it is none");
+      if (!sensor.truth) continue;
       verify_truth(sensor, where, findings);
-      if (facts.wants("png")) verify_images(*scene, sensor, path, findings);
+      if (facts.wants("png")) verify_images(scene, sensor, path, findings);
     }
-  } catch (const std::exception& error) {  // of a key that is not there or has another type
+  } catch (const std::exception& error) {  // of the file; ids and models that are none
     findings.expect(false, "scene_json", where, error.what());
   }
 }

@@ -6,6 +6,8 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -57,10 +59,12 @@ void check_writable(const fs::path& directory) {
   }
 }
 
-std::optional<nlohmann::json> scene_in(const std::string& folder) {
-  std::ifstream file(fs::path(folder) / "scene.json");
-  if (!file) return std::nullopt;
-  return nlohmann::json::parse(file, nullptr, false);
+std::optional<SceneFile> scene_in(const fs::path& folder) {
+  try {
+    return read_scene_file((folder / "scene.json").string());
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 void write_manifest(const std::string& folder) {

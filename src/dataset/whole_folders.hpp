@@ -1,11 +1,10 @@
 /// Folders of a scene's files that appear whole or not at all, and tell later whether they still are.
 #pragma once
 
+#include "bin_scenes/config/formats.hpp"
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/generate/generator.hpp"
-#include "bin_scenes/output/mcap_profile.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -26,8 +25,8 @@ void check_formats(const std::set<std::string>& formats, const std::string& wher
 /// Before hours of simulation, not after them: the nearest directory that exists has to take new files.
 void check_writable(const std::filesystem::path& directory);
 
-/// scene.json of a folder, no object if it is damaged; none if there is none.
-std::optional<nlohmann::json> scene_in(const std::string& folder);
+/// scene.json of a folder; none if it is missing or damaged.
+std::optional<SceneFile> scene_in(const std::filesystem::path& folder);
 
 /// Writes down what is in a folder in files.json, itself left out: sizes and digests.
 void write_manifest(const std::string& folder);

@@ -2,7 +2,6 @@
 /// (bop_writer.cpp).
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
 #include "core/in_parallel.hpp"
@@ -60,24 +59,6 @@ std::vector<std::uint8_t> gray_of(const RangeImage& image) {
 
 nlohmann::ordered_json in_mm(const Vec3& v) {
   return {millimetres * v.x(), millimetres * v.y(), millimetres * v.z()};
-}
-
-const char* const bop_misfit_remedy =
-    "change the request's sensors (rectified images have distortion 0), or leave such outputs out";
-
-std::string bop_misfit(const Sensor& sensor) {
-  if (sensor_model(sensor.model).image == SensorModel::Image::profiles)
-    return "BOP holds pinhole images, and the profiles of a " + sensor.model + " sensor are none";
-  if (std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; }))
-    return "BOP holds pinhole images, and the lens of sensor '" + sensor.name + "' distorts";
-  return "";
-}
-
-std::string bop_loss(const std::vector<Sensor>& sensors) {
-  const bool cut = std::any_of(sensors.begin(), sensors.end(), [](const Sensor& sensor) {
-    return sensor.model == "image" && sensor.settings.of<ImageSettings>().bits > 8;
-  });
-  return cut ? "BOP's files hold the upper 8 bits of pictures of 16; png and image.png of shards hold all" : "";
 }
 
 std::vector<int> bop_object_ids(const std::vector<PartModelPtr>& parts) {

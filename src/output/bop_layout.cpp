@@ -6,10 +6,6 @@
 
 namespace bin_scenes {
 
-const std::string& sensor_of_view(const Sensor& sensor) {
-  return sensor.view_of.empty() ? sensor.name : sensor.view_of;
-}
-
 namespace {
 
 bool has_colours(const Sensor& sensor) {

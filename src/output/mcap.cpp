@@ -3,7 +3,6 @@
 #include "output/mcap.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/output/mcap_profile.hpp"
 
 #include <zlib.h>
 #include <zstd.h>
@@ -246,16 +245,6 @@ void McapFile::close() {
   summary += offsets + head(Op::footer, footer.bytes.size() + sizeof(std::uint32_t)) + footer.bytes;
   put(summary + Fields().number(crc_of(summary)).bytes + magic);
   file_.commit();
-}
-
-const char* name_of(McapProfile profile) {
-  return profile == McapProfile::ros1 ? "ros1" : "ros2";
-}
-
-McapProfile mcap_profile_of(const std::string& name, const std::string& where) {
-  for (const McapProfile profile : {McapProfile::ros1, McapProfile::ros2})
-    if (name == name_of(profile)) return profile;
-  throw input_error("unknown profile '" + name + "' of MCAP files", where, "ros1 or ros2");
 }
 
 std::string mcap_profile_in(const std::string& path) {

@@ -1,6 +1,7 @@
 /// The compiled part of the Python package bin_scenes: requests, scenes and their arrays, streams of scenes, heaps.
 /// What users call stands in python/bin_scenes, and its types in python/bin_scenes/_core.pyi.
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
@@ -225,7 +226,7 @@ void bind_scene(py::module_& m) {
                              })
       .def_property_readonly("report",
                              [](const SceneData& s) -> py::object {
-                               return py::module_::import("json").attr("loads")(s.report_json())["report"];
+                               return py::module_::import("json").attr("loads")(report_text(s.scene.report));
                              })
       .def_property_readonly("grasps",
                              [](const SceneData& s) -> py::object {

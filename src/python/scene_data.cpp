@@ -72,10 +72,4 @@ std::string SceneData::grasps_json() const {
   return bin_scenes::grasps_json(*grasps, scene, loaded->request);
 }
 
-std::string SceneData::report_json() const {
-  Scene alone;
-  alone.report = scene.report;
-  return scene_json(alone, {});
-}
-
 }  // namespace bin_scenes::python

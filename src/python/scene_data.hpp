@@ -52,8 +52,6 @@ struct SceneData {
   std::string json() const;
   /// grasps.json as the command line writes it.
   std::string grasps_json() const;
-  /// That of the report alone.
-  std::string report_json() const;
 };
 
 }  // namespace bin_scenes::python

@@ -129,7 +129,8 @@ void visit(Visitor& v, PartLine& part) {
            "mesh or CAD file (STL, OBJ, PLY, DAE, OFF, STEP, IGES): path relative to the request, absolute, or "
            "package://name/path; it must be a closed solid: holes "
            "of at most 2 % of its diagonal around are closed, and the report says so; larger holes are an error unless "
-           "thickness is given"},
+           "thickness is given",
+           anything, true, true},
           part.model);
   v.field({"unit", "",
            "unit of the file; left out: m (or what the file itself states), unless the size is implausible for the "
@@ -244,7 +245,7 @@ void visit(Visitor& v, Request& request) {
           request.first);
   v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, request.bin);
   v.field({"gravity", "m/s2", "in the bin frame", at_least(-1e4, 1e4)}, request.gravity);
-  v.list({"parts", "", "parts to pour; several lines make a mixed bin"}, request.parts);
+  v.list({"parts", "", "parts to pour; several lines make a mixed bin", anything, true, true}, request.parts);
   v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
   v.section({"solver", "", "solver and its settings"}, request.solver);
   v.list({"sensors", "", "range sensors; none = no images"}, request.sensors);

@@ -27,41 +27,15 @@ double metres_per(Unit unit) {
 }
 
 const char* name_of(Unit unit) {
-  switch (unit) {
-    case Unit::metre:
-      return "m";
-    case Unit::centimetre:
-      return "cm";
-    case Unit::millimetre:
-      return "mm";
-    case Unit::inch:
-      return "inch";
-  }
-  return "?";
+  return name_in_table(unit);
 }
 
 const char* name_of(SolverType type) {
-  switch (type) {
-    case SolverType::automatic:
-      return "auto";
-    case SolverType::sphere:
-      return "sphere";
-    case SolverType::bullet:
-      return "bullet";
-  }
-  return "?";
+  return name_in_table(type);
 }
 
 const char* name_of(Pour::Finish finish) {
-  switch (finish) {
-    case Pour::Finish::settled:
-      return "settled";
-    case Pour::Finish::pressed:
-      return "pressed";
-    case Pour::Finish::probed:
-      return "probed";
-  }
-  return "?";
+  return name_in_table(finish);
 }
 
 std::size_t Request::part_count() const {

@@ -1,25 +1,12 @@
 #include "bin_scenes/scene/scene.hpp"
 
 #include "bin_scenes/scene/lift_proof.hpp"
+#include "scene/report_keys.hpp"
 
 namespace bin_scenes {
 
 const char* name_of(PartState state) {
-  switch (state) {
-    case PartState::resting:
-      return "resting";
-    case PartState::moving:
-      return "moving";
-    case PartState::escaped:
-      return "escaped";
-    case PartState::fixed:
-      return "fixed";
-    case PartState::not_poured:
-      return "not_poured";
-    case PartState::removed:
-      return "removed";
-  }
-  return "?";
+  return name_in_table(state);
 }
 
 const char* name_of(LiftProof::Outcome outcome) {

@@ -46,11 +46,9 @@ AuditBin bin_given(const AuditOptions& options) {
 
 /// The bin that a data set of this project tells of a scene.
 std::optional<Vec3> own_bin(const fs::path& root, const BopView& view) {
-  const auto scene = scene_in((root / "scenes" / ("scene_" + view.scene.filename().string())).string());
-  if (!scene || !scene->is_object() || !scene->contains("bin") || !scene->at("bin").contains("inner_size"))
-    return std::nullopt;
-  const auto size = scene->at("bin").at("inner_size").get<std::array<double, 3>>();
-  return Vec3(size[0], size[1], size[2]);
+  const auto scene = scene_in(root / "scenes" / ("scene_" + view.scene.filename().string()));
+  if (!scene || scene->bin.kind != Bin::Kind::box) return std::nullopt;
+  return scene->bin.inner_size;
 }
 
 std::string bin_text(const AuditBin& bin, bool own) {

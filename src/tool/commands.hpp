@@ -86,7 +86,6 @@ struct SubmitOptions {
   std::string plan, out;
   std::size_t shares = 4, cpus = 1;
   std::vector<std::string> sbatch;  ///< further options of sbatch
-  bool slurm = false;
 };
 int dataset_submit(const SubmitOptions& options);
 
@@ -99,6 +98,10 @@ struct AuditOptions {
   bool json = false;
 };
 int audit(const AuditOptions& options);
+
+struct ReferenceOptions {
+  bool scene = false, json_schema = false;
+};
 
 struct ReportOptions {
   std::string directory;

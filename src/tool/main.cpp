@@ -1,6 +1,7 @@
 /// bin_scenes: the command line.
 #include "bin_scenes/config/plan.hpp"
 #include "bin_scenes/config/request_reader.hpp"
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/freed_memory.hpp"
 #include "tool/commands.hpp"
@@ -55,7 +56,6 @@ void add_dataset(CLI::App& app, DatasetOptions& o) {
   app.add_option("--out", o.out, "directory of the data set");
   app.add_option("--workers", o.workers, "processes; left out: as many as cores")->check(CLI::Range(1, 1024));
   app.add_option("--shard", o.shard, "i/n: makes share i, from 0, of n; `dataset merge` joins them");
-  app.add_flag("--resume", "go on with what is there, as is done without it");
   app.add_flag("--json-progress", o.json_progress, "progress as lines of JSON on standard output");
 }
 
@@ -112,12 +112,17 @@ void add_sensor(CLI::App& app, SensorOptions& o) {
 }
 
 void add_submit(CLI::App& app, SubmitOptions& o) {
-  app.add_flag("--slurm", o.slurm, "by an array job of Slurm")->required();
+  app.add_flag("--slurm")->group("");  // accepted, as it was needed once
   app.add_option("PLAN", o.plan, "plan of the data set")->required();
   app.add_option("--out", o.out, "directory of the data set, seen by all nodes")->required();
   app.add_option("--shares", o.shares, "tasks of the array job")->check(CLI::Range(1, 100000))->capture_default_str();
   app.add_option("--cpus", o.cpus, "cores, and workers, a task")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_option("--sbatch", o.sbatch, "further option of sbatch, such as --sbatch=--partition=long");
+}
+
+void add_reference(CLI::App& app, ReferenceOptions& o) {
+  app.add_flag("--scene", o.scene, "docs/use/scene.md instead of docs/use/request.md");
+  app.add_flag("--json-schema", o.json_schema, "JSON schema of requests, for editors");
 }
 
 void add_verify(CLI::App& app, VerifyOptions& o) {
@@ -189,8 +194,8 @@ int print_completion(const CompletionOptions& options) {
   return exit_done;
 }
 
-int print_reference() {
-  std::cout << request_reference();
+int print_reference(const ReferenceOptions& options) {
+  std::cout << (options.json_schema ? request_json_schema() : options.scene ? scene_reference() : request_reference());
   return exit_done;
 }
 
@@ -214,7 +219,7 @@ void add_commands(CLI::App& app, Commands& all) {
   all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");
   all.add(app, print_completion, "completion", "script of completion for a shell: source <(bin_scenes completion bash)",
           add_completion);
-  all.add(app, print_reference, "reference", "docs/use/request.md").group("");
+  all.add(app, print_reference, "reference", "keys of requests and of scene.json", add_reference);
 }
 
 int run(int argc, char** argv) {

@@ -7,8 +7,6 @@
 #include "bin_scenes/output/scene_writer.hpp"
 #include "dataset/whole_folders.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -35,10 +33,6 @@ std::optional<std::size_t> index_of(const std::string& name) {
   std::from_chars(name.data() + prefix.size(), name.data() + name.size(), index);
   if (prefix + six_digits(index) != name) return std::nullopt;
   return index;
-}
-
-bool is_of(const Request& request, const nlohmann::json& scene) {
-  return scene.is_object() && scene.value("request_sha256", nlohmann::json()) == request.text_sha256;
 }
 
 }  // namespace
@@ -110,14 +104,14 @@ std::set<std::size_t> SceneStore::indices(const Request& request) const {
 SceneStore::Found SceneStore::find(std::size_t index, const Request& request) const {
   for (const bool accepted : {true, false}) {
     const std::string path = folder(index, accepted);
-    const std::optional<nlohmann::json> json = scene_in(path);
-    if (!json) continue;
-    if (!json->is_object() && has_manifest(path)) continue;  // ours, and damaged since
-    if (!json->is_object()) {
+    if (!fs::exists(fs::path(path) / "scene.json")) continue;
+    const std::optional<SceneFile> scene = scene_in(path);
+    if (!scene && has_manifest(path)) continue;  // ours, and damaged since
+    if (!scene) {
       throw input_error("scene.json is there already, but it is cut off or damaged", path,
                         "remove this folder, and the scene is made anew");
     }
-    if (!is_of(request, *json)) {
+    if (scene->request_sha256 != request.text_sha256) {
       throw input_error("there is a scene of another request already", path,
                         "name another --out, or replace it with --overwrite");
     }
@@ -160,8 +154,8 @@ void SceneStore::commit(const Generator::Result& result, const Request& request,
 
   // What an earlier scene of this index left behind, on either side, shows another scene.
   std::error_code ignored;
-  const std::optional<nlohmann::json> earlier = scene_in(folder(scene.index, accepted));
-  const bool same = earlier && is_of(request, *earlier);
+  const std::optional<SceneFile> earlier = scene_in(folder(scene.index, accepted));
+  const bool same = earlier && earlier->request_sha256 == request.text_sha256;
   std::shared_ptr<WholeFolders> folders;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -10,8 +10,8 @@
 /// whose files all have the sizes that files.json tells.
 #pragma once
 
+#include "bin_scenes/config/formats.hpp"
 #include "bin_scenes/generate/generator.hpp"
-#include "bin_scenes/output/mcap_profile.hpp"
 
 #include <filesystem>
 #include <map>

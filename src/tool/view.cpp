@@ -1,7 +1,8 @@
 /// The command `view`: a finished scene as one HTML page that needs no network.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "core/read_file.hpp"
+#include "config/json_fields.hpp"
+#include "config/scene_file_keys.hpp"
 #include "dataset/grasp_view.hpp"
 #include "dataset/page.hpp"
 #include "tool/commands.hpp"
@@ -23,7 +24,7 @@ extern const char view_page[];
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using config::Json;
 
 constexpr std::size_t most_points = 400'000;  ///< of all sensors; a point takes 25 bytes of the page
 
@@ -44,28 +45,6 @@ Json packed(const Mesh& mesh) {
   return {{"vertices", packed(vertices)}, {"triangles", packed(triangles)}};
 }
 
-Pose pose_of(const Json& json) {
-  Pose pose;
-  for (int i = 0; i < 3; ++i) pose.position[i] = json.at("position").at(i).get<double>();
-  for (int i = 0; i < 4; ++i) pose.orientation.coeffs()[i] = json.at("orientation_xyzw").at(i).get<double>();
-  return pose;
-}
-
-/// What decides where the pixels of a sensor look.
-Sensor sensor_of(const Json& json) {
-  Sensor sensor;
-  sensor.name = json.at("name").get<std::string>();
-  sensor.model = json.at("model").get<std::string>();
-  sensor.width = json.at("width").get<int>();
-  sensor.height = json.at("height").get<int>();
-  sensor.k = std::vector<double>(9);
-  for (std::size_t i = 0; i < 9; ++i) sensor.k[i] = json.at("K").at(i).get<double>();
-  sensor.distortion = json.at("distortion").get<std::array<double, 5>>();
-  sensor.depth_scale = json.at("depth_scale").get<double>();
-  sensor.pose = pose_of(json.at("pose"));
-  return sensor;
-}
-
 Json packed(const ViewCloud& cloud, const Sensor& sensor) {
   std::vector<float> points;
   for (const auto& p : cloud.points) {
@@ -82,45 +61,45 @@ Json packed(const ViewCloud& cloud, const Sensor& sensor) {
 }
 
 /// Parts that lie somewhere, with their models.
-void add_parts(Json& data, const Json& scene, const std::string& folder, const std::string& models) {
+void add_parts(Json& data, SceneFile& scene, const std::string& folder, const std::string& models) {
   std::map<std::size_t, std::size_t> place_of;  // line -> its mesh
-  for (const Json& part : scene.at("parts")) {
-    const Json& pose = part.at("pose");
-    if (!pose.is_object() || !pose_of(pose).finite()) continue;
-    const auto line = part.at("line").get<std::size_t>();
-    if (!place_of.count(line)) {
-      place_of[line] = data["meshes"].size();
-      data["meshes"].push_back(packed(find_model(scene.at("models").at(line), scene.at("bin"), folder, models)));
+  for (ScenePart& part : scene.parts) {
+    if (!part.pose.finite()) continue;
+    if (part.line >= scene.models.size())
+      throw input_error("is no scene that bin_scenes wrote: it does not name its models", folder,
+                        "make the scene anew: generate --overwrite");
+    if (!place_of.count(part.line)) {
+      place_of[part.line] = data["meshes"].size();
+      data["meshes"].push_back(packed(find_model(scene.models[part.line], scene.bin, folder, models)));
     }
-    Json row = part;
-    row["mesh"] = place_of[line];
+    Json row = config::JsonWriter::object(part);
+    row["mesh"] = place_of[part.line];
     data["parts"].push_back(row);
   }
 }
 
-void add_sensors(Json& data, const Json& scene, const std::string& folder) {
-  const Json& sensors = scene.at("sensors");
-  const std::size_t most = std::max<std::size_t>(most_points / std::max<std::size_t>(sensors.size(), 1), 1000);
-  for (Json json : sensors) {
-    const Sensor sensor = sensor_of(json);
+void add_sensors(Json& data, SceneFile& scene, const std::string& folder) {
+  const std::size_t most = std::max<std::size_t>(most_points / std::max<std::size_t>(scene.sensors.size(), 1), 1000);
+  for (SceneSensor& sensor : scene.sensors) {
     const ViewCloud cloud = read_view_cloud(folder, sensor, most);
     if (!cloud.source.empty()) data["clouds"].push_back(packed(cloud, sensor));
-    json.erase("truth");  // large, and not shown
-    data["sensors"].push_back(json);
+    sensor.truth.reset();  // large, and not shown
+    data["sensors"].push_back(config::JsonWriter::object(sensor));
   }
 }
 
-Json view_data(const Json& scene, const std::string& folder, const std::string& models) {
+Json view_data(SceneFile scene, const std::string& folder, const std::string& models) {
+  SceneBin bin{scene.bin};
   Json data = {{"name", fs::weakly_canonical(folder).filename().string()},
-               {"seed", scene.at("seed")},
-               {"index", scene.at("index")},
-               {"bin", scene.at("bin")},
-               {"report", scene.value("report", Json::object())}};
+               {"seed", scene.seed},
+               {"index", scene.index},
+               {"bin", config::JsonWriter::object(bin)},
+               {"report", config::JsonWriter::object(scene.report)}};
   for (const char* list : {"meshes", "parts", "sensors", "clouds"}) data[list] = Json::array();
   add_parts(data, scene, folder, models);
   add_sensors(data, scene, folder);
   data.update(grasp_view(folder));
-  if (scene.at("bin").contains("mesh")) data["bin"]["shape"] = packed(find_bin(scene.at("bin"), folder, models));
+  if (scene.bin.kind == Bin::Kind::mesh) data["bin"]["shape"] = packed(find_bin(scene.bin, folder, models));
   return data;
 }
 
@@ -140,7 +119,7 @@ int view(const ViewOptions& options) {
   const fs::path file = scene_file(options.scene);
   const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
   const std::string path = options.out.empty() ? (fs::path(folder) / "view.html").string() : options.out;
-  read_scene_json(file.string());  // tells what is wrong with it
+  const SceneFile scene = read_scene_file(file.string(), Strictness::strict);
   const std::string library = three_js();
   if (library.empty())
     throw environment_error("three.js, which draws the page, was not found", "view",
@@ -149,9 +128,9 @@ int view(const ViewOptions& options) {
   bar.stage(0.0, 1.0, "reading models and clouds");
   Json data;
   try {
-    data = view_data(Json::parse(read_file(file.string())), folder, options.models);
+    data = view_data(scene, folder, options.models);
   } catch (const Json::exception& error) {
-    throw input_error(std::string("is no scene that bin_scenes wrote: ") + error.what(), file.string(),
+    throw input_error(std::string("is no grasps.json that bin_scenes wrote: ") + error.what(), folder,
                       "make the scene anew: generate --overwrite");
   }
   std::string page = view_page;

@@ -10,7 +10,6 @@
 namespace bin_scenes {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -33,8 +32,8 @@ std::vector<fs::path> candidates(const std::string& written, const std::string& 
   return all;
 }
 
-ModelFile find_file(const Json& model, const char* key, const std::string& folder, const std::string& models) {
-  const std::string written = model.at(key).get<std::string>(), sha256 = model.value("sha256", "");
+ModelFile find_file(const std::string& written, const std::string& sha256, const std::string& folder,
+                    const std::string& models) {
   std::string other;
   for (const fs::path& path : candidates(written, folder, models)) {
     std::error_code missing;
@@ -51,31 +50,14 @@ ModelFile find_file(const Json& model, const char* key, const std::string& folde
                     folder, "name the folder of the models: --models DIR");
 }
 
-std::optional<Unit> unit_of(const Json& json) {
-  const std::string name = json.value("unit", "");
-  for (const Unit unit : {Unit::metre, Unit::centimetre, Unit::millimetre, Unit::inch})
-    if (name == name_of(unit)) return unit;
-  return std::nullopt;
-}
-
 }  // namespace
 
-Mesh find_model(const Json& model, const Json& bin, const std::string& folder, const std::string& models) {
-  const ModelFile file = find_file(model, "model", folder, models);
-  LoadOptions options;
-  options.unit = unit_of(model);
-  options.scale = model.value("scale", 1.0);
-  if (model.contains("thickness")) options.thickness = model.at("thickness").get<double>();
-  options.solid = model.value("solid", "");
-  if (model.contains("chord")) options.tessellation.chord = model.at("chord").get<double>();
-  options.tessellation.angle = model.value("angle", options.tessellation.angle);
+Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& folder, const std::string& models) {
+  const ModelFile file = find_file(model.model, model.sha256, folder, models);
+  const LoadOptions options = load_options(model);
   Mesh mesh = load_mesh(file, options).mesh;
-  Bin around;
-  around.kind = bin.contains("inner_size") ? Bin::Kind::box : Bin::Kind::none;
-  if (around.kind == Bin::Kind::box)
-    for (int i = 0; i < 3; ++i) around.inner_size[i] = bin.at("inner_size").at(i).get<double>();
   try {
-    check_plausible_size(mesh, around, file.path, options.unit);
+    check_plausible_size(mesh, bin, file.path, options.unit);
   } catch (const Error&) {  // it was poured all the same
     throw input_error("does not fit the bin in metres, and scene.json, which an earlier version wrote, tells no unit",
                       file.path, "make the scene anew: generate --overwrite");
@@ -83,11 +65,11 @@ Mesh find_model(const Json& model, const Json& bin, const std::string& folder, c
   return mesh;
 }
 
-Mesh find_bin(const Json& bin, const std::string& folder, const std::string& models) {
+Mesh find_bin(const Bin& bin, const std::string& folder, const std::string& models) {
   LoadOptions options;
-  options.unit = unit_of(bin);
+  options.unit = bin.unit;
   options.require_closed = false;
-  return load_mesh(find_file(bin, "mesh", folder, models), options).mesh;
+  return load_mesh(find_file(bin.mesh, bin.mesh_sha256, folder, models), options).mesh;
 }
 
 }  // namespace bin_scenes

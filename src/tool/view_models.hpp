@@ -1,9 +1,8 @@
 /// Finds the model files of a finished scene again.
 #pragma once
 
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/mesh/mesh.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -13,9 +12,8 @@ namespace bin_scenes {
 /// looked for as the request wrote it, and by its name: in `models` if that is given, in the working directory, beside
 /// the scene, above it, and in folders called models there. Throws an input Error if no file has the digest.
 /// @param bin  of scene.json; tells what size of a part without a unit is plausible
-Mesh find_model(const nlohmann::ordered_json& model, const nlohmann::ordered_json& bin, const std::string& folder,
-                const std::string& models);
+Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& folder, const std::string& models);
 /// The same of a bin that is a mesh.
-Mesh find_bin(const nlohmann::ordered_json& bin, const std::string& folder, const std::string& models);
+Mesh find_bin(const Bin& bin, const std::string& folder, const std::string& models);
 
 }  // namespace bin_scenes

@@ -1,6 +1,7 @@
 /// The reference of a request's keys: ranges as the reader takes them, and the page that shows it.
 #include "config/reference.hpp"
 
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"
 #include "config/config_fixture.hpp"
 
@@ -29,6 +30,12 @@ TEST(Reference, TheDocumentedKeysAreThoseOfTheTable) {
   std::snprintf(holes, sizeof holes, "holes of at most %g %% of its diagonal around", 100.0 * LoadOptions().max_hole);
   EXPECT_NE(text.find(holes), std::string::npos);
   EXPECT_EQ(text, request_reference()) << "run: bin_scenes reference > docs/use/request.md";
+}
+
+TEST(Reference, TheDocumentedSceneIsThatOfTheTable) {
+  std::ifstream file(std::string(BIN_SCENES_DOCS) + "/use/scene.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, scene_reference()) << "run: bin_scenes reference --scene > docs/use/scene.md";
 }
 
 }  // namespace

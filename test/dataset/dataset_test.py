@@ -239,7 +239,7 @@ class Repeatability(DataSetTest):
         self.assert_same("one", "full")
 
         self.kill_at_random(8, 0.5, "dataset", plan, "--out", "killed", "--workers", 2)
-        self.make(plan, "killed", "--resume")
+        self.make(plan, "killed")
         self.assert_same("one", "killed")
         self.assertIn(" 0 findings", self.run_tool("dataset", "verify", "killed").stdout)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`bin_scenes dataset submit --slurm` with the real slurmctld, slurmd and munged of Debian, started here on 127.0.0.1.
+"""`bin_scenes dataset submit` with the real slurmctld, slurmd and munged of Debian, started here on 127.0.0.1.
 One task is killed in the middle and requeued. Skipped where they are not installed, or without root.
 
     slurm_test.py TOOL
@@ -122,7 +122,7 @@ echo "4711;here"
 touch asked
 """)
         plan = self.plan(scenes=2, outputs="json")
-        done = self.run_tool("dataset", "submit", "--slurm", plan, "--out", "bolts,2%a", "--shares", 2)
+        done = self.run_tool("dataset", "submit", plan, "--out", "bolts,2%a", "--shares", 2)
         self.assertIn("job 4711: 1 RUNNING\n", done.stdout + done.stderr)
         self.assertEqual((self.folder / "bolts,2%a/.shares/job").read_text(), "4711")
         self.assertTrue((self.folder / "bolts,2%a/.shares/share_1.log").exists())

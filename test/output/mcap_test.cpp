@@ -1,7 +1,7 @@
 /// MCAP files against the specification (mcap.dev): a reader of its own, written from the tables of records.
 #include "output/mcap.hpp"
 
-#include "bin_scenes/output/mcap_profile.hpp"
+#include "bin_scenes/output/scene_writer.hpp"
 #include "output/output_fixture.hpp"
 
 #include <gtest/gtest.h>

@@ -104,6 +104,58 @@ TEST_F(SceneJson, TellsHowItsModelsWereRead) {
   EXPECT_EQ(json.at("bin").at("unit"), "inch");
 }
 
+/// The file as a struct has everything that the file has: written again, it is the same text.
+TEST_F(SceneJson, TheStructHoldsTheWholeFile) {
+  Scene scene = small_scene();
+  scene.model_sha256 = {"b0"};
+  scene.sensors.push_back(scene.sensors[0]);
+  scene.sensors[1].name = "right-2";
+  scene.sensors[1].view_of = "left";
+  scene.sensors[1].model = "laser_line";
+  scene.sensors[1].laser.pose = Pose{Vec3(0.1, 0.0, 0.9), Quat::Identity()};
+  scene.report.drift.measured = true;
+  scene.report.drift.turn_p95 = 0.25;
+  scene.report.profile.counters["contacts"] = 1234567890123u;
+  Request r = request();
+  r.bin.kind = Bin::Kind::mesh;
+  r.bin.mesh = "crate.stl";
+  r.parts.resize(1);
+  r.parts[0].model = "bolt.stl";
+  r.parts[0].scale = 2.0;
+  LoadedRequest loaded{r};
+  const std::string written = scene_json(scene, loaded);
+  write_text(path("scene.json"), written);
+  const SceneFile back = read_scene_file(path("scene.json"), Strictness::strict);
+  EXPECT_EQ(scene_text(back), written);
+  EXPECT_EQ(back.bin.kind, Bin::Kind::mesh);
+  EXPECT_EQ(back.sensors.at(1).laser.pose->position, Vec3(0.1, 0.0, 0.9));
+  EXPECT_FALSE(back.sensors[0].truth.has_value());
+  EXPECT_TRUE(back.report.drift.measured);
+  EXPECT_EQ(back.report.flags.at(0).code, "mesh_repaired");
+}
+
+/// Files of other programs and of earlier versions may lack keys; what this version writes may not.
+TEST_F(SceneJson, OnlyAStrictReaderNeedsEveryKey) {
+  const auto written = nlohmann::json::parse(scene_json(small_scene(), {request()}));
+  for (const char* key : {"bin", "gravity", "request_sha256", "sensors", "report"}) {
+    nlohmann::json cut = written;
+    cut.erase(key);
+    write_text(path("scene.json"), cut.dump());
+    EXPECT_EQ(read_scene_json(path("scene.json")).parts.size(), 3u) << key;
+    try {
+      read_scene_file(path("scene.json"), Strictness::strict);
+      ADD_FAILURE() << key;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("'" + std::string(key) + "': is missing"), std::string::npos)
+          << error.what();
+    }
+  }
+  nlohmann::json older = written;  // reports grow with each version
+  older["report"].erase("jam");
+  write_text(path("scene.json"), older.dump());
+  EXPECT_EQ(read_scene_file(path("scene.json"), Strictness::strict).parts.size(), 3u);
+}
+
 TEST_F(SceneJson, APartWithoutAPoseStaysWithoutOne) {
   Scene scene = small_scene();
   scene.parts[1].pose = Pose::none();
@@ -133,7 +185,7 @@ TEST_F(SceneJson, BrokenFilesAreNamedWithTheKey) {
   };
   expect("{", "is no JSON, or cut off");
   expect("{\n\"format\": \"bin_scenes/1\",\n???}", "from byte 29 on");
-  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed and index': holds \"one\" where a whole");
+  expect(R"({"format": "bin_scenes/1", "seed": "one", "index": 0})", "'seed': holds \"one\" where a whole");
   // Casts of what does not fit: found by the fuzzer.
   expect(R"({"format": "bin_scenes/1", "seed": 744444444444444444444444444444, "index": 0})", "whole number");
   expect(R"({"format": "bin_scenes/1", "seed": 1, "index": -1})", "holds -1 where");

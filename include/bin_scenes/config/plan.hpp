@@ -1,10 +1,9 @@
 /// The plan of a data set: a request whose values are drawn anew for each heap, and what is made of the heaps.
 #pragma once
 
+#include "bin_scenes/config/formats.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
-#include "bin_scenes/output/bop_layout.hpp"
-#include "bin_scenes/output/mcap_profile.hpp"
 #include "bin_scenes/scene/request.hpp"
 
 #include <array>

@@ -42,5 +42,7 @@ std::string request_hash(const Request& request);
 
 /// docs/use/request.md: every key with type, default, unit and consequence.
 std::string request_reference();
+/// JSON schema (draft 7) of a request file, for editors; what depends on several keys is not in it.
+std::string request_json_schema();
 
 }  // namespace bin_scenes

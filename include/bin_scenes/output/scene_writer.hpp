@@ -2,9 +2,10 @@
 /// A full disk or an unwritable directory is an environment Error.
 #pragma once
 
+#include "bin_scenes/config/formats.hpp"
+#include "bin_scenes/config/scene_file.hpp"
 #include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/grasp/scene_grasps.hpp"
-#include "bin_scenes/output/mcap_profile.hpp"
 #include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 #include "bin_scenes/scene/scene.hpp"
@@ -22,8 +23,8 @@ namespace bin_scenes {
 /// and counts of pixels.
 /// @param loaded  its models are needed with images only
 std::string scene_json(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images = {});
-/// Reads seed, index, parts and the verdict of the report back; throws an input Error naming file and key.
-Scene read_scene_json(const std::string& path);
+/// The same as a struct.
+SceneFile scene_file(const Scene& scene, const LoadedRequest& loaded, const std::vector<RangeImage>& images = {});
 
 /// grasps.json as text (format "bin_scenes/grasps/1"): docs/use/outputs.md.
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request);
@@ -56,11 +57,6 @@ void write_pngs(const std::string& directory, const RangeImage& image);
 /// and their masks are stored under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
-/// Why BOP's files cannot hold what a sensor sees, since they describe it by a camera matrix alone; empty: they can.
-std::string bop_misfit(const Sensor& sensor);
-extern const char* const bop_misfit_remedy;
-/// What BOP's files leave out of what sensors give; empty: nothing.
-std::string bop_loss(const std::vector<Sensor>& sensors);
 /// How BOP's files tell what is visible, and which object a part is.
 struct BopOptions {
   /// 0: a pixel shows the part that is truly seen there. Else, in m: it shows every part that lies no deeper than so
@@ -94,5 +90,7 @@ using McapWriter = std::function<void(const std::string& path, McapProfile, cons
 void register_mcap_writer(McapWriter writer);
 /// Empty without ROS.
 const McapWriter& mcap_writer();
+/// Name of the profile of a file; empty if it is no MCAP file.
+std::string mcap_profile_in(const std::string& path);
 
 }  // namespace bin_scenes

@@ -1,5 +1,5 @@
-/// One key of a request, as the tables in src/scene/keys.hpp, src/sensor/sensor_keys.hpp and the sensor models list
-/// them: what is said here is what the reader asks for, check() refuses and docs/use/request.md shows.
+/// One key of a request or of scene.json, as the tables of keys list them (docs/develop/architecture.md, One table for
+/// each struct): readers, writers, range checks, messages, the JSON schema and the generated pages all use this entry.
 #pragma once
 
 #include <limits>
@@ -29,11 +29,20 @@ struct Key {
   const char* text;  ///< meaning; what a larger or smaller value costs
   Range range = anything;
   bool written = true;  ///< false: has no meaning for the other values; left out when written back, and not checked
+  bool needed = false;  ///< a file without it is refused
 };
 
 /// Names of an enumeration as the request spells them.
 template <class Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
+
+/// The name of a value, by the table names(Enum) of its enumeration.
+template <class Enum>
+const char* name_in_table(Enum value) {
+  for (const auto& [name, meaning] : names(value))
+    if (meaning == value) return name;
+  return "?";
+}
 
 /// A value that is one of the words known.
 struct Word {
