@@ -1,20 +1,29 @@
-/// Writes the fields of a message as overrides of keys, for the reader of requests. A field that is left at its default
-/// writes nothing.
+/// Writes the fields of a message as overrides of the keys with their names, for the reader of requests. A field that
+/// is left at its default writes nothing.
 #include "request_message.hpp"
 
 #include "bin_scenes/core/error.hpp"
 #include "config/paths.hpp"
+#include "config/reference.hpp"
 #include "frames.hpp"
+#include "message_fields.hpp"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <map>
+#include <type_traits>
 
 namespace bin_scenes {
 
 namespace {
 
 namespace msgs = bin_scenes_msgs;
+
+template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+Number values(Number number) {
+  return number;
+}
 
 std::vector<double> values(const geometry_msgs::Vector3& v) {
   return {v.x, v.y, v.z};
@@ -44,10 +53,10 @@ bool is_set(const geometry_msgs::Pose& p) {
   return p.position.x != 0.0 || p.position.y != 0.0 || p.position.z != 0.0 || is_set(p.orientation);
 }
 
-template <class Message>
-std::vector<std::vector<double>> values(const std::vector<Message>& list) {
-  std::vector<std::vector<double>> rows;
-  for (const Message& item : list) rows.push_back(values(item));
+template <class Item>
+auto values(const std::vector<Item>& list) {
+  std::vector<decltype(values(list[0]))> rows;
+  for (const Item& item : list) rows.push_back(values(item));
   return rows;
 }
 
@@ -60,37 +69,6 @@ bool is_set(const std::vector<Value>& optional, const std::string& key) {
   return optional.size() == 1;
 }
 
-/// The set fields of one message as keys of a request. Only what differs from "not set" is written.
-class Keys {
- public:
-  explicit Keys(std::string path) : path_(std::move(path)) { map_ = YAML::Node(YAML::NodeType::Map); }
-
-  void text(const char* key, const std::string& value) {
-    if (!value.empty()) map_[key] = value;
-  }
-  template <class Number>
-  void number(const char* key, Number value) {
-    if (value != 0) map_[key] = value;
-  }
-  template <class Number>
-  void optional(const char* key, const std::vector<Number>& value) {
-    if (is_set(value, path_ + "." + key)) map_[key] = value[0];
-  }
-  template <class Value>
-  void value(const char* key, const Value& value) {
-    map_[key] = value;
-  }
-  void section(const char* key, const Keys& section) {
-    if (section.map().size() > 0) map_[key] = section.map();
-  }
-  const YAML::Node& map() const { return map_; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  YAML::Node map_;
-};
-
 /// YAML on one line, numbers with all their digits.
 std::string flow(const YAML::Node& node) {
   YAML::Emitter out;
@@ -102,123 +80,126 @@ std::string flow(const YAML::Node& node) {
   return text;
 }
 
-Keys bin_keys(const msgs::Bin& bin) {
-  Keys keys("bin");
-  if (bin.kind == "floor" || bin.kind == "none") {
-    keys.value(bin.kind.c_str(), true);
-  } else if (bin.kind == "mesh") {
-    if (bin.mesh.empty()) throw input_error("the bin is a mesh, but none is named", "bin.mesh", "name a model file");
-  } else if (!bin.kind.empty() && bin.kind != "box") {
-    throw input_error("unknown kind '" + bin.kind + "'", "bin.kind", "box, mesh, floor or none");
+/// What a value of the key looks like; none: there is no such key.
+const std::string* kind_of(const std::string& key) {
+  static const auto kinds = [] {
+    std::map<std::string, std::string> all;
+    for (const config::Entry& entry : config::reference()) all[entry.path] = entry.kind;
+    return all;
+  }();
+  const auto found = kinds.find(key);
+  return found == kinds.end() ? nullptr : &found->second;
+}
+
+/// The set fields of a message as keys of a request: what is called a_b there is a, or b of the section a.
+class Keys {
+ public:
+  /// @param section  of the table: "", "bin." or "parts[]."
+  /// @param path     of the message, for errors: "", "bin." or "parts[2]."
+  Keys(std::string section, std::string path) : section_(std::move(section)), path_(std::move(path)) {}
+
+  void operator()(const std::string& field, const std::string& value) {
+    if (section_ == "bin." && field == "kind") return bin_kind(value);
+    if (!value.empty()) set(field, YAML::Node(value));
   }
-  if (is_set(bin.inner_size)) keys.value("inner_size", values(bin.inner_size));
-  keys.optional("wall_thickness", bin.wall_thickness);
-  keys.text("mesh", bin.mesh);
-  keys.text("unit", bin.unit);
-  if (is_set(bin.pose)) keys.value("pose", values(bin.pose));
-  keys.optional("friction", bin.friction);
-  keys.optional("restitution", bin.restitution);
-  return keys;
-}
+  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+  void operator()(const std::string& field, Number value) {
+    if (value != 0) set(field, std::is_same_v<Number, std::uint8_t> ? YAML::Node(true) : YAML::Node(value));
+  }
+  void operator()(const std::string& field, const geometry_msgs::Vector3& value) { set_if(field, value); }
+  void operator()(const std::string& field, const geometry_msgs::Pose& value) { set_if(field, value); }
+  template <class Item>
+  void operator()(const std::string& field, const std::vector<Item>& items) {
+    if constexpr (std::is_same_v<Item, msgs::PartLine> || std::is_same_v<Item, msgs::Sensor>) {
+      YAML::Node list;
+      for (std::size_t i = 0; i < items.size(); ++i)
+        list.push_back(keys_of(items[i], field + "[].", field + "[" + std::to_string(i) + "]."));
+      if (!items.empty()) set(field, list);
+    } else if constexpr (std::is_same_v<Item, geometry_msgs::Pose> || std::is_same_v<Item, geometry_msgs::Twist>) {
+      if (!items.empty()) set(field, YAML::Node(values(items)));
+    } else if (std::is_arithmetic_v<Item> && is_list(field)) {
+      if (!items.empty()) set(field, YAML::Node(values(items)));
+    } else if (is_set(items, path_ + field)) {
+      set(field, YAML::Node(values(items[0])));
+    }
+  }
+  void operator()(const std::string&, const std::vector<std::string>&) {}  // `set`, whose items are overrides
+  void operator()(const std::string& field, const msgs::Bin& message) { section(field, message); }
+  void operator()(const std::string& field, const msgs::Surface& message) { section(field, message); }
+  void operator()(const std::string& field, const msgs::Motion& message) { section(field, message); }
 
-Keys surface_keys(const msgs::Surface& surface, const std::string& path) {
-  Keys keys(path);
-  keys.text("material", surface.material);
-  keys.optional("albedo", surface.albedo);
-  keys.optional("gloss", surface.gloss);
-  keys.optional("roughness", surface.roughness);
-  keys.optional("anisotropy", surface.anisotropy);
-  if (is_set(surface.along)) keys.value("along", values(surface.along));
-  Keys texture(path + ".texture");
-  texture.optional("scratches", surface.texture_scratches);
-  texture.optional("oil", surface.texture_oil);
-  texture.optional("rust", surface.texture_rust);
-  keys.section("texture", texture);
-  return keys;
-}
+  template <class Message>
+  static YAML::Node keys_of(const Message& message, const std::string& section, const std::string& path) {
+    Keys keys(section, path);
+    for_each_field(message, keys);
+    if constexpr (std::is_same_v<Message, msgs::PartLine>)
+      if (message.count == 0 && !message.poses.empty()) keys.set("count", YAML::Node(message.poses.size()));
+    return keys.map_;
+  }
 
-Keys motion_keys(const msgs::Motion& motion, const std::string& path) {
-  Keys keys(path);
-  if (!motion.times.empty()) keys.value("times", motion.times);
-  if (!motion.poses.empty()) keys.value("poses", values(motion.poses));
-  if (is_set(motion.shake)) keys.value("shake", values(motion.shake));
-  if (is_set(motion.tilt)) keys.value("tilt", values(motion.tilt));
-  if (is_set(motion.belt)) keys.value("belt", values(motion.belt));
-  keys.optional("frequency", motion.frequency);
-  keys.optional("seconds", motion.seconds);
-  return keys;
-}
+ private:
+  /// "tessellation.chord" of the field tessellation_chord; empty: the field is no key.
+  std::string key_of(const std::string& field) const {
+    static const std::map<std::string, std::string> others = {
+        {"K", "k"}, {"D", "distortion"}, {"index", "first"}, {"solver", "solver.type"}};
+    const auto other = others.find(field);
+    if (other != others.end()) return other->second;
+    if (kind_of(section_ + field)) return field;
+    for (std::size_t at = field.find('_'); at != std::string::npos; at = field.find('_', at + 1)) {
+      const std::string key = field.substr(0, at) + "." + field.substr(at + 1);
+      if (kind_of(section_ + key)) return key;
+    }
+    return "";
+  }
+  bool is_list(const std::string& field) const {
+    const std::string* kind = kind_of(section_ + key_of(field));
+    return kind && (kind->rfind("list", 0) == 0 || kind->rfind("[k1", 0) == 0);
+  }
+  void set(const std::string& field, const YAML::Node& value) {
+    const std::string key = key_of(field);
+    const std::size_t dot = key.find('.');
+    if (dot != std::string::npos)
+      map_[key.substr(0, dot)][key.substr(dot + 1)] = value;
+    else if (!key.empty())
+      map_[key] = value;
+  }
+  template <class Value>
+  void set_if(const std::string& field, const Value& value) {
+    if (is_set(value)) set(field, YAML::Node(values(value)));
+  }
+  template <class Message>
+  void section(const std::string& field, const Message& message) {
+    const YAML::Node keys = keys_of(message, section_ + field + ".", path_ + field + ".");
+    if (keys.size() > 0) set(field, keys);
+  }
+  void bin_kind(const std::string& kind) {
+    if (kind == "floor" || kind == "none")
+      map_[kind] = true;
+    else if (!kind.empty() && kind != "box" && kind != "mesh")
+      throw input_error("unknown kind '" + kind + "'", "bin.kind", "box, mesh, floor or none");
+  }
 
-Keys part_keys(const msgs::PartLine& part, const std::string& path) {
-  Keys keys(path);
-  keys.text("model", part.model);
-  keys.text("unit", part.unit);
-  keys.number("scale", part.scale);
-  keys.number("count", part.count != 0 ? part.count : static_cast<int>(part.poses.size()));
-  keys.number("density", part.density);
-  keys.number("mass", part.mass);
-  keys.optional("friction", part.friction);
-  keys.optional("restitution", part.restitution);
-  keys.number("thickness", part.thickness);
-  keys.text("solid", part.solid);
-  Keys tessellation(path + ".tessellation");
-  tessellation.number("chord", part.tessellation_chord);
-  tessellation.number("angle", part.tessellation_angle);
-  keys.section("tessellation", tessellation);
-  if (!part.poses.empty()) keys.value("poses", values(part.poses));
-  if (!part.velocities.empty()) keys.value("velocities", values(part.velocities));
-  if (part.fixed) keys.value("fixed", true);
-  keys.section("surface", surface_keys(part.surface, path + ".surface"));
-  keys.section("motion", motion_keys(part.motion, path + ".motion"));
-  return keys;
-}
-
-Keys sensor_keys(const msgs::Sensor& sensor, const std::string& path) {
-  Keys keys(path);
-  keys.text("name", sensor.name);
-  keys.text("model", sensor.model);
-  keys.text("preset", sensor.preset);
-  keys.number("width", sensor.width);
-  keys.number("height", sensor.height);
-  keys.number("fov", sensor.fov);
-  if (!sensor.K.empty()) keys.value("k", sensor.K);
-  if (!sensor.D.empty()) keys.value("distortion", sensor.D);
-  if (is_set(sensor.pose)) keys.value("pose", values(sensor.pose));
-  keys.number("near", sensor.near);
-  keys.number("far", sensor.far);
-  return keys;
-}
+  std::string section_, path_;
+  YAML::Node map_ = YAML::Node(YAML::NodeType::Map);
+};
 
 }  // namespace
 
 std::vector<Override> overrides_from(const bin_scenes_msgs::SceneRequest& message) {
+  if (message.bin.kind == "mesh" && message.bin.mesh.empty())
+    throw input_error("the bin is a mesh, but none is named", "bin.mesh", "name a model file");
   std::vector<Override> overrides;
   const auto add = [&](const std::string& key, const YAML::Node& value) {
     overrides.emplace_back(key + "=" + flow(value), "the request message");
   };
-  if (is_set(message.seed, "seed")) add("seed", YAML::Node(message.seed[0]));
-  if (is_set(message.index, "index")) add("first", YAML::Node(message.index[0]));
-  const Keys bin = bin_keys(message.bin);
-  for (const auto& key : bin.map()) add("bin." + key.first.Scalar(), key.second);
-  if (is_set(message.gravity, "gravity")) add("gravity", YAML::Node(values(message.gravity[0])));
-  if (!message.parts.empty()) {
-    YAML::Node list;
-    for (std::size_t i = 0; i < message.parts.size(); ++i) {
-      list.push_back(part_keys(message.parts[i], "parts[" + std::to_string(i) + "]").map());
+  for (const auto& item : Keys::keys_of(message, "", "")) {
+    const std::string key = item.first.Scalar();
+    if (!item.second.IsMap()) {
+      add(key, item.second);
+      continue;
     }
-    add("parts", list);
+    for (const auto& inner : item.second) add(key + "." + inner.first.Scalar(), inner.second);  // over those of a file
   }
-  if (!message.pour_pattern.empty()) add("pour.pattern", YAML::Node(message.pour_pattern));
-  if (!message.pour_scene.empty()) add("pour.scene", YAML::Node(message.pour_scene));
-  if (!message.solver.empty()) add("solver.type", YAML::Node(message.solver));
-  if (!message.sensors.empty()) {
-    YAML::Node list;
-    for (std::size_t i = 0; i < message.sensors.size(); ++i) {
-      list.push_back(sensor_keys(message.sensors[i], "sensors[" + std::to_string(i) + "]").map());
-    }
-    add("sensors", list);
-  }
-  if (message.seconds != 0.0) add("seconds", YAML::Node(message.seconds));
   overrides.insert(overrides.end(), message.set.begin(), message.set.end());
   return overrides;
 }

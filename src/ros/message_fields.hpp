@@ -1,0 +1,47 @@
+/// The fields of a message by their names.
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+
+#include <regex>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Names of the fields of a definition, in its order; those of messages inside of it follow its separator.
+inline std::vector<std::string> field_names(const std::string& definition) {
+  static const std::regex field(R"(\s*[\w/]+(\[\d*\])?\s+(\w+)\s*(#.*)?)");
+  std::istringstream lines(definition);
+  std::vector<std::string> names;
+  std::smatch found;
+  for (std::string line; std::getline(lines, line) && line.rfind("====", 0) != 0;)
+    if (std::regex_match(line, found, field)) names.push_back(found[2]);
+  return names;
+}
+
+/// What ROS serialises a message with, as a visitor of its fields.
+template <class Visit>
+struct FieldStream {
+  const std::vector<std::string>& names;
+  Visit& visit;
+  std::size_t at = 0;
+
+  template <class Value>
+  void next(const Value& value) {
+    visit(names.at(at++), value);
+  }
+};
+
+/// Calls visit(name, value) for each field.
+template <class Message, class Visit>
+void for_each_field(const Message& message, Visit& visit) {
+  static const std::vector<std::string> names = field_names(ros::message_traits::Definition<Message>::value());
+  FieldStream<Visit> stream{names, visit};
+  ros::serialization::Serializer<Message>::template allInOne<FieldStream<Visit>, const Message&>(stream, message);
+}
+
+}  // namespace bin_scenes
