@@ -1,7 +1,7 @@
 #include "grasp/placed_parts.hpp"
 
+#include "bin_scenes/mesh/bin_mesh.hpp"
 #include "grasp/surface_points.hpp"
-#include "sensor/bin_mesh.hpp"
 
 #include <algorithm>
 

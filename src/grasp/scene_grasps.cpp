@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/contact.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "grasp/gripper_shape.hpp"
 #include "grasp/holding.hpp"
@@ -146,7 +147,7 @@ struct Search {
     const Gripper& g = loaded.request.grippers[gripper];
     const PartLine& line = loaded.request.parts[part.line];
     const PartModel& model = *loaded.parts[part.line];
-    const double friction = std::sqrt(g.friction * line.friction);
+    const double friction = pair_friction(g.friction, line.friction);
     const Burden burden{pick.pull, loaded.request.gravity * mass_of(line, model), part.pose * model.mass().center,
                         placed.up()};
     const Attempt attempt(placed, part, g);
@@ -197,7 +198,7 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   for (std::size_t line = 0; line < loaded.parts.size(); ++line) {
     if (loaded.request.parts[line].fixed) continue;
     for (std::size_t g = 0; g < grippers.size(); ++g) {
-      const double friction = std::sqrt(grippers[g].friction * loaded.request.parts[line].friction);
+      const double friction = pair_friction(grippers[g].friction, loaded.request.parts[line].friction);
       const auto grasps = state_->grasps_of(*loaded.parts[line], grippers[g], friction);
       known[{line, g}] = grasps;
       result.found.push_back({line, g, grasps->grasps.size(), grasps->placed.size(), grasps->coverage, grasps->counts});

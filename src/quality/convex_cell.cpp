@@ -3,6 +3,7 @@
 #include "convex_cell.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "bin_scenes/core/contact.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,11 +52,11 @@ void ConvexCell::add_cap(const Plane& plane, Clipping& c) {
   if (c.cap.size() < 3) return;
   Vec3 middle = Vec3::Zero();
   for (const int v : c.cap) middle += c.kept[v] / static_cast<double>(c.cap.size());
-  const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
+  const Tangents along(plane.normal);
   c.order.clear();
   for (const int v : c.cap) {
     const Vec3 arm = c.kept[v] - middle;
-    c.order.emplace_back(std::atan2(y.dot(arm), x.dot(arm)), v);
+    c.order.emplace_back(std::atan2(along.y.dot(arm), along.x.dot(arm)), v);
   }
   std::sort(c.order.begin(), c.order.end());
   faces_.push_back({plane, static_cast<int>(c.loops.size()), static_cast<int>(c.order.size())});

@@ -4,7 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
-#include "sensor/bin_mesh.hpp"
+#include "bin_scenes/mesh/bin_mesh.hpp"
 #include "sensor/scenery_tree.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 /// Points drawn on lamps, each by its share of all light, and what rays meet of them.
 #include "sensor/models/lamps.hpp"
 
+#include "bin_scenes/core/contact.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "sensor/models/unit_circle.hpp"
 
@@ -137,11 +138,11 @@ Rgb Lamps::met(const Vec3& origin, const Vec3& direction, double reach, Met weig
 Rgb Lamps::on_plate(const Vec3& point, const Vec3& normal) const {
   constexpr int side = 64;
   Rgb sum = Rgb::Zero();
-  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  const Tangents along(normal);
   for (int i = 0; i < side; ++i) {
     for (int k = 0; k < side; ++k) {
       const double u = (i + 0.5) / side, v = (k + 0.5) / side, turn = 2.0 * M_PI * v, radius = std::sqrt(u);
-      const Vec3 way = radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(1.0 - u) * normal;
+      const Vec3 way = radius * (std::cos(turn) * along.x + std::sin(turn) * along.y) + std::sqrt(1.0 - u) * normal;
       for (const Dome& dome : domes_) sum += dome.at(way.z());
       for (std::size_t lamp = 0; lamp < shares_.size(); ++lamp) {
         Sample sample;

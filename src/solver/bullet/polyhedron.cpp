@@ -1,5 +1,7 @@
 #include "polyhedron.hpp"
 
+#include "bin_scenes/core/contact.hpp"
+
 #include "convert.hpp"
 
 #include <algorithm>
@@ -24,9 +26,9 @@ void turn_in_order(Flat& face, const std::vector<Vec3>& vertices) {
   face.corners.erase(std::unique(face.corners.begin(), face.corners.end()), face.corners.end());
   Vec3 middle = Vec3::Zero();
   for (const std::uint32_t v : face.corners) middle += vertices[v] / static_cast<double>(face.corners.size());
-  const Vec3 x = face.normal.unitOrthogonal(), y = face.normal.cross(x);
+  const Tangents along(face.normal);
   const auto angle = [&](std::uint32_t v) {
-    return std::atan2(y.dot(vertices[v] - middle), x.dot(vertices[v] - middle));
+    return std::atan2(along.y.dot(vertices[v] - middle), along.x.dot(vertices[v] - middle));
   };
   std::sort(face.corners.begin(), face.corners.end(), [&](std::uint32_t u, std::uint32_t v) {
     const double at_u = angle(u), at_v = angle(v);

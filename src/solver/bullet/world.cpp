@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/contact.hpp"
 
 #include "convert.hpp"
 
@@ -34,7 +35,7 @@ constexpr double sleep_time = 0.5;     ///< s an island must stay below both
 constexpr double going_on = 5e-4;      ///< displacement or turn times radius at which a body wakes what it touches
 
 btScalar geometric_mean(const btCollisionObject* a, const btCollisionObject* b) {
-  return std::sqrt(a->getFriction() * b->getFriction());
+  return pair_friction(a->getFriction(), b->getFriction());
 }
 btScalar larger(const btCollisionObject* a, const btCollisionObject* b) {
   return std::max(a->getRestitution(), b->getRestitution());

@@ -1,5 +1,7 @@
 #include "solver/sphere_gl/convert.hpp"
 
+#include "bin_scenes/core/contact.hpp"
+
 #include <cmath>
 
 namespace bin_scenes::sphere_gl {
@@ -120,7 +122,7 @@ std::vector<Manifold> to_cpu(const ManifoldImage& image, const World& world, std
     m.found_q = quat(from.found_orientation);
     const Body& a = world.bodies[m.a];
     const bool on_ground = m.b == ground;
-    m.friction = std::sqrt(a.friction * (on_ground ? world.ground_friction : world.bodies[m.b].friction));
+    m.friction = pair_friction(a.friction, on_ground ? world.ground_friction : world.bodies[m.b].friction);
     m.restitution = std::max(a.restitution, on_ground ? world.ground_restitution : world.bodies[m.b].restitution);
     const gpu::SphereContact* next = &image.contacts[SPHERE_MAX_CONTACTS * static_cast<std::size_t>(pair.slot)];
     for (Contact& c : m.contacts) {

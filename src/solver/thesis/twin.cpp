@@ -2,6 +2,7 @@
 #include "twin.hpp"
 
 #include "bin_scenes/core/assertion.hpp"
+#include "bin_scenes/core/contact.hpp"
 
 #include <algorithm>
 #include <map>
@@ -255,7 +256,7 @@ gpu::ThesisContact contact_of(const Memory& m, gpu::uint sphere, const Found& f)
   const V point = f.deep ? V(p - n * r) : V(p - line * (r - 0.5f * f.depth));
   const V arm = point - v(m.states[body].position);
   return {pack(n, f.depth),
-          pack(arm, std::sqrt(m.bodies[body].surface.x * f.friction)),
+          pack(arm, pair_friction(m.bodies[body].surface.x, f.friction)),
           {f.other, f.key, 1, 0},
           pack(V::Zero()),
           pack(V::Zero(), goal_of(m, sphere, f, n, point))};

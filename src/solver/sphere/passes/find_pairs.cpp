@@ -1,5 +1,6 @@
 /// Sweeps upright boxes along strips, then tests oriented boxes. GPU form: shaders/sphere/find_pairs.comp.
 #include "bin_scenes/core/cancel.hpp"
+#include "bin_scenes/core/contact.hpp"
 #include "solver/sphere/invariants.hpp"
 #include "solver/sphere/passes/counting_sort.hpp"
 #include "solver/sphere/passes/lanes.hpp"
@@ -174,7 +175,7 @@ Manifold manifold_between(const World& world, std::uint32_t a, std::uint32_t b) 
   const Body& body = world.bodies[a];
   const float friction = b == ground ? world.ground_friction : world.bodies[b].friction;
   const float restitution = b == ground ? world.ground_restitution : world.bodies[b].restitution;
-  m.friction = std::sqrt(body.friction * friction);
+  m.friction = pair_friction(body.friction, friction);
   m.restitution = std::max(body.restitution, restitution);
   return m;
 }

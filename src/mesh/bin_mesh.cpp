@@ -1,4 +1,4 @@
-#include "sensor/bin_mesh.hpp"
+#include "bin_scenes/mesh/bin_mesh.hpp"
 
 namespace bin_scenes {
 
