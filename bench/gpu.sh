@@ -30,12 +30,14 @@ failed=()
 step() {
   local name=$1 limit=$2 start=$SECONDS code=0
   shift 2
-  if [[ ${unlimited:-1} ]]; then
+  if [[ ${unlimited-1} ]]; then  # empty on a card; unset while that is not known
     "$@" > "$out/$name.log" 2>&1 </dev/null || code=$?
   else
     (( limit < minutes * 60 - SECONDS )) || limit=$((minutes * 60 - SECONDS))
     (( limit > 0 )) || { failed+=("$name"); echo "FAILED  $name: no time left"; return; }
-    timeout "$limit" "$@" > "$out/$name.log" 2>&1 </dev/null || code=$?
+    # A shell of its own, as what is run may be a function of this file.
+    # shellcheck disable=SC2016  # the inner shell expands it
+    timeout "$limit" bash -c '"$@"' - "$@" > "$out/$name.log" 2>&1 </dev/null || code=$?
   fi
   if (( code == 0 )); then
     echo "ok      $name ($((SECONDS - start)) s, at $SECONDS)"
@@ -78,14 +80,14 @@ binaries() {
   for file in "$out"/programs/*; do [[ $file == *.* ]] || disassemble "$file"; done
 }
 
-# The same pass times with other shader trees, each made of the archive's own with files replaced.
+# variants ROWS...: the same pass times with other shader trees, each made of the archive's own with files replaced.
 variants() {
   local folder tree
   for folder in "$VARIANTS"/*/; do
     tree=$out/shaders_$(basename "$folder")
     cp -r "$shaders" "$tree" && cp -r "$folder". "$tree/" || return
     BIN_SCENES_SHADERS=$tree "$bundle/run" bin_scenes_bench --out "$out/variant_$(basename "$folder")" ${small:+--quick} \
-      --filter passes --rows "${compared[@]}" || return
+      --filter passes --rows "$@" || return
   done
 }
 
@@ -141,6 +143,8 @@ cat "$out/doctor.log"
 software=$(grep -qiE 'llvmpipe|softpipe|swrast' "$out/doctor.log" && echo 1)
 unlimited=$software limited=$([[ $software ]] || echo 1) small=$quick$software
 shaders=${BIN_SCENES_SHADERS:-$bundle/shaders}
+export out bundle shaders small
+export -f binaries disassemble variants batch
 # What is compared between shader trees; a small form has one size of groups.
 compared=('phase=settle' 'worlds=264' 'world_group=64' 'pair_group=32') usual=('world_group=256' 'pair_group=32')
 teapots=(--seconds 6)
@@ -167,7 +171,7 @@ fi
 
 # 260 s. Other forms of the same passes.
 if is_chosen variants && [[ ${VARIANTS:-} ]]; then
-  step variants 70 variants
+  step variants 70 variants "${compared[@]}"
   grep -E '^passes: ' "$out/variants.log" | cut -c1-300
 fi
 
