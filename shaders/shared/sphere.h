@@ -29,9 +29,11 @@
 #define BIND_CANDIDATES 20
 #define BIND_COLORS 21
 #define BIND_ORDER 22
+#define BIND_BOXES 23
 #define BIND_ROWS 31
 #define BIND_SAMPLES 32
 
+#define SPHERE_JOB_GROUP 64         // of a group that decides about pairs, one each
 #ifndef SPHERE_PAIR_GROUP
 #define SPHERE_PAIR_GROUP 64        // of a group that takes pairs: Capacity::pair_group
 #endif
@@ -46,8 +48,9 @@
 #define SPHERE_SLEEP_BY_PART 1u
 #define SPHERE_SLEEP_BY_TOUCH 2u
 #define SPHERE_MAX_CLUSTERS 1024    // of a part at one resolution
-#define SPHERE_BOX_QUEUE 3072       // pairs of a world whose oriented boxes wait to be tested; more are tested where they are found
 #define SPHERE_CHAINS 14            // of a job's candidates, each walked by one invocation
+
+#define SPHERE_NO_COLOR 0xffffffffu  // of a pair: nothing of it is solved
 
 // SphereOrdered.flags.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
@@ -108,7 +111,7 @@ struct SphereSettingsBlock {
 };
 
 struct SphereWorld {
-  uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word
+  uvec4 bodies;   // first, count, words of a row of the neighbour bits, first word; behind the bits: sphere/listed.h
   uvec4 pairs;    // first, capacity; planes: first, count
   uvec4 rows;     // first, capacity; most sweeps while an impact is not shared: z: in a step with an impact, w: else
   vec4 gravity;   // m/s2; w: size of the smallest part
@@ -126,7 +129,7 @@ struct SphereProgress {
   float grip;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
-  uint unused;
+  uint listed;                               // entries of the list of pairs that may come near; 0: to be made
   uint sleep;                                // how bodies fall asleep and wake: SPHERE_SLEEP_...
   // Counters, since the host last observed it.
   uint asleep_steps, pairs_culled;
@@ -134,6 +137,8 @@ struct SphereProgress {
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
   uint need_candidates;  // need of the list of candidates
+  uint base_colors, base_manifolds;  // when all were colored anew: colors, manifolds
+  uint lists_made, colorings;        // counters: lists of pairs that may come near, colorings of all manifolds
   // Read back, states lie behind it: vectors begin at multiples of 16 bytes.
 };
 
@@ -193,6 +198,13 @@ struct SphereNode {
 struct SphereCluster {
   vec4 ball;         // of the nodes and of the edges that start there
   uvec4 edges;       // first, end (of the part)
+};
+
+struct SphereBox {     // that a body's upright box does not leave while the list of pairs that may come near holds
+  vec3 center;
+  uint first;          // entry of the list whose first body it is
+  vec3 half_size;      // negative: it was absent
+  uint end;
 };
 
 struct SpherePair {
@@ -264,10 +276,10 @@ GPU_STRUCTS_END
 #ifdef __cplusplus
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
-static_assert(sizeof(SphereProgress) == 144, "std430");
+static_assert(sizeof(SphereProgress) == 160, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
-static_assert(sizeof(SphereNode) == 16, "std430");
+static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");
 static_assert(sizeof(SphereCluster) == 32 && sizeof(SpherePair) == 16 && sizeof(SphereManifold) == 48, "std430");
 static_assert(sizeof(SphereContact) == 64 && sizeof(SphereCandidate) == 48, "std430");
 static_assert(sizeof(SphereSample) == 8 && sizeof(SphereJob) == 64, "std430");

@@ -1,7 +1,7 @@
 // Colors of manifolds: what one invocation does with one of them. Whoever includes this says where lowest_of(i),
 // used_low_of(i) and used_high_of(i) lie, i counted in the world: the lowest key among the uncolored manifolds of a body,
 // and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, and sphere/body.h.
-const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = 0xffffffffu;
+const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = SPHERE_NO_COLOR;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
 
 // Different for all pairs of a world of up to 65,536 bodies; the finaliser of MurmurHash3 is one to one.
@@ -19,8 +19,6 @@ uint lowest_free(uvec2 used) {
 }
 
 uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec2(0u, 1u << (color - 32u)); }
-
-void begin_color(uint p, uint contacts) { pairs[p].color = contacts > 0u ? UNCOLORED : NOT_SOLVED; }
 
 // Makes a manifold's key known to its bodies; false if it has its color.
 bool bid(SphereWorld world, uint p) {

@@ -1,7 +1,10 @@
-// One group a world: colors for the manifolds to solve, so that no two of a color share a moving body. Jones and
-// Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose hashed key is the lowest among the
-// uncolored ones of both its bodies takes the lowest color that both still have. That is the greedy coloring in order of
-// the hash, whatever runs when; an order by index would wait along rows of neighbours. Twin: color_manifolds().
+// One group a world: colors for the manifolds to solve, so that no two of a color share a moving body. A manifold keeps
+// the color that it had in the last step; of two that now share a body and have the same one, both lose it. Those
+// without a color get one by Jones and Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose hashed
+// key is the lowest among the uncolored ones of both its bodies takes the lowest color that both still have. That is the
+// greedy coloring in order of the hash, whatever runs when; an order by index would wait along rows of neighbours. All
+// are colored anew where that needs more colors than the last time, and when a quarter of the manifolds has gone: each
+// color is a barrier in every sweep. Twin: color_manifolds().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_WORLD_GROUP) in;
@@ -23,7 +26,9 @@ layout(std430, binding = BIND_ORDER) coherent buffer Order { SphereOrdered order
 shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
 shared uint members[SPHERE_COLORS * SPHERE_MAX_CONTACTS];  // by color and length: how many, then where the next one goes
 shared uint color_members[SPHERE_COLORS], starts[SPHERE_COLORS];
-shared uint left[2];  // uncolored manifolds, take turns
+shared uint twice_low[SPHERE_MAX_BODIES], twice_high[SPHERE_MAX_BODIES];  // colors that two manifolds of a body had
+shared uint uncolored, some_twice, highest_color, solved;
+shared uint left[2];  // a manifold is uncolored; take turns
 shared uint contact_count, row_count, row_top;
 
 #define lowest_of(i) lowest[i]
@@ -36,6 +41,8 @@ shared uint contact_count, row_count, row_top;
 #include "sphere/pair.h"
 #include "sphere/color.h"
 #include "sphere/order.h"
+
+const uint COLORED_ANEW = 0x80000000u;
 
 // One invocation: where each color begins.
 void place_colors(SphereWorld world, uint w, uint list, uint count) {
@@ -55,53 +62,141 @@ void place_colors(SphereWorld world, uint w, uint list, uint count) {
   put_last_in_order(world, list, count);
 }
 
+#define FOR_OWN(i, count) for (uint i = gl_LocalInvocationIndex; i < (count); i += SPHERE_WORLD_GROUP)
+// Places in the list of pairs of manifolds without a color lie where their order will.
+#define uncolored_at(k) order[world.pairs.x + (k)].a
+
+void add_uncolored(SphereWorld world, uint p) {
+  pairs[p].color = UNCOLORED;
+  uncolored_at(atomicAdd(uncolored, 1u)) = p;
+}
+
+void claim(uint i, uvec2 bit) {
+  uvec2 both = uvec2(atomicOr(used_low[i], bit.x), atomicOr(used_high[i], bit.y)) & bit;
+  if (both == uvec2(0u)) return;
+  atomicOr(twice_low[i], both.x);
+  atomicOr(twice_high[i], both.y);
+  some_twice = 1u;
+}
+
+void give_back(uint i, uvec2 bit) {
+  atomicAnd(used_low[i], ~bit.x);
+  atomicAnd(used_high[i], ~bit.y);
+}
+
+bool is_twice(uint i, uvec2 bit) { return (uvec2(twice_low[i], twice_high[i]) & bit) != uvec2(0u); }
+
+// Each manifold's color of the last step is claimed on its bodies, unless all are to be colored anew.
+void keep_colors(SphereWorld world, uint list, uint count, bool anew) {
+  FOR_OWN(i, world.bodies.y) used_low[i] = used_high[i] = twice_low[i] = twice_high[i] = 0u;
+  if (gl_LocalInvocationIndex == 0u) uncolored = some_twice = highest_color = solved = contact_count = 0u;
+  barrier();
+  uint own_contacts = 0u, own_solved = 0u;
+  FOR_OWN(p, count) {
+    SpherePair pair = pairs[list + p];
+    uint n = contacts_to_solve(world, list + p);
+    own_contacts += n;
+    if (n == 0u) {
+      if (pair.color != NOT_SOLVED) pairs[list + p].color = NOT_SOLVED;
+      continue;
+    }
+    ++own_solved;
+    if (anew || pair.color >= LAST_COLOR) {
+      add_uncolored(world, list + p);
+      continue;
+    }
+    uvec2 bit = color_bit(pair.color);
+    if (moves(pair.a)) claim(pair.a - world.bodies.x, bit);
+    if (pair.b != SPHERE_GROUND && moves(pair.b)) claim(pair.b - world.bodies.x, bit);
+  }
+  atomicAdd(contact_count, own_contacts);
+  atomicAdd(solved, own_solved);
+  memoryBarrierBuffer();
+  barrier();
+}
+
+// Bodies that were not moved by a step may have two manifolds of a color when they are. Known behind the next barrier.
+void drop_colors_that_are_twice(SphereWorld world, uint list, uint count) {
+  FOR_OWN(p, count) {
+    SpherePair pair = pairs[list + p];
+    if (pair.color >= LAST_COLOR) continue;
+    uvec2 bit = color_bit(pair.color);
+    bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
+    uint a = pair.a - world.bodies.x, b = b_moves ? pair.b - world.bodies.x : a;
+    if (!(a_moves && is_twice(a, bit) || b_moves && is_twice(b, bit))) continue;
+    if (a_moves) give_back(a, bit);
+    if (b_moves) give_back(b, bit);
+    add_uncolored(world, list + p);
+  }
+  memoryBarrierBuffer();
+}
+
+// Returns in how many rounds.
+uint color_uncolored(SphereWorld world) {
+  uint rounds = 0u;
+  if (gl_LocalInvocationIndex < 2u) left[gl_LocalInvocationIndex] = 0u;
+  for (;; ++rounds) {
+    uint turn = rounds & 1u;
+    FOR_OWN(i, world.bodies.y) lowest[i] = 0xffffffffu;
+    if (gl_LocalInvocationIndex == 0u) left[turn ^ 1u] = 0u;
+    barrier();
+    FOR_OWN(k, uncolored) if (bid(world, uncolored_at(k))) left[turn] = 1u;
+    barrier();
+    if (left[turn] == 0u) return rounds;
+    FOR_OWN(k, uncolored) {
+      uint p = uncolored_at(k);
+      if (pairs[p].color != UNCOLORED) continue;
+      uint color = take_color(world, p);
+      if (color != UNCOLORED) atomicMax(highest_color, color);
+    }
+    barrier();
+  }
+}
+
+// Returns in how many rounds; what is written is read behind the next barrier.
+uint color_all(SphereWorld world, uint w, uint list, uint count) {
+  uint rounds = 0u;
+  for (uint attempt = 0u; attempt < 2u; ++attempt) {
+    bool anew = attempt > 0u || progress[w].base_colors == 0u;
+    keep_colors(world, list, count, anew);
+    if (some_twice != 0u) drop_colors_that_are_twice(world, list, count);
+    rounds += color_uncolored(world);
+    bool good = highest_color < progress[w].base_colors && 4u * solved >= 3u * progress[w].base_manifolds;
+    if (!anew && good) return rounds;
+    if (anew) break;
+    memoryBarrierBuffer();
+    barrier();  // all have seen what the next attempt clears
+  }
+  return rounds | COLORED_ANEW;
+}
+
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
-  for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) used_low[i] = used_high[i] = 0u;
-  for (uint k = thread; k < SPHERE_COLORS * SPHERE_MAX_CONTACTS; k += SPHERE_WORLD_GROUP) members[k] = 0u;
-  if (thread == 0u) contact_count = row_count = row_top = 0u;
-  if (thread < 2u) left[thread] = 0u;
+  FOR_OWN(k, SPHERE_COLORS * SPHERE_MAX_CONTACTS) members[k] = 0u;
+  if (thread == 0u) row_count = row_top = 0u;
+  uint rounds = color_all(world, w, list, count);
+  memoryBarrierBuffer();
   barrier();
-  uint own_contacts = 0u;
-  for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
-    uint n = contacts_to_solve(world, list + p);
-    begin_color(list + p, n);
-    own_contacts += n;
-  }
-  atomicAdd(contact_count, own_contacts);
-
-  uint rounds = 0u;
-  for (;; ++rounds) {
-    uint turn = rounds & 1u;
-    for (uint i = thread; i < world.bodies.y; i += SPHERE_WORLD_GROUP) lowest[i] = 0xffffffffu;
-    if (thread == 0u) left[turn ^ 1u] = 0u;
-    barrier();
-    for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP)
-      if (bid(world, list + p)) left[turn] = 1u;
-    barrier();
-    if (left[turn] == 0u) break;
-    for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) {
-      if (pairs[list + p].color != UNCOLORED) continue;
-      uint color = take_color(world, list + p);
-      if (color != UNCOLORED) count_member(world, list + p, color);
-    }
-    barrier();
-  }
-
-  memoryBarrierBuffer();  // colors and lengths are read behind the next barrier
+  FOR_OWN(p, count) if (pairs[list + p].color <= LAST_COLOR) count_member(world, list + p, pairs[list + p].color);
+  barrier();
   count_colors();
   barrier();
   if (thread == 0u) {
     place_colors(world, w, list, count);
-    progress[w].coloring_rounds += rounds;
+    progress[w].coloring_rounds += rounds & ~COLORED_ANEW;
+    if ((rounds & COLORED_ANEW) != 0u) {
+      progress[w].base_colors = highest_color + 1u;
+      progress[w].base_manifolds = solved;
+      ++progress[w].colorings;
+    }
   }
   barrier();
-  for (uint p = thread; p < count; p += SPHERE_WORLD_GROUP) put_in_order(world, list + p);
+  FOR_OWN(p, count) put_in_order(world, list + p);
   memoryBarrierBuffer();
   barrier();
-  for (uint o = thread; o < starts[LAST_COLOR]; o += SPHERE_WORLD_GROUP) join_block(world, o);
+  FOR_OWN(o, starts[LAST_COLOR]) join_block(world, o);
 }

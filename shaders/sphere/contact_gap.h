@@ -22,14 +22,8 @@ vec3 velocity_at(uint body, vec3 anchor) {
 }
 
 // Whether a contact that does not press yet closes in this step, by more than `least` (m).
-bool strikes(SphereWorld world, SpherePair pair, float least) {
-  uint slot = world.pairs.x + pair.slot, count = manifolds[slot].state.x;
-  for (uint k = 0u; k < count; ++k) {
-    SphereContact c = contacts[SPHERE_MAX_CONTACTS * slot + k];
-    if (c.force.x > 0.0) continue;
-    vec3 nearing = velocity_at(pair.a, c.anchor_a) - velocity_at(pair.b, c.anchor_b);
-    float way = time_step * dot(nearing, normal_of(c, pair));
-    if (way > least && way > separation_of(c, pair)) return true;
-  }
-  return false;
+bool strikes(SphereContact c, SpherePair pair, float least) {
+  vec3 nearing = velocity_at(pair.a, c.anchor_a) - velocity_at(pair.b, c.anchor_b);
+  float way = time_step * dot(nearing, normal_of(c, pair));
+  return way > least && way > separation_of(c, pair);
 }

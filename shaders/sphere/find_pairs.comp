@@ -1,7 +1,9 @@
-// One group a world: upright boxes of its bodies, every two of them against each other, then oriented boxes. The hits
-// are bits, one row a body, so that the list of pairs comes out sorted by (a, b) and manifolds of the last step are
-// found by walking two sorted lists. Pairs of bodies that do not move are left out, unless they were in contact
-// already: their manifold waits, untouched, until one of them wakes. Twin: find_pairs() and recyclable().
+// One group a world: the pairs of bodies whose boxes meet, upright ones first, then oriented ones. Tested are the pairs
+// of a list of those that may come near, which is made anew when a body leaves the box that it has there
+// (sphere/listed.h); it holds them in the order of (a, b), and so the list of pairs is sorted, and manifolds of the last
+// step are found by walking two sorted lists. Pairs of bodies that do not move are left out, unless they were in contact
+// already: their manifold waits, untouched, until one of them wakes. Where no pair begins or ends, the list of pairs
+// stays as it is. Twin: find_pairs().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_WORLD_GROUP) in;
@@ -16,148 +18,37 @@ layout(std430, binding = BIND_STATES) readonly buffer States { SphereState state
 layout(std430, binding = BIND_TENSORS) writeonly buffer Tensors { SphereTensor tensors[]; };
 layout(std430, binding = BIND_SHAPES) readonly buffer Shapes { SphereShape shapes[]; };
 layout(std430, binding = BIND_NEAR) coherent buffer Near { uint near[]; };
+layout(std430, binding = BIND_BOXES) buffer Boxes { SphereBox boxes[]; };
 layout(std430, binding = BIND_RANGES) buffer Ranges { uvec4 ranges[]; };  // pairs of a body: first, end, by page
 layout(std430, binding = BIND_PAIRS) buffer Pairs { SpherePair pairs[]; };
 layout(std430, binding = BIND_FREE) coherent buffer Free { uint free_slots[]; };
-layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manifolds[]; };
-layout(std430, binding = BIND_CONTACTS) readonly buffer Contacts { SphereContact contacts[]; };
-layout(std430, binding = BIND_JOBS) buffer Jobs { SphereStatus status; SphereJob jobs[]; };
+layout(std430, binding = BIND_MANIFOLDS) writeonly buffer Manifolds { SphereManifold manifolds[]; };
 
 #include "sphere/body.h"
 #include "sphere/pair.h"
 #include "sphere/pair_list.h"
 #include "sphere/oriented_box.h"
 #include "sphere/box.h"
-#include "sphere/pair_job.h"
+#include "sphere/listed.h"
 #include "shared/language.h"
 #include "shared/sphere/cut.h"
 #include "sphere/speed.h"
 
 shared vec4 box_center[SPHERE_MAX_BODIES];
 shared vec4 box_half[SPHERE_MAX_BODIES];  // as in struct Box
-shared uint on_ground[SPHERE_MAX_BODIES];
-shared uint first_pair[SPHERE_MAX_BODIES];
+shared uint first_of_body[SPHERE_MAX_BODIES];
 shared uint partial[SPHERE_WORLD_GROUP];
-shared uint box_queue[SPHERE_BOX_QUEUE], queued;
 shared uint free_top, fastest, fastest_turn;  // bits of m/s, rad/s
+shared uint left_its_box, changed, sleepers;
+#define FOR_OWN(i, count) for (uint i = gl_LocalInvocationIndex; i < (count); i += SPHERE_WORLD_GROUP)
 
-void find_box(SphereWorld world, uint i) {
-  uint body = world.bodies.x + i;
-  Box box = box_of(world, body);
-  if (present(body)) tensors[body] = tensor_of(body);
+Box box_at(uint i) { return Box(box_center[i], box_half[i]); }
+void set_box(uint i, Box box) {
   box_center[i] = box.center;
   box_half[i] = box.half_size;
-  on_ground[i] = box.half_size.w == 2.0 ? 1u : 0u;
 }
-
-bool oriented_boxes_meet(SphereWorld world, uint i, uint j) {
-  return !oriented_boxes_apart(world.bodies.x + i, world.bodies.x + j, box_center[i].w + box_center[j].w);
-}
-
-// Bodies near body i with numbers in word k of its row of bits; those for whose oriented boxes the queue has room are yet
-// to come.
-uint near_word(SphereWorld world, uint i, uint k) {
-  uint word = 0u;
-  for (uint j = max(32u * k, i + 1u); j < min(32u * k + 32u, world.bodies.y); ++j) {
-    if (!upright_boxes_meet(Box(box_center[i], box_half[i]), Box(box_center[j], box_half[j]))) continue;
-    uint at = atomicAdd(queued, 1u);
-    if (at < SPHERE_BOX_QUEUE)
-      box_queue[at] = i << 16 | j;
-    else if (oriented_boxes_meet(world, i, j))
-      word |= 1u << (j & 31u);
-  }
-  return word;
-}
-
-uint word_of(SphereWorld world, uint i, uint k) { return world.bodies.w + i * world.bodies.z + k; }
-
-// Upright boxes of every two bodies, then the oriented boxes of those few that meet, by as many invocations as there are.
-void find_near(SphereWorld world) {
-  uint thread = gl_LocalInvocationIndex;
-  for (uint item = thread; item < world.bodies.y * world.bodies.z; item += SPHERE_WORLD_GROUP) {
-    uint i = item / world.bodies.z, k = item % world.bodies.z;
-    near[word_of(world, i, k)] = near_word(world, i, k);
-  }
-  memoryBarrierBuffer();
-  barrier();
-  for (uint q = thread; q < min(queued, SPHERE_BOX_QUEUE); q += SPHERE_WORLD_GROUP) {
-    uint i = box_queue[q] >> 16, j = box_queue[q] & 0xffffu;
-    if (oriented_boxes_meet(world, i, j)) atomicOr(near[word_of(world, i, j >> 5)], 1u << (j & 31u));
-  }
-  memoryBarrierBuffer();
-  barrier();
-}
-
-bool kept(SphereWorld world, uint i, uint b) {
-  if (b == SPHERE_GROUND) return on_ground[i] == 1u;
-  uint j = b - world.bodies.x;
-  return (near[word_of(world, i, j >> 5)] >> (j & 31u) & 1u) == 1u;
-}
-
-// Old pairs of i of which neither body moves stay; returns the number of pairs of i.
-uint keep_waiting(SphereWorld world, uint i, uint page, uint list) {
-  uvec2 old = range_of(world.bodies.x + i, page);
-  for (uint p = old.x; p < old.y; ++p) {
-    SpherePair pair = pairs[list + p];
-    if (!waits(pair.a) || pair.b != SPHERE_GROUND && !waits(pair.b)) continue;
-    uint j = pair.b - world.bodies.x;
-    if (pair.b == SPHERE_GROUND)
-      on_ground[i] = 1u;
-    else
-      near[word_of(world, i, j >> 5)] |= 1u << (j & 31u);
-  }
-  uint count = on_ground[i];
-  for (uint k = 0u; k < world.bodies.z; ++k) count += uint(bitCount(near[word_of(world, i, k)]));
-  return count;
-}
-
-// Turns the counts in first_pair into where the pairs of each body begin, known to all behind the next barrier; returns
-// their sum.
-uint scan_counts(uint count) {
-  uint thread = gl_LocalInvocationIndex, chunk = (count + SPHERE_WORLD_GROUP - 1u) / SPHERE_WORLD_GROUP, sum = 0u;
-  for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) sum += first_pair[i];
-  partial[thread] = sum;
-  barrier();
-  uint before = 0u, total = 0u;
-  for (uint k = 0u; k < SPHERE_WORLD_GROUP; ++k) {
-    if (k < thread) before += partial[k];
-    total += partial[k];
-  }
-  for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) {
-    uint own = first_pair[i];
-    first_pair[i] = before;
-    before += own;
-  }
-  return total;
-}
-
-void retire(SphereWorld world, uint i, uint page, uint list) {
-  uvec2 old = range_of(world.bodies.x + i, page);
-  for (uint p = old.x; p < old.y; ++p) {
-    if (kept(world, i, pairs[list + p].b)) continue;
-    free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = pairs[list + p].slot;
-  }
-}
-
-// Where a body's pairs are: those of the last step that are not past yet, and the next one of this step.
-struct Places {
-  uint old, old_end, next;
-};
-
-// Appends the pair of i with b.
-void adopt(SphereWorld world, uint w, uint i, uint b, inout Places places) {
-  while (places.old < places.old_end && pairs[places.old].b < b) ++places.old;
-  SpherePair pair = SpherePair(world.bodies.x + i, b, 0u, 0u);
-  if (places.old < places.old_end && pairs[places.old].b == b) {
-    pair.slot = pairs[places.old].slot;
-    if (progress[w].refresh != 0u) manifolds[world.pairs.x + pair.slot].state.z = 0u;
-  } else {
-    pair.slot = free_slots[world.pairs.x + atomicAdd(free_top, 0xffffffffu) - 1u];
-    manifolds[world.pairs.x + pair.slot].state = uvec4(0u);
-  }
-  pairs[places.next] = pair;
-  enlist(world, w, pair, places.next++);
-}
+bool is_present(uint i) { return box_half[i].x >= 0.0; }
+bool can_meet(uint i, uint j) { return upright_boxes_meet(box_at(i), box_at(j)); }
 
 // How long this step is: whole steps are cut by what is fast when they begin.
 void cut_step(SphereWorld world, uint w) {
@@ -178,53 +69,211 @@ void cut_step(SphereWorld world, uint w) {
   progress[w].cuts_left = cuts;
 }
 
-void main() {
-  uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
-  SphereWorld world = worlds[w];
-  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
-  uint page = progress[w].page, count = world.bodies.y;
-  uint old_list = list_of(world, page), list = list_of(world, page ^ 1u);
-
-  cut_step(world, w);
-  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {
-    find_box(world, i);
-    if (sleeps(world.bodies.x + i)) ++sleepers;
-  }
-  if (thread == 0u) queued = 0u;
+// Turns the counts in first_of_body into where what is counted begins for each body, known to all behind the next
+// barrier; returns their sum.
+uint scan_counts(uint count) {
+  uint thread = gl_LocalInvocationIndex, chunk = (count + SPHERE_WORLD_GROUP - 1u) / SPHERE_WORLD_GROUP, own = 0u;
+  for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) own += first_of_body[i];
+  partial[thread] = own;
   barrier();
-  find_near(world);
-  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) first_pair[i] = keep_waiting(world, i, page, old_list);
-  if (thread == 0u) free_top = progress[w].free_slots;
+  for (uint reach = 1u; reach < SPHERE_WORLD_GROUP; reach *= 2u) {  // Hillis and Steele 1986
+    uint before = thread >= reach ? partial[thread - reach] : 0u;
+    barrier();
+    partial[thread] += before;
+    barrier();
+  }
+  uint before = partial[thread] - own;
+  for (uint i = thread * chunk; i < min((thread + 1u) * chunk, count); ++i) {
+    uint here = first_of_body[i];
+    first_of_body[i] = before;
+    before += here;
+  }
+  return partial[SPHERE_WORLD_GROUP - 1u];
+}
+
+// Bits of the bodies behind i with numbers in word k of its row that may come near it.
+uint near_word(SphereWorld world, uint i, uint k) {
+  uint word = 0u;
+  for (uint j = max(32u * k, i + 1u); j < min(32u * k + 32u, world.bodies.y); ++j)
+    if (can_meet(i, j)) word |= 1u << (j & 31u);
+  return word;
+}
+
+// Adds what is in the list of pairs, wherever it is; returns how many entries body i has.
+uint count_entries(SphereWorld world, uint i, uint page, uint list) {
+  uvec2 old = range_of(world.bodies.x + i, page);
+  for (uint p = old.x; p < old.y; ++p) {
+    uint b = pairs[list + p].b;
+    if (b == SPHERE_GROUND) continue;
+    uint j = b - world.bodies.x;
+    near[word_of(world, i, j >> 5)] |= 1u << (j & 31u);
+  }
+  uint count = box_half[i].w > 0.0 ? 1u : 0u;  // the ground
+  for (uint k = 0u; k < world.bodies.z; ++k) count += uint(bitCount(near[word_of(world, i, k)]));
+  return count;
+}
+
+// Marked as in the list of pairs, if that is where `old` is; moves `old` on.
+uint marked(SphereWorld world, uint entry, inout uint old, uint old_end) {
+  if (old == old_end || entry_of(world, pairs[old]) != entry) return entry;
+  ++old;
+  return entry | IN_PAIRS;
+}
+
+void write_entries(SphereWorld world, uint i, uint page, uint list) {
+  uvec2 pairs_of_i = list + range_of(world.bodies.x + i, page);
+  uint old = pairs_of_i.x, at = list_of_near(world) + first_of_body[i];
+  boxes[world.bodies.x + i].first = first_of_body[i];
+  for (uint k = 0u; k < world.bodies.z; ++k)
+    for (uint word = near[word_of(world, i, k)]; word != 0u; word &= word - 1u)
+      near[at++] = marked(world, i << 16 | 32u * k + uint(findLSB(word)), old, pairs_of_i.y);
+  if (box_half[i].w > 0.0) near[at++] = marked(world, i << 16 | GROUND_ENTRY, old, pairs_of_i.y);
+  boxes[world.bodies.x + i].end = at - list_of_near(world);
+}
+
+// Makes the list anew; returns how many entries it has. The boxes are those of the list meanwhile.
+uint list_anew(SphereWorld world, uint w, uint page, uint list) {
+  FOR_OWN(i, world.bodies.y) {
+    uint body = world.bodies.x + i;
+    Box box = listed_box(world, body, box_at(i));
+    boxes[body].center = box.center.xyz;
+    boxes[body].half_size = box.half_size.xyz;
+    set_box(i, Box(box.center, vec4(rounded_up(box), box.half_size.w)));
+  }
+  barrier();
+  FOR_OWN(item, world.bodies.y * world.bodies.z) {
+    uint i = item / world.bodies.z, k = item % world.bodies.z;
+    near[word_of(world, i, k)] = near_word(world, i, k);
+  }
+  memoryBarrierBuffer();
+  barrier();
+  FOR_OWN(i, world.bodies.y) first_of_body[i] = count_entries(world, i, page, list);
+  barrier();
+  uint entries = scan_counts(world.bodies.y);
+  barrier();
+  FOR_OWN(i, world.bodies.y) {
+    write_entries(world, i, page, list);
+    set_box(i, box_of(world, world.bodies.x + i));
+  }
+  memoryBarrierBuffer();
+  barrier();
+  if (gl_LocalInvocationIndex == 0u) {
+    progress[w].listed = entries;
+    ++progress[w].lists_made;
+  }
+  return entries;
+}
+
+// Whether the pair of an entry belongs to the list of pairs.
+bool belongs(SphereWorld world, uint entry) {
+  bool ground = second_of(entry) == GROUND_ENTRY;
+  uint a = first_of(entry), b = ground ? a : second_of(entry);  // in range: compilers read ahead of conditions
+  bool waits = box_half[a].w == 0.0 && box_half[b].w == 0.0;
+  if (waits) return (entry & IN_PAIRS) != 0u && is_present(a) && is_present(b);
+  if (ground) return box_half[a].w == 2.0;
+  return can_meet(a, b) &&
+         !oriented_boxes_apart(world.bodies.x + a, world.bodies.x + b, box_center[a].w + box_center[b].w);
+}
+
+uint count_pairs_of(SphereWorld world, uint i) {
+  uint count = 0u, list = list_of_near(world);
+  for (uint e = boxes[world.bodies.x + i].first; e < boxes[world.bodies.x + i].end; ++e) count += near[list + e] >> 31;
+  return count;
+}
+
+// Gives the manifolds of pairs that end back.
+void retire(SphereWorld world, uint i, uint page, uint list) {
+  uvec2 old = list + range_of(world.bodies.x + i, page);
+  uint at = list_of_near(world) + boxes[world.bodies.x + i].first;
+  for (uint p = old.x; p < old.y; ++p, ++at) {
+    uint entry = entry_of(world, pairs[p]);
+    while ((near[at] & ~IN_PAIRS) != entry) ++at;  // each pair of the last step has an entry
+    if ((near[at] & IN_PAIRS) == 0u) free_slots[world.pairs.x + atomicAdd(free_top, 1u)] = pairs[p].slot;
+  }
+}
+
+// Writes the pairs of body i into the other page.
+void adopt(SphereWorld world, uint i, uint page, uint old_list, uint list) {
+  uvec2 old = old_list + range_of(world.bodies.x + i, page);
+  uint entries = list_of_near(world), next = list + first_of_body[i];
+  for (uint e = boxes[world.bodies.x + i].first; e < boxes[world.bodies.x + i].end; ++e) {
+    uint entry = near[entries + e], b = second_of(entry);
+    if ((entry & IN_PAIRS) == 0u) continue;
+    SpherePair pair =
+        SpherePair(world.bodies.x + i, b == GROUND_ENTRY ? SPHERE_GROUND : world.bodies.x + b, 0u, SPHERE_NO_COLOR);
+    while (old.x < old.y && pairs[old.x].b < pair.b) ++old.x;
+    if (old.x < old.y && pairs[old.x].b == pair.b) {
+      pair = pairs[old.x];
+    } else {
+      pair.slot = free_slots[world.pairs.x + atomicAdd(free_top, 0xffffffffu) - 1u];
+      manifolds[world.pairs.x + pair.slot].state = uvec4(0u);
+    }
+    pairs[next++] = pair;
+  }
+  set_range(world.bodies.x + i, page ^ 1u, uvec2(first_of_body[i], next - list));
+}
+
+// Some pairs begin or end.
+void change_pairs(SphereWorld world, uint w, uint page) {
+  uint count = world.bodies.y, old_list = list_of(world, page), list = list_of(world, page ^ 1u);
+  FOR_OWN(i, count) first_of_body[i] = count_pairs_of(world, i);
+  if (gl_LocalInvocationIndex == 0u) free_top = progress[w].free_slots;
   barrier();
   uint total = scan_counts(count);
   if (total > world.pairs.y) {
-    if (thread == 0u) {
-      progress[w].overflow = SPHERE_PAIR_OVERFLOW;
-      progress[w].need = total;
-    }
+    if (gl_LocalInvocationIndex != 0u) return;
+    progress[w].overflow = SPHERE_PAIR_OVERFLOW;
+    progress[w].need = total;
+    progress[w].listed = 0u;  // its marks are of pairs for which there is no room
     return;
   }
-
-  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) retire(world, i, page, old_list);
+  FOR_OWN(i, count) retire(world, i, page, old_list);
   memoryBarrierBuffer();
   barrier();
-  for (uint i = thread; i < count; i += SPHERE_WORLD_GROUP) {
-    uvec2 old = range_of(world.bodies.x + i, page);
-    Places places = Places(old_list + old.x, old_list + old.y, list + first_pair[i]);
-    for (uint k = 0u; k < world.bodies.z; ++k)
-      for (uint word = near[word_of(world, i, k)]; word != 0u; word &= word - 1u) {
-        uint j = 32u * k + uint(findLSB(word));
-        adopt(world, w, i, world.bodies.x + j, places);
-      }
-    if (on_ground[i] == 1u) adopt(world, w, i, SPHERE_GROUND, places);
-    set_range(world.bodies.x + i, page ^ 1u, uvec2(first_pair[i], places.next - list));
+  FOR_OWN(i, count) adopt(world, i, page, old_list, list);
+  barrier();
+  if (gl_LocalInvocationIndex != 0u) return;
+  progress[w].page = page ^ 1u;
+  progress[w].pairs = total;
+  progress[w].free_slots = free_top;
+}
+
+void main() {
+  uint w = running[gl_WorkGroupID.x];
+  SphereWorld world = worlds[w];
+  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  uint page = progress[w].page, old_list = list_of(world, page);
+  bool refresh = progress[w].refresh != 0u;
+
+  cut_step(world, w);
+  if (gl_LocalInvocationIndex == 0u) {
+    left_its_box = progress[w].listed == 0u ? 1u : 0u;
+    changed = sleepers = 0u;
   }
-  count_pairs(w);
-  barrier();  // all have read progress
-  if (thread == 0u) {
-    progress[w].page = page ^ 1u;
-    progress[w].pairs = total;
-    progress[w].free_slots = free_top;
-    progress[w].refresh = 0u;
+  barrier();
+  FOR_OWN(i, world.bodies.y) {
+    uint body = world.bodies.x + i;
+    Box box = box_of(world, body);
+    set_box(i, box);
+    if (present(body)) tensors[body] = tensor_of(body);
+    if (!is_listed(boxes[body], box)) left_its_box = 1u;
+    if (sleeps(body)) atomicAdd(sleepers, 1u);
   }
+  barrier();
+  uint list = list_of_near(world), entries = left_its_box != 0u ? list_anew(world, w, page, old_list) : progress[w].listed;
+  FOR_OWN(e, entries) {
+    uint entry = near[list + e];
+    bool marked = (entry & IN_PAIRS) != 0u;
+    if (belongs(world, entry) == marked) continue;
+    near[list + e] = entry ^ IN_PAIRS;
+    changed = 1u;
+  }
+  if (refresh)  // finer or coarser samples: contacts of the last step are void
+    FOR_OWN(p, progress[w].pairs) manifolds[world.pairs.x + pairs[old_list + p].slot].state.z = 0u;
+  memoryBarrierBuffer();
+  barrier();
+  if (changed != 0u) change_pairs(world, w, page);
+  if (gl_LocalInvocationIndex != 0u || progress[w].overflow != 0u) return;
+  progress[w].asleep_steps += sleepers;
+  progress[w].refresh = 0u;
 }

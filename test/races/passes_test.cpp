@@ -35,6 +35,7 @@ Observations watch(Scene scene) {
 
 const Observations& sphere() {
   static const Observations seen = watch([](Recorder& recorder) {
+    watch_waking(recorder);  // first: few dispatches of a kind are kept
     watch_heaps(recorder, {});
     watch_carpet(recorder, {});
     watch_overflow(recorder, {});

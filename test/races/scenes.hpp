@@ -104,6 +104,33 @@ inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity
   recorder.end();
 }
 
+/// Blocks that fall onto a plate asleep: all are of one color, until the plate wakes.
+inline void watch_waking(Recorder& recorder) {
+  WorldDef def;
+  def.parts = {PartModel::from_mesh(testing::box_mesh({0.018, 0.02, 0.022}), "block"),
+               PartModel::from_mesh(testing::box_mesh({0.2, 0.2, 0.02}), "plate")};
+  def.bin.kind = Bin::Kind::floor;
+  def.bodies.assign(5, testing::material(0.5));
+  def.bodies[4].part = 1;
+  const auto solver = make_gl_sphere_solver(sphere_gl::coarse());
+  const WorldId world = solver->add_world(def);
+  BodyState state;
+  state.pose.position = Vec3(0, 0, 0.01);
+  solver->insert(world, 4, state);
+  Phase asleep;
+  asleep.begins_asleep = true;
+  solver->set_phase(world, asleep);
+  for (std::size_t i = 0; i < 4; ++i) {
+    state.pose.position = Vec3(0.04 * static_cast<double>(i) - 0.06, 0, 0.0315);
+    state.velocity.linear = Vec3(0, 0, -0.5);
+    solver->insert(world, i, state);
+  }
+  solver->advance({world}, solver->step_size());
+  recorder.begin();
+  solver->advance({world}, solver->step_size());
+  recorder.end();
+}
+
 /// A heap for which no buffer has room at first: it begins where it lay in another solver.
 inline void watch_overflow(Recorder& recorder, sphere_gl::Capacity capacity) {
   const sphere_gl::Handful heap(2);

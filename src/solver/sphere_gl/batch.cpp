@@ -37,6 +37,11 @@ std::size_t rows_for(std::size_t contacts) {
   return contacts + contacts / 4;
 }
 
+/// Of a list of pairs that may come near: each two bodies, and each with the ground.
+std::size_t most_entries(std::size_t bodies) {
+  return bodies * (bodies + 1) / 2;
+}
+
 /// Room for what a list needs now and, most likely, in the steps to come.
 std::size_t grown(std::size_t old, std::size_t need) {
   return std::max(old + old / 16, need + need / 16) + 1;
@@ -80,6 +85,7 @@ Batch::Batch(const Capacity& capacity)
       contact_groups_(groups_at_once(capacity)),
       pair_group_(pair_group(capacity)),
       find_pairs_(world_pass("find_pairs", capacity)),
+      list_jobs_(pass("list_jobs")),
       color_manifolds_(world_pass("color_manifolds", capacity)),
       solve_(world_pass("solve", capacity)),
       update_sleep_(world_pass("update_sleep", capacity)) {
@@ -111,6 +117,7 @@ void Batch::make_room() {
   at_least(states_, bodies);
   at_least(tensors_, bodies);
   at_least(ranges_, bodies);
+  at_least(boxes_, bodies);
   at_least(near_, word_arena_.size());
   at_least(pairs_, 2 * pairs);
   at_least(free_, pairs);
@@ -144,7 +151,7 @@ void Batch::take_region(Slot slot, const sphere::World& world) {
   for (const sphere::Manifold& m : world.manifolds) contacts += m.contacts.size();
   r.rows = std::max(capacity_.rows * r.bodies, rows_for(contacts));
   r.first_body = body_arena_.take(r.bodies);
-  r.first_word = word_arena_.take(r.bodies * r.words);
+  r.first_word = word_arena_.take(r.bodies * r.words + most_entries(r.bodies));
   r.first_plane = plane_arena_.take(r.planes);
   r.first_pair = pair_arena_.take(r.capacity);
   r.first_row = row_arena_.take(r.rows);

@@ -1,26 +1,27 @@
 /// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
 /// its method here, its timer, its twin on the CPU (solver/sphere/world.hpp), and shaders/sphere/<name>.comp, but that
-/// find_contacts is three shaders.
+/// find_contacts is four shaders.
 ///
 // clang-format off
 ///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
-///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, ranges alike
+///     bodies     | world 0 ............... | world 1 ...... | ...        states, tensors, boxes, ranges alike
+///     near       | world 0: bits, list     | world 1 ...... | ...        of bodies that may come near each other
 ///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
 ///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
 ///     contacts   | world 0: capacity slots | world 1 | ...              eight to a slot
 ///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
 ///     samples    | those of these pairs that are near, in no order |   candidates alike, in chains of their jobs
+///
+/// A step is eight dispatches, however many worlds run:
+///
+///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► choose_contacts ─► color_manifolds ─► solve ─► update_sleep
+///     group/world   thread/pair  group/pair         thread/sample   group/pair         group/world        group/world, both
 // clang-format on
 ///
-/// A step is seven dispatches, however many worlds run:
-///
-///     find_pairs ─► collect_samples ─► test_samples ─► choose_contacts ─► color_manifolds ─► solve ─► update_sleep
-///     group/world   group/pair         thread/sample   group/pair         group/world        group/world   group/world
-///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
-/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it is
-/// until the host has observed it.
+/// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it
+/// is until the host has observed it.
 #pragma once
 
 #include "bin_scenes/gl/buffer.hpp"
@@ -107,11 +108,13 @@ class Batch {
   gpu::SphereSettingsBlock settings_block_{};
   Capacity capacity_;
   std::size_t running_count_ = 0, contact_groups_ = 1;
+  std::size_t most_pairs_ = 0;                            ///< room for them in one of the running worlds
   std::size_t pair_group_;                                ///< invocations of a group that takes a pair
   std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
   bool bound_ = false;
 
-  gl::Program find_pairs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_, solve_, update_sleep_;
+  gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_, solve_,
+      update_sleep_;
   gl::Timer timer_;
 
   ShapeTable shapes_;
@@ -124,6 +127,7 @@ class Batch {
   gl::Buffer<gpu::SphereState> states_{"sphere.states"};
   gl::Buffer<gpu::SphereTensor> tensors_{"sphere.tensors"};
   gl::Buffer<gpu::uint> near_{"sphere.near"};
+  gl::Buffer<gpu::SphereBox> boxes_{"sphere.boxes"};
   gl::Buffer<gpu::uvec4> ranges_{"sphere.ranges"};
   gl::Buffer<gpu::SpherePair> pairs_{"sphere.pairs"};
   gl::Buffer<gpu::uint> free_{"sphere.free"};

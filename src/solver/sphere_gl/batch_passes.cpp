@@ -1,6 +1,7 @@
 /// The passes of a step, and what they are bound to; batch.cpp holds the worlds and their memory.
 #include "solver/sphere_gl/batch.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace bin_scenes::sphere_gl {
@@ -10,6 +11,8 @@ void Batch::run(const std::vector<Slot>& slots, float share) {
   for (const Slot slot : slots) list.push_back(static_cast<gpu::uint>(slot));
   running_.upload(0, list.data(), list.size());
   running_count_ = list.size();
+  most_pairs_ = 0;
+  for (const Slot slot : slots) most_pairs_ = std::max(most_pairs_, regions_[slot].capacity);
   gpu::SphereSettingsBlock settings = settings_block_;
   settings.time_step *= share;
   settings_.upload(0, &settings, 1);
@@ -27,6 +30,7 @@ void Batch::bind() const {
   states_.bind(BIND_STATES);
   tensors_.bind(BIND_TENSORS);
   near_.bind(BIND_NEAR);
+  boxes_.bind(BIND_BOXES);
   ranges_.bind(BIND_RANGES);
   pairs_.bind(BIND_PAIRS);
   free_.bind(BIND_FREE);
@@ -42,11 +46,17 @@ void Batch::bind() const {
 
 void Batch::find_pairs() {
   gl::Stage stage(timer_, "find_pairs");
-  gl::dispatch_groups(find_pairs_, running_count_, gl::Barrier::arguments);
+  gl::dispatch_groups(find_pairs_, running_count_);
 }
 
 void Batch::find_contacts() {
   const gl::Storage& status = jobs_.storage();
+  {
+    gl::Stage stage(timer_, "list_jobs");
+    const std::size_t groups = (most_pairs_ + SPHERE_JOB_GROUP - 1) / SPHERE_JOB_GROUP;
+    list_jobs_.set("groups_of_a_world", static_cast<unsigned>(groups));
+    gl::dispatch_groups(list_jobs_, groups * running_count_, gl::Barrier::arguments);
+  }
   {
     gl::Stage stage(timer_, "collect_samples");
     gl::dispatch_indirect(collect_samples_, status, offsetof(gpu::SphereStatus, groups), gl::Barrier::arguments);
@@ -85,11 +95,12 @@ void Batch::step() {
 std::size_t Batch::bytes() const {
   std::size_t sum = shapes_.bytes();
   for (const gl::Storage* s :
-       {&settings_.storage(),       &running_.storage(),  &worlds_.storage(), &progress_.storage(),
-        &planes_.storage(),         &bodies_.storage(),   &states_.storage(), &tensors_.storage(),
-        &near_.storage(),           &ranges_.storage(),   &pairs_.storage(),  &free_.storage(),
-        &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),   &near_samples_.storage(),
-        &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),  &rows_.storage()})
+       {&settings_.storage(),     &running_.storage(),        &worlds_.storage(),   &progress_.storage(),
+        &planes_.storage(),       &bodies_.storage(),         &states_.storage(),   &tensors_.storage(),
+        &near_.storage(),         &boxes_.storage(),          &ranges_.storage(),   &pairs_.storage(),
+        &free_.storage(),         &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),
+        &near_samples_.storage(), &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),
+        &rows_.storage()})
     sum += s->bytes();
   return sum;
 }

@@ -92,7 +92,7 @@ ManifoldImage to_gpu(const World& world, std::uint32_t first_body) {
     gpu::uvec4& range = image.ranges[m.a];
     if (range.y == 0) range.x = range.z = p;
     range.y = range.w = p + 1;
-    image.pairs.push_back({first_body + m.a, m.b == ground ? SPHERE_GROUND : first_body + m.b, p, 0});
+    image.pairs.push_back({first_body + m.a, m.b == ground ? SPHERE_GROUND : first_body + m.b, p, SPHERE_NO_COLOR});
     std::uint32_t presses = 0;
     image.contacts.resize(SPHERE_MAX_CONTACTS * static_cast<std::size_t>(p + 1));
     gpu::SphereContact* next = &image.contacts[SPHERE_MAX_CONTACTS * static_cast<std::size_t>(p)];

@@ -316,10 +316,12 @@ class GlSphereSolver final : public Solver {
     profile_.count("contacts_reduced", p.dropped);
     profile_.count("colors", p.colors);
     profile_.count("coloring_rounds", p.coloring_rounds);
+    profile_.count("colorings", p.colorings);
+    profile_.count("pair_lists_made", p.lists_made);
     profile_.count("steps", p.steps);
     p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
         p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds =
-            p.asleep_steps = p.pairs_culled = 0;
+            p.asleep_steps = p.pairs_culled = p.lists_made = p.colorings = 0;
   }
 
   void read_states(const Flight& flight) {

@@ -32,8 +32,8 @@ std::size_t worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, 
 }  // namespace sphere_gl
 
 /// Bodies that a world may have on a GPU, fixed ones and a mesh bin among them: the velocities of more do not fit the
-/// shared memory of one work group. The passes of several groups that once ran larger worlds needed 74 dispatches a step
-/// and 5 to 13 more a sweep, one world after the other: docs/develop/gpu.md, "Large worlds".
+/// shared memory of one work group. The passes of several groups that once ran larger worlds needed 74 dispatches a
+/// step and 5 to 13 more a sweep, one world after the other: docs/develop/gpu.md, "Large worlds".
 std::size_t most_gl_bodies();
 
 /// Needs a GL device on this thread; throws an environment Error without one.

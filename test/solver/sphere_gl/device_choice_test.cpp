@@ -19,10 +19,10 @@ DeviceFigures figures() {
 }
 
 TEST(DeviceChoice, GoesByPartsAndScenes) {
-  EXPECT_FALSE(choose_device(figures(), 64, 1).gpu);    // 1 against 4 ms
-  EXPECT_TRUE(choose_device(figures(), 384, 1).gpu);    // 6 against 4 ms
-  EXPECT_TRUE(choose_device(figures(), 64, 64).gpu);    // 0.5 against 0.06 ms
-  EXPECT_FALSE(choose_device(figures(), 8, 2).gpu);     // 0.06 against 2 ms
+  EXPECT_FALSE(choose_device(figures(), 64, 1).gpu);  // 1 against 4 ms
+  EXPECT_TRUE(choose_device(figures(), 384, 1).gpu);  // 6 against 4 ms
+  EXPECT_TRUE(choose_device(figures(), 64, 64).gpu);  // 0.5 against 0.06 ms
+  EXPECT_FALSE(choose_device(figures(), 8, 2).gpu);   // 0.06 against 2 ms
 }
 
 TEST(DeviceChoice, ASlowerGpuIsNotTaken) {

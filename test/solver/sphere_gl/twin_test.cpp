@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace bin_scenes::sphere_gl {
@@ -68,8 +69,7 @@ class TwinTest : public SphereGl, public ::testing::WithParamInterface<Layout> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Layouts, TwinTest,
-                         ::testing::Values(one_group(), full_group(), software_group()),
+INSTANTIATE_TEST_SUITE_P(Layouts, TwinTest, ::testing::Values(one_group(), full_group(), software_group()),
                          [](const auto& info) { return info.param.name; });
 
 /// What `batch` makes of a world, with `world` for all that it does not hold.
@@ -172,6 +172,94 @@ TEST_P(TwinTest, ASlotForAManifoldHasOneOwner) {
     batch.solve();
     batch.update_sleep();
   }
+}
+
+/// Puts bodies to sleep and wakes them, takes one out and puts it in elsewhere.
+void disturb(World& world, int step) {
+  if (step == 15) world.bodies[9].present = false;
+  if (step == 20)
+    for (std::size_t i = 10; i < 30; ++i) sphere::put_to_sleep(world.settings, world.bodies[i]);
+  if (step == 25) {
+    world.bodies[9].present = true;
+    world.bodies[9].x += Vec3f(0.05f, 0.02f, 0.1f);
+  }
+  if (step == 30)
+    for (std::size_t i = 10; i < 20; ++i) sphere::wake(world.bodies[i]);
+}
+
+// The list of bodies that may come near each other outlives steps: no pair may be missed, and none be too many.
+TEST_F(SphereGl, AListThatIsKeptGivesThePairsOfOneThatIsMadeAnew) {
+  Batch batch;
+  World world = heap().world(70, 1, 0.16);
+  const Batch::Slot slot = load(batch, world);
+  std::size_t begun = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Keys before = keys(world);
+    disturb(world, k);
+    batch.upload_states(slot, world);
+    const Batch::Slot anew = load(batch, world);
+    batch.run({anew});
+    batch.find_pairs();
+    const Keys expected = keys(downloaded(batch, anew, world));
+    batch.remove(anew);
+    find_all(batch, slot);
+    batch.color_manifolds();
+    batch.solve();
+    batch.update_sleep();
+    world = downloaded(batch, slot, world);
+    ASSERT_EQ(keys(world), expected) << k;
+    begun += keys(world) != before;
+  }
+  EXPECT_GT(begun, 20u) << "steps in which pairs begin or end";
+  EXPECT_LT(batch.progress(slot).lists_made, 20u);
+}
+
+std::size_t manifolds_that_share_a_color(const World& world) {
+  std::set<std::pair<std::uint32_t, int>> used;  // body, color
+  std::size_t count = 0;
+  for (const Manifold& m : world.manifolds) {
+    if (m.color < 0) continue;
+    for (const std::uint32_t b : {m.a, m.b})
+      if (b != ground && world.bodies[b].moves()) count += !used.emplace(b, m.color).second;
+  }
+  return count;
+}
+
+TEST_F(SphereGl, ManifoldsKeepTheirColors) {
+  Batch batch;
+  World world = heap().world(70, 1, 0.16);
+  const Batch::Slot slot = load(batch, world);
+  std::size_t kept = 0;
+  std::set<std::uint32_t> moved;  // in the step before: others may have two manifolds of a color
+  for (int k = 0; k < 60; ++k) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> before;
+    for (const Manifold& m : world.manifolds)
+      if (m.color >= 0) before[{m.a, m.b}] = m.color;
+    const gpu::uint colorings = batch.progress(slot).colorings;
+    disturb(world, k);
+    batch.upload_states(slot, world);
+    find_all(batch, slot);
+    batch.color_manifolds();
+    world = downloaded(batch, slot, world);
+    EXPECT_EQ(manifolds_that_share_a_color(world), 0u) << k;
+    for (const Manifold& m : world.manifolds) {
+      const bool moves = world.bodies[m.a].moves() || (m.b != ground && world.bodies[m.b].moves());
+      EXPECT_EQ(m.color >= 0, moves && !m.contacts.empty()) << k;
+      const auto old = before.find({m.a, m.b});
+      if (m.color < 0 || old == before.end() || batch.progress(slot).colorings > colorings) continue;
+      if (moved.count(m.a) == 0 || (m.b != ground && moved.count(m.b) == 0)) continue;
+      EXPECT_EQ(m.color, old->second) << k;
+      ++kept;
+    }
+    moved.clear();
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+      if (world.bodies[i].moves()) moved.insert(i);
+    batch.solve();
+    batch.update_sleep();
+    world = downloaded(batch, slot, world);
+  }
+  EXPECT_GT(kept, 1000u);
+  EXPECT_LT(batch.progress(slot).colorings, 20u);
 }
 
 /// Takes colors and order from the device.
