@@ -17,6 +17,8 @@ namespace {
 
 constexpr double earth = 9.81;     ///< m/s2
 constexpr double allowed = 1e-3;   ///< share of kinetic energy: the goal for force-free tumbling
+constexpr double stirs = 1e-4;     ///< m g d: change of energy from which a part has moved
+constexpr double swift = 1e-6;     ///< m g d: kinetic energy from which a part has moved
 constexpr double touching = 0.02;  ///< of the diagonal: parts nearer than this may have touched
 
 }  // namespace
@@ -24,7 +26,8 @@ constexpr double touching = 0.02;  ///< of the diagonal: parts nearer than this 
 EnergyAudit::EnergyAudit(const WorldDef& world)
     : world_(world),
       gravity_(world.gravity.norm() > 0.0 ? world.gravity.norm() : earth),
-      bodies_(world.bodies.size()) {}
+      bodies_(world.bodies.size()),
+      world_energy_(world.bodies.size()) {}
 
 EnergyAudit::Body EnergyAudit::body_at(std::size_t body, const BodyState& state) const {
   const BodyDef& def = world_.bodies[body];
@@ -44,6 +47,44 @@ EnergyAudit::Body EnergyAudit::body_at(std::size_t body, const BodyState& state)
 void EnergyAudit::enter(std::size_t body, const BodyState& state) {
   BIN_SCENES_ASSERT(body < bodies_.size() && is_rigid(state.pose));
   bodies_[body] = body_at(body, state);
+  world_energy_.enter(body, bodies_[body].kinetic + bodies_[body].potential);
+}
+
+void WorldEnergy::observe(std::size_t index, double kinetic, double potential, double unit) {
+  Body& body = bodies_[index];
+  body.now = kinetic + potential;
+  body.unit = unit;
+  body.in = true;
+  body.swiftest = std::max(body.swiftest, kinetic);
+}
+
+void WorldEnergy::finish(double time) {
+  double gain = 0.0, unit = 0.0, change = 0.0;
+  for (const Body& body : bodies_) {
+    if (!body.in) continue;
+    const double more = body.now - body.least;
+    change += more;
+    const bool moved = std::abs(more) > stirs * body.unit || body.swiftest > swift * body.unit;
+    gain += (moved ? more : std::min(more, 0.0)) - allowed * body.swiftest;
+    if (moved) unit += body.unit;
+  }
+  if (gain > worst_.relative * unit) worst_ = {gain / unit, time};
+  const bool least = begins_ || change <= 0.0;
+  for (Body& body : bodies_) {
+    if (least) body.least = body.now, body.swiftest = 0.0;
+    body.in = false;
+  }
+  begins_ = false;
+}
+
+void EnergyAudit::observe_world(double time) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
+    if (!body.in || body.fixed) continue;
+    const BodyDef& def = world_.bodies[b];
+    world_energy_.observe(b, body.kinetic, body.potential, def.mass * gravity_ * world_.parts[def.part]->diagonal());
+  }
+  world_energy_.finish(time);
 }
 
 DisjointSets EnergyAudit::groups(const std::vector<Reach>& reaches) const {
@@ -70,6 +111,8 @@ void EnergyAudit::observe(double time, const std::vector<BodyState>& states, boo
   if (driven) {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       if (bodies_[b].in && states[b].pose.finite()) enter(b, states[b]);
+    world_energy_.begin();
+    observe_world(time);
     return;
   }
   std::vector<Reach> reaches;
@@ -89,6 +132,7 @@ void EnergyAudit::observe(double time, const std::vector<BodyState>& states, boo
     gained |= gain > worst_.gain * world_.bodies[b].mass * gravity_ * part.diagonal();
     before = now;
   }
+  observe_world(time);
   if (!gained && !faster) return;  // nobody is worse than the worst so far, however its group fared
   DisjointSets group = groups(reaches);
   if (gained) compare_gains(group, reaches, time);

@@ -14,6 +14,11 @@
 /// nothing leaves a contact faster than what hit it, so a part that is faster than everything in its group was
 /// before, gravity's share taken off, was thrown. Wedges and levers give some: twice as fast is told, five times sets
 /// apart.
+///
+/// What a gain of a part in one interval misses is a slow one, and what a part takes back from others that gained
+/// before it. Therefore the energy of all parts together is compared with the least that it was before (WorldEnergy):
+///
+///     gain of the world = sum over all parts (E_i now - E_i at the least) / sum over those that moved (m_i g d_i)
 #pragma once
 
 #include "bin_scenes/scene/report.hpp"
@@ -29,18 +34,47 @@ constexpr double flagged_gain = 0.1;
 /// Ratio of speeds from which a scene carries the flag part_thrown.
 constexpr double flagged_ratio = 2.0;
 
+/// The energy of all bodies together, against the least that it was before.
+class WorldEnergy {
+ public:
+  explicit WorldEnergy(std::size_t bodies) : bodies_(bodies) {}
+
+  /// The sum of all bodies begins anew with their next energies: something has worked on them.
+  void begin() { begins_ = true; }
+  /// A body comes in with this energy (J).
+  void enter(std::size_t body, double energy) { bodies_[body].least = energy; }
+  /// Energies (J) of a body now, and its unit m g d. Call it for each body that is in, then finish().
+  void observe(std::size_t body, double kinetic, double potential, double unit);
+  /// Ends an observation.
+  void finish(double time);
+
+  const WorstReport::EnergyGain& worst() const { return worst_; }
+
+ private:
+  struct Body {
+    double now = 0.0, least = 0.0;  ///< J: the latest, and when the sum was least
+    double swiftest = 0.0;          ///< J: most kinetic energy since then
+    double unit = 0.0;
+    bool in = false;  ///< in this observation
+  };
+  std::vector<Body> bodies_;
+  bool begins_ = false;
+  WorstReport::EnergyGain worst_;
+};
+
 class EnergyAudit {
  public:
   explicit EnergyAudit(const WorldDef& world);
 
   /// A body comes in, or is put elsewhere: with this state it begins anew.
   void enter(std::size_t body, const BodyState& state);
-  void leave(std::size_t body) { bodies_[body].in = false; }
+  void leave(std::size_t body) { bodies_[body].in = false, world_energy_.begin(); }
   /// Bodies that never came in are left out, whatever their states. `driven`: something that follows a path may have
   /// worked on them since the last observation, and all begin anew.
   void observe(double time, const std::vector<BodyState>& states, bool driven = false);
 
   const EnergyReport& worst() const { return worst_; }
+  const WorstReport::EnergyGain& worst_of_world() const { return world_energy_.worst(); }
   std::vector<Flag> flags() const;
 
  private:
@@ -58,6 +92,7 @@ class EnergyAudit {
     double radius, gain, before, now;  ///< m, J; m/s: of its fastest point before, and of its centre now
   };
 
+  void observe_world(double time);
   Body body_at(std::size_t body, const BodyState& state) const;
   DisjointSets groups(const std::vector<Reach>& reaches) const;
   void compare_gains(DisjointSets& group, const std::vector<Reach>& reaches, double time);
@@ -70,6 +105,7 @@ class EnergyAudit {
   double last_ = 0.0;
   std::vector<Body> bodies_;
   EnergyReport worst_;
+  WorldEnergy world_energy_;
 };
 
 }  // namespace bin_scenes

@@ -76,6 +76,9 @@ void HeapCore::start_clock() {
   time_ = 0.0;
   settling_.start_clock();
   rest_ = RestWatch(states_.size());
+  solver_.take_worst_contact(id_);
+  deepest_ = {};
+  unresolved_impacts_ = 0;
   audit_.emplace(plan_->world);
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) audit_->enter(b, states_[b]);
@@ -186,7 +189,17 @@ void HeapCore::update_rest(bool driven) {
                   {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
   }
   audit_->observe(time_, states_, driven);
+  note_worst();
   fresh_ = true;
+}
+
+void HeapCore::note_worst() {
+  const std::optional<WorstContact> worst = solver_.take_worst_contact(id_);
+  if (!worst) return;
+  deepest_.known = true;
+  unresolved_impacts_ += worst->unresolved_impacts;
+  if (worst->relative > deepest_.relative)
+    deepest_ = {true, worst->depth, worst->relative, {worst->a, worst->b}, time_ - worst->ago};
 }
 
 bool HeapCore::slow(std::size_t body) const {
@@ -310,6 +323,10 @@ Scene HeapCore::scene() {
   report.steps = earlier_steps_ + solver_.steps(id_);
   report.flags = solver_.flags(id_);
   report.energy = audit_->worst();
+  report.worst = {deepest_, audit_->worst_of_world(), unresolved_impacts_};
+  if (!deepest_.known && time_ > 0.0)
+    report.flags.push_back({"depths_unknown", "this solver does not report how deep contacts were during the run",
+                            "use sphere on the CPU, or bullet, where that matters"});
   for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
   const std::vector<ContactForce> forces = this->forces();
   for (const ContactForce& f : forces) scene.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});

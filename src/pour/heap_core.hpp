@@ -67,11 +67,13 @@ class HeapCore final : private HeapView {
   enum class Course { ahead, under_way, over };  ///< of the given motions
 
   /// `lifted`: bodies that the world is to have as heavy as if a hand held them.
+  void note_worst();
   void make_world(bool raised_walls, const std::vector<std::size_t>& lifted = {});
   void remake_world(const std::vector<std::size_t>& lifted, const std::vector<bool>& woken);
   std::vector<bool> dragged_by(const std::vector<std::size_t>& lifted, const Vec3& direction) const;
   void wake(const std::vector<bool>& bodies);
-  void let_go();  ///< lifted bodies have their own masses again
+  std::vector<bool> unverified() const;  ///< bodies that moved in the last check
+  void let_go();                         ///< lifted bodies have their own masses again
   bool is_kept(std::size_t body) const { return !kept_.empty() && kept_[body]; }
   bool is_kept(const ContactForce& force) const;  ///< of all that it acts on
   void release_kept();                            ///< those that have woken
@@ -134,6 +136,8 @@ class HeapCore final : private HeapView {
   std::vector<std::size_t> waiting_;  ///< bodies that have not entered, next one first
   RestWatch rest_;
   std::optional<EnergyAudit> audit_;  ///< of this settle
+  WorstReport::Penetration deepest_;  ///< likewise
+  std::uint64_t unresolved_impacts_ = 0;
 };
 
 }  // namespace bin_scenes

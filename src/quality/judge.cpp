@@ -103,12 +103,15 @@ std::string percent(double fraction) {
   return text;
 }
 
+/// The first ten by name.
 std::string listed(const std::vector<int>& ids) {
+  constexpr std::size_t most = 10;
   std::string text = ids.size() == 1 ? "part " : "parts ";
-  for (std::size_t i = 0; i < ids.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i) {
     if (i) text += i + 1 == ids.size() ? " and " : ", ";
     text += std::to_string(ids[i]);
   }
+  if (ids.size() > most) text += " and " + std::to_string(ids.size() - most) + " more";
   return text;
 }
 
@@ -189,6 +192,37 @@ void add_energy_reasons(Report& report, const Acceptance& accept) {
   }
 }
 
+/// A part that contacts hold by far more than anything weighs does not lie there.
+void add_jam_reason(Report& report, const Acceptance& accept) {
+  if (report.jam.ratio <= accept.jam) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "part %d is squeezed by %.3g times the weight of itself and of what lies on it, which is above "
+                "accept.jam %.3g",
+                report.jam.part, report.jam.ratio, accept.jam);
+  report.reasons.push_back(text);
+}
+
+/// Why the scene is not to be trusted, although nothing of it shows at the end.
+void add_worst_reasons(Report& report, const Acceptance& accept) {
+  char text[240];
+  if (const auto& worst = report.worst.penetration; worst.relative > accept.worst_penetration) {
+    const std::string other = worst.pair[1] < 0 ? "the bin" : std::to_string(worst.pair[1]);
+    std::snprintf(text, sizeof text,
+                  "part %d and %s overlapped by %s of d at %.3f s, which is above accept.worst_penetration %s",
+                  worst.pair[0], other.c_str(), percent(worst.relative).c_str(), worst.time,
+                  percent(accept.worst_penetration).c_str());
+    report.reasons.push_back(text);
+  }
+  if (const auto& gain = report.worst.energy_gain; gain.relative > accept.worst_energy_gain) {
+    std::snprintf(text, sizeof text,
+                  "the energy of all parts rose by %.3g m g d of those that moved by %.3f s, which is above "
+                  "accept.worst_energy_gain %.3g",
+                  gain.relative, gain.time, accept.worst_energy_gain);
+    report.reasons.push_back(text);
+  }
+}
+
 /// Why the scene is not what was asked for: parts that are missing or still move.
 void add_state_reasons(Scene& scene, const Request& request) {
   Report& report = scene.report;
@@ -197,13 +231,16 @@ void add_state_reasons(Scene& scene, const Request& request) {
     report.reasons.push_back("nothing was poured: no part found room below the rim");
   }
   if (!report.escaped.empty() && !request.accept.escaped) report.reasons.push_back(listed(report.escaped) + " escaped");
+  if (!report.unstable.empty() && !request.accept.unstable)
+    report.reasons.push_back(listed(report.unstable) + " moved in each check of how they stand: unstable");
   if (report.at_rest || request.seconds) return;
-  const auto moving = std::count_if(scene.parts.begin(), scene.parts.end(),
-                                    [](const ScenePart& p) { return p.state == PartState::moving; });
+  std::vector<int> moving;
+  for (const ScenePart& part : scene.parts)
+    if (part.state == PartState::moving) moving.push_back(part.id);
   char time[32];
   std::snprintf(time, sizeof time, "%.3g", report.simulated_s);
-  report.reasons.push_back("not at rest after " + std::string(time) + " s: " + std::to_string(moving) +
-                           (moving == 1 ? " part moving" : " parts moving"));
+  report.reasons.push_back("not at rest after " + std::string(time) + " s: " + std::to_string(moving.size()) +
+                           (moving.size() == 1 ? " part moving (" : " parts moving (") + listed(moving) + ")");
 }
 
 }  // namespace
@@ -237,6 +274,8 @@ void judge(Scene& scene, const LoadedRequest& loaded) {
                              " of its size, which is above accept.gap " + percent(accept.gap));
   }
   add_energy_reasons(report, accept);
+  add_worst_reasons(report, accept);
+  add_jam_reason(report, accept);
   add_state_reasons(scene, request);
   report.accepted = report.reasons.empty();
 }

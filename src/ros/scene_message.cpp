@@ -79,6 +79,31 @@ ScenePart part_from(const msgs::ScenePart& message, const std::vector<msgs::Sens
   return part;
 }
 
+msgs::Worst worst_message(const WorstReport& worst) {
+  msgs::Worst message;
+  message.penetration_known = worst.penetration.known;
+  message.penetration = worst.penetration.value;
+  message.penetration_relative = worst.penetration.relative;
+  message.pair = {worst.penetration.pair[0], worst.penetration.pair[1]};
+  message.penetration_time = worst.penetration.time;
+  message.energy_gain = worst.energy_gain.relative;
+  message.energy_gain_time = worst.energy_gain.time;
+  message.unresolved_impacts = worst.unresolved_impacts;
+  return message;
+}
+
+WorstReport worst_from(const msgs::Worst& message) {
+  WorstReport worst;
+  worst.penetration.known = message.penetration_known;
+  worst.penetration.value = message.penetration;
+  worst.penetration.relative = message.penetration_relative;
+  worst.penetration.pair = {message.pair[0], message.pair[1]};
+  worst.penetration.time = message.penetration_time;
+  worst.energy_gain = {message.energy_gain, message.energy_gain_time};
+  worst.unresolved_impacts = message.unresolved_impacts;
+  return worst;
+}
+
 }  // namespace
 
 const char* name_of(Bin::Kind kind) {
@@ -184,9 +209,11 @@ bin_scenes_msgs::SceneReport report_message(const Report& report) {
   message.energy.thrown_time = report.energy.thrown.time;
   message.energy.thrown_part = report.energy.thrown.part;
   message.energy.thrown_beside = report.energy.thrown.beside;
+  message.worst = worst_message(report.worst);
   message.jam_ratio = report.jam.ratio;
   message.jam_part = report.jam.part;
   message.escaped.assign(report.escaped.begin(), report.escaped.end());
+  message.unstable.assign(report.unstable.begin(), report.unstable.end());
   message.not_poured.assign(report.not_poured.begin(), report.not_poured.end());
   message.state_hash = report.state_hash;
   for (const Flag& flag : report.flags) {
@@ -231,8 +258,10 @@ Report report_from(const bin_scenes_msgs::SceneReport& message) {
   report.energy.part = message.energy.part;
   report.energy.thrown = {message.energy.thrown_ratio, message.energy.thrown_time, message.energy.thrown_part,
                           message.energy.thrown_beside};
+  report.worst = worst_from(message.worst);
   report.jam = {message.jam_ratio, message.jam_part};
   report.escaped.assign(message.escaped.begin(), message.escaped.end());
+  report.unstable.assign(message.unstable.begin(), message.unstable.end());
   report.not_poured.assign(message.not_poured.begin(), message.not_poured.end());
   report.state_hash = message.state_hash;
   for (const auto& flag : message.flags) report.flags.push_back({flag.code, flag.text, flag.remedy});

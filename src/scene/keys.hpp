@@ -231,7 +231,26 @@ void visit(Visitor& v, Acceptance& accept) {
            "contacts threw it out, and the scene is set apart",
            at_least(1.0)},
           accept.speed);
+  v.field({"worst_penetration", "",
+           "largest depth of a contact at any time of the run, by the solver's own contacts / smaller part's diagonal; "
+           "deeper: parts may have passed into each other, and the scene is set apart",
+           at_least(0.0, 1.0)},
+          accept.worst_penetration);
+  v.field(
+      {"worst_energy_gain", "",
+       "largest rise of the energy of all parts together above an earlier value / (mass * gravity * diagonal, summed "
+       "over the parts that moved); more: contacts made energy, and the scene is set apart",
+       at_least(0.0)},
+      accept.worst_energy_gain);
+  v.field(
+      {"jam", "",
+       "largest squeeze of a part between contacts on opposite sides / weight of it and of what lies on it; more: its "
+       "collision shape fills a gap that the part has, and the scene is set apart",
+       at_least(1.0)},
+      accept.jam);
   v.field({"escaped", "", "true: scenes with escaped parts are accepted too"}, accept.escaped);
+  v.field({"unstable", "", "true: scenes with parts that moved in each check of how they stand are accepted too"},
+          accept.unstable);
 }
 
 template <class Visitor>

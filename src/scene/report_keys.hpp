@@ -5,6 +5,8 @@
 #include "bin_scenes/scene/key.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
+#include <cmath>
+
 namespace bin_scenes {
 
 inline Names<PartState> names(PartState) {
@@ -65,6 +67,36 @@ void visit(Visitor& v, EnergyReport& energy) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, WorstReport::Penetration& p) {
+  // Unknown depths are null in the file.
+  double value = p.known ? p.value : std::nan(""), relative = p.known ? p.relative : std::nan("");
+  v.field({"value", "m", "depth; null if the solver does not report the depths of its contacts"}, value);
+  v.field({"relative", "", "largest depth / bounding diagonal of the smaller part; null as above"}, relative);
+  v.field({"pair", "", "ids; the second is -1 for the bin, both are if nothing overlapped"}, p.pair);
+  v.field({"time", "s", "simulated time"}, p.time);
+  p.known = std::isfinite(value) && std::isfinite(relative);
+  p.value = p.known ? value : 0.0;
+  p.relative = p.known ? relative : 0.0;
+}
+
+template <class Visitor>
+void visit(Visitor& v, WorstReport::EnergyGain& gain) {
+  v.field({"relative", "",
+           "rise of the energy of all parts together above the least value before / (mass * gravity * diagonal, summed "
+           "over the parts that moved)"},
+          gain.relative);
+  v.field({"time", "s", "simulated time of the observation"}, gain.time);
+}
+
+template <class Visitor>
+void visit(Visitor& v, WorstReport& worst) {
+  v.section({"penetration", "", "the deepest contact, by the solver's own depths"}, worst.penetration);
+  v.section({"energy_gain", "", "largest gain of energy of the whole heap"}, worst.energy_gain);
+  v.field({"unresolved_impacts", "", "number of sub-steps in which an impact was not solved within the allowed sweeps"},
+          worst.unresolved_impacts);
+}
+
+template <class Visitor>
 void visit(Visitor& v, JamReport& jam) {
   v.field({"ratio", "", "squeezing force / weight of the part and of all that rests on it"}, jam.ratio);
   v.field({"part", "", "id; -1 if no part is squeezed, or if the solver does not report contact forces"}, jam.part);
@@ -99,8 +131,11 @@ void visit(Visitor& v, Report& report) {
             report.drift);
   v.section({"energy", "", "energy that a part gained without a cause: contacts that throw parts about"},
             report.energy);
+  v.section({"worst", "", "the worst of the whole run, not of its end"}, report.worst);
   v.section({"jam", "", "the part that contacts squeeze most, from opposite sides"}, report.jam);
   v.field({"escaped", "", "ids of parts outside the bin, below the floor or not finite"}, report.escaped);
+  v.field({"unstable", "", "ids of parts that moved in each check of whether they stand, up to the last one"},
+          report.unstable);
   v.field({"not_poured", "", "ids of parts that found no room above the heap"}, report.not_poured);
   Hexadecimal hash{report.state_hash};
   v.field({"state_hash", "", "hash of all final poses, bit for bit"}, hash);

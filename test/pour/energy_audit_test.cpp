@@ -109,6 +109,49 @@ TEST_F(EnergyAuditTest, AFlagNamesWhoWasThrownAndBesideWhom) {
   EXPECT_NE(flags[1].text.find("part 1, beside part 0, left at 3.9"), std::string::npos) << flags[1].text;
 }
 
+// What a gain of one part in one interval cannot show: a slow rise, and one that comes after a loss of others.
+TEST_F(EnergyAuditTest, ARiseOfAllTogetherIsMeasuredFromTheLeastBefore) {
+  EnergyAudit audit(world);
+  audit.enter(0, at(0.0, 1.0));
+  audit.enter(1, at(edge, 1.0, Vec3(2, 0, 0)));
+  audit.enter(2, away(2));
+  audit.observe(dt, {at(0.0, 1.0), at(edge, 1.0), away(2)});  // an impact: 2 J are lost
+  EXPECT_EQ(audit.worst_of_world().relative, 0.0);
+  for (int k = 1; k <= 10; ++k)  // one rises by d / 100 an interval, and one stands where it is
+    audit.observe((1 + k) * dt, {at(0.0, 1.0 + 0.01 * k * d), at(edge, 1.0), away(2)});
+  EXPECT_NEAR(audit.worst_of_world().relative, 0.1, 1e-9) << "in m g d of the one that moved";
+  EXPECT_NEAR(audit.worst_of_world().time, 11 * dt, 1e-12);
+  audit.observe(12 * dt, {at(0.0, 1.0), at(edge, 1.0), away(2)});
+  EXPECT_NEAR(audit.worst_of_world().relative, 0.1, 1e-9) << "the worst, not the last";
+}
+
+TEST_F(EnergyAuditTest, AllTogetherGainNothingFromWhatOneGivesAnother) {
+  world.bodies[1].mass = 5e-4;
+  EnergyAudit audit(world);
+  audit.enter(0, at(0.0, 1.0, Vec3(0.1, 0, 0)));
+  audit.enter(1, at(edge, 1.0));
+  audit.enter(2, away(2));
+  audit.observe(dt, {at(0.0, 1.0), at(edge, 1.0, Vec3(0.1 * std::sqrt(1000.0), 0, 0)), away(2)});
+  EXPECT_EQ(audit.worst_of_world().relative, 0.0);
+  audit.enter(1, at(edge, 3.0));  // put there by somebody else
+  audit.observe(2 * dt, {at(0.0, 1.0), at(edge, 3.0), away(2)});
+  EXPECT_EQ(audit.worst_of_world().relative, 0.0);
+}
+
+TEST_F(EnergyAuditTest, OfAHeapThatTremblesTogetherTheWholeIsTheUnit) {
+  world.bodies.resize(100);
+  for (BodyDef& body : world.bodies) body.mass = 0.5;
+  EnergyAudit audit(world);
+  std::vector<BodyState> before, after;
+  for (int b = 0; b < 100; ++b) {
+    before.push_back(at(b * edge, 1.0));
+    after.push_back(at(b * edge, 1.0 + 1e-3 * d));
+    audit.enter(static_cast<std::size_t>(b), before.back());
+  }
+  audit.observe(dt, after);
+  EXPECT_NEAR(audit.worst_of_world().relative, 1e-3, 1e-9);
+}
+
 TEST_F(EnergyAuditTest, FixedPartsAndThoseThatNeverCameInAreLeftOut) {
   world.bodies[0].fixed = true;
   EnergyAudit audit(world);

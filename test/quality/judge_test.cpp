@@ -160,7 +160,7 @@ TEST(Judge, EscapedAndMovingPartsAreReasons) {
   heap.scene.report.at_rest = false;
   heap.scene.report.simulated_s = 20.0;
   EXPECT_EQ(heap.judged().reasons,
-            (std::vector<std::string>{"part 1 escaped", "not at rest after 20 s: 1 part moving"}));
+            (std::vector<std::string>{"part 1 escaped", "not at rest after 20 s: 1 part moving (part 2)"}));
   EXPECT_EQ(heap.scene.report.penetration.bin_max, 0.0) << "what is outside does not overlap the bin";
   heap.request.accept.escaped = true;
   heap.request.seconds = 20.0;

@@ -111,7 +111,16 @@ TEST(SceneMessage, ReportComesBackWhole) {
   EXPECT_EQ(values(a.drift), values(b.drift));
   EXPECT_EQ(a.drift.measured, b.drift.measured);
   EXPECT_EQ(a.drift.turn_p95, b.drift.turn_p95);
+  EXPECT_EQ(a.worst.penetration.known, b.worst.penetration.known);
+  EXPECT_EQ(a.worst.penetration.value, b.worst.penetration.value);
+  EXPECT_EQ(a.worst.penetration.relative, b.worst.penetration.relative);
+  EXPECT_EQ(a.worst.penetration.pair, b.worst.penetration.pair);
+  EXPECT_EQ(a.worst.penetration.time, b.worst.penetration.time);
+  EXPECT_EQ(a.worst.energy_gain.relative, b.worst.energy_gain.relative);
+  EXPECT_EQ(a.worst.energy_gain.time, b.worst.energy_gain.time);
+  EXPECT_EQ(a.worst.unresolved_impacts, b.worst.unresolved_impacts);
   EXPECT_EQ(a.escaped, b.escaped);
+  EXPECT_EQ(a.unstable, b.unstable);
   EXPECT_EQ(a.not_poured, b.not_poured);
   EXPECT_EQ(a.state_hash, b.state_hash);
   ASSERT_EQ(b.flags.size(), 1u);

@@ -49,7 +49,9 @@ inline Report full_report() {
   static_cast<Quantiles&>(r.drift) = {1e-6, 2e-6, 3e-6};
   r.drift.measured = true;
   r.drift.turn_p95 = 0.01;
+  r.worst = {{true, 1e-3, 0.02, {0, 2}, 0.75}, {0.003, 0.5}, 4};
   r.escaped = {1};
+  r.unstable = {0, 2};
   r.not_poured = {3};
   r.state_hash = 0xfedcba9876543210ull;
   r.flags = {{"mesh_repaired", "2 holes closed", "repair the file"}};

@@ -5,6 +5,7 @@
 #include "solver/impacts.hpp"
 #include "solver/pressed.hpp"
 #include "solver/tight_fits.hpp"
+#include "solver/worst_contacts.hpp"
 
 namespace bin_scenes::testing {
 
@@ -84,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Bullet, Extremes, ::testing::Values(bullet_default), na
 INSTANTIATE_TEST_SUITE_P(Bullet, HardContacts, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, TightFits, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, Pressing, ::testing::Values(bullet_default), name);
+INSTANTIATE_TEST_SUITE_P(Bullet, WorstContacts, ::testing::Values(bullet_default), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, CoarseSteps, ::testing::Values(bullet_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Bullet, UncutSteps, ::testing::Values(bullet_uncut), name);
 

@@ -8,6 +8,7 @@
 #include "solver/sphere/sphere_solver.hpp"
 #include "solver/sphere/world.hpp"
 #include "solver/tight_fits.hpp"
+#include "solver/worst_contacts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -381,6 +382,7 @@ INSTANTIATE_TEST_SUITE_P(Sphere, Extremes, ::testing::Values(sphere_default), na
 INSTANTIATE_TEST_SUITE_P(Sphere, HardContacts, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, TightFits, ::testing::Values(sphere_default), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, Pressing, ::testing::ValuesIn(sphere_steps()), name);
+INSTANTIATE_TEST_SUITE_P(Sphere, WorstContacts, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, SphereSteps, ::testing::ValuesIn(sphere_steps()), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, CoarseSteps, ::testing::Values(sphere_coarse), name);
 INSTANTIATE_TEST_SUITE_P(Sphere, UncutSteps, ::testing::Values(sphere_uncut), name);

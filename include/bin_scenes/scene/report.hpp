@@ -52,6 +52,24 @@ struct EnergyReport {
   } thrown;
 };
 
+/// The worst of the whole run, not of its end: a scene that looks right may have gone wrong before.
+struct WorstReport {
+  /// Deepest contact, by the solver's own depths.
+  struct Penetration {
+    bool known = false;                  ///< whether the solver reports the depths of its contacts
+    double value = 0.0;                  ///< m
+    double relative = 0.0;               ///< value / diagonal of the smaller part; the largest of the run
+    std::array<int, 2> pair = {-1, -1};  ///< ids; the second is -1 for the bin, both are if nothing overlapped
+    double time = 0.0;                   ///< s, simulated
+  } penetration;
+  /// Rise of the energy of all parts together above the least that it was before.
+  struct EnergyGain {
+    double relative = 0.0;  ///< rise / (m g d) summed over the parts that moved
+    double time = 0.0;      ///< s, simulated, of the observation that found it
+  } energy_gain;
+  std::uint64_t unresolved_impacts = 0;  ///< sub-steps in which an impact was not solved within the allowed sweeps
+};
+
 /// The part that contacts squeeze most, from opposite sides.
 struct JamReport {
   double ratio = 0.0;  ///< force / weight of it and of what lies on it, all of which it may have to carry
@@ -74,7 +92,9 @@ struct Report {
   DriftReport drift;
   EnergyReport energy;
   JamReport jam;
+  WorstReport worst;
   std::vector<int> escaped;      ///< ids outside the bin, below the floor or not finite
+  std::vector<int> unstable;     ///< ids that moved in each check of how they stand, to the last one
   std::vector<int> not_poured;   ///< ids that found no room above the heap
   std::uint64_t state_hash = 0;  ///< of all final poses, bit for bit
   std::vector<Flag> flags;

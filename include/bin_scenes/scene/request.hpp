@@ -251,7 +251,11 @@ struct Acceptance {
   double gap = 0.005;
   double energy = 2.0;
   double speed = 5.0;
+  double worst_penetration = 0.05;
+  double worst_energy_gain = 0.01;
+  double jam = 100.0;
   bool escaped = false;
+  bool unstable = false;
 };
 
 struct Request {

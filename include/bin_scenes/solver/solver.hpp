@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,14 @@ struct ContactForce {
   int a = 0, b = -1;   ///< bodies; b is -1 for the bin
   Vec3 point, normal;  ///< from a to b
   Vec3 force;          ///< N, on b with friction; on a acts its opposite
+};
+
+/// The worst that contacts did over some time, by the solver's own depths.
+struct WorstContact {
+  int a = -1, b = -1;                    ///< bodies of the deepest contact; b is -1 for the bin
+  double depth = 0.0, relative = 0.0;    ///< m; depth / diagonal of the smaller part, by which it is the deepest
+  double ago = 0.0;                      ///< s of simulated time since then
+  std::uint64_t unresolved_impacts = 0;  ///< WorstReport::unresolved_impacts
 };
 
 using WorldId = std::size_t;
@@ -154,6 +163,10 @@ class Solver {
 
   /// What pressed in the last step, or when the bodies fell asleep. Empty if the solver does not tell forces.
   virtual std::vector<ContactForce> contact_forces(WorldId /*world*/) const { return {}; }
+
+  /// The worst contact of all steps since this was last asked, or since the world was made. None if the solver does not
+  /// report depths.
+  virtual std::optional<WorstContact> take_worst_contact(WorldId /*world*/) { return std::nullopt; }
 
   /// Number of worlds that run faster side by side than one after the other.
   virtual std::size_t worlds_at_once() const { return 1; }

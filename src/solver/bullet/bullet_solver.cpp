@@ -66,6 +66,7 @@ class BulletSolver : public Solver {
   std::vector<BodyState> states(WorldId world) const override { return at(world).states(); }
   std::vector<bool> asleep(WorldId world) const override { return at(world).asleep(); }
   std::vector<ContactForce> contact_forces(WorldId world) const override { return at(world).contact_forces(); }
+  std::optional<WorstContact> take_worst_contact(WorldId world) override { return at(world).take_worst_contact(); }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId world) const override { return at(world).counters().steps; }
   const Profile& profile() const override { return profile_; }

@@ -65,7 +65,33 @@ void ContactSolver::configure(btContactSolverInfo& info) {
   info.m_splitImpulse = false;
 }
 
+/// Contacts are found where bodies are half-way through the step, which is taken back here.
+void ContactSolver::note_depth(const btPersistentManifold& manifold) {
+  const btCollisionObject* bodies[] = {manifold.getBody0(), manifold.getBody1()};
+  for (int p = 0; p < manifold.getNumContacts(); ++p) {
+    const btManifoldPoint& point = manifold.getContactPoint(p);
+    btScalar gap = point.getDistance(), diagonal = BT_LARGE_FLOAT;
+    btScalar sign = -1;
+    for (const btCollisionObject* body : bodies) {
+      const int index = body->getUserIndex2();
+      if (index >= 0) diagonal = std::min(diagonal, diagonals[static_cast<std::size_t>(index)]);
+      if (const auto* motion = static_cast<const Motion*>(body->getUserPointer())) {
+        const btVector3 arm = point.getPositionWorldOnB() - body->getWorldTransform().getOrigin();
+        gap += sign * point.m_normalWorldOnB.dot(motion->ahead_moved + motion->ahead_turned.cross(arm));
+      }
+      sign = 1;
+    }
+    if (-gap <= deepest.relative * diagonal) continue;
+    deepest.a = bodies[0]->getUserIndex2();
+    deepest.b = bodies[1]->getUserIndex2();
+    deepest.depth = -gap;
+    deepest.relative = -gap / diagonal;
+    deepest.time = clock;
+  }
+}
+
 void ContactSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+  for (int m = 0; m < count; ++m) note_depth(*manifolds[m]);
   // The tangents a point got when it was found stay its tangents (the flag keeps Bullet from choosing new ones), so
   // that the impulses along them mean the same in the next step. Both bodies are pushed at one and the same point,
   // half-way across the gap or overlap: a pair of friction forces along two lines would be a torque from nowhere.
@@ -96,8 +122,9 @@ btScalar ContactSolver::solveGroupCacheFriendlyIterations(btCollisionObject**, i
       bool more = true;
       for (int k = 0; k < sweeps || (more && k < most_sweeps); ++k)
         more = sweep(h, k == 0 ? first : others, k < sweeps);
+      return !more;
     };
-    sweep_until_shared(Sweep::first_push, Sweep::push);
+    deepest.unresolved_impacts += !sweep_until_shared(Sweep::first_push, Sweep::push);
     move(h);
     sweep_until_shared(Sweep::relax, Sweep::relax);
   }

@@ -44,6 +44,17 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
 
   std::uint64_t rows = 0;  ///< contacts solved since construction, a counter for the profile
 
+  /// Deepest contact of all steps, by the diagonals (units) of bodies, which are numbered by getUserIndex2().
+  struct Deepest {
+    int a = -1, b = -1;
+    btScalar depth = 0, relative = 0;  ///< units; / smaller diagonal
+    double time = 0;                   ///< s, by `clock`
+    std::uint64_t unresolved_impacts = 0;
+  };
+  std::vector<btScalar> diagonals;
+  double clock = 0;  ///< s simulated, kept by the world
+  Deepest deepest;
+
  protected:
   void convertContacts(btPersistentManifold * *manifolds, int count, const btContactSolverInfo& info) override;
   btScalar solveGroupCacheFriendlyIterations(
@@ -72,6 +83,7 @@ ATTRIBUTE_ALIGNED16(class) ContactSolver : public btSequentialImpulseConstraintS
   /// Pushing lets overlap out; relaxing takes back the velocity that this left.
   enum class Sweep { first_push, push, relax };
 
+  void note_depth(const btPersistentManifold& manifold);
   void begin();
   void forget_impacts(btScalar speed);
   void warm_start();

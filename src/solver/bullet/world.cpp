@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <utility>
 
 extern btScalar gContactBreakingThreshold;  // NOLINT: names of Bullet's
 extern btScalar gDeactivationTime;          // NOLINT
@@ -114,6 +115,7 @@ World::World(const WorldDef& def, const BulletSettings& settings, const ShapeSou
     body->def = &body_def;
     body->shape = shapes(def_.parts[body_def.part], scale_);
     body->motion.inertia = body->shape->inertia * body_def.mass;
+    contact_solver_.diagonals.push_back(static_cast<btScalar>(def_.parts[body_def.part]->diagonal() * scale_));
     body->last.pose.position = unset;
     bodies_.push_back(std::move(body));
   }
@@ -287,6 +289,7 @@ void World::step(double seconds) {
     const bool turns = frame_.turns();
     if (turns) turn_with_bin(seconds / n);
     if (turns) spin_with_bin(0.5 * seconds / n);
+    contact_solver_.clock += seconds / n;
     world_.stepSimulation(seconds / n, 0);
     if (turns) spin_with_bin(0.5 * seconds / n);
     if (by_touch_) wake_touched();
@@ -351,6 +354,13 @@ std::vector<ContactForce> World::contact_forces() const {
     }
   }
   return forces;
+}
+
+WorstContact World::take_worst_contact() {
+  const ContactSolver::Deepest d = std::exchange(contact_solver_.deepest, {});
+  WorstContact worst{d.a, d.b, d.depth / scale_, d.relative, contact_solver_.clock - d.time, d.unresolved_impacts};
+  if (worst.a < 0) std::swap(worst.a, worst.b);
+  return worst;
 }
 
 std::vector<Flag> World::flags() const {

@@ -40,6 +40,7 @@ class World {
   std::vector<BodyState> states() const;
   std::vector<bool> asleep() const;
   std::vector<ContactForce> contact_forces() const;
+  WorstContact take_worst_contact();
   /// Sums over steps, for the profile.
   struct Counters {
     std::uint64_t steps = 0, free_falls = 0, asleep = 0, pairs = 0, contacts = 0;

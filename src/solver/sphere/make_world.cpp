@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace bin_scenes::sphere {
 
@@ -203,6 +204,12 @@ std::vector<ContactForce> forces_of(const World& world, std::size_t bodies) {
     }
   }
   return forces;
+}
+
+WorstContact take_worst_contact(World& world, std::size_t bodies) {
+  const auto named = [&](std::uint32_t body) { return body < bodies ? static_cast<int>(body) : -1; };
+  const DeepestContact d = std::exchange(world.deepest, {});
+  return {named(d.a), named(d.b), d.depth, d.relative, world.clock - d.time, d.unresolved_impacts};
 }
 
 }  // namespace bin_scenes::sphere

@@ -42,4 +42,7 @@ BodyState state_of(const World& world, std::size_t body);
 /// Of the last step. `bodies`: of the caller; what stands behind them is the bin.
 std::vector<ContactForce> forces_of(const World& world, std::size_t bodies);
 
+/// Of all steps since it was last taken. `bodies`: as above.
+WorstContact take_worst_contact(World& world, std::size_t bodies);
+
 }  // namespace bin_scenes::sphere

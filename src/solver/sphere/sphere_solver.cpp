@@ -136,6 +136,10 @@ class SphereSolver final : public Solver {
     return forces_of(slot_of(id).world, slot_of(id).bodies);
   }
 
+  std::optional<WorstContact> take_worst_contact(WorldId id) override {
+    return sphere::take_worst_contact(slot_of(id).world, slot_of(id).bodies);
+  }
+
   std::size_t worlds_at_once() const override { return tbb::this_task_arena::max_concurrency(); }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return slot_of(id).world.counters.steps; }

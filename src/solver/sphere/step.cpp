@@ -20,6 +20,7 @@ void timed(void (*pass)(World&), World& world, double& ms) {
 
 void step(World& world) {
   ++world.counters.steps;
+  world.clock += world.settings.time_step;
   bool any_moves = false;
   for (const Body& b : world.bodies) {
     any_moves |= b.moves();
@@ -31,6 +32,7 @@ void step(World& world) {
   timed(find_contacts, world, spent.find_contacts);
   timed(color_manifolds, world, spent.color_manifolds);
   timed(solve, world, spent.solve);
+  note_depths(world);
   timed(update_sleep, world, spent.update_sleep);
   if (world.cold_steps > 0) --world.cold_steps;
   world.forgets = false;

@@ -143,6 +143,7 @@ struct Manifold {
   Vec3f found_x = Vec3f::Zero();
   Quatf found_q = Quatf::Identity();
   bool found = false;
+  float depth = 0;                ///< m: deepest of its contacts when the step began, if it is solved in this step
   std::vector<Contact> contacts;  ///< at most max_contacts; carrying a manifold over moves only the vector's handle
 };
 
@@ -182,6 +183,14 @@ struct Counters {
   }
 };
 
+/// What Solver::take_worst_contact() reports. A manifold's depth is that at the beginning of a step.
+struct DeepestContact {
+  std::uint32_t a = ground, b = ground;
+  float depth = 0, relative = 0;  ///< m; / diagonal of the smaller part
+  double time = 0;                ///< s, by World::clock
+  std::uint64_t unresolved_impacts = 0;
+};
+
 /// Wall time of each pass (ms), for the profile only.
 struct Spent {
   double find_pairs = 0, find_contacts = 0, color_manifolds = 0, solve = 0, update_sleep = 0;
@@ -215,6 +224,8 @@ struct World {
   std::vector<std::uint32_t> order;           ///< manifolds with contacts to solve, by color, most contacts first
   Counters counters;
   Spent spent;
+  double clock = 0;        ///< s simulated
+  DeepestContact deepest;  ///< since the solver was last asked
 
   const Softness& softness() const { return settings.softness(stiffness); }
   /// Soft contacts sag with the square of the layers above them and stiffen with the square of the sub-steps; therefore
@@ -251,6 +262,8 @@ void find_contacts(World& world);    ///< samples against fields, contact reduct
 void color_manifolds(World& world);  ///< no two manifolds of a color share a moving body
 void solve(World& world);            ///< sub-steps; moves the bodies
 void update_sleep(World& world);     ///< puts parts at rest to sleep
+
+void note_depths(World& world);  ///< of the manifolds that this step solves: World::deepest
 
 /// Bodies that are not fixed with contacts with this one, whether they press or not.
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body);

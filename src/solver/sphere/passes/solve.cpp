@@ -81,8 +81,9 @@ class ContactSolver {
   /// Returns whether it has changed a contact's speed by more than Settings::tolerance: another one has to share an
   /// impact.
   bool sweep(bool push, bool first);
-  /// Most sweeps while an impact is not shared.
-  int most_sweeps() const { return world_.impact_sweeps(impact_); }
+  /// `least` sweeps, and more while an impact is not shared.
+  void sweep_until_shared(bool push, int least);
+  std::uint64_t unresolved() const { return unresolved_; }  ///< sub-steps that left an impact unshared
   void hold_by_friction(bool holds) { friction_holds_ = holds; }
   void note_sliding();    ///< bodies that friction brakes
   void refresh_levers();  ///< of what is hit
@@ -145,7 +146,9 @@ class ContactSolver {
   const bool shares_impacts_;  ///< by further sweeps
   const float tolerance_;      ///< m/s
   bool friction_holds_ = true;
-  bool impact_ = false;  ///< some contact closes fast
+  bool impact_ = false;    ///< some contact closes fast
+  bool unshared_ = false;  ///< an impact is, in this sub-step
+  std::uint64_t unresolved_ = 0;
   std::vector<Motion>& motions_;
   std::vector<char>& free_;
   std::vector<char>& slides_;
@@ -289,6 +292,13 @@ bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool 
   return any(unconverged);
 }
 
+void ContactSolver::sweep_until_shared(bool push, int least) {
+  const int most = world_.impact_sweeps(impact_);
+  unshared_ = unshared_ && !push;
+  for (int i = 0; i < least || (unshared_ && i < most); ++i) unshared_ = sweep(push, i == 0);
+  unresolved_ += push && unshared_ && impact_ && most > 0;
+}
+
 void ContactSolver::refresh_levers() {
   for_each_bundle([&](Bundle& bundle) {
     if (any(bundle.refreshed)) sphere::refresh_levers(world_, motions_, bundle, rows_);
@@ -357,20 +367,22 @@ void solve_block(ContactSolver& solver, const StepPlan& plan) {
     solver.accelerate();
     stop_if_cancelled();
     solver.warm_start();
-    bool impact = false;  // is not shared yet
-    for (int i = 0; i < plan.sweeps || (impact && i < solver.most_sweeps()); ++i) impact = solver.sweep(true, i == 0);
+    solver.sweep_until_shared(true, plan.sweeps);
     solver.note_sliding();
     solver.move();
     solver.refresh_levers();
-    for (int i = 0; i < plan.relaxing_sweeps || (impact && i < solver.most_sweeps()); ++i)
-      impact = solver.sweep(false, i == 0);
+    solver.sweep_until_shared(false, plan.relaxing_sweeps);
   }
   solver.restitute();
   solver.finish();
 }
 
-/// Returns how many bodies nothing was near.
-std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block) {
+/// Sums over blocks.
+struct Counts {
+  std::atomic<std::uint64_t> falling{0}, unresolved{0};
+};
+
+void solve_block(World& world, const Blocks& blocks, std::size_t block, Counts& counts) {
   static thread_local Scratch scratch;
   Team team;
   ContactSolver solver(world, blocks, block, scratch, team);
@@ -378,7 +390,8 @@ std::uint64_t solve_block(World& world, const Blocks& blocks, std::size_t block)
   tbb::this_task_arena::isolate([&] {
     team.run(large ? tbb::this_task_arena::max_concurrency() - 1 : 0, [&] { solve_block(solver, world.plan()); });
   });
-  return solver.falling();
+  counts.falling += solver.falling();
+  counts.unresolved += solver.unresolved();
 }
 
 }  // namespace
@@ -388,9 +401,10 @@ void solve(World& world) {
   Blocks& blocks = kept;            // of this thread, in whatever thread a block is solved
   BIN_SCENES_ASSERT(colors_share_no_body(world));
   blocks.make(world);
-  std::atomic<std::uint64_t> falling{0};
-  for_each_in_parallel(blocks.count(), [&](std::size_t block) { falling += solve_block(world, blocks, block); });
-  world.counters.free_steps += falling;
+  Counts counts;
+  for_each_in_parallel(blocks.count(), [&](std::size_t block) { solve_block(world, blocks, block, counts); });
+  world.counters.free_steps += counts.falling;
+  world.deepest.unresolved_impacts += counts.unresolved;
   BIN_SCENES_ASSERT(orientations_are_unit(world));
 }
 

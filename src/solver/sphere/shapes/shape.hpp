@@ -14,6 +14,7 @@ struct Shape {
   Vec3f box_center = Vec3f::Zero();  ///< of the bounding box, body frame
   Vec3f box_half = Vec3f::Zero();
   float radius = 0;     ///< largest node distance from the centre of mass
+  float diagonal = 0;   ///< m, of the model's bounding box
   float size = 0;       ///< m that lengths at contacts follow from: the diagonal, at most 50 thicknesses
   float thickness = 0;  ///< 2 volume / area: of a sheet, and less than the width of anything thicker
   float wall = 0;       ///< m: of a slender rod its wall_thickness(), up to twice `thickness`; else `thickness`
