@@ -244,7 +244,15 @@ void HeapCore::advance() {
   const Stage before = settling_.stage();
   if (!settling_.advance(*this, time_) || settling_.done()) return;
   set_solver_phase();
+  if (settling_.stage() == Stage::recheck) wake(unverified());
   poured_ = before == Stage::pour;
+}
+
+std::vector<bool> HeapCore::unverified() const {
+  std::vector<bool> bodies(states_.size());
+  for (std::size_t b = 0; b < states_.size(); ++b)
+    bodies[b] = moves(b) && rest_.still(b, time_) < settling_.checked_s();
+  return bodies;
 }
 
 void HeapCore::change_world() {
@@ -303,6 +311,7 @@ Scene HeapCore::scene() {
   scene.sensors = plan_->request.sensors;
   Report& report = scene.report;
   report.at_rest = true;
+  const std::vector<bool> unstable = settling_.gave_up() ? unverified() : std::vector<bool>(states_.size(), false);
   for (std::size_t b = 0; b < states_.size(); ++b) {
     ScenePart part;
     part.id = static_cast<int>(b);
@@ -312,6 +321,7 @@ Scene HeapCore::scene() {
     part.velocity = states_[b].velocity;
     part.state = state_of(b);
     if (part.state == PartState::moving) report.at_rest = false;
+    if (unstable[b]) report.unstable.push_back(part.id);
     if (part.state == PartState::escaped) report.escaped.push_back(part.id);
     if (part.state == PartState::not_poured) report.not_poured.push_back(part.id);
     scene.parts.push_back(std::move(part));

@@ -9,13 +9,14 @@ namespace {
 using Finish = Pour::Finish;
 
 constexpr double calm_share = 0.4;  ///< part of the rest window after which parts that have not moved are calm
-constexpr double jolt = 0.02;     ///< s at the start of a check in which its forces are found and parts shift a little
-constexpr double creep = 1.0;     ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
-constexpr double patience = 2.0;  ///< s: time-out of stages whose stiff contacts damp rocking poorly
-constexpr int most_checks = 12;   ///< a heap that still moves in the last one is accepted as it lies
-// Parts that may move in a check: max(0, n / 50 - 2), 1 of 150.
+constexpr double jolt = 0.02;      ///< s at the start of a check in which its forces are found and parts shift a little
+constexpr double creep = 1.0;      ///< s of a probe, time-out for slow tipping; it ends sooner when all parts sleep
+constexpr double patience = 2.0;   ///< s: time-out of stages whose stiff contacts damp rocking poorly
+constexpr int most_checks = 12;    ///< of the whole heap; those that still move in the last one are rechecked
+constexpr int most_rechecks = 8;   ///< who still moves in the last one is unstable
+constexpr double last_call = 6.0;  ///< s after the pour: few parts that still move then are not waited for any longer
+// Parts that may move in a check without it being repeated for the whole heap, at most n / 50: 3 of 150.
 constexpr double tolerated_share = 0.02;
-constexpr double tolerated_less = 2.0;
 
 }  // namespace
 
@@ -25,17 +26,31 @@ struct Settling::Seen {
   double calm_s;      ///< s: time after which parts that stayed are calm
   double in_stage;    ///< s
   double last_stage;  ///< s: the same at the last observation
-  int checks;
+  int checks, rechecks;
+  double since_pour;  ///< s
 
   bool all_in() const { return heap.all_in() && heap.all_slow(); }
   bool rest() const { return heap.all_in() && heap.all_rest(); }
   bool calm() const { return heap.still_for_less_than(calm_s) == 0; }
   bool fast() const { return !heap.all_slow(); }
-  /// More moving parts than tolerated. Those that moved have not been verified where they lie now.
   bool too_many(std::size_t parts) const {
-    return parts > std::max(0.0, tolerated_share * static_cast<double>(heap.count()) - tolerated_less);
+    return static_cast<double>(parts) > tolerated_share * static_cast<double>(heap.count());
   }
-  bool moved() const { return calm() && too_many(heap.still_for_less_than(in_stage - jolt)) && checks < most_checks; }
+  /// Parts that moved in this check have not been verified where they lie now.
+  std::size_t unverified() const { return heap.still_for_less_than(in_stage - jolt); }
+  bool moved() const { return calm() && too_many(unverified()) && checks < most_checks; }
+  /// Parts have had time to show that they move. Rest alone does not say so: its window reaches back into the stage
+  /// before, so that a verification would end at its first observation.
+  bool shown() const { return rest() && (in_stage >= heap.rest_window() || heap.all_asleep()); }
+  bool verified() const { return shown() && unverified() == 0; }
+  bool verifiable() const { return shown() && rechecks < most_rechecks; }
+  /// All but a few parts rest.
+  bool nearly() const {
+    const std::size_t moving = heap.still_for_less_than(heap.rest_window());
+    return moving <= 1 || !too_many(moving);
+  }
+  /// The last parts rock or turn on and on.
+  bool late() const { return since_pour > last_call && !calm() && nearly(); }
   bool stood() const { return calm() && heap.all_rest(); }
   /// A part that tips or falls is waited for. On soft contacts the whole heap would sag again, and others fall as it is
   /// pressed: of hundreds there is always one.
@@ -58,6 +73,10 @@ const Settling::Transition Settling::transitions[] = {
     // clang-format off
     // from           asked for                            when                                            to
     {Stage::pour,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.all_in(); },       Stage::settle},
+    {Stage::settle, Finish::settled, Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
+    {Stage::press,  Finish::settled, Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
+    {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
+    {Stage::verify, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.late(); },         Stage::done},
     {Stage::settle, Finish::settled, Finish::settled, [](const Seen& s) { return s.rest(); },         Stage::done},
     {Stage::settle, Finish::pressed, Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::press},
     {Stage::press,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.calm(); },         Stage::probe},
@@ -68,8 +87,15 @@ const Settling::Transition Settling::transitions[] = {
      [](const Seen& s) { return s.stood() && (s.in_stage >= creep || s.heap.all_asleep()); },         Stage::verify},
     {Stage::probe,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.moved(); },        Stage::verify},
-    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
+    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verified(); },     Stage::done},
+    {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.shown(); },        Stage::recheck},
     {Stage::verify,  Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
+    {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verified(); },     Stage::done},
+    {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.verifiable(); },   Stage::recheck},
+    {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.shown(); },        Stage::done},
+    {Stage::recheck, Finish::probed,  Finish::probed,
+     [](const Seen& s) { return s.in_stage > patience && !s.calm() && s.nearly(); },                  Stage::done},
+    {Stage::recheck, Finish::probed,  Finish::probed,  [](const Seen& s) { return s.rocks(); },        Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.fast(); },         Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.stirs(); },        Stage::settle},
     {Stage::hold,   Finish::settled, Finish::probed,  [](const Seen& s) { return s.rest(); },         Stage::done},
@@ -79,9 +105,16 @@ const Settling::Transition Settling::transitions[] = {
     // clang-format on
 };
 
+void Settling::start_clock() {
+  poured_ -= advanced_;
+  begun_ = advanced_ = 0.0;
+}
+
 void Settling::start(Stage stage) {
   if (stage != Stage::repair) friction_ = 1.0;
-  checks_ = 0;
+  checks_ = rechecks_ = 0;
+  poured_ = checked_s_ = 0.0;
+  gave_up_ = false;
   enter(stage, 0.0);
   advanced_ = 0.0;
 }
@@ -89,18 +122,23 @@ void Settling::start(Stage stage) {
 void Settling::enter(Stage stage, double time) {
   last_ = stage_;
   stage_ = stage;
+  if (last_ == Stage::pour) poured_ = time;
   begun_ = time;
   if (done()) return;
   friction_ = std::min(friction_, row(stage_).phase.friction);
   checks_ += stage == Stage::probe || stage == Stage::verify;
+  rechecks_ = stage == Stage::recheck ? rechecks_ + 1 : 0;
 }
 
 bool Settling::advance(const HeapView& heap, double time) {
   if (done()) return false;
-  const Seen seen{heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_};
+  const Seen seen{heap,          calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_,
+                  time - poured_};
   advanced_ = time;
   for (const Transition& t : transitions) {
     if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
+    checked_s_ = seen.in_stage - jolt;
+    gave_up_ = t.from == Stage::recheck && t.to == Stage::done && !seen.verified();
     enter(t.to, time);
     return true;
   }
@@ -119,6 +157,7 @@ const char* Settling::finish() const {
     case Stage::settle:
       return name_of(Finish::settled);
     case Stage::verify:
+    case Stage::recheck:
       return name_of(Finish::probed);
     default:
       return name_of(ignored_ ? Finish::settled : Finish::pressed);

@@ -1,8 +1,11 @@
 /// Settling of a heap as data: the phase of the solver in each stage, and the transitions between stages.
 ///
-///     pour ─► settle ─► press ─► probe ─► verify ─► done     a stage in which parts rock on goes back to settle;
-///                └─ settled ┘ pressed ┘     probed ┘         given poses start in hold, a heap from which parts were
-///                                                           taken out starts in repair
+///     pour ─► settle ─► press ─► probe ─► verify ─► recheck ─► done    a stage in which parts rock on goes back to
+///                └─ settled ┘ pressed ┘     probed ┘                   settle; given poses start in hold, a heap from
+///                                                                      which parts were taken out starts in repair
+///
+/// A check is a probe, verify or recheck. If many parts move in one, it is repeated for the whole heap. If a few do,
+/// these are checked again alone, until they stand or have had their chances: then they are named as unstable.
 #pragma once
 
 #include "bin_scenes/solver/solver.hpp"
@@ -11,7 +14,7 @@
 
 namespace bin_scenes {
 
-enum class Stage { pour, settle, press, probe, verify, hold, repair, done };
+enum class Stage { pour, settle, press, probe, verify, recheck, hold, repair, done };
 
 struct StageRow {
   Stage stage;
@@ -36,6 +39,8 @@ inline constexpr Phase press{       true,  Stiffness::stiff, 1.0,       false,  
 inline constexpr Phase probe{       true,  Stiffness::rigid, 0.9,       true,     Sleep::by_part,   false};
 /// Pressed again without remembered forces, as when this solver continues from the poses.
 inline constexpr Phase verify{      true,  Stiffness::stiff, 0.9,       true,     Sleep::by_island, false};
+/// The few parts that moved in the last check are checked again, as in verify. All others sleep until one of these goes.
+inline constexpr Phase recheck{     true,  Stiffness::stiff, 0.9,       true,     Sleep::by_touch,  true};
 /// A heap given at rest continues on stiff contacts: softer or coarser ones would let it sink.
 inline constexpr Phase hold = press;
 /// Parts were removed: all others sleep, except those that touched them and those that these wake in turn.
@@ -44,11 +49,12 @@ inline constexpr Phase repair{      true,  Stiffness::stiff, 1.0,       false,  
 
 }  // namespace phases
 
-inline constexpr std::array<StageRow, 7> stage_rows{{{Stage::pour, "pour", phases::pour},
+inline constexpr std::array<StageRow, 8> stage_rows{{{Stage::pour, "pour", phases::pour},
                                                      {Stage::settle, "settle", phases::settle},
                                                      {Stage::press, "press", phases::press},
                                                      {Stage::probe, "probe", phases::probe},
                                                      {Stage::verify, "verify", phases::verify},
+                                                     {Stage::recheck, "recheck", phases::recheck},
                                                      {Stage::hold, "hold", phases::hold},
                                                      {Stage::repair, "repair", phases::repair}}};
 
@@ -79,7 +85,7 @@ class Settling {
   /// For a solver that has no stages: it is done when it has settled.
   void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
   /// The current stage goes on, and its clock starts again at 0.
-  void start_clock() { begun_ = advanced_ = 0.0; }
+  void start_clock();
   /// Applies the transitions at `time` (s since the start). Returns whether a stage began, the same one or another.
   bool advance(const HeapView& heap, double time);
 
@@ -87,6 +93,10 @@ class Settling {
   /// The solver's phase in this stage. Friction that was reduced once stays reduced to the end.
   Phase phase() const;
   bool done() const { return stage_ == Stage::done; }
+  /// Parts that moved within so many seconds before the last transition moved in the check that it ended.
+  double checked_s() const { return checked_s_; }
+  /// Whether parts that moved in the last check were not checked again.
+  bool gave_up() const { return gave_up_; }
   /// How far it has come: "settled", "pressed", "probed", or "none" before it is done.
   const char* finish() const;
 
@@ -102,7 +112,11 @@ class Settling {
   double begun_ = 0.0;                              ///< s: start of the stage
   double advanced_ = 0.0;                           ///< s: the last advance()
   int checks_ = 0;                                  ///< times that probe or verify began
-  double friction_ = 1.0;                           ///< share of friction that holds; never rises again
+  int rechecks_ = 0;                                ///< times that recheck began since the last of these
+  double poured_ = 0.0;                             ///< s: end of the pour
+  double checked_s_ = 0.0;
+  bool gave_up_ = false;
+  double friction_ = 1.0;  ///< share of friction that holds; never rises again
 };
 
 }  // namespace bin_scenes

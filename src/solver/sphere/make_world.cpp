@@ -165,8 +165,8 @@ bool take_phase(World& world, const Phase& phase) {
 void set_phase(World& world, const Phase& phase) {
   const bool fine = world.fine;
   if (!take_phase(world, phase)) return;
-  if (fine != world.fine)
-    for (Manifold& m : world.manifolds) m.found = false;  // node numbers mean other points now
+  if (fine != world.fine || phase.forgets)  // node numbers mean other points now, or nothing is to be remembered
+    for (Manifold& m : world.manifolds) m.found = false;
   for (Body& b : world.bodies) {
     if (phase.begins_asleep)
       put_to_sleep(world.settings, b);
