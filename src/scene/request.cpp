@@ -49,13 +49,15 @@ void apply(SolverSettings::Preset preset, Request& request) {
   if (preset != SolverSettings::Preset::quick) return;
   request.pour.finish = Pour::Finish::settled;
   request.pour.drop_height = 0.005;
+  request.accept.penetration = 0.015;
+  request.accept.worst_penetration = 0.1;
   SphereSettings& sphere = request.solver.sphere;
   sphere.time_step = 1.0 / 120.0;
   sphere.step_fall = 7.5e-3;
   sphere.sub_steps = 1;
   sphere.recycle = 5e-3;
   sphere.coarse_samples = 60;
-  sphere.fine_samples = 0;
+  sphere.fine_samples = 100;
   sphere.field_cell = 0.02;
 }
 
