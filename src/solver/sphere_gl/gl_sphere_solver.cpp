@@ -121,7 +121,7 @@ class GlSphereSolver final : public Solver {
     Resident& r = world(id);
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
-    if (r.world.fine != fine) r.progress.refresh = 1;  // node numbers mean other points now
+    if (r.world.fine != fine || phase.forgets) r.progress.refresh = 1;  // as set_phase() in make_world.cpp
     tell(r);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
       if (phase.begins_asleep)
