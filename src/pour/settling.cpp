@@ -1,3 +1,4 @@
+/// The table of transitions between stages, and what an observation of the heap says for them.
 #include "pour/settling.hpp"
 
 #include <algorithm>

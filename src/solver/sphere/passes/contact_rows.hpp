@@ -29,6 +29,14 @@ struct alignas(64) Motion {
   float inverse_mass() const { return v[3]; }
 };
 
+inline Quad padded(const Vec3f& v, float fourth = 0) {
+  return Quad{v.x(), v.y(), v.z(), fourth};
+}
+
+inline Vec3f vector_of(Quad q) {
+  return {q[0], q[1], q[2]};
+}
+
 /// The k-th contact of each manifold of a bundle. A lane whose manifold has no such contact is all zeros, and does
 /// nothing.
 struct ContactRows {
@@ -160,6 +168,17 @@ inline void store(const Velocities& velocities, const Bundle& bundle, std::vecto
 struct Color {
   std::uint32_t first, last;
   bool in_turn;
+};
+
+/// What the solve of a block works on. Kept for its memory alone.
+struct Scratch {
+  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of what does not move: make_bundles
+  std::vector<char> free;       ///< bodies that nothing is near
+  std::vector<char> slides;     ///< bodies with a contact that slips; and behind them what does not move
+  std::vector<float> speeds;    ///< of bodies when the sub-step begins (m/s), turns counted at their radius
+  std::vector<Bundle> bundles;  ///< in order of color
+  std::vector<Color> colors;
+  std::vector<ContactRows> rows;
 };
 
 /// Bundles that one thread takes at once. Even, so that paired ones stay together.

@@ -25,25 +25,6 @@ namespace {
 
 constexpr std::size_t manifolds_for_a_team = 1000;  ///< fewer = helpers wait longer than they work
 
-Quad padded(const Vec3f& v, float fourth = 0) {
-  return Quad{v.x(), v.y(), v.z(), fourth};
-}
-
-Vec3f vector_of(Quad q) {
-  return {q[0], q[1], q[2]};
-}
-
-/// What the solve of a block works on. Kept for its memory alone.
-struct Scratch {
-  std::vector<Motion> motions;  ///< of the block's bodies, and behind them of what does not move: make_bundles
-  std::vector<char> free;       ///< bodies that nothing is near
-  std::vector<char> slides;     ///< bodies with a contact that slips; and behind them what does not move
-  std::vector<float> speeds;    ///< of bodies when the sub-step begins (m/s), turns counted at their radius
-  std::vector<Bundle> bundles;  ///< in order of color
-  std::vector<Color> colors;
-  std::vector<ContactRows> rows;
-};
-
 /// The solve of one step of a block. Bodies that sleep or are fixed take part as if nothing could move them.
 class ContactSolver {
  public:
