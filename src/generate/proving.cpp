@@ -4,10 +4,13 @@
 
 namespace bin_scenes {
 
-std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count) {
+std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count, bool all) {
+  using Obstacle = SceneGrasp::Obstacle;
   std::vector<std::size_t> free;
-  for (std::size_t i = 0; i < grasps.size(); ++i)
-    if (grasps[i].free()) free.push_back(i);
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const Obstacle obstacle = grasps[i].obstacle;
+    if (grasps[i].free() || (all && (obstacle == Obstacle::blocked || obstacle == Obstacle::slips))) free.push_back(i);
+  }
   std::stable_sort(free.begin(), free.end(),
                    [&](std::size_t a, std::size_t b) { return grasps[a].score > grasps[b].score; });
   if (free.size() <= count) return free;
@@ -17,7 +20,7 @@ std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasp
 }
 
 void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& loaded, Prover& prover) {
-  const std::vector<std::size_t> chosen = spread_over_scores(grasps.grasps, loaded.request.prove);
+  const std::vector<std::size_t> chosen = spread_over_scores(grasps.grasps, loaded.request.prove, loaded.request.prove_all);
   std::vector<Trial> trials;
   for (const std::size_t i : chosen) {
     const SceneGrasp& grasp = grasps.grasps[i];

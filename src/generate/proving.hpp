@@ -11,7 +11,7 @@
 namespace bin_scenes {
 
 /// Places in `grasps` of up to `count` free ones, the best first, at even ranks from the best to the worst.
-std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count);
+std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count, bool all = false);
 
 /// Fills in SceneGrasp::proof of those that the request asks for.
 void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& loaded, Prover& prover);

@@ -1,7 +1,8 @@
 /// Two pads hold a force and a moment about the closing axis together by an ellipsoid (Howe & Cutkosky 1996, "Practical
-/// force-motion models for sliding manipulation"). A moment across that axis, of a weight beside the pads, they hold by
-/// pressing off their middles and by friction. A cup is torn off when force and tilting moment lift one side of its
-/// ring, and slides when friction of the ring gives way (Mahler et al. 2018, "Dex-Net 3.0", equations of its model).
+/// force-motion models for sliding manipulation"). They hold a moment across that axis, as of a weight beside the pads,
+/// by pressing away from their centres and by friction. A cup is torn off when force and tilting moment lift one side
+/// of its ring, and slides when friction of the ring gives way (Mahler et al. 2018, "Dex-Net 3.0", equations of its
+/// model).
 #include "grasp/holding.hpp"
 
 #include <algorithm>
@@ -26,21 +27,21 @@ double arm_of(const Grasp& grasp, const Vec3& moment) {
   return farthest(grasp.second, along) + farthest(grasp.first, -along);
 }
 
+/// With a burden k times as large the pads need the coefficient slope + k * across + max(0, k * lever - arm) / width.
 Hold hold_between_pads(const Grasp& grasp, const Pose& pose, const Gripper& g, double friction, const Burden& burden) {
   Vec3 moment = pose.orientation.conjugate() * (burden.center - pose.position).cross(burden.weight);
-  // Both pads press with `force`; what they hold along the pads grows with the friction that the slope leaves.
-  const double needed = std::hypot(burden.pull, moment.x() / grasp.radius) / (2.0 * g.force);
-  const double left = std::max(0.0, friction - grasp.friction - needed);
+  const double twist = std::abs(moment.x()) / grasp.radius;  // about the closing axis
+  const double across = std::hypot(burden.pull, twist) / (2.0 * g.force);
   moment.x() = 0.0;
+  const bool turns = moment.norm() > 0.0;
+  const double lever = turns ? moment.norm() / g.force : 0.0, arm = turns ? arm_of(grasp, moment) : 0.0;
+  const double spare = friction - grasp.friction;
   Hold hold;
-  hold.friction = grasp.friction + needed;
-  hold.score =
-      std::max(0.0, 1.0 - grasp.friction / friction) * std::max(0.0, 1.0 - needed / (friction - grasp.friction));
-  if (!(moment.norm() > 0.0)) return hold;
-  // What the arm does not hold, friction does that pulls the one way at one pad and the other way at the other.
-  const double lever = moment.norm() / g.force, arm = arm_of(grasp, moment);
-  hold.friction += std::max(0.0, lever - arm) / grasp.width;
-  hold.score *= std::max(0.0, 1.0 - lever / (arm + left * grasp.width));
+  hold.friction = grasp.friction + across + std::max(0.0, lever - arm) / grasp.width;
+  hold.safety = spare / across;
+  if (hold.safety * lever > arm) hold.safety = (spare * grasp.width + arm) / (across * grasp.width + lever);
+  const double held = arm + std::max(0.0, spare - across) * grasp.width;
+  hold.moment = std::hypot(twist / (2.0 * g.force * std::max(spare, 1e-9)), turns ? lever / held : 0.0);
   return hold;
 }
 
@@ -51,19 +52,27 @@ Hold hold_by_cup(const Grasp& grasp, const Pose& pose, const Gripper& g, double 
   const double across = (force - force.dot(axis) * axis).norm();
   const Vec3 moment = (burden.center - pose.position).cross(burden.weight);
   const double tilting = (moment - moment.dot(axis) * axis).norm();
-  const double vacuum = g.force - g.stiffness * grasp.gap;  // the lip, pressed into its gap, pushes back
+  const double vacuum = vacuum_of(grasp, g);
   Hold hold;
-  const double torn = (along + tilting / grasp.radius) / vacuum;
-  if (!(vacuum > 0.0) || torn >= 1.0) {
-    hold.friction = never;
-    return hold;
-  }
+  hold.friction = never;
+  hold.moment = 1.0;
+  if (!(vacuum > 0.0)) return hold;
+  const double torn = (along + tilting / grasp.radius) / vacuum, slides = (across / friction + along) / vacuum;
+  hold.safety = 1.0 / std::max(torn, slides);
+  if (torn >= 1.0) return hold;
   hold.friction = across / (vacuum - along);
-  hold.score = (1.0 - grasp.gap / g.lip) * (1.0 - torn) * std::max(0.0, 1.0 - hold.friction / friction);
+  hold.moment = tilting / (grasp.radius * (vacuum - along));
   return hold;
 }
 
 }  // namespace
+
+double vacuum_of(const Grasp& grasp, const Gripper& gripper) {
+  // The flow through a slit grows with the cube of its height; with the widest gap that the lip closes, half of the
+  // vacuum is left. The lip, pressed into its gap, pushes back.
+  const double leak = grasp.gap / gripper.lip;
+  return gripper.force / (1.0 + leak * leak * leak) - gripper.stiffness * grasp.gap;
+}
 
 Hold hold_of(const Grasp& grasp, const Pose& pose, const Gripper& gripper, double friction, const Burden& burden) {
   return gripper.type == Gripper::Type::parallel ? hold_between_pads(grasp, pose, gripper, friction, burden)

@@ -5,20 +5,24 @@
 
 namespace bin_scenes {
 
-/// What it has to hold, bin frame.
+/// What a grasp has to hold, bin frame.
 struct Burden {
-  double pull;  ///< N against `up`: weight, load and friction
-  Vec3 weight;  ///< N
+  double pull;  ///< N against `up`: weight, inertia, load and friction
+  Vec3 weight;  ///< N: weight and inertia of the part
   Vec3 center;  ///< m: of mass
   Vec3 up;      ///< unit
 };
 
 struct Hold {
-  double score = 0.0;     ///< 0: it slips
+  double safety = 0.0;    ///< factor by which the burden could grow before the part slips; below 1: it slips
   double friction = 0.0;  ///< smallest coefficient that suffices; infinite: none does
+  double moment = 0.0;    ///< moment of the weight / moment that is held; 1 and more: not held
 };
 
 /// @param pose  of the gripper in the bin frame
 Hold hold_of(const Grasp& grasp, const Pose& pose, const Gripper& gripper, double friction, const Burden& burden);
+
+/// N, suction: what the vacuum holds with the gap that the grasp leaves.
+double vacuum_of(const Grasp& grasp, const Gripper& gripper);
 
 }  // namespace bin_scenes

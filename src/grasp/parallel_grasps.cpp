@@ -3,6 +3,7 @@
 #include "grasp/parallel_grasps.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
+#include "grasp/directions.hpp"
 #include "grasp/gripper_shape.hpp"
 #include "grasp/pad.hpp"
 #include "grasp/rays.hpp"
@@ -16,8 +17,6 @@ namespace bin_scenes {
 namespace {
 
 constexpr std::size_t points_tried = 700;
-constexpr int turns = 16;                ///< of the gripper about its closing axis
-constexpr double towards_tip = 0.3;      ///< of the pad's length: the pair lies in its middle, or so far from there
 constexpr double same_place = 1e-6;      ///< / diagonal: lengths of rounding
 constexpr double least_contact = 0.005;  ///< share of the pad
 
@@ -26,12 +25,8 @@ struct Pair {
   Vec3 near, far, axis;
 };
 
-/// The gripper's frame with closing axis x and a turn about it, measured from the part's principal axes.
-Pose pose_about(const Pair& pair, const Mat3& principal, double turn) {
-  int across = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(principal.col(i).dot(pair.axis)) < std::abs(principal.col(across).dot(pair.axis)) - 1e-9) across = i;
-  const Vec3 from = (principal.col(across) - principal.col(across).dot(pair.axis) * pair.axis).normalized();
+/// The gripper's frame with closing axis x, and z turned about it from a direction across it.
+Pose pose_about(const Pair& pair, const Vec3& from, double turn) {
   const Vec3 z = Eigen::AngleAxisd(turn, pair.axis) * from;
   Mat3 frame;
   frame << pair.axis, z.cross(pair.axis), z;
@@ -43,7 +38,7 @@ class PairFinder {
   PairFinder(const PartModel& part, const Gripper& gripper, double friction, GraspCounts& counts)
       : query_(part.query()),
         least_(same_place * part.diagonal()),
-        stroke_(gripper.travel()),
+        stroke_(gripper.widest()),
         cosine_(1.0 / std::sqrt(1.0 + friction * friction)),
         counts_(counts) {}
 
@@ -53,7 +48,6 @@ class PairFinder {
     for (const Passage& passage : passages(query_, start.point, -start.normal, least_)) {
       const Vec3 normal = normal_of(passage);
       if (normal.dot(start.normal) >= 0.0) continue;  // an entrance
-      ++counts_.tried;
       if (const auto pair = through(start, start.point - passage.distance * start.normal, normal))
         pairs.push_back(*pair);
     }
@@ -84,7 +78,7 @@ class PairFinder {
       ++counts_.friction;
       return std::nullopt;
     }
-    if ((far - start.point).norm() >= stroke_) {
+    if ((far - start.point).norm() > stroke_) {
       ++counts_.width;
       return std::nullopt;
     }
@@ -101,13 +95,6 @@ bool meets_part(const std::vector<Sweep>& sweeps, const MeshQuery& query, const 
   return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.meets(query, part); });
 }
 
-/// Whether the gripper meets the part itself as it comes or closes. The pads touch it, which is none.
-bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp) {
-  const double shrink = -10.0 * same_place * part.diagonal();
-  return meets_part(approach_sweeps(gripper, grasp.width, part.diagonal(), shrink), part.query(), grasp.pose) ||
-         meets_part(closing_sweeps(gripper, grasp.width, shrink), part.query(), grasp.pose);
-}
-
 /// Contact points of both pads in the gripper's frame, whose middle is between them.
 std::vector<Vec3> pad_contacts_of(const PadContact& right, const PadContact& left, double width) {
   std::vector<Vec3> points;
@@ -117,6 +104,12 @@ std::vector<Vec3> pad_contacts_of(const PadContact& right, const PadContact& lef
 }
 
 }  // namespace
+
+bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp) {
+  const double shrink = -10.0 * same_place * part.diagonal();
+  return meets_part(approach_sweeps(gripper, grasp.width, part.diagonal(), shrink), part.query(), grasp.pose) ||
+         meets_part(closing_sweeps(gripper, grasp.width, shrink), part.query(), grasp.pose);
+}
 
 std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
                                    double guess, GraspCounts& counts) {
@@ -151,7 +144,7 @@ std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper
                         right->lower.y() <= left->upper.y() && left->lower.y() <= right->upper.y();
   if (!opposite || grasp.share < least_contact) {
     ++counts.contact;
-  } else if (grasp.width >= gripper.travel()) {
+  } else if (grasp.width > gripper.widest()) {
     ++counts.width;
   } else if (grasp.friction > friction) {
     ++counts.friction;
@@ -170,30 +163,54 @@ std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper
   return std::nullopt;
 }
 
-std::vector<Grasp> parallel_grasps(const PartModel& part, const Gripper& gripper, double friction,
-                                   GraspCounts& counts) {
-  std::vector<Grasp> grasps;
-  const Mat3 principal = part.mass().principal_axes.toRotationMatrix();
+namespace {
+
+/// The pair in the pad's centre, or so much of the pad's length nearer to the tip; the last one only where nothing else
+/// goes, as over a floor with long pads.
+constexpr double depths[] = {0.0, 0.3, 0.42};
+
+/// Grasps of one pair of points from all sides.
+ClosingAxis turn_about(const Pair& pair, const PartModel& part, const Gripper& gripper, double friction,
+                       const Vec3& from, GraspCounts& counts, std::vector<Grasp>& grasps) {
+  ClosingAxis axis{pose_about(pair, from, 0.0), (pair.near - pair.far).norm(), 0};
+  for (int turn = 0; turn < ClosingAxis::turns; ++turn) {
+    const Pose centred = pose_about(pair, from, 2.0 * M_PI * turn / ClosingAxis::turns);
+    bool any = false;
+    for (const double depth : depths) {
+      if (depth == depths[2] && any) break;
+      ++counts.tried;
+      Pose pose = centred;
+      pose.position -= depth * gripper.pad_length * (pose.orientation * Vec3::UnitZ());
+      const auto grasp = close_fingers(part, gripper, friction, pose, axis.width, counts);
+      if (!grasp) continue;
+      if (goes_through(part, gripper, *grasp)) {
+        ++counts.collision;
+        continue;
+      }
+      ++counts.good;
+      any = true;
+      grasps.push_back(*grasp);
+    }
+    if (any) axis.approaches |= std::uint64_t{1} << turn;
+  }
+  return axis;
+}
+
+}  // namespace
+
+ParallelGrasps parallel_grasps(const PartModel& part, const Gripper& gripper, double friction,
+                               const std::vector<Vec3>& directions, GraspCounts& counts) {
+  ParallelGrasps found;
   const PairFinder finder(part, gripper, friction, counts);
   for (const SpreadPoint& start : spread_points(part.mesh(), points_tried)) {
     stop_if_cancelled();
     for (const Pair& pair : finder.from(start)) {
-      counts.tried += 2 * turns - 1;
-      for (int turn = 0; turn < 2 * turns; ++turn) {
-        Pose pose = pose_about(pair, principal, 2.0 * M_PI * (turn / 2) / turns);
-        if (turn % 2) pose.position -= towards_tip * gripper.pad_length * (pose.orientation * Vec3::UnitZ());
-        const auto grasp = close_fingers(part, gripper, friction, pose, (pair.near - pair.far).norm(), counts);
-        if (!grasp) continue;
-        if (goes_through(part, gripper, *grasp)) {
-          ++counts.collision;
-          continue;
-        }
-        ++counts.good;
-        grasps.push_back(*grasp);
-      }
+      const Vec3 from = direction_across(directions, pair.axis);
+      const ClosingAxis axis = turn_about(pair, part, gripper, friction, from, counts, found.grasps);
+      if (axis.approaches) found.axes.push_back(axis);
     }
   }
-  return grasps;
+  return found;
 }
 
 }  // namespace bin_scenes

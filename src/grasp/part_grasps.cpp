@@ -1,6 +1,7 @@
 /// Grasps of a part: tried densely, thinned by distance and by symmetries of the part, measured, cached.
 #include "bin_scenes/grasp/part_grasps.hpp"
 
+#include "grasp/directions.hpp"
 #include "grasp/parallel_grasps.hpp"
 #include "grasp/suction_grasps.hpp"
 #include "grasp/thinning.hpp"
@@ -12,11 +13,15 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 4;             ///< raise it whenever the way grasps are found changes
-constexpr double symmetry_limit = 1e-3;     ///< / diagonal: symmetries that a gripper cannot tell from exact ones
-constexpr double first_apart = 0.03;        ///< / diagonal: of thinning
-constexpr double first_angle = 0.3;         ///< rad
-constexpr std::size_t left_out_one_of = 8;  ///< for the measure of coverage
+constexpr int grasp_format = 5;              ///< raise it whenever the way grasps are found changes
+constexpr double symmetry_limit = 1e-3;      ///< / diagonal: symmetries that a gripper cannot tell from exact ones
+constexpr double first_apart = 0.03;         ///< / diagonal: of thinning
+constexpr double first_angle = 0.3;          ///< rad
+constexpr std::size_t left_out_one_of = 8;   ///< for the measure of coverage
+constexpr double covered_within = 3.0;       ///< times those distances: a pose that a placed grasp covers
+constexpr std::size_t most_grasps = 2000;    ///< that no symmetry makes alike
+constexpr std::size_t most_searched = 1500;  ///< closing axes, or places of a cup, for a scene's own search
+constexpr double axis_angle = 0.1;           ///< rad: of thinning of closing axes
 
 /// Smaller is better: what is needed of the friction there is, or of the lip, and the lever of the weight.
 double badness(const Grasp& grasp, const PartModel& part, const Gripper& gripper, double friction) {
@@ -31,24 +36,74 @@ std::vector<Pose> poses_of(const std::vector<Grasp>& grasps) {
   return poses;
 }
 
-void place(PartGrasps& found, const PoseMeasure& symmetric, const Gripper& gripper) {
+void place(PartGrasps& found, const PoseMeasure& symmetric, const PoseMeasure::Limits& limits, const Gripper& gripper) {
   std::vector<PartGrasps::Placed> all;
-  PoseMeasure::Limits limits{found.apart, found.apart_angle};
   for (std::size_t i = 0; i < found.grasps.size(); ++i)
     for (const Pose& pose : symmetric.images(found.grasps[i].pose, limits)) all.push_back({i, pose});
   std::vector<Pose> poses;
   for (const auto& placed : all) poses.push_back(placed.pose);
-  for (const std::size_t i : thin(poses, PoseMeasure({}, gripper.type), limits, gripper.most))
-    found.placed.push_back(all[i]);
+  const bool cup = gripper.type == Gripper::Type::suction;
+  const std::size_t count = std::max(gripper.most, cup ? most_searched : 0);
+  for (const std::size_t i : thin(poses, PoseMeasure({}, gripper.type), limits, count))
+    (found.placed.size() < gripper.most ? found.placed : found.spare).push_back(all[i]);
+}
+
+/// Each axis in all places to which symmetries bring it, a coarse cover of the part first.
+std::vector<ClosingAxis> spread_axes(std::vector<ClosingAxis> all, const PartModel& part,
+                                     const Symmetries& symmetries) {
+  const auto cost = [&](const ClosingAxis& axis) {
+    return (axis.pose.position - part.mass().center).norm() + 0.5 * axis.width;
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const ClosingAxis& a, const ClosingAxis& b) { return cost(a) < cost(b); });
+  // Measured like cups: turns about the axis do not matter.
+  const PoseMeasure symmetric(symmetries, Gripper::Type::suction), plain({}, Gripper::Type::suction);
+  const PoseMeasure::Limits limits{first_apart * part.diagonal(), axis_angle};
+  const Quat along_z(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitY()));  // z of the turned frame is x of the axis
+  std::vector<Pose> poses, places;
+  for (const ClosingAxis& axis : all) poses.push_back({axis.pose.position, axis.pose.orientation * along_z});
+  std::vector<std::size_t> of;
+  for (const std::size_t i : thin(poses, symmetric, limits, most_searched))
+    for (const Pose& image : symmetric.images(poses[i], limits)) {
+      places.push_back(image);
+      of.push_back(i);
+    }
+  std::vector<ClosingAxis> axes;
+  std::vector<Pose> kept;
+  for (const std::size_t i : thin(places, plain, limits, most_searched)) {
+    const Pose reversed{places[i].position, places[i].orientation * Quat(0.0, 1.0, 0.0, 0.0)};
+    const auto same = [&](const Pose& other) { return plain.near(other, reversed, limits); };
+    if (std::any_of(kept.begin(), kept.end(), same)) continue;  // both directions of an axis are one
+    kept.push_back(places[i]);
+    axes.push_back(all[of[i]]);
+    axes.back().pose = {places[i].position, (places[i].orientation * along_z.conjugate()).normalized()};
+  }
+  return axes;
+}
+
+double coverage_of(const PartGrasps& found, const std::vector<Pose>& left_out, const PoseMeasure& symmetric) {
+  const PoseMeasure::Limits limits{found.apart, found.apart_angle};
+  std::size_t covered = 0;
+  for (const Pose& pose : left_out)
+    covered += std::any_of(found.placed.begin(), found.placed.end(),
+                           [&](const PartGrasps::Placed& one) { return symmetric.near(one.pose, pose, limits); });
+  return static_cast<double>(covered) / static_cast<double>(left_out.size() + 2);
 }
 
 }  // namespace
 
 PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double friction) {
   PartGrasps found;
-  std::vector<Grasp> all = gripper.type == Gripper::Type::parallel
-                               ? parallel_grasps(part, gripper, friction, found.counts)
-                               : suction_grasps(part, gripper, found.counts);
+  const Symmetries symmetries = find_symmetries(part, symmetry_limit);
+  std::vector<Grasp> all;
+  if (gripper.type == Gripper::Type::parallel) {
+    ParallelGrasps parallel =
+        parallel_grasps(part, gripper, friction, shape_directions(part, symmetries), found.counts);
+    all = std::move(parallel.grasps);
+    found.axes = spread_axes(std::move(parallel.axes), part, symmetries);
+  } else {
+    all = suction_grasps(part, gripper, found.counts);
+  }
   std::vector<Pose> left_out;
   std::vector<Grasp> taken;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -61,17 +116,13 @@ PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double fri
   std::stable_sort(taken.begin(), taken.end(), [&](const Grasp& a, const Grasp& b) {
     return badness(a, part, gripper, friction) < badness(b, part, gripper, friction);
   });
-  const PoseMeasure symmetric(find_symmetries(part, symmetry_limit), gripper.type);
-  PoseMeasure::Limits limits{first_apart * part.diagonal(), first_angle};
-  for (const std::size_t i : thin(poses_of(taken), symmetric, limits, gripper.most)) found.grasps.push_back(taken[i]);
-  found.apart = limits.apart;
-  found.apart_angle = limits.angle;
-  const std::vector<Pose> kept = poses_of(found.grasps);
-  std::size_t covered = 0;
-  for (const Pose& pose : left_out)
-    covered += std::any_of(kept.begin(), kept.end(), [&](const Pose& k) { return symmetric.near(k, pose, limits); });
-  found.coverage = left_out.empty() ? 0.0 : static_cast<double>(covered) / static_cast<double>(left_out.size());
-  place(found, symmetric, gripper);
+  const PoseMeasure symmetric(symmetries, gripper.type);
+  const PoseMeasure::Limits limits{first_apart * part.diagonal(), first_angle};
+  for (const std::size_t i : thin(poses_of(taken), symmetric, limits, most_grasps)) found.grasps.push_back(taken[i]);
+  place(found, symmetric, limits, gripper);
+  found.apart = covered_within * limits.apart;
+  found.apart_angle = covered_within * limits.angle;
+  found.coverage = coverage_of(found, left_out, symmetric);
   return found;
 }
 
@@ -89,10 +140,28 @@ void get(ByteReader& in, Pose& pose) {
 constexpr std::size_t GraspCounts::*all_counts[] = {&GraspCounts::tried,   &GraspCounts::width, &GraspCounts::friction,
                                                     &GraspCounts::contact, &GraspCounts::seal,  &GraspCounts::collision,
                                                     &GraspCounts::good};
-constexpr double Grasp::*all_numbers[] = {&Grasp::width,  &Grasp::share, &Grasp::friction,
-                                          &Grasp::radius, &Grasp::lever, &Grasp::gap};
-constexpr std::size_t grasp_bytes = 25 * sizeof(double) + sizeof(std::uint64_t);
+constexpr double Grasp::*all_numbers[] = {&Grasp::width, &Grasp::share, &Grasp::friction, &Grasp::radius,
+                                          &Grasp::lever, &Grasp::gap,   &Grasp::margin};
+constexpr std::size_t grasp_bytes = 26 * sizeof(double) + sizeof(std::uint64_t);
 constexpr std::size_t placed_bytes = 7 * sizeof(double) + sizeof(std::uint64_t);
+
+void put(ByteWriter& out, const std::vector<PartGrasps::Placed>& all) {
+  out.put(static_cast<std::uint64_t>(all.size()));
+  for (const auto& placed : all) {
+    out.put(static_cast<std::uint64_t>(placed.of));
+    put(out, placed.pose);
+  }
+}
+
+void get(ByteReader& in, std::vector<PartGrasps::Placed>& all, std::size_t grasps) {
+  all.resize(in.count(placed_bytes));
+  for (auto& placed : all) {
+    std::uint64_t of = 0;
+    in.get(of);
+    placed.of = std::min<std::size_t>(of, grasps == 0 ? 0 : grasps - 1);
+    get(in, placed.pose);
+  }
+}
 
 }  // namespace
 
@@ -108,10 +177,13 @@ void put(ByteWriter& out, const PartGrasps& found) {
     out.put(static_cast<std::uint64_t>(grasp.contacts.size()));
     for (const Vec3& point : grasp.contacts) out.put(point);
   }
-  out.put(static_cast<std::uint64_t>(found.placed.size()));
-  for (const auto& placed : found.placed) {
-    out.put(static_cast<std::uint64_t>(placed.of));
-    put(out, placed.pose);
+  put(out, found.placed);
+  put(out, found.spare);
+  out.put(static_cast<std::uint64_t>(found.axes.size()));
+  for (const ClosingAxis& axis : found.axes) {
+    put(out, axis.pose);
+    out.put(axis.width);
+    out.put(axis.approaches);
   }
   for (const auto count : all_counts) out.put(static_cast<std::uint64_t>(found.counts.*count));
   for (const double value : {found.coverage, found.apart, found.apart_angle}) out.put(value);
@@ -129,12 +201,13 @@ void get(ByteReader& in, PartGrasps& found) {
     grasp.contacts.resize(in.count(sizeof(Vec3)));
     for (Vec3& point : grasp.contacts) in.get(point);
   }
-  found.placed.resize(in.count(placed_bytes));
-  for (auto& placed : found.placed) {
-    std::uint64_t of = 0;
-    in.get(of);
-    placed.of = std::min<std::size_t>(of, found.grasps.empty() ? 0 : found.grasps.size() - 1);
-    get(in, placed.pose);
+  get(in, found.placed, found.grasps.size());
+  get(in, found.spare, found.grasps.size());
+  found.axes.resize(in.count(8 * sizeof(double) + sizeof(std::uint64_t)));
+  for (ClosingAxis& axis : found.axes) {
+    get(in, axis.pose);
+    in.get(axis.width);
+    in.get(axis.approaches);
   }
   for (const auto count : all_counts) {
     std::uint64_t value = 0;
@@ -147,8 +220,9 @@ void get(ByteReader& in, PartGrasps& found) {
 std::string grasp_key(const PartModel& part, const Gripper& g, double friction) {
   std::string key = part.mesh_key() + " grasps " + std::to_string(grasp_format) + " " +
                     std::to_string(static_cast<int>(g.type)) + " " + std::to_string(g.most) + " ";
-  for (const double value : {g.travel(), g.opening, g.finger_width, g.finger_depth, g.finger_thickness, g.pad_length,
-                             g.pad_give, g.radius, g.lip, g.palm.x(), g.palm.y(), g.palm.z(), friction})
+  for (const double value :
+       {g.travel(), g.opening, g.finger_width, g.finger_depth, g.finger_thickness, g.pad_length, g.pad_give, g.radius,
+        g.lip, g.margin, g.finger_clearance, g.palm.x(), g.palm.y(), g.palm.z(), friction})
     key += key_text(value);
   return key;
 }
@@ -165,7 +239,8 @@ std::string text_of(const GraspCounts& c, Gripper::Type type) {
   };
   add(c.width, "wider than the stroke");
   add(c.friction, "that friction does not hold");
-  add(c.contact, type == Gripper::Type::parallel ? "where the pads do not meet" : "where the ring leaves the part");
+  add(c.contact, type == Gripper::Type::parallel ? "where the pads do not meet"
+                                                 : "where the ring leaves the part, or comes too near an edge");
   add(c.seal, "that do not seal");
   add(c.collision, "where the gripper meets the part");
   return text;

@@ -58,6 +58,7 @@ PlacedParts::PlacedParts(const Scene& scene, const LoadedRequest& loaded) {
     all_.push_back({walls_.get(), Pose(), box_of(*walls_, Pose()), -1, 0, false, {}});
   }
   floor_ = bin.kind == Bin::Kind::floor;
+  flat_floor_ = floor_ || bin.kind == Bin::Kind::box;
   for (const PlacedPart& part : all_) top_ = std::max(top_, highest(part.box, up_));
 }
 

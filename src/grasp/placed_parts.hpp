@@ -27,13 +27,14 @@ class PlacedParts {
   const std::vector<PlacedPart>& all() const { return all_; }  ///< parts in the order of the scene, then the bin
   const Vec3& up() const { return up_; }                       ///< unit, against gravity
   double top() const { return top_; }                          ///< m along up: of everything, rims included
+  bool flat_floor() const { return flat_floor_; }              ///< whether the bin's floor is the plane z = 0
   /// The first of `order`, by index into all(), that a sweep meets, if any: its id. The endless floor comes last.
   std::optional<int> met_by(const Sweep& sweep, const std::vector<std::size_t>& order) const;
 
  private:
   std::vector<PlacedPart> all_;
   std::unique_ptr<MeshQuery> walls_;
-  bool floor_ = false;
+  bool floor_ = false, flat_floor_ = false;
   Vec3 up_ = Vec3::UnitZ();
   double top_ = 0.0;
 };

@@ -5,117 +5,20 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/contact.hpp"
-#include "bin_scenes/sensor/resolve.hpp"
-#include "grasp/gripper_shape.hpp"
+#include "grasp/eye.hpp"
 #include "grasp/holding.hpp"
+#include "grasp/parallel_grasps.hpp"
+#include "grasp/reach.hpp"
 #include "grasp/removal.hpp"
+#include "grasp/scene_search.hpp"
+#include "grasp/score.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <numeric>
 
 namespace bin_scenes {
-
-namespace {
-
-constexpr double farthest_back = 3.0;  ///< m: of an approach from outside the bin
-constexpr double upright = 0.02;       ///< rad: an approach that the lift retraces
-
-/// Neighbours of a part by distance: the nearest are met most often.
-std::vector<std::size_t> order_around(const PlacedParts& placed, const PlacedPart& part) {
-  const std::vector<PlacedPart>& all = placed.all();
-  std::vector<std::pair<double, std::size_t>> by_distance;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].id == part.id) continue;
-    by_distance.emplace_back(all[i].id < 0 ? 0.0 : (all[i].box.center() - part.box.center()).squaredNorm(), i);
-  }
-  std::sort(by_distance.begin(), by_distance.end());
-  std::vector<std::size_t> order;
-  for (const auto& [distance, i] : by_distance) order.push_back(i);
-  return order;
-}
-
-/// Where contact points of grasps are in the images.
-class Eye {
- public:
-  explicit Eye(const RangeImage& image)
-      : image_(image),
-        lens_(lens_of(image.true_sensor())),
-        into_camera_(image.true_sensor().pose.value_or(Pose()).inverse()),
-        measures_(image.depth.size() == image.seen_depth().size() && image.label.size() == image.depth.size()) {}
-
-  void look(const Grasp& grasp, SceneGrasp& placed) const {
-    std::size_t seen = 0, measured = 0;
-    const auto label = static_cast<std::uint16_t>(placed.part + 1);
-    for (const Vec3& contact : grasp.contacts) {
-      const Vec3 point = into_camera_ * (placed.pose * contact);
-      const auto pixel = point.z() > 0.0 ? lens_.project(point) : std::nullopt;
-      if (!pixel || !lens_.inside(*pixel)) continue;
-      const auto column = std::clamp(static_cast<int>(std::lround(pixel->x())), 0, lens_.width - 1);
-      const auto row = std::clamp(static_cast<int>(std::lround(pixel->y())), 0, lens_.height - 1);
-      const auto at =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(lens_.width) + static_cast<std::size_t>(column);
-      // A pixel shows its middle; the point may lie elsewhere in it, on a slope.
-      const double within = 5e-4 + 3.0 * point.z() / lens_.fx;
-      if (image_.seen_label()[at] != label || !(std::abs(image_.seen_depth()[at] - point.z()) < within)) continue;
-      ++seen;
-      measured += measures_ && image_.label[at] == label && std::isfinite(image_.depth[at]);
-    }
-    const double count = static_cast<double>(std::max<std::size_t>(1, grasp.contacts.size()));
-    placed.visible.push_back(static_cast<double>(seen) / count);
-    placed.measured.push_back(static_cast<double>(measured) / count);
-  }
-
- private:
-  const RangeImage& image_;
-  Lens lens_;
-  Pose into_camera_;
-  bool measures_;  ///< depth and labels are images of the camera, not profiles
-};
-
-/// One part among the others, for all grasps of a gripper.
-class Attempt {
- public:
-  Attempt(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper)
-      : placed_(placed), part_(part), gripper_(gripper), order_(order_around(placed, part)) {}
-
-  void meet(SceneGrasp& grasp) const {
-    const Vec3 along = grasp.pose.orientation * Vec3::UnitZ();
-    const double cosine = -along.dot(placed_.up());
-    const double above = placed_.top() - grasp.pose.position.dot(placed_.up()) + gripper_.finger_depth;
-    const double back = std::clamp(above / std::max(cosine, 0.05), 0.0, farthest_back);
-    if (check(approach_sweeps(gripper_, grasp.width, back, gripper_.clearance), SceneGrasp::Obstacle::approach, grasp))
-      return;
-    if (check(closing_sweeps(gripper_, grasp.width, gripper_.clearance), SceneGrasp::Obstacle::closing, grasp)) return;
-    if (cosine > std::cos(upright)) return;
-    const Vec3 lift = grasp.pose.orientation.conjugate() * (std::max(0.0, above) * placed_.up());
-    std::vector<Sweep> lifted;
-    for (const Sweep& body : closed_shape(gripper_, grasp.width, gripper_.clearance))
-      lifted.push_back(body.moved(lift));
-    check(lifted, SceneGrasp::Obstacle::lift, grasp);
-  }
-
- private:
-  bool check(const std::vector<Sweep>& sweeps, SceneGrasp::Obstacle where, SceneGrasp& grasp) const {
-    for (const Sweep& sweep : sweeps) {
-      const auto other = placed_.met_by(sweep.placed(grasp.pose), order_);
-      if (!other) continue;
-      grasp.obstacle = where;
-      grasp.other = *other;
-      return true;
-    }
-    return false;
-  }
-
-  const PlacedParts& placed_;
-  const PlacedPart& part_;
-  const Gripper& gripper_;
-  std::vector<std::size_t> order_;
-};
-
-}  // namespace
 
 struct Grasper::State {
   std::mutex mutex;
@@ -136,52 +39,93 @@ Grasper::~Grasper() = default;
 
 namespace {
 
-/// Everything that the grasps of a scene are found with.
-struct Search {
-  const LoadedRequest& loaded;
-  const PlacedParts& placed;
-  std::vector<Eye> eyes;
+double best(const std::vector<double>& shares) {
+  return shares.empty() ? 1.0 : *std::max_element(shares.begin(), shares.end());
+}
 
-  void of_part(const PlacedPart& part, PartPick& pick, std::size_t gripper, const PartGrasps& grasps,
-               std::vector<SceneGrasp>& all) const {
-    const Gripper& g = loaded.request.grippers[gripper];
-    const PartLine& line = loaded.request.parts[part.line];
-    const PartModel& model = *loaded.parts[part.line];
-    const double friction = pair_friction(g.friction, line.friction);
-    const Burden burden{pick.pull, loaded.request.gravity * mass_of(line, model), part.pose * model.mass().center,
-                        placed.up()};
-    const Attempt attempt(placed, part, g);
-    BIN_SCENES_ASSERT(
-        each_is(grasps.placed, [&](const PartGrasps::Placed& one) { return one.of < grasps.grasps.size(); }));
+/// One part for one gripper: rates grasps, and asks, cheapest question first, whether they are free.
+class PartGrasper {
+ public:
+  PartGrasper(const LoadedRequest& loaded, const PlacedParts& placed, const PlacedPart& part, PartPick& pick,
+              std::size_t gripper)
+      : placed_(placed),
+        part_(part),
+        pick_(pick),
+        index_(gripper),
+        gripper_(loaded.request.grippers[gripper]),
+        model_(*loaded.parts[part.line]),
+        friction_(pair_friction(gripper_.friction, loaded.request.parts[part.line].friction)),
+        reach_(placed, part, gripper_) {
+    const double mass = mass_of(loaded.request.parts[part.line], model_);
+    const Vec3 inertia = -mass * gripper_.acceleration * placed.up();
+    burden_ = {pick.pull + inertia.norm(), loaded.request.gravity * mass + inertia, part.pose * model_.mass().center,
+               placed.up()};
+  }
+
+  /// Appends the grasps that every scene tries, and of a part that nothing blocks those of the scene's own search.
+  void add_to(std::vector<SceneGrasp>& all, const PartGrasps& grasps, const std::vector<Eye>& eyes) const {
     for (const PartGrasps::Placed& one : grasps.placed) {
       stop_if_cancelled();
-      SceneGrasp grasp;
-      grasp.pose = part.pose * one.pose;
-      const double tilt = std::acos(std::clamp(-(grasp.pose.orientation * Vec3::UnitZ()).dot(placed.up()), -1.0, 1.0));
-      if (tilt > g.tilt) {
-        ++pick.tilted;
+      const Pose pose = part_.pose * one.pose;
+      if (tilt_of(pose) > gripper_.tilt) {
+        ++pick_.tilted;
         continue;
       }
-      const Grasp& known = grasps.grasps[one.of];
-      grasp.part = part.id;
-      grasp.gripper = gripper;
-      grasp.grasp = one.of;
-      grasp.width = known.width;
-      grasp.force = g.type == Gripper::Type::parallel ? g.force : g.force - g.stiffness * known.gap;
-      const Hold hold = hold_of(known, grasp.pose, g, friction, burden);
-      grasp.score = hold.score;
-      grasp.friction = hold.friction;
-      for (const Eye& eye : eyes) eye.look(known, grasp);
-      if (!pick.blocked_by.empty()) {
-        grasp.obstacle = SceneGrasp::Obstacle::blocked;
-      } else if (!(hold.score > 0.0)) {
-        grasp.obstacle = SceneGrasp::Obstacle::slips;
-      } else {
-        attempt.meet(grasp);
-      }
-      all.push_back(std::move(grasp));
+      all.push_back(tried(grasps.grasps[one.of], pose, eyes));
+      all.back().grasp = one.of;
     }
+    if (!pick_.blocked_by.empty() || gripper_.free_wanted == 0) return;
+    const bool cup = gripper_.type == Gripper::Type::suction;
+    const auto keep = [&](const SearchedPose& searched) {
+      SceneGrasp grasp = tried(searched.grasp, searched.pose, eyes);
+      if (!grasp.free()) return false;
+      if (!cup && goes_through(model_, gripper_, searched.grasp)) return false;
+      if (cup) grasp.grasp = searched.of;
+      if (!searched.listed) all.push_back(std::move(grasp));
+      return true;
+    };
+    pick_.searches.push_back(search_scene({placed_, part_, model_, gripper_, grasps, friction_}, keep));
+    pick_.searches.back().gripper = index_;
   }
+
+ private:
+  double tilt_of(const Pose& pose) const {
+    return std::acos(std::clamp(-(pose.orientation * Vec3::UnitZ()).dot(placed_.up()), -1.0, 1.0));
+  }
+
+  SceneGrasp tried(const Grasp& known, const Pose& pose, const std::vector<Eye>& eyes) const {
+    SceneGrasp grasp;
+    grasp.part = part_.id;
+    grasp.gripper = index_;
+    grasp.pose = pose;
+    grasp.width = known.width;
+    grasp.force = gripper_.type == Gripper::Type::parallel ? gripper_.force : vacuum_of(known, gripper_);
+    const Hold hold = hold_of(known, pose, gripper_, friction_, burden_);
+    grasp.friction = hold.friction;
+    grasp.columns = columns_of(known, hold, gripper_, friction_, tilt_of(pose));
+    if (!pick_.blocked_by.empty()) {
+      grasp.obstacle = SceneGrasp::Obstacle::blocked;
+    } else if (hold.safety < 1.0) {
+      grasp.obstacle = SceneGrasp::Obstacle::slips;
+    } else if (!reach_.meets(grasp)) {
+      grasp.columns.clearance = reach_.room(grasp);
+    }
+    for (const Eye& eye : eyes) eye.look(known, grasp);
+    grasp.columns.seen = best(grasp.visible);
+    grasp.columns.measured = best(grasp.measured);
+    grasp.score = score_of(grasp.columns, gripper_.score);
+    return grasp;
+  }
+
+  const PlacedParts& placed_;
+  const PlacedPart& part_;
+  PartPick& pick_;
+  std::size_t index_;
+  const Gripper& gripper_;
+  const PartModel& model_;
+  double friction_;
+  Reach reach_;
+  Burden burden_{};
 };
 
 }  // namespace
@@ -204,14 +148,14 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
       result.found.push_back({line, g, grasps->grasps.size(), grasps->placed.size(), grasps->coverage, grasps->counts});
     }
   }
-  Search search{loaded, placed, {}};
-  for (const RangeImage& image : images) search.eyes.emplace_back(image);
+  std::vector<Eye> eyes;
+  for (const RangeImage& image : images) eyes.emplace_back(image);
   std::size_t next = 0;
   for (const PlacedPart& part : placed.all()) {
     if (!part.movable) continue;
     PartPick& pick = result.parts[next++];
     for (std::size_t g = 0; g < grippers.size(); ++g)
-      search.of_part(part, pick, g, *known.at({part.line, g}), result.grasps);
+      PartGrasper(loaded, placed, part, pick, g).add_to(result.grasps, *known.at({part.line, g}), eyes);
   }
   BIN_SCENES_ASSERT(next == result.parts.size());
   return result;

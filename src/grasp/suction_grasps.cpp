@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t cups_tried = 5000;
 constexpr int ring_rays = 24, ring_contacts = 8;
 constexpr double rounding = 1e-5;  ///< / diagonal
+constexpr double wide = 0.5;       ///< of the radius: a margin that is wide enough
+constexpr int margin_steps = 4;
 
 /// Surface below the ring and inside it, along the cup's axis.
 struct Footprint {
@@ -61,8 +63,7 @@ class CupFitter {
   /// None where the ring or the middle finds no surface: it hangs over an edge or a hole.
   std::optional<Footprint> footprint(const Pose& pose) const {
     Footprint print;
-    for (int i = 0; i < ring_rays; ++i)
-      if (!height(pose, on_ring(gripper_.radius, i, ring_rays), print.ring[i])) return std::nullopt;
+    if (!ring(pose, gripper_.radius, print.ring)) return std::nullopt;
     print.inner_low = std::numeric_limits<double>::infinity();
     print.inner_high = -print.inner_low;
     constexpr int circle = 8;
@@ -76,7 +77,29 @@ class CupFitter {
     return print;
   }
 
+  /// Distance of the ring from edges and holes, at most half its radius or what the gripper asks for; negative: less
+  /// than that. An edge is where no surface is, or where it falls away more steeply than 45 degrees.
+  double margin(const Pose& pose, const Footprint& print) const {
+    const double asked = gripper_.margin, most = std::max(asked, wide * gripper_.radius);
+    double found = asked > 0.0 ? -1.0 : 0.0;
+    for (int step = asked > 0.0 ? 0 : 1; step <= margin_steps; ++step) {
+      const double beyond = asked + step * (most - asked) / margin_steps;
+      std::array<double, ring_rays> heights;
+      if (!ring(pose, gripper_.radius + beyond, heights)) return found;
+      for (int i = 0; i < ring_rays; ++i)
+        if (print.ring[i] - heights[i] > gripper_.lip + beyond) return found;
+      found = beyond;
+    }
+    return found;
+  }
+
  private:
+  bool ring(const Pose& pose, double radius, std::array<double, ring_rays>& heights) const {
+    for (int i = 0; i < ring_rays; ++i)
+      if (!height(pose, on_ring(radius, i, ring_rays), heights[i])) return false;
+    return true;
+  }
+
   bool height(const Pose& pose, const Vec3& at, double& found) const {
     const Vec3 z = pose.orientation * Vec3::UnitZ();
     const auto passed = passages(part_.query(), pose * at - above_ * z, z, 0.0);
@@ -139,6 +162,11 @@ std::optional<Grasp> set_cup(const PartModel& part, const Gripper& g, const Spre
   if (grasp.gap > g.lip || tilt > g.travel() || print->inner_low < plane.mean - g.radius ||
       print->inner_high > plane.mean + g.travel() + grasp.gap) {
     ++counts.seal;
+    return std::nullopt;
+  }
+  grasp.margin = fitter.margin(pose, *print);
+  if (grasp.margin < 0.0) {
+    ++counts.contact;
     return std::nullopt;
   }
   const double crest = plane.mean + plane.high + 0.5 * tilt;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bin_scenes {
 
 namespace {
 
-constexpr double growth = 1.2;            ///< of the limits, from one try to the next
+constexpr double growth = 1.2;            ///< of the limits, from one cover to the coarser one
+constexpr double coarsest = 33.0;         ///< times the limits: the first cover
 constexpr std::size_t ball_images = 300;  ///< turns of a ball
 
 /// A turn of an even spread over all (Alexa 2022, "Super-Fibonacci spirals").
@@ -63,7 +65,7 @@ Quat PoseMeasure::about_axis(const Pose& a, const Pose& b, double arm) const {
   return Quat(Eigen::AngleAxisd(std::atan2(best.y(), best.x()), axis));
 }
 
-bool PoseMeasure::near(const Pose& a, const Pose& b, const Limits& limits) const {
+double PoseMeasure::distance(const Pose& a, const Pose& b, const Limits& limits, double enough) const {
   if (axes_.size() > 1) {  // a ball: only where its middle is, seen from the gripper, matters
     Vec3 here = a.inverse() * axes_[0].point, there = b.inverse() * axes_[0].point;
     if (type_ == Gripper::Type::suction) {
@@ -71,21 +73,17 @@ bool PoseMeasure::near(const Pose& a, const Pose& b, const Limits& limits) const
       there = Vec3(there.head<2>().norm(), 0.0, there.z());
     }
     const Vec3 flipped(-there.x(), -there.y(), there.z());
-    return std::min((here - there).norm(), (here - flipped).norm()) < limits.apart;
+    return std::min((here - there).norm(), (here - flipped).norm()) / limits.apart;
   }
+  double least = enough;
   for (const Pose& map : maps_) {
-    if (axes_.empty()) {
-      if ((a.position - map * b.position).squaredNorm() >= limits.apart * limits.apart) continue;
-      if (angle_between(a.orientation, map.orientation * b.orientation) < limits.angle) return true;
-      continue;
-    }
-    const Pose mapped = map * b;
-    const Pose turned = turned_about(mapped, about_axis(a, mapped, limits.apart / limits.angle), axes_[0].point);
-    if ((a.position - turned.position).norm() < limits.apart &&
-        angle_between(a.orientation, turned.orientation) < limits.angle)
-      return true;
+    Pose there = map * b;
+    if (!axes_.empty()) there = turned_about(there, about_axis(a, there, limits.apart / limits.angle), axes_[0].point);
+    const double apart = (a.position - there.position).norm() / limits.apart;
+    if (apart < least)
+      least = std::min(least, std::max(apart, angle_between(a.orientation, there.orientation) / limits.angle));
   }
-  return false;
+  return least;
 }
 
 std::vector<Pose> PoseMeasure::images(const Pose& pose, const Limits& limits) const {
@@ -112,19 +110,23 @@ std::vector<Pose> PoseMeasure::images(const Pose& pose, const Limits& limits) co
   return all;
 }
 
-std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure, PoseMeasure::Limits& limits,
-                              std::size_t most) {
-  while (true) {
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < poses.size() && kept.size() <= most; ++i) {
-      if (i % 256 == 0) stop_if_cancelled();
-      const auto beside = [&](std::size_t k) { return measure.near(poses[k], poses[i], limits); };
-      if (std::none_of(kept.begin(), kept.end(), beside)) kept.push_back(i);
+std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure,
+                              const PoseMeasure::Limits& limits, std::size_t most) {
+  std::vector<double> distance(poses.size(), std::numeric_limits<double>::infinity());  // from those chosen
+  std::vector<std::size_t> left(poses.size()), chosen;
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  for (double cover = coarsest; !left.empty() && chosen.size() < most; cover = std::max(1.0, cover / growth)) {
+    for (std::size_t at = 0; at < left.size() && chosen.size() < most; ++at) {
+      if (distance[left[at]] < cover) continue;
+      if (chosen.size() % 64 == 0) stop_if_cancelled();
+      const Pose& next = poses[left[at]];
+      chosen.push_back(left[at]);
+      for (const std::size_t i : left)
+        distance[i] = std::min(distance[i], measure.distance(next, poses[i], limits, distance[i]));
     }
-    if (kept.size() <= most) return kept;
-    limits.apart *= growth;
-    limits.angle *= growth;
+    left.erase(std::remove_if(left.begin(), left.end(), [&](std::size_t i) { return distance[i] < 1.0; }), left.end());
   }
+  return chosen;
 }
 
 }  // namespace bin_scenes

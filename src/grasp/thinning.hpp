@@ -4,7 +4,8 @@
 #include "bin_scenes/grasp/part_grasps.hpp"
 #include "bin_scenes/part/symmetry.hpp"
 
-#include <optional>
+#include <limits>
+#include <vector>
 
 namespace bin_scenes {
 
@@ -16,8 +17,11 @@ class PoseMeasure {
   struct Limits {
     double apart = 0.0, angle = 0.0;  ///< m, rad
   };
-  /// Whether b is within the limits of a, for some symmetry.
-  bool near(const Pose& a, const Pose& b, const Limits& limits) const;
+  /// Distance of b from a in units of the limits, the least over all symmetries: the larger one of place and angle.
+  /// What is at least `enough` may be returned as any such value.
+  double distance(const Pose& a, const Pose& b, const Limits& limits,
+                  double enough = std::numeric_limits<double>::infinity()) const;
+  bool near(const Pose& a, const Pose& b, const Limits& limits) const { return distance(a, b, limits, 1.0) < 1.0; }
   /// All places to which symmetries bring a pose, the pose itself first; round axes in steps of the limits.
   std::vector<Pose> images(const Pose& pose, const Limits& limits) const;
 
@@ -30,8 +34,9 @@ class PoseMeasure {
   Gripper::Type type_;
 };
 
-/// Indices of poses, none near another, at most `most`: the limits grow until they are so few. Earlier poses go first.
-std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure, PoseMeasure::Limits& limits,
-                              std::size_t most);
+/// Indices of poses, a coarse cover of all first, then ever finer ones until none is farther than the limits from those
+/// chosen. Within one cover, earlier poses go first. The first n of the result do not depend on `most`.
+std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure& measure,
+                              const PoseMeasure::Limits& limits, std::size_t most);
 
 }  // namespace bin_scenes

@@ -21,6 +21,29 @@ GraspJson pose_json(const Pose& pose) {
   return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
+GraspJson weights_json(const ScoreWeights& w) {
+  return {{"bias", w.bias},       {"holding", w.holding},  {"antipodal", w.antipodal}, {"moment", w.moment},
+          {"overlap", w.overlap}, {"upright", w.upright},  {"clearance", w.clearance}, {"closing", w.closing},
+          {"seen", w.seen},       {"measured", w.measured}};
+}
+
+/// An infinite value is null.
+GraspJson number_json(double value) {
+  return std::isfinite(value) ? GraspJson(value) : GraspJson();
+}
+
+GraspJson columns_json(const GraspColumns& c) {
+  return {{"safety", number_json(c.safety)},
+          {"antipodal", c.antipodal},
+          {"moment", c.moment},
+          {"overlap", c.overlap},
+          {"upright", c.upright},
+          {"clearance", c.clearance},
+          {"closing", c.closing},
+          {"seen", c.seen},
+          {"measured", c.measured}};
+}
+
 /// What draws a gripper and what labels depend on; keys as in the request.
 GraspJson gripper_json(const Gripper& g) {
   GraspJson json = {{"name", g.name}};
@@ -30,6 +53,7 @@ GraspJson gripper_json(const Gripper& g) {
                  {"opening", g.opening},
                  {"finger_width", g.finger_width},
                  {"finger_thickness", g.finger_thickness},
+                 {"finger_clearance", g.finger_clearance},
                  {"pad_length", g.pad_length},
                  {"pad_give", g.pad_give}});
   } else {
@@ -37,6 +61,7 @@ GraspJson gripper_json(const Gripper& g) {
                  {"stroke", g.travel()},
                  {"radius", g.radius},
                  {"lip", g.lip},
+                 {"margin", g.margin},
                  {"stiffness", g.stiffness}});
   }
   json.update({{"finger_depth", g.finger_depth},
@@ -44,8 +69,12 @@ GraspJson gripper_json(const Gripper& g) {
                {"force", g.force},
                {"friction", g.friction},
                {"clearance", g.clearance},
+               {"acceleration", g.acceleration},
                {"tilt", g.tilt},
-               {"most", g.most}});
+               {"most", g.most},
+               {"free_wanted", g.free_wanted},
+               {"tries", g.tries},
+               {"score", weights_json(g.score)}});
   return json;
 }
 
@@ -61,11 +90,12 @@ GraspJson proof_json(const LiftProof& proof) {
 GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene& scene, const Request& request) {
   GraspJson json = {{"part", grasp.part},
                     {"gripper", request.grippers[grasp.gripper].name},
-                    {"grasp", grasp.grasp},
+                    {"grasp", grasp.grasp ? static_cast<std::int64_t>(*grasp.grasp) : -1},
                     {"pose", pose_json(grasp.pose)},
                     {"width", grasp.width},
                     {"score", grasp.score},
-                    {"friction", std::isfinite(grasp.friction) ? GraspJson(grasp.friction) : GraspJson()},
+                    {"columns", columns_json(grasp.columns)},
+                    {"friction", number_json(grasp.friction)},
                     {"free", grasp.free()},
                     {"reason", reason_of(grasp, pick)}};
   if (grasp.proof) json["proof"] = proof_json(*grasp.proof);
@@ -78,6 +108,16 @@ GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene&
     json["measured"][name] = grasp.measured[i];
   }
   return json;
+}
+
+GraspJson searches_json(const PartPick& pick, const Request& request) {
+  GraspJson all = GraspJson::array();
+  for (const PartSearch& search : pick.searches)
+    all.push_back({{"gripper", request.grippers[search.gripper].name},
+                   {"tried", search.tried},
+                   {"free", search.free},
+                   {"least_tilt", number_json(search.least_tilt)}});
+  return all;
 }
 
 GraspJson found_json(const SceneGrasps::Found& found, const Request& request) {
@@ -106,8 +146,12 @@ std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Req
   rest["parts"] = rest["models"] = rest["grippers"] = GraspJson::array();
   for (const PartPick& pick : grasps.parts) {
     if (!pick.blocked_by.empty()) rest["blocked_by"][std::to_string(pick.id)] = pick.blocked_by;
-    rest["parts"].push_back(
-        {{"id", pick.id}, {"load", pick.load}, {"pull", pick.pull}, {"depth", pick.depth}, {"tilted", pick.tilted}});
+    rest["parts"].push_back({{"id", pick.id},
+                             {"load", pick.load},
+                             {"pull", pick.pull},
+                             {"depth", pick.depth},
+                             {"tilted", pick.tilted},
+                             {"searched", searches_json(pick, request)}});
   }
   for (const auto& found : grasps.found) rest["models"].push_back(found_json(found, request));
   for (const Gripper& gripper : request.grippers) rest["grippers"].push_back(gripper_json(gripper));

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double lift_height = 0.1;         ///< m
 constexpr double hand_speed = 0.25;         ///< m/s
-constexpr double hand_acceleration = 2.0;   ///< m/s2, also at the end
+constexpr double least_acceleration = 0.1;  ///< m/s2: of grippers that ask for less, so that the lift ends
 constexpr double closing_speed = 0.04;      ///< m/s of each finger; slower than what bounces
 constexpr double closing_rest = 0.002;      ///< m/s: fingers that are slower have closed
 constexpr double closing_patience = 0.1;    ///< s longer than they need for their opening
@@ -36,13 +36,15 @@ constexpr int touches_without_grip = 3;     ///< after which the part is lost
 constexpr std::size_t trials_at_once = 32;  ///< worlds in memory
 
 /// Height of the hand above its start, t seconds after the lift began: speed rises and falls evenly.
-double height_at(double t) {
-  const double ramp = hand_speed / hand_acceleration, end = lift_height / hand_speed + ramp;
+double height_at(double t, double acceleration) {
+  acceleration = std::max(acceleration, least_acceleration);
+  const double speed = std::min(hand_speed, std::sqrt(acceleration * lift_height));
+  const double ramp = speed / acceleration, end = lift_height / speed + ramp;
   if (t <= 0.0) return 0.0;
   if (t >= end) return lift_height;
-  if (t > end - ramp) return lift_height - 0.5 * hand_acceleration * (end - t) * (end - t);
-  if (t > ramp) return hand_speed * (t - 0.5 * ramp);
-  return 0.5 * hand_acceleration * t * t;
+  if (t > end - ramp) return lift_height - 0.5 * acceleration * (end - t) * (end - t);
+  if (t > ramp) return speed * (t - 0.5 * ramp);
+  return 0.5 * acceleration * t * t;
 }
 
 double turn_between(const Pose& a, const Pose& b) {
@@ -111,7 +113,7 @@ class Attempt {
 
   /// Tells the gripper's velocities of the next `seconds`.
   void go(double seconds) {
-    const double next = stage_ == Stage::lift ? height_at(time_ + seconds) : height_;
+    const double next = stage_ == Stage::lift ? height_at(time_ + seconds, gripper_.acceleration) : height_;
     const Vec3 velocity = (next - height_) / seconds * ground_.up;
     if (parallel())
       solver_.set_jaws(id_, {first_, first_ + 1, trial_.pose.orientation * Vec3::UnitX(), trial_.force, closing_speed,

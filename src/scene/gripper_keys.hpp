@@ -11,6 +11,21 @@ inline Names<Gripper::Type> names(Gripper::Type) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, ScoreWeights& w) {
+  v.field({"bias", "", "added to the weighted columns; larger values raise all scores"}, w.bias);
+  v.field({"holding", "", "of ln(safety factor against slip), limited to -ln 4 and ln 4"}, w.holding);
+  v.field({"antipodal", "", "of the share of friction, or of the lip, that the shape of the contact leaves"},
+          w.antipodal);
+  v.field({"moment", "", "of 1 - sqrt(moment of the weight about the contact / moment that is held)"}, w.moment);
+  v.field({"overlap", "", "of the share of the pads that is in contact; of the margin around a cup's ring"}, w.overlap);
+  v.field({"upright", "", "of 1 - angle of approach and gravity / 90 degrees"}, w.upright);
+  v.field({"clearance", "", "of the room around the gripper: 1 where four times the clearance is free"}, w.clearance);
+  v.field({"closing", "", "of 1 - width / stroke"}, w.closing);
+  v.field({"seen", "", "of the share of the contact that the best camera sees"}, w.seen);
+  v.field({"measured", "", "of the share of the contact that the best camera measured"}, w.measured);
+}
+
+template <class Visitor>
 void visit(Visitor& v, Gripper& g) {
   v.field({"name", "", "name in the outputs; left out: that of the preset"}, g.name);
   v.field({"preset", "", "name of a file of config/grippers whose values are the defaults here", anything, false},
@@ -34,8 +49,27 @@ void visit(Visitor& v, Gripper& g) {
   v.field({"force", "N", "of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
   v.field({"friction", "", "of pad or ring; with a part sqrt(a * b)", above(0.0, 10.0)}, g.friction);
   v.field({"clearance", "m", "to bin and other parts", at_least(0.0)}, g.clearance);
+  v.field({"finger_clearance", "m",
+           "parallel: least gap between each opened finger and the part; a part is at most stroke - 2 "
+           "finger_clearance wide",
+           at_least(0.0)},
+          g.finger_clearance);
+  v.field({"margin", "m", "suction: least distance of the ring from edges and holes", at_least(0.0)}, g.margin);
+  v.field({"acceleration", "m/s2", "of the lift, also when it is proved; adds to gravity", at_least(0.0, 100.0)},
+          g.acceleration);
   v.field({"tilt", "rad", "largest angle of approach and gravity", at_least(0.0, 3.2)}, g.tilt);
-  v.field({"most", "", "grasps of a part that a scene tries", at_least(1.0, 100000.0)}, g.most);
+  v.field({"most", "", "grasps of a part that every scene tries; a larger value adds grasps and removes none",
+           at_least(1.0, 100000.0)},
+          g.most);
+  v.field({"free_wanted", "",
+           "of each uncovered part the scene itself is searched, from vertical approaches outwards, until so many "
+           "free grasps are found; 0: no search",
+           at_least(0.0, 10000.0)},
+          g.free_wanted);
+  v.field({"tries", "", "poses after which that search ends in any case; more = slower, fewer parts without a grasp",
+           at_least(1.0, 1e6)},
+          g.tries);
+  v.section({"score", "", "weights of the columns of a grasp in its score"}, g.score);
 }
 
 }  // namespace bin_scenes

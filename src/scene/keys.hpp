@@ -279,6 +279,9 @@ void visit(Visitor& v, Request& request) {
   v.field({"prove", "", "free grasps of a scene that are proved by lifting, spread over their scores",
            at_least(0.0, 1e5), request.prove > 0},
           request.prove);
+  v.field({"prove_all", "", "true: prove also chooses grasps of blocked parts, and grasps that would slip", anything,
+           request.prove > 0},
+          request.prove_all);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
   v.field({"drift_check", "",

@@ -51,6 +51,7 @@ std::vector<Form> forms_of_fingers() {
     const bool level = std::abs((g.pose.orientation * Vec3::UnitY()).z()) < 0.01 && std::abs(closing(g.pose).z()) < 0.5;
     return level && std::abs(g.pose.position.z()) < 0.01 ? Figure(0.012 * g.share) : std::nullopt;
   };
+  const auto centred = [](const Grasp& g) { return g.lever < 1e-4 ? Figure(g.radius) : std::nullopt; };
   const auto leaning = [](const Grasp& g) {
     return std::abs(closing(g.pose).x()) > 0.9 ? Figure(1e-3 * g.friction) : std::nullopt;
   };
@@ -61,9 +62,8 @@ std::vector<Form> forms_of_fingers() {
           {"the same", "contact across = 2 sqrt(2 g R)", mean_mm(cylinder, across), 2e3 * std::sqrt(2.0 * 2e-4 * 0.012),
            0.05},
           {"sphere, R = 20 mm", "width = 2 R", mean_mm(sphere, width), 40.0, 0.05},
-          {"sphere, R = 20 mm", "moment arm = 2/3 sqrt(2 g R)",
-           mean_mm(sphere, [](const Grasp& g) { return Figure(g.radius); }), 2e3 / 3.0 * std::sqrt(2.0 * 2e-4 * 0.02),
-           0.08},
+          {"sphere, R = 20 mm", "moment arm = 2/3 sqrt(2 g R)", mean_mm(sphere, centred),
+           2e3 / 3.0 * std::sqrt(2.0 * 2e-4 * 0.02), 0.08},
           {"wedge, sides lean by 0.15 rad", "least friction = tan 0.15", mean_mm(wedge, leaning), std::tan(0.15), 1e-9},
           {"ring, 10 mm high", "width = height", mean_mm(ring, along), 10.0, 1e-6},
           {"plate, 2 mm", "width = thickness", mean_mm(plate, width), 2.0, 1e-6}};

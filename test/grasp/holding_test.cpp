@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace bin_scenes {
 namespace {
 
@@ -22,18 +24,34 @@ TEST(Holding, AWeightBesideThePadsTurnsOutOfThem) {
       gripper.force = share * just;
       const Burden burden{weight, Vec3(0, 0, -weight), Vec3(side * beside, 0, -0.006), Vec3::UnitZ()};
       const Hold hold = hold_of(grasp, down, gripper, friction, burden);
-      EXPECT_EQ(hold.score > 1e-9, share > 1.0) << share;
+      EXPECT_EQ(hold.safety > 1.0 + 1e-9, share > 1.0) << share;
       if (share == 1.0) {
         EXPECT_NEAR(hold.friction, friction, 1e-9);
       }
+      // The load may grow until both pads just hold it.
+      EXPECT_NEAR(hold.safety, share, 1e-9);
       if (share == 3.0) {
-        EXPECT_NEAR(hold.score,
-                    (1.0 - weight / (2.0 * friction * gripper.force)) *
-                        (1.0 - beside * weight /
-                                   (gripper.force * 2.0 * half + width * (friction * gripper.force - 0.5 * weight))),
+        EXPECT_NEAR(hold.moment,
+                    beside * weight / (gripper.force * 2.0 * half + width * (friction * gripper.force - 0.5 * weight)),
                     1e-9);
       }
     }
+}
+
+TEST(Holding, ACupLosesHalfOfItsVacuumAtItsWidestGap) {
+  Gripper gripper;
+  gripper.type = Gripper::Type::suction;
+  gripper.stiffness = 0.0;
+  Grasp grasp;
+  grasp.radius = gripper.radius;
+  for (const auto& [gap, share] : {std::pair(0.0, 1.0), std::pair(0.5, 8.0 / 9.0), std::pair(1.0, 0.5)}) {
+    grasp.gap = gap * gripper.lip;
+    EXPECT_NEAR(vacuum_of(grasp, gripper), share * gripper.force, 1e-12);
+    const double weight = 5.0;
+    const Pose down{Vec3::Zero(), Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()))};
+    const Burden burden{weight, Vec3(0, 0, -weight), Vec3(0, 0, -0.01), Vec3::UnitZ()};
+    EXPECT_NEAR(hold_of(grasp, down, gripper, 0.5, burden).safety, share * gripper.force / weight, 1e-9);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "bin_scenes/part/part_model.hpp"
 #include "bin_scenes/scene/gripper.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Grasp {
   double radius = 0.0;         ///< m. parallel: largest moment about the closing axis = 2 * friction * force * radius;
                                ///< suction: of the ring
   double lever = 0.0;          ///< m of the centre of mass from closing axis, or from the cup's axis
+  double margin = 0.0;         ///< m, suction: distance of the ring from edges and holes, as far as it was looked for
   Aabb first, second;          ///< parallel: of the contact on the pad at -x and at x (m, gripper's frame)
   double gap = 0.0;            ///< m, suction: largest distance of the ring, pressed on and tilted, from the surface
   std::vector<Vec3> contacts;  ///< points of the surface that the pads or the ring touch; gripper's frame
@@ -35,17 +37,31 @@ struct GraspCounts {
   std::size_t good = 0;       ///< the rest
 };
 
+/// A line through the part on which two pads can close: where a scene looks for further grasps. Model frame.
+struct ClosingAxis {
+  static constexpr int turns = 16;  ///< of the approach about the direction, that are told apart
+  Pose pose;                        ///< between the surfaces; x along the direction, z the approach of turn 0
+  double width = 0.0;               ///< m between the surfaces
+  std::uint64_t approaches = 0;     ///< bit k: at turn k the gripper holds the part, without going through it
+};
+
+/// Neither grasps nor their order depend on Gripper::most, which only ends the list of placed ones.
 struct PartGrasps {
   std::vector<Grasp> grasps;  ///< thinned; none is another one turned by a symmetry of the part
-  /// Where scenes try them: each grasp in all places to which symmetries of the part bring it, thinned again.
+  /// Where scenes try them: each grasp in all places to which symmetries of the part bring it, thinned again, a coarse
+  /// cover of the part first.
   struct Placed {
     std::size_t of = 0;  ///< index into grasps
     Pose pose;           ///< of the gripper in the model frame
   };
-  std::vector<Placed> placed;
+  std::vector<Placed> placed;     ///< those that every scene tries
+  std::vector<Placed> spare;      ///< suction: those after them, for a scene's own search
+  std::vector<ClosingAxis> axes;  ///< parallel: for a scene's own search, a coarse cover of the part first
   GraspCounts counts;
-  double coverage = 0.0;     ///< share of good poses that were left out of thinning, with a grasp within the distances
-  double apart = 0.0;        ///< m: distance within which thinning takes poses for one
+  /// Share of good poses left out of thinning that have a placed grasp, or one that symmetries make alike, within the
+  /// distances. Of n such poses covered / (n + 2), which stays below 1 where few poses were tried.
+  double coverage = 0.0;
+  double apart = 0.0;        ///< m
   double apart_angle = 0.0;  ///< rad
 };
 

@@ -7,6 +7,7 @@
 #include "bin_scenes/scene/scene.hpp"
 #include "bin_scenes/sensor/range_image.hpp"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,15 +15,30 @@
 
 namespace bin_scenes {
 
+/// What the score of a grasp is made from. Each is 0..1, the larger the better, but for the safety factor.
+struct GraspColumns {
+  double safety = 0.0;     ///< factor by which the burden of the lift could grow before the part slips
+  double antipodal = 0.0;  ///< share of friction that the slope of the contacts leaves; of a lip that its gap leaves
+  double moment = 0.0;     ///< 1 - sqrt(moment of the weight about the contact / moment that is held)
+  double overlap = 0.0;    ///< fingers: 1 - exp(-(share of the pad in contact) / 0.05); cup: margin / (radius / 2)
+  double upright = 0.0;    ///< 1 - tilt / 90 degrees
+  double clearance =
+      0.0;  ///< of free grasps: 0.5 where twice the clearance is free beside the gripper, 1 where four times
+  double closing = 0.0;   ///< fingers: 1 - width / stroke; cup: 1
+  double seen = 1.0;      ///< share of the contact that the best camera sees; 1 without images
+  double measured = 1.0;  ///< share of the contact that the best camera measured; 1 without images
+};
+
 struct SceneGrasp {
   int part = 0;             ///< id
   std::size_t gripper = 0;  ///< index into Request::grippers
-  std::size_t grasp = 0;    ///< index into PartGrasps::grasps: equal for grasps that symmetries make alike
-  Pose pose;                ///< of the gripper in the bin frame
-  double width = 0.0;       ///< m, parallel
-  double force = 0.0;       ///< N: of each finger; of the vacuum, less what the lip takes in its gap
-  double score =
-      0.0;  ///< 0..1: shares of friction, of force and of moment across the closing axis that are spare, multiplied
+  /// Index into PartGrasps::grasps: equal for grasps that symmetries make alike. None: fingers, found in the scene.
+  std::optional<std::size_t> grasp;
+  Pose pose;           ///< of the gripper in the bin frame
+  double width = 0.0;  ///< m, parallel
+  double force = 0.0;  ///< N: of each finger; of the vacuum, less what the lip takes in its gap
+  double score = 0.0;  ///< 0..1: of the columns, by the gripper's weights; calibrated as the chance of the lift
+  GraspColumns columns;
   double friction = 0.0;  ///< smallest coefficient with which it lifts the part out; infinite: none suffices
   /// Why it is not free. Sweeps are those of the gripper grown by its clearance; of what it touches, one is named.
   enum class Obstacle {
@@ -41,6 +57,14 @@ struct SceneGrasp {
   bool free() const { return obstacle == Obstacle::none; }
 };
 
+/// A scene's own search for grasps of a part.
+struct PartSearch {
+  std::size_t gripper = 0;  ///< index into Request::grippers
+  std::size_t tried = 0;    ///< poses
+  std::size_t free = 0;
+  double least_tilt = std::numeric_limits<double>::infinity();  ///< rad: of the approaches tried
+};
+
 /// A part that could be picked.
 struct PartPick {
   int id = 0;
@@ -49,7 +73,8 @@ struct PartPick {
   Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement upwards by which it leaves all others below it
   std::vector<int> blocked_by;  ///< ids that are in the way of its lift or lie on it, ascending; -1: a bin's mesh
   int depth = -1;  ///< how many rounds of picking precede it; -1: it never comes free (a cycle, or a fixed part)
-  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted too far
+  std::size_t tilted = 0;            ///< grasps left out because their approach is tilted too far
+  std::vector<PartSearch> searches;  ///< by gripper, of parts that nothing blocks
 };
 
 struct SceneGrasps {

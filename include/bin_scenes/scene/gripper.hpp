@@ -12,6 +12,20 @@
 
 namespace bin_scenes {
 
+/// Weights of the columns of a grasp (grasp/score.hpp): score = 1 / (1 + exp(-(bias + sum of weight * column))).
+struct ScoreWeights {
+  double bias = -2.0;
+  double holding = 3.0;     ///< of ln(safety factor against slip), limited to +-ln 4
+  double antipodal = 0.25;  ///< of the share of friction that the slope of the contacts leaves
+  double moment = 0.5;      ///< of 1 - sqrt(moment of the weight / moment that is held)
+  double overlap = 0.5;     ///< of the contact: share of the pads in contact, margin of a cup's ring
+  double upright = 0.75;    ///< of 1 - tilt / 90 degrees
+  double clearance = 0.25;  ///< of the room around the gripper: 1 where four clearances are free
+  double closing = 0.5;     ///< of 1 - width / stroke
+  double seen = 0.125;      ///< of the share of the contact that the best camera sees
+  double measured = 0.125;  ///< of the share of the contact that the best camera measured
+};
+
 struct Gripper {
   enum class Type {
     parallel,  ///< two fingers that close along a line
@@ -35,10 +49,19 @@ struct Gripper {
   double force = 50.0;               ///< N. parallel: of each finger; suction: of the vacuum
   double friction = 0.5;             ///< of pad or ring; pair coefficient = sqrt(gripper * part)
   double clearance = 0.001;          ///< m to everything but the part itself
+  double finger_clearance = 5e-4;    ///< m, parallel: least gap between each opened finger and the part, so that the
+                                     ///< widest part is stroke - 2 * finger_clearance
+  double margin = 0.001;             ///< m, suction: least distance of the ring from edges and holes
+  double acceleration = 2.0;         ///< m/s2 of the lift; adds to gravity
   double tilt = 0.8;                 ///< rad: largest angle between approach and gravity
-  std::size_t most = 200;            ///< grasps of a part that a scene tries, spread over the part
+  std::size_t most = 200;            ///< grasps of a part that every scene tries, spread over the part
+  std::size_t free_wanted = 5;       ///< free grasps of an uncovered part after which a scene's own search ends
+  std::size_t tries = 600;           ///< poses of an uncovered part after which it ends in any case
+  ScoreWeights score;
 
   double travel() const { return stroke.value_or(type == Type::parallel ? 0.05 : 0.5 * radius); }
+  /// m, parallel: width of a part that the opened fingers can pass.
+  double widest() const { return travel() - 2.0 * finger_clearance; }
 };
 
 /// Throws an input Error at `key` for lengths that are no gripper's (which names the likely unit), or that contradict

@@ -270,6 +270,7 @@ struct Request {
   std::vector<Sensor> sensors;
   std::vector<Gripper> grippers;
   std::size_t prove = 0;
+  bool prove_all = false;
   std::string rig;
   Acceptance accept;
   std::optional<double> seconds;
