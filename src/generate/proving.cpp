@@ -20,7 +20,8 @@ std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasp
 }
 
 void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& loaded, Prover& prover) {
-  const std::vector<std::size_t> chosen = spread_over_scores(grasps.grasps, loaded.request.prove, loaded.request.prove_all);
+  const std::vector<std::size_t> chosen =
+      spread_over_scores(grasps.grasps, loaded.request.prove, loaded.request.prove_all);
   std::vector<Trial> trials;
   for (const std::size_t i : chosen) {
     const SceneGrasp& grasp = grasps.grasps[i];

@@ -4,6 +4,7 @@
 
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/quality/quality.hpp"
+#include "grasp/overlap.hpp"
 #include "grasp/rays.hpp"
 
 #include <algorithm>
@@ -142,6 +143,27 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direct
   return true;
 }
 
+namespace {
+
+void measure_overlaps(std::vector<PartPick>& picks, const PlacedParts& placed) {
+  if (std::all_of(picks.begin(), picks.end(), [](const PartPick& pick) { return pick.blocked_by.empty(); })) return;
+  std::map<int, std::size_t> index;
+  for (std::size_t i = 0; i < placed.all().size(); ++i)
+    if (placed.all()[i].id >= 0) index[placed.all()[i].id] = i;
+  const Overlaps overlaps(placed);
+  for (PartPick& pick : picks) {
+    stop_if_cancelled();
+    std::vector<std::size_t> above;
+    for (const int id : pick.blocked_by) {
+      pick.blocked_areas.push_back(id < 0 ? 0.0 : overlaps.area(index.at(pick.id), index.at(id)));
+      if (id >= 0) above.push_back(index.at(id));
+    }
+    if (!above.empty()) pick.overlap = overlaps.of(index.at(pick.id), above);
+  }
+}
+
+}  // namespace
+
 std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, const PlacedParts& placed) {
   const Forces forces(scene, loaded, placed.up());
   const double gravity = loaded.request.gravity.norm();
@@ -170,27 +192,121 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
     pick.blocked_by.assign(blocking.begin(), blocking.end());
     picks.push_back(std::move(pick));
   }
+  measure_overlaps(picks, placed);
   return picks;
 }
 
-std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed) {
-  std::map<int, double> height;
-  for (const PlacedPart& part : placed.all()) height[part.id] = highest(part.box, placed.up());
-  std::map<int, int> depth;  // of those that are out
-  std::vector<int> order;
-  while (true) {
-    PartPick* next = nullptr;
-    for (PartPick& pick : picks) {
-      const auto out = [&](int id) { return depth.count(id) != 0; };
-      if (out(pick.id) || !std::all_of(pick.blocked_by.begin(), pick.blocked_by.end(), out)) continue;
-      if (!next || height[pick.id] > height[next->id]) next = &pick;
-    }
-    if (!next) return order;
-    next->depth = 0;
-    for (const int id : next->blocked_by) next->depth = std::max(next->depth, depth.at(id) + 1);
-    depth[next->id] = next->depth;
-    order.push_back(next->id);
+namespace {
+
+/// Takes parts out one after another, or as sets that hold each other.
+class Remover {
+ public:
+  Remover(std::vector<PartPick>& picks, const PlacedParts& placed) {
+    for (const PlacedPart& part : placed.all()) height_[part.id] = highest(part.box, placed.up());
+    for (PartPick& pick : picks) left_[pick.id] = &pick;
   }
+
+  std::vector<int> order(std::vector<SceneGrasps::HeldSet>& sets) {
+    while (!left_.empty()) {
+      if (PartPick* next = highest_free()) {
+        remove({next->id});
+      } else if (const std::set<int> held = smallest_held(); !held.empty()) {
+        const std::vector<int> ids = by_height(held);
+        sets.push_back(set_of(ids));
+        remove(ids);
+      } else {
+        std::set<int> rest;  // what something fixed covers, and what that holds
+        for (const auto& [id, pick] : left_) rest.insert(id);
+        for (const int id : by_height(rest)) order_.push_back(id);
+        left_.clear();
+      }
+    }
+    return order_;
+  }
+
+ private:
+  PartPick* highest_free() const {
+    PartPick* best = nullptr;
+    for (const auto& [id, pick] : left_) {
+      const auto is_out = [&](int other) { return depth_.count(other) != 0; };
+      if (!std::all_of(pick->blocked_by.begin(), pick->blocked_by.end(), is_out)) continue;
+      if (!best || height_.at(id) > height_.at(best->id)) best = pick;
+    }
+    return best;
+  }
+
+  /// All that has to leave before or with a part; empty if something fixed is among it.
+  std::set<int> needed_by(int id) const {
+    std::set<int> all = {id};
+    std::vector<int> open = {id};
+    while (!open.empty()) {
+      const PartPick& pick = *left_.at(open.back());
+      open.pop_back();
+      for (const int other : pick.blocked_by) {
+        if (depth_.count(other)) continue;
+        if (!left_.count(other)) return {};
+        if (all.insert(other).second) open.push_back(other);
+      }
+    }
+    return all;
+  }
+
+  /// What the fewest need each other; of equal ones that with the lowest id.
+  std::set<int> smallest_held() const {
+    std::set<int> best;
+    for (const auto& [id, pick] : left_) {
+      const std::set<int> needed = needed_by(id);
+      if (!needed.empty() && (best.empty() || needed.size() < best.size())) best = needed;
+    }
+    return best;
+  }
+
+  std::vector<int> by_height(const std::set<int>& ids) const {
+    std::vector<int> sorted(ids.begin(), ids.end());
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return height_.at(a) > height_.at(b); });
+    return sorted;
+  }
+
+  SceneGrasps::HeldSet set_of(const std::vector<int>& ids) const {
+    SceneGrasps::HeldSet held{ids, -1, -1, 0.0};
+    for (const int id : ids) {
+      const PartPick& pick = *left_.at(id);
+      for (std::size_t i = 0; i < pick.blocked_by.size(); ++i) {
+        if (!left_.count(pick.blocked_by[i])) continue;
+        if (held.part >= 0 && pick.blocked_areas.at(i) >= held.overlap) continue;
+        held.part = id;
+        held.by = pick.blocked_by[i];
+        held.overlap = pick.blocked_areas[i];
+      }
+    }
+    return held;
+  }
+
+  /// All of them in the same round.
+  void remove(const std::vector<int>& ids) {
+    int depth = 0;
+    for (const int id : ids)
+      for (const int other : left_.at(id)->blocked_by)
+        if (depth_.count(other)) depth = std::max(depth, depth_.at(other) + 1);
+    for (const int id : ids) {
+      left_.at(id)->depth = depth;
+      depth_[id] = depth;
+      left_.erase(id);
+      order_.push_back(id);
+    }
+  }
+
+  std::map<int, double> height_;
+  std::map<int, PartPick*> left_;
+  std::map<int, int> depth_;  ///< of those that are out
+  std::vector<int> order_;
+};
+
+}  // namespace
+
+std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed,
+                               std::vector<SceneGrasps::HeldSet>& sets) {
+  return Remover(picks, placed).order(sets);
 }
 
 }  // namespace bin_scenes

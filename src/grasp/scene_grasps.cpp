@@ -135,8 +135,8 @@ SceneGrasps Grasper::find(const Scene& scene, const LoadedRequest& loaded,
   const PlacedParts placed(scene, loaded);
   SceneGrasps result;
   result.parts = picks_of(scene, loaded, placed);
-  result.removal_order = order_removal(result.parts, placed);
-  BIN_SCENES_ASSERT(result.removal_order.size() <= result.parts.size());
+  result.removal_order = order_removal(result.parts, placed, result.held_sets);
+  BIN_SCENES_ASSERT(result.removal_order.size() == result.parts.size());
   const std::vector<Gripper>& grippers = loaded.request.grippers;
   std::map<std::pair<std::size_t, std::size_t>, std::shared_ptr<const PartGrasps>> known;
   for (std::size_t line = 0; line < loaded.parts.size(); ++line) {

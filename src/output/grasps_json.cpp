@@ -120,6 +120,26 @@ GraspJson searches_json(const PartPick& pick, const Request& request) {
   return all;
 }
 
+/// What covers a part, and by how much.
+GraspJson overlap_json(const PartPick& pick) {
+  GraspJson by = GraspJson::object();
+  for (std::size_t i = 0; i < pick.blocked_areas.size(); ++i)
+    by[std::to_string(pick.blocked_by[i])] = pick.blocked_areas[i];
+  const Vec3& move = pick.overlap.move;
+  return {{"area", pick.overlap.area},
+          {"share", pick.overlap.share},
+          {"move", {move.x(), move.y(), move.z()}},
+          {"by", std::move(by)}};
+}
+
+GraspJson held_json(const std::vector<SceneGrasps::HeldSet>& sets) {
+  GraspJson all = GraspJson::array();
+  for (const SceneGrasps::HeldSet& held : sets)
+    all.push_back(
+        {{"parts", held.ids}, {"least_overlap", {{"part", held.part}, {"by", held.by}, {"area", held.overlap}}}});
+  return all;
+}
+
 GraspJson found_json(const SceneGrasps::Found& found, const Request& request) {
   const GraspCounts& c = found.counts;
   return {{"line", found.line},
@@ -141,7 +161,7 @@ GraspJson found_json(const SceneGrasps::Found& found, const Request& request) {
 }  // namespace
 
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request) {
-  GraspJson rest = {{"removal_order", grasps.removal_order}};
+  GraspJson rest = {{"removal_order", grasps.removal_order}, {"held_sets", held_json(grasps.held_sets)}};
   rest["blocked_by"] = GraspJson::object();
   rest["parts"] = rest["models"] = rest["grippers"] = GraspJson::array();
   for (const PartPick& pick : grasps.parts) {
@@ -150,6 +170,7 @@ std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Req
                              {"load", pick.load},
                              {"pull", pick.pull},
                              {"depth", pick.depth},
+                             {"overlap", overlap_json(pick)},
                              {"tilted", pick.tilted},
                              {"searched", searches_json(pick, request)}});
   }

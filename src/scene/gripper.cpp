@@ -54,6 +54,9 @@ void check_gripper(const Gripper& gripper, const std::string& key) {
     if (gripper.pad_length > gripper.finger_depth)
       throw input_error("is longer than finger_depth, " + metres(gripper.finger_depth), key + ".pad_length",
                         "the pad lies on the finger");
+    if (!(gripper.widest() > 0.0))
+      throw input_error("twice of it leaves nothing of the stroke, " + metres(gripper.travel()),
+                        key + ".finger_clearance", "lengths are in m; the default is 0.0005");
     return;
   }
   if (gripper.lip >= gripper.radius)

@@ -42,6 +42,13 @@ TEST_F(Grippers, KeysGoBeforeThePresetAndReadBack) {
   EXPECT_EQ(again.text_sha256, request.text_sha256);
 }
 
+TEST_F(Grippers, WeightsOfTheScoreAreKeys) {
+  const std::vector<Gripper> grippers = grippers_of("[{preset: cup_20mm, name: a, score: {upright: 2}}, cup_20mm]");
+  EXPECT_EQ(grippers[0].score.upright, 2.0);
+  EXPECT_EQ(grippers[0].score.moment, ScoreWeights().moment);
+  EXPECT_EQ(grippers[1].score.upright, ScoreWeights().upright);
+}
+
 TEST_F(Grippers, ProofsNeedThem) {
   EXPECT_EQ(read(with("[cup_20mm]\nprove: 5")).prove, 5u);
   EXPECT_EQ(write_request(read(with("[cup_20mm]"))).find("prove"), std::string::npos);
@@ -63,6 +70,7 @@ TEST_F(Grippers, MistakesAreTold) {
       {"[{name: a, finger_width: 0.45}]", "'a' is wider than the bin"},
       {"[{name: a, clearance: 1}]", "for mm write 0.001 m"},
       {"[{name: a, pad_length: 0.06}]", "is longer than finger_depth, 0.05 m"},
+      {"[{name: a, finger_clearance: 0.025}]", "leaves nothing of the stroke, 0.05 m"},
       {"[{name: a, type: suction, radius: 0.01, lip: 0.02}]", "is no smaller than the radius of the ring"},
       {"[{stroke: 0.05}]", "'grippers[0].name': is missing"},
       {"[{name: a}, {name: a}]", "'a' is taken"},

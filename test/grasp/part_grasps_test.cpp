@@ -170,7 +170,8 @@ TEST(ParallelGrasps, RingIsHeldAcrossItsWallOrItsHeight) {
   // where friction f holds a chord of cos(atan f) of the diameter.
   for (const Grasp& grasp : grasps_of(test::ring(0.02, 0.004, height, 48).mesh, two_fingers()).grasps) {
     const bool flat_on = std::abs(closing(grasp.pose).z()) > 0.9;
-    EXPECT_NEAR(grasp.width, flat_on ? height : 0.04 / std::hypot(1.0, grasp.friction), 5e-4);  // facets, and pads at their edge
+    EXPECT_NEAR(grasp.width, flat_on ? height : 0.04 / std::hypot(1.0, grasp.friction),
+                5e-4);  // facets, and pads at their edge
   }
 }
 

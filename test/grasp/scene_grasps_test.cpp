@@ -59,18 +59,53 @@ TEST(SceneGrasps, WhatIsOnlyGrazedDoesNotBlock) {
   }
 }
 
-TEST(SceneGrasps, HookedPartsNeverComeFree) {
-  // Two links of a chain, one through the other.
+TEST(SceneGrasps, HookedPartsLeaveTogether) {
+  // Two links of a chain, one through the other, and a link that lies below the first one.
   Stage stage({two_fingers()});
   const std::size_t ring = stage.add(test::torus_mesh(0.02, 0.004, 40, 16));
   stage.put(ring, {0, 0, 0.03});
   stage.put(ring, {0.02, 0, 0.03}, Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())));
   stage.put(ring, {-0.1, 0, 0.004});
+  stage.put(ring, {-0.02, 0, 0.004});
   const SceneGrasps found = stage.find();
-  EXPECT_EQ(found.removal_order, (std::vector<int>{2}));
-  EXPECT_EQ(pick_of(found, 0).depth, -1);
+  EXPECT_EQ(found.removal_order, (std::vector<int>{2, 1, 0, 3}));
+  ASSERT_EQ(found.held_sets.size(), 1u);
+  EXPECT_EQ(found.held_sets[0].ids, (std::vector<int>{1, 0}));
+  EXPECT_GT(found.held_sets[0].overlap, 1e-5);
+  EXPECT_EQ(pick_of(found, 0).depth, 0);
+  EXPECT_EQ(pick_of(found, 3).depth, 1);
   EXPECT_EQ(pick_of(found, 0).blocked_by, (std::vector<int>{1}));
   EXPECT_EQ(pick_of(found, 1).blocked_by, (std::vector<int>{0}));
+}
+
+TEST(SceneGrasps, OverlapIsAnAreaAndAMoveThatFreesThePart) {
+  // A cube stands 3 mm over the rim of another one, over half of its length.
+  Stage stage({two_fingers()});
+  const std::size_t cube = stage.add(test::box_mesh({0.04, 0.04, 0.04}));
+  stage.put(cube, {0, 0, 0.02});
+  stage.put(cube, {0.037, 0.02, 0.07});
+  const SceneGrasps found = stage.find();
+  const PartPick& pick = pick_of(found, 0);
+  const double cell = 0.04 * std::sqrt(3.0) / 64.0;
+  EXPECT_NEAR(pick.overlap.area, 0.003 * 0.02, cell * 0.023);
+  EXPECT_NEAR(pick.overlap.share, 0.003 * 0.02 / (0.04 * 0.04), cell * 0.023 / (0.04 * 0.04));
+  EXPECT_NEAR(pick.overlap.move.norm(), 0.003, 2.0 * cell);
+  EXPECT_LT(pick.overlap.move.normalized().x(), -0.9);
+  EXPECT_EQ(pick.blocked_areas.size(), 1u);
+  EXPECT_EQ(pick_of(found, 1).overlap.area, 0.0);
+}
+
+TEST(SceneGrasps, WhatSomethingFixedCoversComesLast) {
+  Stage stage({two_fingers()});
+  const std::size_t cube = stage.add(test::box_mesh({0.04, 0.04, 0.04}));
+  stage.put(cube, {0, 0, 0.02});
+  stage.put(cube, {0.02, 0, 0.07});
+  stage.put(cube, {0.1, 0, 0.02});
+  stage.scene.parts[1].state = PartState::fixed;
+  const SceneGrasps found = stage.find();
+  EXPECT_EQ(found.removal_order, (std::vector<int>{2, 0}));
+  EXPECT_EQ(pick_of(found, 0).depth, -1);
+  EXPECT_TRUE(found.held_sets.empty());
 }
 
 TEST(SceneGrasps, LoadAndPullComeFromContactForces) {

@@ -72,15 +72,31 @@ struct PartPick {
   double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
   Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement upwards by which it leaves all others below it
   std::vector<int> blocked_by;  ///< ids that are in the way of its lift or lie on it, ascending; -1: a bin's mesh
-  int depth = -1;  ///< how many rounds of picking precede it; -1: it never comes free (a cycle, or a fixed part)
-  std::size_t tilted = 0;            ///< grasps left out because their approach is tilted too far
+  /// By how much those of `blocked_by` that are parts cover it, seen along the lift.
+  struct Overlap {
+    double area = 0.0;         ///< m2
+    double share = 0.0;        ///< of the part's footprint
+    Vec3 move = Vec3::Zero();  ///< m across the lift: the shortest that was found after which nothing is above it
+  } overlap;
+  std::vector<double> blocked_areas;  ///< m2, of each one of blocked_by alone
+  int depth = -1;          ///< how many rounds of picking precede it; -1: never, as of what a fixed part covers
+  std::size_t tilted = 0;  ///< grasps left out because their approach is tilted too far
   std::vector<PartSearch> searches;  ///< by gripper, of parts that nothing blocks
 };
 
 struct SceneGrasps {
   std::vector<SceneGrasp> grasps;  ///< by part, then gripper; those within the grippers' tilt
   std::vector<PartPick> parts;     ///< in the order of the scene
-  std::vector<int> removal_order;  ///< ids, each after all that block it, the highest first
+  /// All ids, each after all that block it but for sets of parts that hold each other; the highest first. Parts with
+  /// depth -1 come last.
+  std::vector<int> removal_order;
+  /// Parts that hold each other, and therefore leave together.
+  struct HeldSet {
+    std::vector<int> ids;    ///< in the order of removal
+    int part = -1, by = -1;  ///< the one that is covered the least by another one of the set
+    double overlap = 0.0;    ///< m2
+  };
+  std::vector<HeldSet> held_sets;
   /// Of each part line and gripper.
   struct Found {
     std::size_t line = 0, gripper = 0;

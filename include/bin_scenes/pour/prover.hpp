@@ -20,7 +20,8 @@ struct Trial {
 };
 
 /// Fingers close with their force, or the vacuum pulls the part to the cup's ring; then the gripper goes up by 0.1 m,
-/// against gravity, at first with its acceleration. Other parts sleep until something touches them. Always by the default solver, on the CPU.
+/// against gravity, at first with its acceleration. Other parts sleep until something touches them. Always by the
+/// default solver, on the CPU.
 ///
 /// Keeps the shapes of parts and grippers between the scenes of a request. Thread-safe: serves one caller at a time.
 class Prover {
