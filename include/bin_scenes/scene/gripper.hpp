@@ -14,16 +14,16 @@ namespace bin_scenes {
 
 /// Weights of the columns of a grasp (grasp/score.hpp): score = 1 / (1 + exp(-(bias + sum of weight * column))).
 struct ScoreWeights {
-  double bias = -2.0;
-  double holding = 3.0;     ///< of ln(safety factor against slip), limited to +-ln 4
-  double antipodal = 0.25;  ///< of the share of friction that the slope of the contacts leaves
-  double moment = 0.5;      ///< of 1 - sqrt(moment of the weight / moment that is held)
-  double overlap = 0.5;     ///< of the contact: share of the pads in contact, margin of a cup's ring
-  double upright = 0.75;    ///< of 1 - tilt / 90 degrees
-  double clearance = 0.25;  ///< of the room around the gripper: 1 where four clearances are free
-  double closing = 0.5;     ///< of 1 - width / stroke
-  double seen = 0.125;      ///< of the share of the contact that the best camera sees
-  double measured = 0.125;  ///< of the share of the contact that the best camera measured
+  double bias = 0.4;
+  double holding = 2.75;     ///< of ln(safety factor against slip), limited to +-ln 4
+  double antipodal = 0.125;  ///< of the share of friction that the slope of the contacts leaves
+  double moment = 0.25;      ///< of 1 - sqrt(moment of the weight / moment that is held)
+  double overlap = 0.25;     ///< of the contact: share of the pads in contact, margin of a cup's ring
+  double upright = 0.375;    ///< of 1 - tilt / 90 degrees
+  double clearance = 0.125;  ///< of the room around the gripper: 1 where four clearances are free
+  double closing = 0.25;     ///< of 1 - width / stroke
+  double seen = 0.0625;      ///< of the share of the contact that the best camera sees
+  double measured = 0.0625;  ///< of the share of the contact that the best camera measured
 };
 
 struct Gripper {
