@@ -86,6 +86,24 @@ double PoseMeasure::distance(const Pose& a, const Pose& b, const Limits& limits,
   return least;
 }
 
+std::vector<Pose> PoseMeasure::mapped(const Pose& a) const {
+  std::vector<Pose> all;
+  if (!axes_.empty()) return all;
+  for (const Pose& map : maps_) all.push_back(map.inverse() * a);
+  return all;
+}
+
+double PoseMeasure::plain_distance(const std::vector<Pose>& mapped, const Pose& b, const Limits& limits,
+                                   double enough) const {
+  double least = enough;
+  for (const Pose& a : mapped) {
+    const double squared = (a.position - b.position).squaredNorm() / (limits.apart * limits.apart);
+    if (squared >= least * least) continue;
+    least = std::min(least, std::max(std::sqrt(squared), angle_between(a.orientation, b.orientation) / limits.angle));
+  }
+  return least;
+}
+
 std::vector<Pose> PoseMeasure::images(const Pose& pose, const Limits& limits) const {
   std::vector<Pose> all;
   if (axes_.size() > 1) {
@@ -121,8 +139,10 @@ std::vector<std::size_t> thin(const std::vector<Pose>& poses, const PoseMeasure&
       if (chosen.size() % 64 == 0) stop_if_cancelled();
       const Pose& next = poses[left[at]];
       chosen.push_back(left[at]);
+      const std::vector<Pose> mapped = measure.mapped(next);
       for (const std::size_t i : left)
-        distance[i] = std::min(distance[i], measure.distance(next, poses[i], limits, distance[i]));
+        distance[i] = mapped.empty() ? measure.distance(next, poses[i], limits, distance[i])
+                                     : measure.plain_distance(mapped, poses[i], limits, distance[i]);
     }
     left.erase(std::remove_if(left.begin(), left.end(), [&](std::size_t i) { return distance[i] < 1.0; }), left.end());
   }

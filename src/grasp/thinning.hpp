@@ -21,6 +21,10 @@ class PoseMeasure {
   /// What is at least `enough` may be returned as any such value.
   double distance(const Pose& a, const Pose& b, const Limits& limits,
                   double enough = std::numeric_limits<double>::infinity()) const;
+  /// Poses from which the symmetries' distance is the plain one: the least of plain distances from them is distance().
+  /// Empty where a round axis has to be turned for each pair.
+  std::vector<Pose> mapped(const Pose& a) const;
+  double plain_distance(const std::vector<Pose>& mapped, const Pose& b, const Limits& limits, double enough) const;
   bool near(const Pose& a, const Pose& b, const Limits& limits) const { return distance(a, b, limits, 1.0) < 1.0; }
   /// All places to which symmetries bring a pose, the pose itself first; round axes in steps of the limits.
   std::vector<Pose> images(const Pose& pose, const Limits& limits) const;
