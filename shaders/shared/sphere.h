@@ -32,6 +32,7 @@
 #define BIND_BOXES 23
 #define BIND_ROWS 31
 #define BIND_SAMPLES 32
+#define BIND_IMPULSES 33
 
 #define SPHERE_JOB_GROUP 64         // of a group that decides about pairs, one each
 #ifndef SPHERE_PAIR_GROUP
@@ -40,6 +41,8 @@
 #ifndef SPHERE_WORLD_GROUP
 #define SPHERE_WORLD_GROUP 64       // of a group that takes a world: Capacity::world_group
 #endif
+#define SPHERE_PREPARE_GROUP 64     // invocations of a group that prepares rows
+#define SPHERE_PREPARE_GROUPS 8u    // of these, of a world
 #define SPHERE_GROUP_JOBS 16        // pairs after which a group that takes them ends: llvmpipe lets no invocation take more
                                     // than 65,535 turns in all its loops together, and then silently ends each after one
 #define SPHERE_MAX_BODIES 384       // of a world that one group solves: their velocities fill 24 of 32 KiB shared memory
@@ -58,10 +61,11 @@
 #define SPHERE_REFRESHED 4u  // strikes, and no ball is in it
 #define SPHERE_RESTITUTES 8u // a restitution above 0
 
-// A row, by vec4: lever of a, gap (m); lever of b, effective mass along the normal (kg); normal, scale of its tangent;
-// impulses (normal, two of friction), effective mass along tangents; and of use in a few sweeps only: gap when contacts
-// were found, speed at which the two meet, normal impulse that the sub-step began with, whether the contact has pressed.
-#define SPHERE_ROW_PARTS 5u
+// A row, by vec4: normal, effective mass along it (kg); lever of a, effective mass along tangents; lever of b, gap when
+// contacts were found (m). The impulses of a contact, by vec2 and at the same place of their own buffer, so that sweeps
+// only read rows: normal impulse, gap (m); friction along x, y; friction along z, and the normal impulse that the sub-step
+// began with, negative (-0 for 0) if the contact has pressed in this step.
+#define SPHERE_ROW_PARTS 3u
 #define SPHERE_ROW_BLOCK 32u  // manifolds whose rows lie side by side, part by part: their invocations' reads are one
 
 // Sweeps of the solve over all manifolds.
@@ -225,7 +229,7 @@ struct SphereContact {
   vec3 anchor_a;     // on the surface of a, body axes
   uint feature;
   vec3 anchor_b;
-  uint unused;
+  float approach;    // speed at which the two meet if they do in this step (m/s), negative: closing; written by prepare_rows
   vec4 normal;       // from a to b, in the frame of the body whose field gave it
   vec4 force;        // on b (N): normal, friction (world axes)
 };

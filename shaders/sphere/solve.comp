@@ -16,7 +16,8 @@ layout(std430, binding = BIND_MANIFOLDS) buffer Manifolds { SphereManifold manif
 layout(std430, binding = BIND_CONTACTS) buffer Contacts { SphereContact contacts[]; };
 layout(std430, binding = BIND_COLORS) readonly buffer Colors { uint color_starts[]; };
 layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
-layout(std430, binding = BIND_ROWS) buffer Rows { vec4 rows[]; };
+layout(std430, binding = BIND_ROWS) restrict buffer Rows { vec4 rows[]; };
+layout(std430, binding = BIND_IMPULSES) restrict buffer Impulses { vec2 impulses[]; };
 
 shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
 shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
@@ -64,32 +65,73 @@ void sweep(uint kind) {
   }
 }
 
-uint turns = 0u;
-
-// `count` sweeps, and more of them while an impact is not shared.
-void sweep_until_shared(uint first, uint others, int count) {
-  if (ordered == 0u) return;
-  bool impact = false;
-  int most = int(any_impact != 0u ? world.rows.z : world.rows.w);
-  for (int i = 0; i < count || impact && i < most; ++i) {
-    uint turn = turns++ & 1u;
-    unconverged = false;
-    sweep(i == 0 ? first : others);
-    if (unconverged) some_unconverged[turn] = 1u;
-    if (gl_LocalInvocationIndex == 0u) some_unconverged[turn ^ 1u] = 0u;
-    barrier();
-    impact = some_unconverged[turn] != 0u;
-  }
+// Whether a contact of any manifold is not solved yet after a sweep.
+bool any_unconverged(uint sweeps) {
+  uint turn = sweeps & 1u;
+  if (unconverged) some_unconverged[turn] = 1u;
+  if (gl_LocalInvocationIndex == 0u) some_unconverged[turn ^ 1u] = 0u;
+  barrier();
+  return some_unconverged[turn] != 0u;
 }
 
-// Newton's restitution, some sweeps of it.
-void restitute() {
+void begin_sub_step(uint w, int k) {
+  take_sub_step_of(w, uint(k));
+  FOR_OWN_BODIES(i) integrate_velocity(i, plan.sub_step);
+  barrier();
+}
+
+void move_bodies() {
+  FOR_OWN_MANIFOLDS(o) note_sliding(o);
+  barrier();
+  FOR_OWN_BODIES(i) integrate_position(i, plan.sub_step);
+  barrier();
+}
+
+// Whether Newton's restitution has something to do.
+bool any_bounces() {
   if (gl_LocalInvocationIndex == 0u) any_bounce = 0u;
   barrier();
   FOR_OWN_MANIFOLDS(o) if (bounces(o)) any_bounce = 1u;
   barrier();
-  if (any_bounce == 0u) return;
-  for (uint k = 0u; k < SPHERE_BOUNCE_SWEEPS; ++k) sweep(SWEEP_BOUNCE);
+  return any_bounce != 0u;
+}
+
+// All sub-steps. The sweeps of all kinds run in this one loop, because compilers copy `sweep` to each place that calls it.
+void solve_sub_steps(uint w) {
+  uint kind = SWEEP_WARM_START, sweeps = 0u;
+  int k = 0, done = 0;  // sub-steps; sweeps since the warm start, since bodies moved, or since the first one that bounces
+  for (;;) {
+    if (kind == SWEEP_WARM_START) begin_sub_step(w, k);
+    unconverged = false;
+    sweep(kind);
+    if (kind == SWEEP_WARM_START) {
+      kind = SWEEP_FIRST_PUSH;
+      done = 0;
+      continue;
+    }
+    ++done;
+    if (kind == SWEEP_BOUNCE) {
+      if (done == int(SPHERE_BOUNCE_SWEEPS)) return;
+      continue;
+    }
+    // Without manifolds no sweep waits, and one could ask while another still reads the last answer.
+    bool pushes = kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH, impact = ordered > 0u && any_unconverged(sweeps++);
+    if (done < (pushes ? plan.sweeps : plan.relaxing_sweeps) ||
+        impact && done < int(any_impact != 0u ? world.rows.z : world.rows.w)) {
+      kind = pushes ? SWEEP_PUSH : SWEEP_RELAX;
+      continue;
+    }
+    done = 0;
+    if (pushes) {
+      move_bodies();
+      kind = SWEEP_FIRST_RELAX;
+    } else if (++k < plan.sub_steps) {
+      kind = SWEEP_WARM_START;
+    } else {
+      if (!any_bounces()) return;
+      kind = SWEEP_BOUNCE;
+    }
+  }
 }
 
 void main() {
@@ -104,21 +146,9 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) any_impact = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
   barrier();
-  FOR_OWN_MANIFOLDS(o) if (prepare_manifold(o)) any_impact = 1u;
+  FOR_OWN_MANIFOLDS(o) if (begin_manifold(o)) any_impact = 1u;
   barrier();
-  for (int k = 0; k < plan.sub_steps; ++k) {
-    take_sub_step_of(w, uint(k));
-    FOR_OWN_BODIES(i) integrate_velocity(i, plan.sub_step);
-    barrier();
-    sweep(SWEEP_WARM_START);
-    sweep_until_shared(SWEEP_FIRST_PUSH, SWEEP_PUSH, plan.sweeps);
-    FOR_OWN_MANIFOLDS(o) note_sliding(o);
-    barrier();
-    FOR_OWN_BODIES(i) integrate_position(i, plan.sub_step);
-    barrier();
-    sweep_until_shared(SWEEP_FIRST_RELAX, SWEEP_RELAX, plan.relaxing_sweeps);
-  }
-  restitute();
+  solve_sub_steps(w);
   FOR_OWN_MANIFOLDS(o) keep_forces(o);
   uint falling = 0u;
   FOR_OWN_BODIES(i) falling += uint(keep_body(i));

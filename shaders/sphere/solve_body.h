@@ -38,7 +38,8 @@ void integrate_velocity(uint i, float h) {
   add_exactly(h * world.gravity.xyz, v, rest);
   velocity_of(i).xyz = v;
   states[body].velocity_rest.xyz = rest;
-  spin_of(i).xyz = gyrated(spin_of(i).xyz, states[body].orientation, shapes[bodies[body].ids.x], h);
+  vec4 own = spin_of(i);  // whole, as others may have written its last component
+  spin_of(i) = vec4(gyrated(own.xyz, states[body].orientation, shapes[bodies[body].ids.x], h), own.w);
 }
 
 // Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's way

@@ -8,6 +8,7 @@ StepPlan plan;
 Give softly_now, firmly_now;  // how contacts give way before and after bodies move
 float grip;                   // share of friction that holds
 float kept;                   // share of the last step's forces that this one begins with
+bool first_sub_step;          // of the step
 
 // What holds for sub-step k of world w.
 void take_sub_step_of(uint w, uint k) {
@@ -16,6 +17,7 @@ void take_sub_step_of(uint w, uint k) {
   plan = plan_of(w);
   softly_now = softly(plan.sub_step, softness.x, softness.y, softness.z * size, settings.push_speed / softness.w * size);
   firmly_now = firmly(plan.sub_step);
+  first_sub_step = k == 0u;
   grip = int(k) < plan.slip_sub_steps ? 0.0 : progress[w].grip;
   kept = progress[w].forgets != 0u ? 0.0 : 1.0;
 }

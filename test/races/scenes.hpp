@@ -7,11 +7,11 @@
 
 namespace bin_scenes::races {
 
-/// 170 blocks, balls and eggs that strike the floor beside each other, 90 of them a tray that lies there, and ten in
+/// 170 blocks, balls and eggs that strike the floor beside each other, 80 of them a tray that lies there, and ten in
 /// the air: more pairs than groups take in one go, a color of more manifolds than a group has invocations, and
 /// manifolds for which no color is left.
 struct Carpet {
-  static constexpr int tray_end = 90, floor_end = 170;
+  static constexpr int tray_end = 80, floor_end = 170;
   WorldDef def;
   std::vector<BodyState> starts;
 

@@ -93,6 +93,7 @@ Batch::Batch(const Capacity& capacity)
   collect_samples_ = pass("collect_samples", group);
   test_samples_ = pass("test_samples", group);
   choose_contacts_ = pass("choose_contacts", group);
+  prepare_rows_ = pass("prepare_rows");
 }
 
 std::size_t Batch::most_candidates() const {
@@ -125,6 +126,7 @@ void Batch::make_room() {
   at_least(contacts_, SPHERE_MAX_CONTACTS * pairs);
   at_least(order_, pairs);
   at_least(rows_, row_arena_.size() * SPHERE_ROW_PARTS);
+  at_least(impulses_, row_arena_.size() * SPHERE_ROW_PARTS);
   if (jobs_.size() < status_words + job_words * pairs) {
     at_least(jobs_, status_words + job_words * pairs);
     const gpu::SphereStatus none{0, 0, 0, 0, 0, 0, 0, 0, {0, 1, 1, 0}, {0, 1, 1, 0}};

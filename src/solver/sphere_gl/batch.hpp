@@ -1,6 +1,6 @@
 /// The worlds that live on the GPU, and the passes of one step over any choice of them. A pass has one name everywhere:
 /// its method here, its timer, its twin on the CPU (solver/sphere/world.hpp), and shaders/sphere/<name>.comp, but that
-/// find_contacts is four shaders.
+/// find_contacts is four shaders, and solve two.
 ///
 // clang-format off
 ///     shapes     | part 0: nodes, edges, clusters, field | part 1 | ...  shared by all worlds, never change
@@ -9,14 +9,17 @@
 ///     pairs      | world 0: page 0, page 1 | world 1: page 0, page 1 |   take turns, sorted by (a, b)
 ///     manifolds  | world 0: capacity slots | world 1 | ...               a pair keeps its slot while it lasts
 ///     contacts   | world 0: capacity slots | world 1 | ...              eight to a slot
-///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step
+///     rows       | world 0: capacity rows | world 1 | ...               of contacts that are solved, of this step;
+///                                                                        impulses alike
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
 ///     samples    | those of these pairs that are near, in no order |   candidates alike, in chains of their jobs
 ///
-/// A step is eight dispatches, however many worlds run:
+/// A step is nine dispatches, however many worlds run:
 ///
-///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► choose_contacts ─► color_manifolds ─► solve ─► update_sleep
-///     group/world   thread/pair  group/pair         thread/sample   group/pair         group/world        group/world, both
+///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► choose_contacts ─►
+///     group/world   thread/pair  group/pair         thread/sample   group/pair
+///     color_manifolds ─► prepare_rows ─► solve ─► update_sleep
+///     group/world        thread/manifold  group/world, both
 // clang-format on
 ///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
@@ -113,8 +116,8 @@ class Batch {
   std::size_t least_samples_ = 0, least_candidates_ = 0;  ///< room for them
   bool bound_ = false;
 
-  gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_, solve_,
-      update_sleep_;
+  gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_,
+      prepare_rows_, solve_, update_sleep_;
   gl::Timer timer_;
 
   ShapeTable shapes_;
@@ -139,6 +142,7 @@ class Batch {
   gl::Buffer<gpu::uint> colors_{"sphere.colors"};
   gl::Buffer<gpu::SphereOrdered> order_{"sphere.order"};
   gl::Buffer<gpu::vec4> rows_{"sphere.rows"};
+  gl::Buffer<gpu::vec2> impulses_{"sphere.impulses"};
 };
 
 }  // namespace bin_scenes::sphere_gl

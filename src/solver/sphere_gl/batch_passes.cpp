@@ -42,6 +42,7 @@ void Batch::bind() const {
   colors_.bind(BIND_COLORS);
   order_.bind(BIND_ORDER);
   rows_.bind(BIND_ROWS);
+  impulses_.bind(BIND_IMPULSES);
 }
 
 void Batch::find_pairs() {
@@ -75,6 +76,10 @@ void Batch::color_manifolds() {
 }
 
 void Batch::solve() {
+  {
+    gl::Stage stage(timer_, "prepare_rows");
+    gl::dispatch_groups(prepare_rows_, SPHERE_PREPARE_GROUPS * running_count_);
+  }
   gl::Stage stage(timer_, "solve");
   gl::dispatch_groups(solve_, running_count_);
 }
@@ -100,7 +105,7 @@ std::size_t Batch::bytes() const {
         &near_.storage(),         &boxes_.storage(),          &ranges_.storage(),   &pairs_.storage(),
         &free_.storage(),         &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),
         &near_samples_.storage(), &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),
-        &rows_.storage()})
+        &rows_.storage(),         &impulses_.storage()})
     sum += s->bytes();
   return sum;
 }
