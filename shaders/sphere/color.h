@@ -1,16 +1,18 @@
 // Colors of manifolds: what one invocation does with one of them. Whoever includes this says where lowest_of(i),
 // used_low_of(i) and used_high_of(i) lie, i counted in the world: the lowest key among the uncolored manifolds of a body,
-// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, and sphere/body.h.
+// and the colors that its manifolds have. Needs the bindings Bodies, States, Pairs, Manifolds, and sphere/body.h.
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = SPHERE_NO_COLOR;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
 
-// Different for all pairs of a world of up to 65,536 bodies; the finaliser of MurmurHash3 is one to one.
-uint hashed_key(SpherePair pair, uint first_body) {
-  uint a = pair.a - first_body, b = pair.b == SPHERE_GROUND ? a : pair.b - first_body;
-  uint key = a << 16 | b;
-  key = (key ^ key >> 16) * 0x85ebca6bu;
-  key = (key ^ key >> 13) * 0xc2b2ae35u;
-  return key ^ key >> 16;
+// Different for all pairs of a world of up to 16,384 bodies: manifolds with many contacts come first, so that those of a
+// color have about as many, and then the order of a hash. Each step of the hash is one to one on 28 bits (the finaliser
+// of MurmurHash3, cut).
+uint key_of(SphereWorld world, SpherePair pair) {
+  uint a = pair.a - world.bodies.x, b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;
+  uint key = a << 14 | b;
+  key = (key ^ key >> 14) * 0x85ebca6bu & 0x0fffffffu;
+  key = (key ^ key >> 13) * 0xc2b2ae35u & 0x0fffffffu;
+  return SPHERE_MAX_CONTACTS - manifolds[world.pairs.x + pair.slot].state.x << 28 | key ^ key >> 14;
 }
 
 uint lowest_free(uvec2 used) {
@@ -24,7 +26,7 @@ uvec2 color_bit(uint color) { return color < 32u ? uvec2(1u << color, 0u) : uvec
 bool bid(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   if (pair.color != UNCOLORED) return false;
-  uint key = hashed_key(pair, world.bodies.x);
+  uint key = key_of(world, pair);
   if (moves(pair.a)) atomicMin(lowest_of(pair.a - world.bodies.x), key);
   if (pair.b != SPHERE_GROUND && moves(pair.b)) atomicMin(lowest_of(pair.b - world.bodies.x), key);
   return true;
@@ -33,7 +35,7 @@ bool bid(SphereWorld world, uint p) {
 // Takes a color if no other uncolored manifold of both bodies has a lower key; returns it, else UNCOLORED.
 uint take_color(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
-  uint key = hashed_key(pair, world.bodies.x), a = pair.a - world.bodies.x;
+  uint key = key_of(world, pair), a = pair.a - world.bodies.x;
   uint b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;  // in range: compilers read ahead of conditions
   bool a_moves = moves(pair.a), b_moves = pair.b != SPHERE_GROUND && moves(pair.b);
   if (a_moves && lowest_of(a) != key || b_moves && lowest_of(b) != key) return UNCOLORED;

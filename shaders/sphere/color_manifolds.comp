@@ -1,8 +1,8 @@
 // One group a world: colors for the manifolds to solve, so that no two of a color share a moving body. A manifold keeps
 // the color that it had in the last step; of two that now share a body and have the same one, both lose it. Those
-// without a color get one by Jones and Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose hashed
-// key is the lowest among the uncolored ones of both its bodies takes the lowest color that both still have. That is the
-// greedy coloring in order of the hash, whatever runs when; an order by index would wait along rows of neighbours. All
+// without a color get one by Jones and Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose key is
+// the lowest among the uncolored ones of both its bodies takes the lowest color that both still have. That is the
+// greedy coloring in order of the keys, whatever runs when; an order by index would wait along rows of neighbours. All
 // are colored anew where that needs more colors than the last time, and when a quarter of the manifolds has gone: each
 // color is a barrier in every sweep. Twin: color_manifolds().
 #include "shared/sphere.h"

@@ -283,10 +283,10 @@ TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
   batch.color_manifolds();
   batch.download(slot, world);
   const auto hashed = [](const Manifold& m) {
-    std::uint32_t key = m.a << 16 | (m.b == ground ? m.a : m.b);
-    key = (key ^ key >> 16) * 0x85ebca6bu;
-    key = (key ^ key >> 13) * 0xc2b2ae35u;
-    return key ^ key >> 16;
+    std::uint32_t key = m.a << 14 | (m.b == ground ? m.a : m.b);
+    key = ((key ^ key >> 14) * 0x85ebca6bu) & 0x0fffffffu;
+    key = ((key ^ key >> 13) * 0xc2b2ae35u) & 0x0fffffffu;
+    return static_cast<std::uint32_t>(SPHERE_MAX_CONTACTS - m.contacts.size()) << 28 | (key ^ key >> 14);
   };
   std::vector<std::size_t> order;
   for (std::size_t m = 0; m < world.manifolds.size(); ++m) order.push_back(m);
