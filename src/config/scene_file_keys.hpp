@@ -103,7 +103,7 @@ void visit(Visitor& v, SceneFile& scene) {
   v.field({"seed", "", "of the request", anything, true, true}, scene.seed);
   v.field({"index", "", "of the scene: it depends on (seed, index) alone", anything, true, true}, scene.index);
   SceneBin bin{scene.bin};
-  v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, bin);
+  v.section({"bin", "", "its origin is the centre of the floor's top, z up"}, bin);
   v.field({"gravity", "m/s2", "in the bin frame"}, scene.gravity);
   v.field({"request_sha256", "", "digest of the request with all its defaults and of its models"},
           scene.request_sha256);

@@ -1,3 +1,5 @@
+/// Poses are thinned by a sequence of covers, each finer than the one before, so that a larger number of poses always
+/// contains a smaller one.
 #include "grasp/thinning.hpp"
 
 #include "bin_scenes/core/cancel.hpp"

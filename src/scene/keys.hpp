@@ -244,7 +244,7 @@ void visit(Visitor& v, Acceptance& accept) {
       accept.worst_energy_gain);
   v.field(
       {"jam", "",
-       "largest squeeze of a part between contacts on opposite sides / weight of it and of what lies on it; more: its "
+       "largest squeeze of a part between contacts on opposite sides / weight of it and of what rests on it; more: its "
        "collision shape fills a gap that the part has, and the scene is set apart",
        at_least(1.0)},
       accept.jam);
@@ -262,7 +262,7 @@ void visit(Visitor& v, Request& request) {
   v.field({"first", "", "index of the first scene; scene i depends on (seed, i) alone, so that a job can be split",
            at_least(0.0, 1e9)},
           request.first);
-  v.section({"bin", "", "its origin is the middle of the floor's top, z up"}, request.bin);
+  v.section({"bin", "", "its origin is the centre of the floor's top, z up"}, request.bin);
   v.field({"gravity", "m/s2", "in the bin frame", at_least(-1e4, 1e4)}, request.gravity);
   v.list({"parts", "", "parts to pour; several lines make a mixed bin", anything, true, true}, request.parts);
   v.section({"pour", "", "how parts enter the bin, and when they are at rest"}, request.pour);
@@ -273,7 +273,8 @@ void visit(Visitor& v, Request& request) {
            "sources); single values are changed by --set or a plan's draw",
            anything, false},
           request.rig);
-  v.list({"grippers", "", "whose grasps the format grasps tells; an item is a map or the name of a preset", anything,
+  v.list({"grippers", "",
+          "the grippers for which the format `grasps` lists grasps; an item is a map or the name of a preset", anything,
           !request.grippers.empty()},
          request.grippers);
   v.field({"prove", "", "free grasps of a scene that are proved by lifting, spread over their scores",
@@ -285,9 +286,8 @@ void visit(Visitor& v, Request& request) {
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
   v.field({"drift_check", "",
-           "true: the same solver continues from rest for 0.5 s, and the report says how far parts move; this tells "
-           "nothing "
-           "about other engines"},
+           "true: the same solver continues from rest for 0.5 s, and the report states how far parts move; this does "
+           "not predict what other engines do"},
           request.drift_check);
   v.field({"memory_budget", "byte",
            "a request whose estimate exceeds it is refused, with the figure; distance fields share half of it",

@@ -63,7 +63,7 @@ template <class Visitor>
 void visit(Visitor& v, Projector& projector) {
   v.field({"pose", "", "optical frame in the bin frame; left out: from baseline"}, projector.pose);
   v.field({"baseline", "m",
-           "along the camera's x, turned towards the middle of the bin; longer = less noise and wider shadows; pose "
+           "along the camera's x, turned towards the centre of the bin; longer = less noise and wider shadows; pose "
            "goes before it",
            at_least(-100.0, 100.0)},
           projector.baseline);
@@ -78,7 +78,7 @@ void visit(Visitor& v, Laser& laser) {
   v.field(
       {"pose", "", "frame whose y-z plane is the sheet of light, along z, in the bin frame; left out: from baseline"},
       laser.pose);
-  v.field({"baseline", "m", "along the camera's x, turned towards the middle of the bin; pose goes before it",
+  v.field({"baseline", "m", "along the camera's x, turned towards the centre of the bin; pose goes before it",
            at_least(-100.0, 100.0)},
           laser.baseline);
   v.field({"width_mm", "mm", "width of the line on the surface; wider = more speckle noise", above(0.0, 100.0)},
@@ -200,7 +200,7 @@ void visit(Visitor& v, Views& views) {
           views.count);
   v.field({"distance", "m", "of the dome, from target"}, views.distance);
   v.field({"tilt", "rad", "largest angle between a view and the vertical; below pi/2"}, views.tilt);
-  v.field({"target", "m", "what they look at; [0, 0, 0] is the middle of the floor"}, views.target);
+  v.field({"target", "m", "what they look at; [0, 0, 0] is the centre of the floor"}, views.target);
 }
 
 /// From where it sees, and how far.
@@ -246,7 +246,7 @@ void visit_devices(Visitor& v, Sensor& sensor) {
   v.section({"projector", "", projector.c_str()}, sensor.projector);
   const std::string laser = users_of(&SensorModel::laser) + "the sheet of light";
   v.section({"laser", "", laser.c_str()}, sensor.laser);
-  const std::string scan = users_of(&SensorModel::laser) + "how camera and laser move; poses are those in the middle";
+  const std::string scan = users_of(&SensorModel::laser) + "how camera and laser move; poses are those at the centre of the scan";
   v.section({"scan", "", scan.c_str()}, sensor.scan);
   const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
   v.section({"imager", "", imager.c_str()}, sensor.imager);
