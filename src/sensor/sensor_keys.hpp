@@ -246,7 +246,8 @@ void visit_devices(Visitor& v, Sensor& sensor) {
   v.section({"projector", "", projector.c_str()}, sensor.projector);
   const std::string laser = users_of(&SensorModel::laser) + "the sheet of light";
   v.section({"laser", "", laser.c_str()}, sensor.laser);
-  const std::string scan = users_of(&SensorModel::laser) + "how camera and laser move; poses are those at the centre of the scan";
+  const std::string scan =
+      users_of(&SensorModel::laser) + "how camera and laser move; poses are those at the centre of the scan";
   v.section({"scan", "", scan.c_str()}, sensor.scan);
   const std::string imager = users_of(&SensorModel::imager) + "the camera's chip";
   v.section({"imager", "", imager.c_str()}, sensor.imager);

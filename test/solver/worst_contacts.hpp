@@ -25,7 +25,9 @@ TEST_P(WorstContacts, AnOverlapAtTheStartIsReportedOnceWithPartAndTime) {
     const WorstContact first = taken(lab);
     EXPECT_EQ(first.a, 0);
     EXPECT_EQ(first.b, -1);
-    EXPECT_NEAR(first.depth, 0.1 * edge, 1e-3 * edge);
+    EXPECT_GE(first.depth, 0.1 * edge - 1e-3 * edge);
+    const double fall = 9.81 * lab.solver().step_size() * lab.solver().step_size();
+    EXPECT_LE(first.depth, 0.1 * edge + fall + 1e-3 * edge) << "the box may fall for one step before contacts act";
     EXPECT_NEAR(first.relative, first.depth / (edge * std::sqrt(3.0)), 1e-6);
     EXPECT_NEAR(first.ago, 0.1, 0.01) << "in one of the first steps";
     EXPECT_EQ(taken(lab).a, -1) << "it was taken, and nothing was simulated since";
