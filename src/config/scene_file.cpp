@@ -24,6 +24,15 @@ void number_lines(const Json& parts, std::vector<ScenePart>& read) {
   }
 }
 
+void check_intrinsics(const std::vector<SceneSensor>& sensors) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::size_t size = sensors[i].k.size();
+    if (size != 0 && size != 9)
+      throw config::JsonFault{"sensors[" + std::to_string(i) + "].K",
+                              "holds " + std::to_string(size) + " numbers where 9 are due"};
+  }
+}
+
 SceneFile read_scene(const Json& json, Strictness strictness) {
   config::expect_map(json, "");
   if (json.value("format", Json()) != scene_format)
@@ -32,6 +41,7 @@ SceneFile read_scene(const Json& json, Strictness strictness) {
   config::JsonReader reader(json, "", strictness == Strictness::strict);
   visit(reader, scene);
   number_lines(json.at("parts"), scene.parts);
+  check_intrinsics(scene.sensors);
   return scene;
 }
 

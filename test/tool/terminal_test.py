@@ -146,7 +146,8 @@ class Completion(Folder):
             return subprocess.run([TOOL, "complete", "--", *words], capture_output=True, text=True, check=True).stdout.split()
         commands = [word for word in ask("") if not word.startswith("file:")]
         self.assertIn("new", commands)
-        self.assertNotIn("reference", commands)
+        self.assertIn("reference", commands)
+        self.assertNotIn("complete", commands)
         for command in commands:
             self.assertIn("--help", ask(command, "-"))
         for command, option in [("generate", "--set"), ("generate", "--formats"), ("generate", "--solver"),
