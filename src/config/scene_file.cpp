@@ -64,6 +64,10 @@ SceneFile read_scene_file(const std::string& path, Strictness strictness) {
   } catch (const Json::parse_error& error) {
     throw input_error("is no JSON, or cut off: it cannot be read from byte " + std::to_string(error.byte) + " on", path,
                       remedy);
+  } catch (const Json::exception& error) {  // numbers beyond all types
+    const std::string what = error.what();
+    const std::size_t end = what.find("] ");
+    throw input_error(end == std::string::npos ? what : what.substr(end + 2), path, remedy);
   } catch (const config::JsonFault& fault) {
     throw input_error((fault.path.empty() ? "" : "'" + fault.path + "': ") + fault.problem, path, remedy);
   }
