@@ -66,7 +66,7 @@ void add_parts(Json& data, SceneFile& scene, const std::string& folder, const st
   for (ScenePart& part : scene.parts) {
     if (!part.pose.finite()) continue;
     if (part.line >= scene.models.size())
-      throw input_error("is no scene that bin_scenes wrote: it does not name its models", folder,
+      throw input_error("is no scene that bin_scenes wrote: it does not name its models", folder + "/scene.json",
                         "make the scene anew: generate --overwrite");
     if (!place_of.count(part.line)) {
       place_of[part.line] = data["meshes"].size();
