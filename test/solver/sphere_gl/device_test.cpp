@@ -11,7 +11,7 @@
 namespace bin_scenes::sphere_gl {
 namespace {
 
-/// Drivers do not use names again: all tests of this program need more than 10,000.
+/// Mesa does not reuse names: together, the tests of this program need more than 10,000.
 std::pair<int, int> buffers_and_programs() {
   std::pair<int, int> count{0, 0};
   for (GLuint id = 1; id < 1000000; ++id) count.first += glIsBuffer(id), count.second += glIsProgram(id);
