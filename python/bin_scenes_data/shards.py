@@ -1,4 +1,4 @@
-"""Samples of shards: tar files with an index that tells where each file lies."""
+"""Samples of shards: tar files with an index that gives the place of each file."""
 import collections
 import functools
 import json
@@ -17,7 +17,7 @@ def run_lengths_to_mask(run_lengths):
 
 
 def matrices(poses):
-    """(N, 4, 4) of poses as JSON tells them."""
+    """(N, 4, 4) of poses as they stand in JSON."""
     poses = list(poses)
     made = np.tile(np.eye(4), (len(poses), 1, 1))
     for matrix, pose in zip(made, poses):
@@ -122,7 +122,7 @@ class Sample:
 
     @property
     def grasps(self):
-        """Grasps of the scene, a dict as grasps.json tells them; poses in the bin and in each camera."""
+        """Grasps of the scene, a dict with the structure of grasps.json; poses in the bin and in each camera."""
         return self._json("grasps.json")
 
     @property
@@ -130,8 +130,8 @@ class Sample:
         """The same as arrays, a row each: `pose` (N, 4, 4) in the bin (m), `part`, `gripper` (a row of
         grasps["grippers"]), `width` (m), `score`, `free`, `proved` (1: lifted, 0: failed, -1: not tried), and by name of
         a camera `in_camera` (N, 4, 4) and `visible` (N,), the share of the contact that it sees."""
-        told = self.grasps
-        grasps, names = told["grasps"], [gripper["name"] for gripper in told["grippers"]]
+        stored = self.grasps
+        grasps, names = stored["grasps"], [gripper["name"] for gripper in stored["grippers"]]
         cameras = list(grasps[0]["pose_in_camera"]) if grasps else []
         column = lambda kind, value: np.array([value(grasp) for grasp in grasps], kind)
         made = {"pose": matrices(grasp["pose"] for grasp in grasps),
@@ -141,7 +141,7 @@ class Sample:
                 "proved": column(int, lambda g: g["proof"]["success"] if "proof" in g else -1),
                 "in_camera": {name: matrices(g["pose_in_camera"][name] for g in grasps) for name in cameras},
                 "visible": {name: column(float, lambda g: g["visible"][name]) for name in cameras}}
-        if not grasps:  # which tell no camera: each name has empty arrays
+        if not grasps:  # then no camera is known: each name has empty arrays
             for name, shape in (("in_camera", (0, 4, 4)), ("visible", (0,))):
                 made[name] = collections.defaultdict(functools.partial(np.zeros, shape))
         return made
@@ -155,7 +155,7 @@ class Sample:
 
 
 def split_of(facts, scene):
-    """Name of the split that a scene belongs to; `facts`: what dataset.json tells. As in src/dataset/data_folder.cpp."""
+    """Name of the split that a scene belongs to; `facts`: the content of dataset.json. As in src/dataset/data_folder.cpp."""
     heap = scene // (facts["depletion_steps"] + 1)
     place, total = (heap * 0.6180339887498949) % 1.0, 0.0
     for name, share in facts["split"].items():

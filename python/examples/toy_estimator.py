@@ -21,7 +21,7 @@ POINTS = 400      # of the depth image, a part
 SAMPLES = 3000    # of the model's surface
 STEPS = 25
 KEPT = 0.8        # share of the points with the smallest distances: the others lie on neighbours or are noise
-LEAST = 30        # points; fewer tell no pose
+LEAST = 30        # points; fewer do not determine a pose
 SHARES = np.arange(0.05, 0.51, 0.05)  # of the diameter: thresholds of bop24
 
 

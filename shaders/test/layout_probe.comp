@@ -1,4 +1,4 @@
-// Copies every field back, changed in a way that tells the fields apart.
+// Copies every field back, changed so that the fields can be distinguished.
 #include "shared/dispatch.h"
 #include "shared/layout_probe.h"
 

@@ -160,7 +160,7 @@ BopPlan read_bop_plan(const YAML::Node& own, const YAML::Node& rig, const std::v
   reader.read(own);
   const bool own_tolerance = own && own.IsMap() && own["tolerance"];
   if (own_tolerance && !plan.measured)
-    complain("has a meaning only where measured depth tells what is visible", "tolerance",
+    complain("has a meaning only where measured depth decides what is visible", "tolerance",
              "add visible: measured, or leave it out");
   if (rig_has_tolerance && !own_tolerance && !plan.measured) plan.tolerance.reset();
   const bool only_industrial = own && own.IsMap() && (own["format"] || own["modalities"] || own["evaluate"]);

@@ -86,7 +86,7 @@ std::string Source::where(std::string path) const {
 
 KeyReader::KeyReader(YAML::Node map, std::string path, Source& source)
     : map_(std::move(map)), path_(std::move(path)), source_(source) {
-  // yaml-cpp keeps the first of two equal keys and says nothing; a setting that is not read must be told.
+  // yaml-cpp keeps the first of two equal keys and says nothing; a setting that is not read must be reported.
   std::set<std::string> seen;
   for (const auto& item : map_) {
     if (!item.first.IsScalar()) throw wrong_type(path_, "a map whose keys are words", item.first);

@@ -138,7 +138,7 @@ std::string resolve_file(const std::string& written, const std::string& base, co
   }
   path = fs::absolute(path).lexically_normal();
 
-  // Outside the roots not even the existence of a file is told.
+  // Outside the roots not even the existence of a file is revealed.
   std::error_code error;
   const fs::path real = fs::weakly_canonical(path, error);
   if (error) throw input_error("cannot follow '" + path.string() + "': " + error.message(), where, "check the path");

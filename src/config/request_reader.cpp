@@ -96,7 +96,7 @@ YAML::Node parse(const std::string& text, const std::string& file) {
 using Where = std::function<std::string(const std::string& path)>;
 
 /// Whether a line of the request is of the model that the scene's line was made of: the same bytes, wherever they lie.
-/// A scene that does not tell them has only the name of the file.
+/// A scene that does not state them has only the name of the file.
 bool is_model_of(const PartLine& line, const Scene& scene, std::size_t index) {
   if (index < scene.model_sha256.size() && !scene.model_sha256[index].empty()) {
     return scene.model_sha256[index] == line.sha256;

@@ -1,4 +1,4 @@
-/// Files and folders are written under a hidden name that tells host and process, synced, and renamed. Names of
+/// Files and folders are written under a hidden name that contains host and process, synced, and renamed. Names of
 /// processes that no longer run are removed by later ones.
 #include "bin_scenes/core/temporary.hpp"
 
@@ -34,7 +34,7 @@ std::string host_name() {
   return name;
 }
 
-/// What the name of a temporary tells.
+/// What the name of a temporary states.
 struct Writer {
   std::string target;  ///< name that it was to get
   pid_t pid = 0;

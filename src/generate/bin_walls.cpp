@@ -29,7 +29,7 @@ double first_from_above(const Mesh& mesh, double x, double y) {
 
 void check_bin_walls(const PartModel& bin, const Request& request) {
   if (bin.load_report().closed || request.solver.type == SolverType::bullet) return;
-  constexpr int columns = 7;       // along each axis, within the middle of the bin
+  constexpr int columns = 7;       // along each axis, within the centre of the bin
   constexpr double beside = 1e-4;  // of the diagonal: just above the floor, and just below its top
   const Mesh mesh = transformed(bin.mesh(), request.bin.pose);
   const Aabb box = mesh.bounds();

@@ -32,16 +32,16 @@ class Reporter {
     progress.phase = name;
     progress.scene = scene;
     progress.parts = parts;
-    tell(progress);
+    report(progress);
   }
   void poured(Progress progress) {
     poured_ = progress.fraction;
-    tell(progress);
+    report(progress);
   }
   void handed_on() { ++handed_on_; }
 
  private:
-  void tell(Progress progress) {
+  void report(Progress progress) {
     if (poured_ > 0.0) {
       const double after = (1.0 - load_share - pour_share) * static_cast<double>(handed_on_) / scenes_;
       fraction_ = std::max(fraction_, std::min(load_share + pour_share * poured_ + after, 1.0));

@@ -34,7 +34,7 @@ constexpr double per_pair = 200.0;            // of parts that start within each
 constexpr double per_bullet_pair = 7500.0;    // likewise: Bullet makes a manifold and its constraints for each
 constexpr double per_sphere = 120.0;          // of the thesis's solver, its share of grid and sorting included
 constexpr double per_sphere_contact = 24.0;   // of its capacity
-constexpr double per_pixel = 120.0;           // view, measured and true images, and a cloud on its way into a file
+constexpr double per_pixel = 120.0;           // view, measured and true images, and a cloud that is being written
 constexpr double per_denoised_pixel = 170.0;  // light, its variance and its faces, before and after a pass
 
 double field_bytes(const PartModel& part, double relative_cell, std::size_t most_nodes) {

@@ -18,7 +18,7 @@ std::string text_of(double number) {
   return text;
 }
 
-/// Everything the loaded model depends on. Where the request does not tell the digest of the file, its time and size
+/// Everything the loaded model depends on. Where the request does not give the digest of the file, its time and size
 /// stand for its contents, so that an edited file is read again. (The disk cache below goes by the contents
 /// themselves.)
 std::string key_of(const std::string& path, const std::string& sha256, const LoadOptions& options) {

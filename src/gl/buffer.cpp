@@ -84,7 +84,7 @@ void Storage::write(std::size_t offset, const void* data, std::size_t bytes) {
   BIN_SCENES_ASSERT(offset + bytes <= bytes_);
   if (!bytes) return;
   update_barrier();
-  // On NVIDIA (driver 580.159) a clear that is under way would undo a write of 80 kB that was asked for after it.
+  // On NVIDIA (driver 580.159) a clear that is still running would undo a write of 80 kB that was asked for after it.
   if (std::exchange(filled_, false)) glFinish();
   traffic().bytes_uploaded += bytes;
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);

@@ -111,7 +111,7 @@ EGLContext core_context(EGLDisplay display, EGLConfig config) {
                          EGL_LOSE_CONTEXT_ON_RESET,
                          EGL_NONE};
   EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
-  if (context == EGL_NO_CONTEXT) {  // a driver that does not tell of resets
+  if (context == EGL_NO_CONTEXT) {  // a driver that does not report resets
     attributes[6] = EGL_NONE;
     context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   }

@@ -24,7 +24,7 @@ std::uint64_t hash(const void* data, std::size_t size, std::uint64_t h = basis) 
   return h;
 }
 
-/// Before the binary in the file: enough to tell a whole file of this key from anything else.
+/// Before the binary in the file: enough to recognize a complete file of this key.
 struct Header {
   char magic[8] = {'b', 's', 'p', 'r', 'o', 'g', '0', '1'};
   std::uint64_t key[2] = {0, 0};

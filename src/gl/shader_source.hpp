@@ -1,4 +1,4 @@
-/// Text of a shader as the compiler gets it, and the way back from its messages to files.
+/// Text of a shader as the compiler gets it, and the mapping from its messages back to files.
 #pragma once
 
 #include "bin_scenes/gl/program.hpp"

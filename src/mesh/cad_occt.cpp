@@ -365,7 +365,7 @@ Solids read_here(const std::string& bytes, const std::string& format, const Load
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     const FileInMemory file(bytes);
     if (access(file.path().c_str(), R_OK) != 0)
-      throw Refused{"is read by way of /proc, which is not mounted here", "mount it, or give the part as STL"};
+      throw Refused{"is read through /proc, which is not mounted here", "mount it, or give the part as STL"};
     const Collector all = format == "STEP" ? read_step(file, result) : read_iges(file, result);
     result.count = all.solids.size();
     tessellate(chosen(all, options, result), options, result);

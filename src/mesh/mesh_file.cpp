@@ -1,4 +1,4 @@
-/// Checks a file, tells its format, and lets the reader of that format make a mesh of it.
+/// Checks a file, detects its format, and lets the reader of that format make a mesh of it.
 #include "mesh_file.hpp"
 
 #include "assimp_import.hpp"

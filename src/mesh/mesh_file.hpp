@@ -21,7 +21,7 @@ struct MeshFile {
 };
 
 /// Throws an input Error with path, cause and remedy: unknown format, refused by assimp (with what is wrong in it where
-/// that can be told), nothing but points or lines.
+/// that can be determined), nothing but points or lines.
 MeshFile parse_mesh_file(const ModelFile& file, const LoadOptions& options);
 
 }  // namespace bin_scenes

@@ -88,7 +88,8 @@ class Repair {
  private:
   Error encloses_nothing() const {
     return input_error(
-        "the surface encloses nothing, its volume is 0: it is flat, or every face is there twice, once facing each way",
+        "the surface encloses nothing, its volume is 0: it is flat, or every face is there twice, once facing in each "
+        "direction",
         where_, "export the part as a solid, single-sided (without back faces)");
   }
   double tolerance() const { return options_.weld * diagonal_; }
@@ -119,7 +120,7 @@ class Repair {
     }
     if (found.opposite_pairs > 0) {
       flag("double_faces_removed",
-           count(found.opposite_pairs, "pair") + " of equal triangles facing each way: " +
+           count(found.opposite_pairs, "pair") + " of equal triangles that face opposite directions: " +
                (options_.thickness ? "one of each pair kept" : "removed, since they enclose nothing"),
            "export the part single-sided");
     }
@@ -172,7 +173,7 @@ class Repair {
                         where_, "a part must be a solid: repair it in the modeller");
     }
     if (agreement.turned > 0) {
-      flag("winding_unified", count(agreement.turned, "triangle") + " turned to face the same way as their neighbours",
+      flag("winding_unified", count(agreement.turned, "triangle") + " turned to the same side as their neighbours",
            "recompute normals in the modeller");
     }
   }

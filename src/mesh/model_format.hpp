@@ -1,4 +1,4 @@
-/// What a model file is, told from its name and bytes before any reader sees it.
+/// What a model file is, detected from its name and bytes before any reader sees it.
 #pragma once
 
 #include <optional>

@@ -60,7 +60,7 @@ std::size_t overlapping_pairs(const Mesh& mesh) {
 }
 namespace {
 
-// Solid angles it may cost, at each tolerance, to tell which pieces are inside another shell: about a second. To see
+// Solid angles it may cost, at each tolerance, to find which pieces are inside another shell: about a second. To see
 // whether a triangle cuts a piece costs as much as five.
 constexpr double most_work = 2e7, work_of_cut = 5;
 

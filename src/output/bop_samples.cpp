@@ -21,7 +21,7 @@ nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int wid
 std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height) {
   const auto rows = static_cast<std::size_t>(height), pixels = rows * static_cast<std::size_t>(width);
   std::vector<std::size_t> counts;
-  std::size_t begin = 0;  // of the run that is under way, in pixels from the upper left, column by column
+  std::size_t begin = 0;  // of the current run, in pixels from the upper left, column by column
   bool value = false;
   const auto turn = [&](std::size_t at) {
     counts.push_back(at - begin);

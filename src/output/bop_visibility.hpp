@@ -1,5 +1,5 @@
 /// What BOP says of a part in an image, by the definitions of bop_toolkit's calc_gt_info. Which pixels show a part is
-/// told by the true image, or by the depth image as it is stored and the depth of the part alone.
+/// decided by the true image, or by the depth image as it is stored and the depth of the part alone.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

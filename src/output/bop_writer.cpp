@@ -60,7 +60,7 @@ void write_masks(const fs::path& root, const BopImage& image, const BopPlace& pl
   }
 }
 
-/// What the JSON files of one sensor tell.
+/// What the JSON files of one sensor contain.
 struct SensorFiles {
   Json camera = Json::object(), truth = Json::object(), info = Json::object();
   std::vector<const BopImage*> images;

@@ -72,7 +72,7 @@ class Canvas {
   int size_, right_, panel_;
 };
 
-/// From near to far: bright to dark, told apart in grey as well.
+/// From near to far: bright to dark, distinguishable in grey as well.
 std::array<std::uint8_t, 3> colour_of_depth(double share) {
   constexpr double anchors[5][3] = {{250, 225, 60}, {105, 200, 95}, {35, 145, 140}, {60, 80, 140}, {65, 10, 85}};
   const double at = 4.0 * std::clamp(share, 0.0, 1.0);
@@ -117,21 +117,21 @@ Palette depth_picture(const RangeImage& image) {
   const auto [nearest, farthest] = range_of_colours(image.depth);
   Canvas canvas(image.width, image.height, 7);
   if (!(farthest > 0.0f)) return canvas.picture;  // nothing is valid
-  constexpr int shades = 250;
-  for (int i = 0; i < shades; ++i) canvas.picture.colours.push_back(colour_of_depth((i + 0.5) / shades));
+  constexpr int steps = 250;
+  for (int i = 0; i < steps; ++i) canvas.picture.colours.push_back(colour_of_depth((i + 0.5) / steps));
   const double range = std::max(1e-9, static_cast<double>(farthest) - nearest);
   const float* depth = image.depth.data();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x, ++depth) {
       if (!std::isfinite(*depth)) continue;
-      const int shade = static_cast<int>(std::clamp(shades * (*depth - nearest) / range, 0.0, shades - 1.0));
-      canvas.at(x, y) = static_cast<std::uint8_t>(first_colour + shade);
+      const int step = static_cast<int>(std::clamp(steps * (*depth - nearest) / range, 0.0, steps - 1.0));
+      canvas.at(x, y) = static_cast<std::uint8_t>(first_colour + step);
     }
   }
   const int size = canvas.size(), top = 8 * size, bar = std::max(1, image.height - 16 * size);
   for (int y = 0; y < bar; ++y) {
     canvas.fill(canvas.right() + 4 * size, top + y, 8 * size, 1,
-                static_cast<std::uint8_t>(first_colour + y * shades / bar));
+                static_cast<std::uint8_t>(first_colour + y * steps / bar));
   }
   constexpr int ticks = 4;
   for (int i = 0; i <= ticks; ++i) {

@@ -37,7 +37,7 @@ void WholeFile::append(const void* data, std::size_t size) {
 
 void WholeFile::commit() {
   const int descriptor = std::exchange(descriptor_, -1);
-  if (::close(descriptor) != 0) fail("cannot be closed");  // some file systems tell of a full disk only here
+  if (::close(descriptor) != 0) fail("cannot be closed");  // some file systems report a full disk only here
   temporary_.commit();
 }
 

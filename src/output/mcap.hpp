@@ -29,8 +29,8 @@ struct McapChannel {
 };
 
 /// A file that is written front to back and appears with close(). Times are in ns since the epoch. A file cut off
-/// behind a chunk is still read up to there, because each type and channel is told in the chunk of its first message.
-/// All functions throw an environment Error if the file cannot be written.
+/// behind a chunk is still read up to there, because each type and channel is declared in the chunk of its first
+/// message. All functions throw an environment Error if the file cannot be written.
 class McapFile {
  public:
   McapFile(const std::string& path, const std::string& profile);

@@ -11,7 +11,7 @@ using Colour = Eigen::Array3d;
 
 constexpr double outline = 0.35;       ///< brightness left on the line between two parts
 constexpr double hollow_color = 0.65;  ///< how much of its light a hollow may lose
-constexpr int neighbourhood = 10;      ///< pixels around one that tell whether it lies in a hollow
+constexpr int neighbourhood = 10;      ///< pixels around one that decide whether it lies in a hollow
 
 /// Hues a golden angle apart: neighbours in id are far apart in colour, however many there are. Saturation and value
 /// take turns, so that equal hues still differ.

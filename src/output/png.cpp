@@ -134,7 +134,7 @@ void write_pngs(const std::string& directory, const RangeImage& image) {
   const std::string base = (std::filesystem::path(directory) / sensor.name).string();
   const Bytes depth = png16(image.width, image.height, counted_depth(image.depth, sensor.depth_scale));
   write_bytes(base + "_depth.png", depth);
-  // Exact sensors tell the truth: it is encoded once.
+  // Exact sensors measure the truth: it is encoded once.
   write_bytes(base + "_truth_depth.png",
               image.truth_depth.empty()
                   ? depth

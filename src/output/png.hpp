@@ -39,7 +39,7 @@ std::vector<std::uint8_t> counted_normals(const std::vector<std::array<float, 3>
 
 /// The scene as a picture, RGB: a colour a part, light from the upper left, edges and hollows darkened.
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image);
-/// Depth in colours, with a bar that tells them in metres.
+/// Depth in colours, with a bar that gives their scale in metres.
 Palette depth_picture(const RangeImage& image);
 /// Validity in colours, with a legend of the codes that occur.
 Palette validity_picture(const RangeImage& image);

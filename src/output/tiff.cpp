@@ -111,10 +111,10 @@ LoadedImage load_tiff(const std::string& path) {
                                    : static_cast<int>(number_at<std::uint16_t>(bytes, tags[sample_bits]));
   const std::size_t begin = tags[strip_begin], size = tags[strip_bytes], wide = image.bits == 16 ? 2 : 1;
   constexpr double most_packed = 1040.0;  // bytes of zlib in one: a damaged header must not ask for all memory
-  const double told = 1.0 * tags[columns] * tags[rows] * tags[samples_a_pixel] * static_cast<double>(wide);
+  const double stated = 1.0 * tags[columns] * tags[rows] * tags[samples_a_pixel] * static_cast<double>(wide);
   const bool there =
-      bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size() && told <= most_packed * static_cast<double>(size);
-  std::string plain(there ? static_cast<std::size_t>(told) : 0, '\0');
+      bytes.rfind("II*", 0) == 0 && begin + size <= bytes.size() && stated <= most_packed * static_cast<double>(size);
+  std::string plain(there ? static_cast<std::size_t>(stated) : 0, '\0');
   uLongf length = plain.size();
   if (!there ||
       uncompress(reinterpret_cast<Bytef*>(plain.data()), &length, reinterpret_cast<const Bytef*>(bytes.data() + begin),

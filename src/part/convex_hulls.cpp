@@ -22,7 +22,8 @@
 namespace bin_scenes {
 namespace {
 
-// Cell of the field that tells how far a hull sticks out, and distance of the places where it is asked, / diagonal.
+// Cell of the field that measures how far a hull sticks out, and distance between the points where it is evaluated,
+// both / diagonal.
 constexpr double field_cell = 0.008, step = 0.02;
 // Distance of the places where the error is measured, / diagonal.
 constexpr double measure_step = 0.015;
@@ -37,7 +38,7 @@ constexpr int all_vertices = std::numeric_limits<int>::max();
 constexpr int most_more = 8;            // times as many vertices as asked for may a convex part get
 constexpr double convex_enough = 1e-3;  // of its volume may be missing from its hull
 
-/// A piece of the part on its way to a hull.
+/// A piece of the part that becomes a hull.
 struct Piece {
   std::vector<Vec3> points;  // vertices of its hull, or all of them while they are flat
   Mesh hull;                 // empty while flat
@@ -209,7 +210,7 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     const double diagonal = mesh.bounds().diagonal();
     const Protrusion protrusion(query);
     const SolidMeasure measure{protrusion, [&](const Vec3& p) { return protrusion.inside(p); }};
-    // The hulls of the pieces, merged and with few vertices; tells how many.
+    // The hulls of the pieces, merged and with few vertices; returns how many.
     const auto try_pieces = [&](const std::vector<std::vector<Vec3>>& pieces, double limit) {
       std::vector<Mesh> hulls;
       for (const Piece& piece : merge(pieces, protrusion, limit, 1e-3 * diagonal, options.max_hulls)) {

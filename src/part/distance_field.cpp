@@ -33,7 +33,7 @@ struct Nearest {
   std::int32_t triangle = none;
 };
 
-/// The smallest box around a triangle along its longest edge and its normal: tells at little cost that a node is far.
+/// The smallest box around a triangle along its longest edge and its normal: shows at little cost that a node is far.
 struct EdgeBox {
   Mat3 axes;  // a row each
   Vec3 lower, upper;

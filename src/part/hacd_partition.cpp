@@ -24,7 +24,7 @@ constexpr std::size_t max_triangles = 700;
 // Triangles longer than this / diagonal are cut, because a patch can only end at a triangle's edge.
 constexpr double longest_edge = 0.12;
 
-/// One shell, cut and thinned. `source` tells for every vertex of the fine mesh the vertex of the thinned one.
+/// One shell, cut and thinned. `source` gives for every vertex of the fine mesh the vertex of the thinned one.
 struct Thinned {
   Mesh mesh;
   std::vector<std::uint32_t> source;

@@ -16,7 +16,7 @@
 
 namespace bin_scenes {
 
-/// Raise it whenever a layout below or the way a proxy is made changes: older cache files are then passed over.
+/// Raise it whenever a layout below or the construction of a proxy changes: older cache files are then passed over.
 constexpr int part_format = 7;
 
 class ByteWriter {

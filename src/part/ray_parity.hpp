@@ -7,15 +7,15 @@
 
 namespace bin_scenes {
 
-/// Every edge is passed as often one way as the other. By a sum of hashes, which comes to zero then, and otherwise in
-/// one of 2^64 cases.
+/// Every edge is passed equally often in both directions. By a sum of hashes, which comes to zero then, and otherwise
+/// in one of 2^64 cases.
 bool closed(const Mesh& mesh);
 
 /// Of all rays: along no edge or face that anybody would draw.
 inline const Vec3 ray_direction{0.53812371, 0.31415927, 0.78214293};
 
 /// What the triangle (a, a + ab, a + ac) adds to the winding number of p, by its ray: 1 where the ray leaves, -1 where
-/// it enters, 0 where it passes by. None where rounding could tell otherwise: close to an edge, or p close to the
+/// it enters, 0 where it passes by. None where rounding could change the result: close to an edge, or p close to the
 /// triangle. The signs of the volumes that ray and edges span (Segura and Feito 2001, "Algorithms to test ray-triangle
 /// intersection. Comparative study").
 std::optional<int> crossing(const Vec3& a, const Vec3& ab, const Vec3& ac, const Vec3& p);

@@ -20,7 +20,7 @@ namespace {
 
 // Samples along sharp edges lie this much closer than those on faces: edge-edge contacts fall between samples.
 constexpr double edge_spacing_share = 0.5;
-// Of two edge or corner samples that look the same way, one goes if they are closer than this / edge spacing.
+// Of two edge or corner samples with the same direction, one goes if they are closer than this / edge spacing.
 constexpr double crowded_share = 0.7;
 // Sharp features may use this share of the aim; the spacing grows until they do.
 constexpr double feature_share = 0.7;
@@ -96,7 +96,7 @@ class Touchable {
     const Vec3 center = mesh.bounds().center();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       shell_volume_[shell_[t]] += (mesh.vertices[mesh.triangles[t][0]] - center).dot(mesh.area_vector(t));
-    // An open mesh has no volume to tell walls of cavities by.
+    // An open mesh has no volume by which walls of cavities could be recognized.
     if (shell_volume_.size() == 1) shell_volume_[0] = 1.0;
   }
 
@@ -186,8 +186,8 @@ std::vector<SurfaceSample> face_candidates(const Mesh& mesh, const Touchable& to
 }
 
 /// Farthest point sampling (Eldar et al. 1997, "The farthest point strategy for progressive image sampling"): adds the
-/// candidate that is farthest from all samples, again and again. A sample covers only what looks the same way as it
-/// does, so both sides of a sheet get their own.
+/// candidate that is farthest from all samples, again and again. A sample covers only what faces the same direction as
+/// it does, so both sides of a sheet get their own.
 void add_farthest(std::vector<SurfaceSample>& samples, const std::vector<SurfaceSample>& candidates, std::size_t count,
                   double spacing, const Aabb& box) {
   PointGrid grid(box, spacing);
@@ -229,7 +229,7 @@ void add_farthest(std::vector<SurfaceSample>& samples, const std::vector<Surface
 }
 
 /// Sorts order[begin, end) so that every run of `cluster` samples is compact: halves the set across its longest side,
-/// at a multiple of the run, down to single runs. Ties go by index: nothing depends on the library's way of sorting.
+/// at a multiple of the run, down to single runs. Ties go by index: nothing depends on how the library sorts.
 void cluster_order(const std::vector<SurfaceSample>& samples, std::vector<std::uint32_t>& order, std::size_t begin,
                    std::size_t end, std::size_t cluster) {
   const std::size_t runs = (end - begin + cluster - 1) / cluster;

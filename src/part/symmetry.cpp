@@ -203,9 +203,9 @@ void thin_out(std::vector<SymmetryReport::Nearly>& nearly, const std::vector<Axi
   nearly = kept;
 }
 
-/// Whether an axis can tell nothing that those found do not tell. Across a round axis one direction is as good as any
+/// Whether an axis adds nothing to those found. Across a round axis one direction is as good as any
 /// other, and beside it there is none. Across an axis of order n, above 4, lie axes of order 2 alone, pi / n apart: one
-/// tells where all are. (Order 4 has others across it in a cube.)
+/// shows where all are. (Order 4 has others across it in a cube.)
 bool is_implied(const Vec3& direction, const std::vector<Axis>& axes, const std::vector<Vec3>& examined) {
   constexpr double across = 0.02;  // rad, nearly
   const auto is_across = [&](const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) < across; };
@@ -290,7 +290,7 @@ Symmetries find_symmetries(const PartModel& part, double tolerance) {
 }
 
 double diameter(const Mesh& mesh) {
-  // Only vertices far from the middle can be ends of the longest distance: in order of that, most pairs are never
+  // Only vertices far from the centre can be ends of the longest distance: in order of that, most pairs are never
   // tried.
   const Vec3 middle = mesh.bounds().center();
   std::vector<std::pair<double, const Vec3*>> far;

@@ -16,7 +16,7 @@ constexpr std::size_t most_far = 16;      ///< vertices
 /// Normals of the largest flat faces.
 std::vector<Vec3> large_normals(const Mesh& mesh) {
   std::vector<std::pair<double, Vec3>> faces;  // area, normal
-  constexpr std::size_t most = 400;            // that are told apart
+  constexpr std::size_t most = 400;            // that are distinguished
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 area = mesh.area_vector(t);
     if (!(area.norm() > 0.0)) continue;

@@ -8,7 +8,7 @@
 namespace bin_scenes {
 
 /// Axes of inertia; where two moments are equal the principal axes are no more special than others across the third,
-/// and the shape itself has to tell.
+/// and the shape itself has to decide.
 std::vector<Vec3> candidate_axes(const PartModel& part);
 
 }  // namespace bin_scenes

@@ -12,8 +12,8 @@
 ///
 /// Energy alone does not see a light part that heavy ones pinch out: they lose more than it wins. Without restitution
 /// nothing leaves a contact faster than what hit it, so a part that is faster than everything in its group was
-/// before, gravity's share taken off, was thrown. Wedges and levers give some: twice as fast is told, five times sets
-/// apart.
+/// before, gravity's share taken off, was thrown. Wedges and levers give some: twice as fast is reported, five times
+/// sets apart.
 ///
 /// What a gain of a part in one interval misses is a slow one, and what a part takes back from others that gained
 /// before it. Therefore the energy of all parts together is compared with the least that it was before (WorldEnergy):

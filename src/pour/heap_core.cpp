@@ -1,5 +1,5 @@
-/// Holds body by body who waits, is in, rests, has escaped or is gone, and tells the solver of each change. Stages and
-/// their ends are decided in settling.cpp.
+/// Holds body by body who waits, is in, rests, has escaped or is gone, and informs the solver of each change. Stages
+/// and their ends are decided in settling.cpp.
 #include "pour/heap_core.hpp"
 
 #include "pour/jam.hpp"
@@ -34,7 +34,8 @@ HeapCore::~HeapCore() {
 }
 
 namespace {
-constexpr double hand_masses = 1000.0;  ///< of a lifted part, in masses of the heaviest: what lies on it does not tell
+constexpr double hand_masses =
+    1000.0;  ///< of a lifted part, in masses of the heaviest: so that what lies on it makes no difference
 }
 
 /// Makes a world with the bodies that are in the bin. While parts enter, the walls of a box are raised to hold them.

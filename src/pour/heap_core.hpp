@@ -123,7 +123,7 @@ class HeapCore final : private HeapView {
   bool fresh_ = false, walls_raised_ = false;
   bool poured_ = false;  ///< in the last slice
   bool lifts_ = false;   ///< the world has lifted bodies
-  /// Bodies that sleep since the world was remade. They keep their states, which a solver tells but for rounding, and
+  /// Bodies that sleep since the world was remade. They keep their states, which a solver returns but for rounding, and
   /// the forces between them, of which it knows nothing.
   std::vector<bool> kept_;
   std::vector<ContactForce> kept_forces_;

@@ -8,7 +8,7 @@ namespace bin_scenes {
 
 namespace {
 
-/// Turn from one orientation to another (rad, in the axes that both are told in).
+/// Turn from one orientation to another (rad, in the axes in which both are given).
 Vec3 turn_between(const Quat& from, const Quat& to) {
   const Eigen::AngleAxisd turn((to * from.conjugate()).normalized());  // by half a turn at most
   return turn.angle() * turn.axis();

@@ -29,7 +29,7 @@ constexpr double closing_patience = 0.1;    ///< s longer than they need for the
 constexpr double vacuum_rise = 0.05;        ///< s
 constexpr double holding = 0.05;            ///< s between gripping and lifting
 constexpr double jaw_masses = 4.0;          ///< of each jaw, in masses of the part: Jaws::mass
-constexpr double moved_distance = 0.05;     ///< of a part's diagonal: others that moved farther are told
+constexpr double moved_distance = 0.05;     ///< of a part's diagonal: others that moved farther are reported
 constexpr double moved_turn = 0.1;          ///< rad: likewise
 constexpr int steps_per_touch = 4;          ///< between two readings of the forces
 constexpr int touches_without_grip = 3;     ///< after which the part is lost
@@ -111,7 +111,7 @@ class Attempt {
   bool over() const { return stage_ == Stage::over; }
   const LiftProof& proof() const { return proof_; }
 
-  /// Tells the gripper's velocities of the next `seconds`.
+  /// Sets the gripper's velocities for the next `seconds`.
   void go(double seconds) {
     const double next = stage_ == Stage::lift ? height_at(time_ + seconds, gripper_.acceleration) : height_;
     const Vec3 velocity = (next - height_) / seconds * ground_.up;
@@ -132,7 +132,7 @@ class Attempt {
   /// Decides by the states after a step whether the stage is over.
   void observe() {
     states_ = solver_.states(id_);
-    if (stage_ == Stage::grip)
+    if (stage_ == Stage::grasp)
       observe_closing();
     else if (stage_ == Stage::hold && time_ >= holding)
       begin(Stage::lift);
@@ -141,11 +141,11 @@ class Attempt {
   }
 
  private:
-  enum class Stage { grip, hold, lift, over };
+  enum class Stage { grasp, hold, lift, over };
 
   bool parallel() const { return gripper_.type == Gripper::Type::parallel; }
   Vec3 mouth() const { return trial_.pose.position + height_ * ground_.up; }
-  double vacuum() const { return trial_.force * (stage_ == Stage::grip ? std::min(1.0, time_ / vacuum_rise) : 1.0); }
+  double vacuum() const { return trial_.force * (stage_ == Stage::grasp ? std::min(1.0, time_ / vacuum_rise) : 1.0); }
   Vec3 center(const BodyState& state) const { return state.pose * ground_.model(part_).mass().center; }
 
   void begin(Stage stage) {
@@ -165,9 +165,9 @@ class Attempt {
     const double width = (b.pose.position - a.pose.position).dot(axis) - gripper_.finger_thickness;
     const double closing = 0.5 * (a.velocity.linear - b.velocity.linear).dot(axis);
     const bool late = time_ > patience_;
-    if (width <= 0.0 || (late && !grips()))
+    if (width <= 0.0 || (late && !holds_part()))
       end(LiftProof::Outcome::missed);
-    else if (late || (std::abs(closing) < closing_rest && grips()))
+    else if (late || (std::abs(closing) < closing_rest && holds_part()))
       begin(Stage::hold);
   }
 
@@ -193,7 +193,7 @@ class Attempt {
     for (std::size_t k = 0; k < needed; ++k) all = all && pressing.count(first_ + k);
     return {all, std::max(0.0, -others.dot(ground_.up))};
   }
-  bool grips() const { return touch().gripper; }
+  bool holds_part() const { return touch().gripper; }
 
   /// How far the vacuum's seat has gone from the cup.
   bool sealed() const {
@@ -258,7 +258,7 @@ class Attempt {
   std::vector<Pose> starts_;  ///< of the gripper's bodies
   Vec3 contact_;              ///< middle of the ring, in the part's frame
   double patience_ = 0.0;     ///< s
-  Stage stage_ = Stage::grip;
+  Stage stage_ = Stage::grasp;
   double time_ = 0.0;    ///< s of the stage
   double height_ = 0.0;  ///< m, of the hand above its start
   int steps_ = 0, without_ = 0;

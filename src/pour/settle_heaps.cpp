@@ -112,7 +112,7 @@ class Run {
     });
     if (group.left == 0) {
       advance(group);
-      tell(group);
+      report(group);
       leave_if(group, [](HeapCore& heap) { return heap.over(); });
     }
     if (group.left == 0 || group.running.empty()) fill(group);
@@ -143,7 +143,7 @@ class Run {
     group.running.erase(std::remove_if(group.running.begin(), group.running.end(), leaves), group.running.end());
   }
 
-  void tell(const Group& observed) {
+  void report(const Group& observed) {
     if (!hooks_.progress) return;
     double sum = static_cast<double>(over_);
     for (const Group& group : groups_)
@@ -167,7 +167,7 @@ class Run {
     return std::max(now + 1, static_cast<std::uint64_t>(std::llround(number / (rate * step_))));
   }
 
-  /// What the device works on is finished first: a world under way takes no change.
+  /// What the device works on is finished first: a running world takes no change.
   [[noreturn]] void cancel() {
     for (Group& group : groups_)
       if (group.begun) end_piece(group);

@@ -344,7 +344,7 @@ std::vector<Override> overrides_of(const Assignments& assignments) {
   return overrides;
 }
 
-/// A request that never was a file has no lines to tell of.
+/// A request that never was a file has no line numbers to report.
 Request read_text(const std::string& yaml, const Assignments& assignments) {
   try {
     return read_request_text(yaml, ".", overrides_of(assignments));

@@ -51,7 +51,7 @@ SceneData::SceneData(Generator::Result&& result, std::shared_ptr<const LoadedReq
 }
 
 std::string SceneData::json() const {
-  std::vector<RangeImage> seen;  // of each what the text tells: depth and cloud are not copied
+  std::vector<RangeImage> seen;  // of each, what the text describes: depth and cloud are not copied
   for (const auto& data : images) {
     const RangeImage& image = data->image;
     RangeImage& copy = seen.emplace_back();

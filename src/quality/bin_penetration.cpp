@@ -8,9 +8,10 @@ namespace bin_scenes {
 
 namespace {
 
-/// Deepest point behind floor and walls. A wall is solid outwards without end, up to the rim: the way out of it is
+/// Deepest point behind floor and walls. A wall is solid outwards without end, up to the rim: the path out of it is
 /// back into the bin or up over the rim, whichever is shorter. Depth is the smaller of two linear functions, so that it
-/// is largest in a vertex, or where an edge has both ways as long: of what leans over a rim no vertex need be in it.
+/// is largest in a vertex, or where both paths out of an edge are equally long: of what leans over a rim no vertex need
+/// be in it.
 Penetration behind_walls(const Mesh& part, const Pose& pose, const Bin& bin) {
   Penetration worst;
   const auto consider = [&](double depth, const Vec3& out, const Vec3& x) {
@@ -33,7 +34,7 @@ Penetration behind_walls(const Mesh& part, const Pose& pose, const Bin& bin) {
   }
   const auto along_edge = [&](const Vec3& p, const Vec3& q, int axis, double side) {
     const double more_p = behind(p, axis, side) - below_rim(p), more_q = behind(q, axis, side) - below_rim(q);
-    if (!(more_p < 0.0 && more_q > 0.0)) return;  // the other triangle of the edge has it the other way round
+    if (!(more_p < 0.0 && more_q > 0.0)) return;  // the other triangle of the edge has the opposite orientation
     const Vec3 x = p + more_p / (more_p - more_q) * (q - p);
     consider(below_rim(x), Vec3::UnitZ(), x);
   };

@@ -11,7 +11,7 @@
 
 namespace bin_scenes {
 
-/// What one cut needs on the way.
+/// Scratch memory of one cut.
 struct ConvexCell::Clipping {
   struct Cut {
     int first, second, vertex;

@@ -8,8 +8,8 @@ namespace bin_scenes {
 
 namespace {
 
-/// Whether an edge of a separates the shadows of both along z by more than rounding: neither meets the other on its way
-/// then. Most pairs of triangles end here, at a tenth of the cost of triangle_distance().
+/// Whether an edge of a separates the shadows of both along z by more than rounding: neither meets the other on its
+/// path then. Most pairs of triangles end here, at a tenth of the cost of triangle_distance().
 bool edge_separates(const TrianglePoints& a, const TrianglePoints& b) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = a[(i + 1) % 3] - a[i];

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double clear = 4e-9;    // / smaller diagonal: what has been moved apart stays so, in spite of rounding
-constexpr double upwards = 1e-6;  // slope of a way out above which it leads up, off something that holds
+constexpr double upwards = 1e-6;  // slope of a path out above which it leads up, off something that holds
 constexpr int ways_out = 4;       // that are taken one after the other where parts overlap in several places
 
 /// Walls of a box bin up to the rim, and the rim, which goes on outwards far beyond any part that did not escape.
@@ -90,7 +90,7 @@ class Falls {
  private:
   struct Neighbour {
     std::size_t part;
-    Vec3 out;  ///< shortest way out of it
+    Vec3 out;  ///< shortest path out of it
   };
 
   bool leads_up(const Vec3& out) const { return -out.dot(down_) > upwards * out.norm(); }

@@ -2,7 +2,7 @@
 ///
 /// The surfaces are cut against each other through both triangle trees; every closed curve of intersection is one
 /// region of overlap. Around a point x of a region, each mesh stands for the convex set of all points behind those of
-/// its nearby faces that x itself lies behind. That set is a part of the mesh: on the way from x to a point outside
+/// its nearby faces that x itself lies behind. That set is a part of the mesh: on the path from x to a point outside
 /// there is a face to leave by, x is behind it, and the point is not. So the depth of the two convex sets, which is
 /// exact (convex_cell.hpp), never exceeds what the meshes need to come apart, and with x in the right place it is the
 /// depth of the two convex pieces that touch: the depth of the region is the largest over its points. Points on one

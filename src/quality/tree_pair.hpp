@@ -128,7 +128,7 @@ void walk(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose
   }
 }
 
-/// Tells in single precision which nodes of two placed trees are apart for certain, by the axes of both frames.
+/// Finds in single precision which nodes of two placed trees are certainly apart, by the axes of both frames.
 class NodePair {
  public:
   NodePair(const MeshQuery& a, const MeshQuery& b, const Pose& b_in_a, double tolerance)

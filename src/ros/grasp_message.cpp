@@ -1,4 +1,4 @@
-/// Grasps told as messages and markers, and the grasp of a pose that a client sends back.
+/// Grasps as messages and markers, and the grasp of a pose that a client sends back.
 #include "grasp_message.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -142,7 +142,7 @@ PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_sce
   const PartPick* pick = pick_of(all, asked.ids[0]);
   if (!pick)
     throw input_error("there is no part " + std::to_string(asked.ids[0]) + " that could be picked", "pick_part",
-                      "take one that get_grasps tells");
+                      "take one that get_grasps returns");
   const SceneGrasp& grasp = grasp_at(all, request, asked);
   if (grasp.part != pick->id)
     throw input_error(
@@ -150,7 +150,7 @@ PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_sce
         "pick_part", "take part, gripper and pose from the same place of get_grasps' answer");
   if (!grasp.free())
     throw input_error("the grasp is not free: " + reason_of(grasp, *pick), "pick_part",
-                      "take one that get_grasps tells as free, or leave gripper empty");
+                      "take one that get_grasps returns as free, or leave gripper empty");
   return *pick;
 }
 

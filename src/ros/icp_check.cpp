@@ -6,7 +6,7 @@
 ///     scene,   ─► a displaced first guess ┘
 ///     /tf
 ///
-/// A real pipeline has segments and first guesses of its own; the truth tells how good they are.
+/// A real pipeline has segments and first guesses of its own; the truth shows how good they are.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/sha256.hpp"
 #include "bin_scenes/mesh/mesh_loader.hpp"

@@ -1,5 +1,5 @@
 /// Turns a range image into messages; images of lenses that distort are resampled to the pinhole that camera_info
-/// tells. Fields of the cloud stand in one table.
+/// states. Fields of the cloud stand in one table.
 #include "image_messages.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -44,7 +44,7 @@ class LazyTopic {
     last_.reset();
     show();
     if (!stale || last_ || options_.in_process) return;
-    publisher_.shutdown();  // the only way to make roscpp forget what it keeps for later subscribers
+    publisher_.shutdown();  // nothing else makes roscpp forget what it keeps for later subscribers
     advertise();
   }
   /// Publishes what has not been published yet, if somebody listens.

@@ -39,7 +39,7 @@ Answer ask(const char* method, const std::vector<std::string>& arguments) {
   return answer;
 }
 
-/// Tells this process who publishes a topic as a master does: by the interface that each node has for masters.
+/// Informs this process who publishes a topic, as a master does: by the interface that each node has for masters.
 void tell_publishers(const std::string& topic, const XmlRpcValue& uris) {
   std::string host;
   std::uint32_t port = 0;

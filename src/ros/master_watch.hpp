@@ -1,5 +1,5 @@
-/// A master that is started again knows nobody. roscpp tells a master once what its process offers, and never again:
-/// its connections go on, but nobody new finds it. This tells such a master anew.
+/// A master that is started again knows nobody. roscpp registers what its process offers once, and never again:
+/// its connections go on, but nobody new finds it. This registers it with such a master anew.
 #pragma once
 
 #include "thread_queue.hpp"

@@ -22,7 +22,7 @@ RosType ros_type_of() {
 /// `type` in a file of that profile. `sender`: name of the node.
 McapChannel mcap_channel(McapProfile profile, const std::string& topic, const RosType& type, Latch latch,
                          const std::string& sender);
-/// Tells rosbag2 that qualities of service are written as Humble does.
+/// States for rosbag2 that qualities of service are written as Humble does.
 void describe_profile(McapFile& file, McapProfile profile);
 
 /// As write_bag(): the same topics in the same order. Profile ros1 has the bytes of the bag's messages, ros2 the same

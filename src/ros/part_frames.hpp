@@ -1,6 +1,6 @@
 /// The frames of a scene's parts on /tf.
 ///
-/// A tf2 buffer forgets what is older than its length (10 s unless told otherwise) before the newest stamp of a frame,
+/// A tf2 buffer forgets what is older than its length (10 s unless set otherwise) before the newest stamp of a frame,
 /// and warns if one stamp comes twice. Transforms that are sent again and again under the present time would thus push
 /// out the stamp of the scene, under which its cloud is looked up. Therefore:
 ///

@@ -11,7 +11,7 @@ namespace bin_scenes {
 namespace {
 
 template <class Message>
-void tell(const ros::Publisher& publisher, const Message& message) {
+void publish_to(const ros::Publisher& publisher, const Message& message) {
   publish_latched(publisher, boost::make_shared<Message>(message));
 }
 
@@ -180,9 +180,9 @@ void Publication::publish(Shown& shown) {
   // First of all, because whoever gets a cloud looks up the parts at its stamp.
   shown.stamp = frames_.show(shown.messages.parts);
   set_stamp(shown.messages, shown.stamp);
-  tell(tf_static_, shown.messages.statics);
-  tell(scene_, shown.messages.scene);
-  tell(markers_, shown.messages.markers);
+  publish_to(tf_static_, shown.messages.statics);
+  publish_to(scene_, shown.messages.scene);
+  publish_to(markers_, shown.messages.markers);
   for (const auto& topics : sensors_) topics->renew();
   show_images();
   done_.publish(shown.messages.done);
@@ -197,7 +197,7 @@ void Publication::show_images() {
   try {
     if (make_images(*shown_)) {  // the scene that is out does not know yet how much of each part is seen
       shown_->messages.scene = scene_message(shown_->made.scene, shown_->made.loaded.request, place_, shown_->stamp);
-      tell(scene_, shown_->messages.scene);
+      publish_to(scene_, shown_->messages.scene);
     }
     for (const auto& topics : sensors_) topics->show();
   } catch (const std::exception& error) {

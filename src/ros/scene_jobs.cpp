@@ -24,7 +24,7 @@ Lift lift_of(const bin_scenes_msgs::PickPart::Request& request) {
   for (const double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
     if (number != 0.0)
       throw input_error("there is a grasp, but no gripper", "pick_part",
-                        "name the gripper that get_grasps tells with the grasp, or leave the grasp out");
+                        "name the gripper that get_grasps returns with the grasp, or leave the grasp out");
   }
   Lift lift;
   const auto& d = request.lift_direction;
@@ -102,8 +102,8 @@ std::shared_ptr<Job> SceneJobs::add(const bin_scenes_msgs::AddParts::Request& re
 }
 
 std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request& request,
-                                       std::shared_ptr<GraspAnswer> told, Answer answer) {
-  const auto work = [this, request, told](Job& job) {
+                                       std::shared_ptr<GraspAnswer> answered, Answer answer) {
+  const auto work = [this, request, answered](Job& job) {
     MadeScene made = maker_->heap_as_it_lies("get_grasps");
     if (request.render) publication_.render(made, true, job.hooks());
     const SceneGrasps grasps =
@@ -111,9 +111,9 @@ std::shared_ptr<Job> SceneJobs::grasps(const bin_scenes_msgs::GetGrasps::Request
     const std::vector<SceneGrasp> chosen = chosen_grasps(grasps, request);
     job.commit();
     const ros::Time stamp = publication_.stamp();  // of now: it changes with publish_rate and the clock
-    fill(told->response, chosen, grasps, made.loaded.request, settings_.frames, stamp);
-    if (request.render) fill_shares(told->response, chosen, made.scene.sensors);
-    told->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp);
+    fill(answered->response, chosen, grasps, made.loaded.request, settings_.frames, stamp);
+    if (request.render) fill_shares(answered->response, chosen, made.scene.sensors);
+    answered->markers = grasp_markers(chosen, made.loaded.request, settings_.frames, stamp);
     Outcome outcome;
     outcome.success = true;
     return outcome;

@@ -39,12 +39,12 @@ class SceneJobs {
   std::shared_ptr<Job> generate(const bin_scenes_msgs::SceneRequest& request, Answer answer);
   std::shared_ptr<Job> pick(const bin_scenes_msgs::PickPart::Request& request, Answer answer);
   std::shared_ptr<Job> add(const bin_scenes_msgs::AddParts::Request& request, Answer answer);
-  /// Changes nothing. `response` and `markers` are filled before the answer, if it tells success.
+  /// Changes nothing. `response` and `markers` are filled before the answer, if it is a success.
   struct GraspAnswer {
     bin_scenes_msgs::GetGrasps::Response response;
     visualization_msgs::MarkerArray markers;
   };
-  std::shared_ptr<Job> grasps(const bin_scenes_msgs::GetGrasps::Request& request, std::shared_ptr<GraspAnswer> told,
+  std::shared_ptr<Job> grasps(const bin_scenes_msgs::GetGrasps::Request& request, std::shared_ptr<GraspAnswer> answered,
                               Answer answer);
   std::shared_ptr<Job> next(Answer answer);
   std::shared_ptr<Job> clear(Answer answer);

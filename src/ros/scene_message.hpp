@@ -1,4 +1,4 @@
-/// Scene <-> message, both ways without loss.
+/// Scene <-> message, in both directions without loss.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"

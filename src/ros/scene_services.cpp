@@ -83,13 +83,13 @@ void SceneServices::offer_grasps(ros::NodeHandle& node) {
   using Service = bin_scenes_msgs::GetGrasps;
   const std::string service = node.resolveName("get_grasps");
   services_.push_back(advertise<Service>(node, "get_grasps", [this, service](Event<Service>& event) {
-    const auto told = std::make_shared<SceneJobs::GraspAnswer>();
-    const auto submit = [&](SceneJobs::Answer give) { return jobs_.grasps(event.getRequest(), told, give); };
+    const auto answered = std::make_shared<SceneJobs::GraspAnswer>();
+    const auto submit = [&](SceneJobs::Answer give) { return jobs_.grasps(event.getRequest(), answered, give); };
     const Outcome outcome = wait_for(service, event.getConnectionHeader(), submit);
     Service::Response& response = event.getResponse();
     if (outcome.success) {
-      response = told->response;
-      grasps_.publish(told->markers);
+      response = answered->response;
+      grasps_.publish(answered->markers);
     }
     response.success = outcome.success;
     response.error_code.value = outcome.error_code;

@@ -33,7 +33,7 @@ class SceneServices {
 
   SceneJobs& jobs_;
   ThreadQueue calls_;
-  ros::Publisher grasps_;  ///< markers of what get_grasps told last
+  ros::Publisher grasps_;  ///< markers of what get_grasps returned last
   std::vector<ros::ServiceServer> services_;
 };
 

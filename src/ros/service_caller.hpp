@@ -12,7 +12,7 @@ class ServiceCaller {
  public:
   /// `header`: ros::ServiceEvent::getConnectionHeader() of the call, the very object; `service`: its resolved name.
   ServiceCaller(const std::string& service, const ros::M_string& header);
-  /// Its process has ended, or it has closed the connection. False where this cannot be told.
+  /// Its process has ended, or it has closed the connection. False where this cannot be determined.
   bool gone() const;
 
  private:

@@ -29,7 +29,7 @@ class ThreadQueue {
     post([task] { (*task)(); });
     return result.get();
   }
-  /// What is under way is finished, what waits is dropped.
+  /// Running jobs are finished, waiting ones are dropped.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();

@@ -27,7 +27,7 @@ Pose on_path(const Motion& motion, double t) {
   for (const Pose& pose : motion.poses) {
     Coordinates knot;
     knot << pose.position, pose.orientation.coeffs();
-    if (knot.tail<4>().dot(previous.tail<4>()) < 0.0) knot.tail<4>() *= -1.0;  // the shorter way round
+    if (knot.tail<4>().dot(previous.tail<4>()) < 0.0) knot.tail<4>() *= -1.0;  // the shorter arc
     knots.push_back(previous = knot);
   }
   const auto slope = [&](std::size_t k) -> Coordinates {

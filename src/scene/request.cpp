@@ -1,5 +1,5 @@
-/// Names of enumerations, presets, and check(): what no single key can tell, such as counts together or a start without
-/// poses. Ranges of keys are checked by range_check.hpp.
+/// Names of enumerations, presets, and check(): what no single key can decide, such as counts together or a start
+/// without poses. Ranges of keys are checked by range_check.hpp.
 #include "bin_scenes/scene/request.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -150,7 +150,7 @@ void check_counts(const Request& request) {
   }
   if (!request.sensors.empty() && count > max_labels) {
     refuse("parts",
-           "asks for " + count_of(count, "parts, but the 16-bit labels of a sensor tell ") +
+           "asks for " + count_of(count, "parts, but the 16-bit labels of a sensor distinguish ") +
                std::to_string(max_labels) + " apart",
            "lower the counts, or remove the sensors");
   }

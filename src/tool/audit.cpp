@@ -44,7 +44,7 @@ AuditBin bin_given(const AuditOptions& options) {
   return bin;
 }
 
-/// The bin that a data set of this project tells of a scene.
+/// The bin that a data set of this project states for a scene.
 std::optional<Vec3> own_bin(const fs::path& root, const BopView& view) {
   const auto scene = scene_in(root / "scenes" / ("scene_" + view.scene.filename().string()));
   if (!scene || scene->bin.kind != Bin::Kind::box) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<Vec3> own_bin(const fs::path& root, const BopView& view) {
 }
 
 std::string bin_text(const AuditBin& bin, bool own) {
-  if (own) return "the bins that the data set tells";
+  if (own) return "the bins that the data set states";
   if (bin.fitted) return "a bin fitted around the parts of each heap";
   if (!bin.inner_size && !bin.floor) return "a table fitted to the lowest parts of each heap";
   char text[100];
@@ -88,7 +88,7 @@ void print(const Json& json) {
               json["heaps"].get<std::size_t>(), json["parts"].get<std::size_t>(), json["escaped"].get<std::size_t>(),
               json["lies_in"].get<std::string>().c_str());
   if (!json["world_told"])
-    std::printf("no image tells cam_R_w2c: up is against the camera's axis, or what --up says\n");
+    std::printf("no image states cam_R_w2c: up is against the camera's axis, or what --up says\n");
   std::printf("%-46s %-14s %10s %10s %10s   %s\n", "measure", "unit", "p50", "p95", "max", "parts above a limit");
   for (const Json& m : json["measures"])
     std::printf("%-46s %-14s %10.3g %10.3g %10.3g   %.1f %% above %g\n", m["name"].get<std::string>().c_str(),

@@ -79,7 +79,7 @@ int dataset_merge(const MergeOptions& options);
 struct ToolkitOptions {
   std::string directory, name;
 };
-/// What bop_toolkit has to be told of a data set, for people to paste.
+/// What bop_toolkit must know of a data set, to be pasted.
 int dataset_toolkit(const ToolkitOptions& options);
 
 struct SubmitOptions {

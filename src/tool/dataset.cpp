@@ -48,7 +48,7 @@ class Teller {
     std::fprintf(stderr, "bin_scenes: warning: %s\n", text.c_str());
   }
 
-  void tell(const RunProgress& p, bool last = false) {
+  void show(const RunProgress& p, bool last = false) {
     if (!json_) {
       if (!last) show(p);
       return;
@@ -100,9 +100,9 @@ int dataset(const DatasetOptions& options) {
   {
     Teller teller(options.json_progress);
     run.warn = [&](const std::string& text) { teller.warn(text); };
-    run.progress = [&](const RunProgress& progress) { teller.tell(progress); };
+    run.progress = [&](const RunProgress& progress) { teller.show(progress); };
     end = run_dataset(plan, options.out, run);
-    teller.tell(end, true);
+    teller.show(end, true);
   }
   if (!options.json_progress)
     std::printf("%zu scenes in %s; %zu attempts set apart\n", end.accepted, options.out.c_str(), end.rejected);
@@ -164,15 +164,15 @@ int dataset_toolkit(const ToolkitOptions& options) {
 }
 
 int dataset_submit(const SubmitOptions& options) {
-  const Plan plan = read_plan(options.plan);  // its errors are told here, not by every task
+  const Plan plan = read_plan(options.plan);  // its errors are reported here, not by every task
   const std::atomic<bool>& interrupted = listen();
-  const auto tell = [](const std::string& text) {
+  const auto print = [](const std::string& text) {
     std::printf("%s\n", text.c_str());
     std::fflush(stdout);
   };
   const std::size_t shares = std::min(options.shares, plan.heaps);
   const std::vector<std::string> made =
-      run_slurm_job({options.plan, options.out, shares, options.cpus, options.sbatch, tell, &interrupted});
+      run_slurm_job({options.plan, options.out, shares, options.cpus, options.sbatch, print, &interrupted});
   return dataset_merge({made, options.out});
 }
 

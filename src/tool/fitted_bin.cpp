@@ -85,7 +85,7 @@ ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const 
   }
   const bool mm = is_guess(size * metres_per(Unit::millimetre)), m = is_guess(size);
   if (mm == m)
-    throw unclear("the file does not tell its unit, and " + short_number(size) + " across may be any", size, path);
+    throw unclear("the file does not state its unit, and " + short_number(size) + " across may be any", size, path);
   chosen.unit = mm ? Unit::millimetre : Unit::metre;
   chosen.metres = metres_per(*chosen.unit);
   chosen.reason =

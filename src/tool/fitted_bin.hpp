@@ -16,8 +16,8 @@ struct ChosenUnit {
   std::string reason;        ///< for people
 };
 
-/// The unit that --unit gives, the file states, or its size tells: mm or m, if only one of them makes a part of 5 mm to
-/// 0.6 m. Throws an input Error that names the units that may be meant.
+/// The unit that --unit gives, the file states, or its size implies: mm or m, if only one of them makes a part of 5 mm
+/// to 0.6 m. Throws an input Error that names the units that may be meant.
 /// @param file  loaded in metres, or in the unit that it states
 ChosenUnit choose_unit(const LoadedMesh& file, std::optional<Unit> given, const std::string& path);
 

@@ -112,7 +112,7 @@ McapProfile mcap_profile(const GenerateOptions& options) {
   return mcap_profile_of(*options.mcap, "--mcap");
 }
 
-/// Refuses options that the request cannot serve, and tells what they leave out.
+/// Refuses options that the request cannot serve, and reports what they leave out.
 void check_options(const GenerateOptions& options, const Request& request, bool needs_sensors) {
   const auto asked = [&](const char* format) {
     return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();

@@ -118,7 +118,7 @@ Json proxies_json(const PartModel& part, ProgressBar& bar) {
             {"error", hull_error}}}};
 }
 
-/// `bin_scenes symmetries` tells more.
+/// `bin_scenes symmetries` shows more.
 Json symmetries_json(const PartModel& part) {
   const SymmetryReport report = examine_symmetries(part);
   std::vector<double> errors = report.discrete_error;

@@ -65,7 +65,7 @@ void add_audit(CLI::App& app, AuditOptions& o) {
       "--bin", o.bin,
       "inner size x,y,z (m) of a bin around the world's origin, floor at z = 0; or fitted: as wide as each heap");
   app.add_option("--floor", o.floor, "height (m) of a table; left out, without --bin: fitted to the lowest parts");
-  app.add_option("--up", o.up, "x,y,z: up in the set's world, or in the camera's frame where it tells no world");
+  app.add_option("--up", o.up, "x,y,z: up in the set's world, or in the camera's frame where the set states no world");
   app.add_option("--sensor", o.sensor, "of a set with several; left out: the first one");
   app.add_option("--models", o.models, "folder of the models; left out: models beside or above the scenes");
   app.add_option("--most", o.most, "heaps to audit; left out: all");
@@ -259,7 +259,7 @@ int main(int argc, char** argv) {
     }
     return complain(error.what(), static_cast<int>(error.kind()));
   } catch (const std::bad_alloc&) {
-    return complain("out of memory (ask for less, or lower memory_budget to be told before)",
+    return complain("out of memory (ask for less, or lower memory_budget to learn it beforehand)",
                     static_cast<int>(ErrorKind::environment));
   } catch (const std::exception& error) {
     const Error defect = environment_error(error.what(), "unexpected", "");

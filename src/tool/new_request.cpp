@@ -156,7 +156,7 @@ int pour_once(const Draft& d) {
   return code;
 }
 
-/// What a request would be told to do is an option here.
+/// What a request states as keys is an option here.
 PartModelPtr load_part(const NewOptions& options, const LoadOptions& load) {
   try {
     return PartModel::load(options.part, load);

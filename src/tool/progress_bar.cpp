@@ -118,7 +118,7 @@ void ProgressBar::draw() {
     fraction += (state_->to - state_->from) * (1.0 - std::exp(-in_stage / expected));
   }
   std::optional<double> left = state_->left;
-  if (!left && state_->to == state_->from && fraction >= 0.001)  // runs down until the caller tells more
+  if (!left && state_->to == state_->from && fraction >= 0.001)  // runs down until the caller reports more
     left = std::max(0.0, before * (1.0 - fraction) / fraction - in_stage);
   // The last column stays free: a terminal may go to the next line behind it.
   put(erase_line +

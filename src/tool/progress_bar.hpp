@@ -21,7 +21,7 @@ class ProgressBar {
 
   /// @param left  seconds, where the caller knows better than by the fraction and the time spent
   void show(double fraction, const std::string& text, std::optional<double> left = std::nullopt);
-  /// A stage that tells nothing until it ends: shares of the whole job at its beginning and its end, by experience.
+  /// A stage that reports nothing until it ends: shares of the whole job at its beginning and its end, by experience.
   void stage(double from, double to, const std::string& text);
   void clear();  ///< before other text
 

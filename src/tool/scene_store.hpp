@@ -7,7 +7,7 @@
 ///     each of these folders: files.json, the size and SHA-256 of every other file in it
 ///
 /// A job is resumable: a folder is done, and is not made again, whose scene.json carries the hash of the request and
-/// whose files all have the sizes that files.json tells.
+/// whose files all have the sizes that files.json states.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

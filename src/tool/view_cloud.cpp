@@ -36,7 +36,7 @@ std::size_t number_after(const std::string& header, const std::string& word, con
   std::size_t number = 0;
   if (at == std::string::npos || !(std::istringstream(header.substr(at + word.size() + 2, 12)) >> number) ||
       number > 65'536)
-    throw input_error("its header tells no '" + word + "'", path, make_anew);
+    throw input_error("its header has no '" + word + "'", path, make_anew);
   return number;
 }
 

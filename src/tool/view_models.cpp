@@ -26,7 +26,7 @@ std::vector<fs::path> candidates(const std::string& written, const std::string& 
   if (written.rfind("package://", 0) == 0) {
     try {
       all.emplace_back(config::resolve_file(written, folder, PathRules(), "models"));
-    } catch (const Error&) {  // no such package: the error below tells the remedy
+    } catch (const Error&) {  // no such package: the error below names the remedy
     }
   }
   return all;
@@ -59,7 +59,7 @@ Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& fold
   try {
     check_plausible_size(mesh, bin, file.path, options.unit);
   } catch (const Error&) {  // it was poured all the same
-    throw input_error("does not fit the bin in metres, and scene.json, which an earlier version wrote, tells no unit",
+    throw input_error("does not fit the bin in metres, and scene.json, which an earlier version wrote, states no unit",
                       file.path, "make the scene anew: generate --overwrite");
   }
   return mesh;

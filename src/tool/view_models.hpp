@@ -11,7 +11,7 @@ namespace bin_scenes {
 /// Mesh of an entry of `models` in scene.json (keys model, sha256 and how the file was read), in metres. The file is
 /// looked for as the request wrote it, and by its name: in `models` if that is given, in the working directory, beside
 /// the scene, above it, and in folders called models there. Throws an input Error if no file has the digest.
-/// @param bin  of scene.json; tells what size of a part without a unit is plausible
+/// @param bin  of scene.json; decides what size of a part without a unit is plausible
 Mesh find_model(const SceneModel& model, const Bin& bin, const std::string& folder, const std::string& models);
 /// The same of a bin that is a mesh.
 Mesh find_bin(const Bin& bin, const std::string& folder, const std::string& models);

@@ -29,7 +29,7 @@ class Temporary {
 };
 
 /// Removes temporaries in `directory` whose writer ran on this host and runs no more. Those of other hosts are not
-/// touched: nobody can tell here whether they are still written. Returns how many.
+/// touched: this host cannot know whether they are still being written. Returns how many.
 std::size_t remove_leftovers(const std::string& directory);
 
 }  // namespace bin_scenes

@@ -96,7 +96,8 @@ class Buffer {
   std::size_t count_ = 0;
 };
 
-/// Copies ranges of buffers to the host without stalling: request() starts the copy, ready() tells when it is done.
+/// Copies ranges of buffers to the host without stalling: request() starts the copy, ready() returns whether it has
+/// finished.
 class ReadBack {
  public:
   struct Range {

@@ -39,7 +39,7 @@ struct GraspCounts {
 
 /// A line through the part on which two pads can close: where a scene looks for further grasps. Model frame.
 struct ClosingAxis {
-  static constexpr int turns = 16;  ///< of the approach about the direction, that are told apart
+  static constexpr int turns = 16;  ///< steps in which the turn of the approach about the direction is counted
   Pose pose;                        ///< between the surfaces; x along the direction, z the approach of turn 0
   double width = 0.0;               ///< m between the surfaces
   std::uint64_t approaches = 0;     ///< bit k: at turn k the gripper holds the part, without going through it

@@ -45,7 +45,7 @@ struct SceneGrasp {
     none,      ///< it is free
     blocked,   ///< others hinder the part's lift: PartPick::blocked_by
     slips,     ///< it cannot hold what the part, its load and its neighbours' friction weigh
-    approach,  ///< on its way from outside the bin
+    approach,  ///< while it moves in from outside the bin
     closing,   ///< as its fingers close
     lift       ///< as it goes up with the part
   } obstacle = Obstacle::none;
@@ -68,10 +68,10 @@ struct PartSearch {
 /// A part that could be picked.
 struct PartPick {
   int id = 0;
-  double load = 0.0;            ///< N: what others press down on it; 0 also if the solver does not tell forces
+  double load = 0.0;            ///< N: what others press down on it; 0 also if the solver reports no forces
   double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
   Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement upwards by which it leaves all others below it
-  std::vector<int> blocked_by;  ///< ids that are in the way of its lift or lie on it, ascending; -1: a bin's mesh
+  std::vector<int> blocked_by;  ///< ids that obstruct its lift or lie on it, ascending; -1: a bin's mesh
   /// By how much those of `blocked_by` that are parts cover it, seen along the lift.
   struct Overlap {
     double area = 0.0;         ///< m2

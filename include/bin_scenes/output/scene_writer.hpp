@@ -57,7 +57,7 @@ void write_pngs(const std::string& directory, const RangeImage& image);
 /// and their masks are stored under both numbers.
 void write_bop(const std::string& directory, const Scene& scene, const std::vector<PartModelPtr>& parts,
                const std::vector<RangeImage>& images);
-/// How BOP's files tell what is visible, and which object a part is.
+/// How BOP's files state what is visible, and which object a part is.
 struct BopOptions {
   /// 0: a pixel shows the part that is truly seen there. Else, in m: it shows every part that lies no deeper than so
   /// far behind the measured surface, or where nothing was measured (bop_toolkit's rule for images of real cameras).

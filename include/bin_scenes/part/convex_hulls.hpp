@@ -33,7 +33,7 @@ class MeshQuery;
 ConvexHulls convex_hulls(const Mesh& mesh, const HullOptions& options = {});
 ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options = {});
 
-/// One OBJ with an object per hull (the thesis reuses its hulls this way).
+/// One OBJ with an object per hull (the thesis reuses its hulls from such a file).
 void write_hulls_obj(const ConvexHulls& hulls, const std::string& path);
 
 }  // namespace bin_scenes

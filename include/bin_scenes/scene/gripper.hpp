@@ -35,7 +35,7 @@ struct Gripper {
   std::string preset;  ///< name of the preset the values come from; read by config/, has no effect of its own
   Type type = Type::parallel;
   std::optional<double> stroke;      ///< m. parallel: largest distance of the pads, none = 0.05; suction: how far the
-                                     ///< bellows gives way to a tilted surface, none = half the radius
+                                     ///< bellows adapts to a tilted surface, none = half the radius
   double opening = 0.005;            ///< m, parallel: by which each finger is wider than the part before it closes
   double finger_width = 0.012;       ///< m, parallel: of finger and pad, across closing and approach
   double finger_depth = 0.05;        ///< m: from the palm to the tip of the fingers or the ring of the cup

@@ -7,8 +7,8 @@
 
 namespace bin_scenes {
 
-/// What a body does, told from the pose where it stands: along a path, shaken about it, or as a belt that stays in its
-/// place. It begins once all parts are in and slow (given parts: at once), and begins and ends at rest.
+/// What a body does, relative to the pose where it stands: along a path, shaken about it, or as a belt that stays in
+/// its place. It begins once all parts are in and slow (given parts: at once), and begins and ends at rest.
 struct Motion {
   std::vector<double> times;
   std::vector<Pose> poses;

@@ -73,7 +73,7 @@ struct WorstReport {
 /// The part that contacts squeeze most, from opposite sides.
 struct JamReport {
   double ratio = 0.0;  ///< force / weight of it and of what lies on it, all of which it may have to carry
-  int part = -1;       ///< id; -1 if nothing presses, or the solver does not tell
+  int part = -1;       ///< id; -1 if nothing presses, or the solver reports no contacts
 };
 
 struct Report {

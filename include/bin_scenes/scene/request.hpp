@@ -45,7 +45,7 @@ struct Surface {
   bool metal() const { return refraction > 0.0 || extinction > 0.0; }
 };
 
-/// The bin. Its origin is the middle of the floor's top, z up.
+/// The bin. Its origin is the centre of the floor's top, z up.
 struct Bin {
   enum class Kind {
     box,    ///< floor and four walls, analytic

@@ -41,7 +41,7 @@ struct Scene {
   std::size_t index = 0;
   std::vector<std::string> model_sha256;  ///< by part line: of the model file's bytes; empty: not known
   std::vector<ScenePart> parts;
-  std::vector<SceneContact> contacts;  ///< empty if the solver does not tell forces
+  std::vector<SceneContact> contacts;  ///< empty if the solver reports no forces
   std::vector<Sensor> sensors;         ///< with pose and K filled in
   Report report;
 };

@@ -26,7 +26,7 @@ struct ImagerSettings {
   std::vector<double> exposures;
 };
 
-/// Fringe projection: a phase shift of `steps` images, periods told apart by a Gray code.
+/// Fringe projection: a phase shift of `steps` images, periods identified by a Gray code.
 struct StructuredLightSettings {
   int steps = 8;
   double period = 16.0;
@@ -49,7 +49,7 @@ struct LaserLineSettings {
   enum class Peak { strongest, nearest } peak = Peak::strongest;  ///< which of two lines in a column is reported
 };
 
-/// Two cameras side by side; the second has the first one's lens and looks the same way (rectified).
+/// Two cameras side by side; the second has the first one's lens and looks in the same direction (rectified).
 struct StereoSettings {
   double baseline = 0.1;
   int disparities = 128;

@@ -26,7 +26,7 @@ struct Lens {
   bool inside(const Eigen::Vector2d& pixel) const;  ///< within the image, up to the outer edge of the outer pixels
   bool distorts() const;
 
-  /// Square pixels, principal point in the middle, no distortion. @param fov horizontal field of view (rad)
+  /// Square pixels, principal point in the centre, no distortion. @param fov horizontal field of view (rad)
   static Lens from_fov(int width, int height, double fov);
 };
 

@@ -8,9 +8,9 @@
 
 namespace bin_scenes {
 
-/// Sensor with K and all poses filled in. By default the camera stands above the middle of the bin, looking down (image
+/// Sensor with K and all poses filled in. By default the camera stands above the centre of the bin, looking down (image
 /// right = bin x, image up = bin y), the whole rim in view with a margin of 5 %; projector and laser stand a baseline
-/// away along the camera's x and are turned towards the middle of the bin. `bounds` of a mesh bin in the bin frame; a
+/// away along the camera's x and are turned towards the centre of the bin. `bounds` of a mesh bin in the bin frame; a
 /// bin without rim is taken for a floor of Bin::inner_size. Throws an input Error if K or the range make no sense.
 Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds = nullptr);
 

@@ -45,7 +45,7 @@ struct WorldDef {
   Vec3 gravity = Vec3(0, 0, -9.81);
 };
 
-/// Motion of the frame that poses are told in, which is the bin's: what moves with the bin feels it (bin axes, SI).
+/// Motion of the frame in which poses are given, which is the bin's: what moves with the bin feels it (bin axes, SI).
 struct Frame {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< that of the earth, less the acceleration of the frame's origin
   Vec3 spin = Vec3::Zero(), spin_rate = Vec3::Zero();  ///< rad/s, rad/s2
@@ -92,8 +92,8 @@ struct WorstContact {
 
 using WorldId = std::size_t;
 
-/// How contacts give way. Soft ones take the energy out of rocking and leave overlap under load; stiff ones press it
-/// out; rigid ones give way to nothing and press next to nothing apart.
+/// How compliant contacts are. Soft ones take the energy out of rocking and leave overlap under load; stiff ones press
+/// it out; rigid ones do not yield, and push almost nothing apart.
 enum class Stiffness : std::uint32_t { soft, stiff, rigid };
 
 /// The solver's settings in a stage of settling; pour/settling.hpp lists the stages.
@@ -124,17 +124,17 @@ class Solver {
   virtual WorldId add_world(const WorldDef& def) = 0;
   virtual void remove_world(WorldId world) = 0;
 
-  /// How the frame moves from now on, until it is told anew. All bodies wake. Solvers that cannot do it throw an input
+  /// How the frame moves from now on, until the next call. All bodies wake. Solvers that cannot do it throw an input
   /// Error.
   virtual void set_frame(WorldId /*world*/, const Frame& /*frame*/) {
     throw input_error("motion is not simulated by " + name(), "solver",
                       "use type bullet, or sphere on the CPU without preset thesis");
   }
-  /// Jaws close from now on, from where they are and with the speed at which they close already; told again, they go on
-  /// as told. What they touch wakes. Solvers that cannot do it throw an input Error, as set_force().
+  /// Jaws close from now on, from where they are and with the speed at which they close already; after a further call
+  /// they go on by its values. What they touch wakes. Solvers that cannot do it throw an input Error, as set_force().
   virtual void set_jaws(WorldId /*world*/, const Jaws& /*jaws*/) { cannot_hold(); }
   /// A force on a body from now on, beside gravity, at a point that stays where it is on the body: the pull of a vacuum
-  /// (bin frame, N, m). One a body: told again, it replaces the last one. What it acts on stays awake.
+  /// (bin frame, N, m). One for each body: a further call replaces the last one. What it acts on stays awake.
   virtual void set_force(WorldId /*world*/, std::size_t /*body*/, const Vec3& /*force*/, const Vec3& /*point*/) {
     cannot_hold();
   }
@@ -161,7 +161,7 @@ class Solver {
   /// Bodies asleep in the solver, same order. A hint for progress and counters; rest is decided elsewhere.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
 
-  /// What pressed in the last step, or when the bodies fell asleep. Empty if the solver does not tell forces.
+  /// What pressed in the last step, or when the bodies fell asleep. Empty if the solver reports no forces.
   virtual std::vector<ContactForce> contact_forces(WorldId /*world*/) const { return {}; }
 
   /// The worst contact of all steps since this was last asked, or since the world was made. None if the solver does not
