@@ -86,14 +86,6 @@ class Forces {
   std::map<int, Acting> acting_;
 };
 
-}  // namespace
-
-double mass_of(const PartLine& line, const PartModel& model) {
-  return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
-}
-
-namespace {
-
 /// Whether the part only grazes what it meets after `free`: moved aside a little it passes.
 bool grazes(const PlacedPart& other, const PlacedPart& part, Pose pose, const Vec3& direction, double free,
             double limit) {

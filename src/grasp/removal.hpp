@@ -17,6 +17,4 @@ std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& 
 /// Whether `other` is in the way of `part` as it goes along `direction` (unit) up to `limit` (m).
 bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit);
 
-double mass_of(const PartLine& line, const PartModel& model);
-
 }  // namespace bin_scenes

@@ -9,26 +9,29 @@ namespace bin_scenes {
 
 namespace {
 
-BagTraceMaker& bag_trace_maker() {
-  static BagTraceMaker maker;
+MessageTraceMaker& message_trace_maker() {
+  static MessageTraceMaker maker;
   return maker;
 }
 
 }  // namespace
 
-void register_bag_trace(BagTraceMaker maker) {
-  bag_trace_maker() = std::move(maker);
+void register_message_trace(MessageTraceMaker maker) {
+  message_trace_maker() = std::move(maker);
 }
 
-std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request) {
+std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request, McapProfile profile) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw environment_error("the trace cannot be written: it is a directory", path, "name a file for --trace");
   }
-  if (std::filesystem::path(path).extension() != ".bag") return std::make_unique<TraceFile>(path);
-  if (!bag_trace_maker())
-    throw environment_error("this build knows no bags", path, "build with ROS, or name a .csv file for --trace");
-  return bag_trace_maker()(path, request);
+  const std::filesystem::path extension = std::filesystem::path(path).extension();
+  if (extension != ".bag" && extension != ".mcap") return std::make_unique<TraceFile>(path);
+  if (!message_trace_maker()) {
+    throw environment_error("this build writes no messages of ROS", path,
+                            "build with ROS, or name a .csv file for --trace");
+  }
+  return message_trace_maker()(path, request, profile);
 }
 
 }  // namespace bin_scenes

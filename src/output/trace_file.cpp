@@ -24,12 +24,12 @@ TraceFile::~TraceFile() {
   if (file_) std::fclose(file_);
 }
 
-void TraceFile::add(double time, const std::vector<ScenePart>& parts) {
-  for (const ScenePart& part : parts) {
+void TraceFile::add(const TraceSample& sample) {
+  for (const ScenePart& part : sample.parts) {
     if (!part.pose.finite()) continue;
     const Vec3 &p = part.pose.position, &v = part.velocity.linear, &w = part.velocity.angular;
     const Quat& q = part.pose.orientation;
-    std::fprintf(file_, "%.17g,%d", time, part.id);
+    std::fprintf(file_, "%.17g,%d", sample.time, part.id);
     for (const double value :
          {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()}) {
       std::fprintf(file_, ",%.17g", value);

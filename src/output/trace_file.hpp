@@ -1,7 +1,7 @@
 /// A trace as CSV.
 #pragma once
 
-#include "bin_scenes/output/scene_writer.hpp"
+#include "bin_scenes/core/temporary.hpp"
 #include "bin_scenes/output/trace.hpp"
 
 #include <cstdio>
@@ -14,7 +14,7 @@ class TraceFile final : public Trace {
  public:
   explicit TraceFile(const std::string& path);
   ~TraceFile() override;
-  void add(double time, const std::vector<ScenePart>& parts) override;
+  void add(const TraceSample& sample) override;
   void finish() override;
 
  private:

@@ -23,7 +23,7 @@ WorldDef world_of(const LoadedRequest& loaded) {
     const PartLine& line = request.parts[l];
     BodyDef body;
     body.part = l;
-    body.mass = line.mass ? *line.mass : line.density.value_or(1000.0) * loaded.parts[l]->mass().volume;
+    body.mass = mass_of(line, *loaded.parts[l]);
     body.friction = line.friction;
     body.restitution = line.restitution;
     body.fixed = line.fixed;

@@ -158,6 +158,7 @@ class Run {
 
   void sample(HeapCore& heap) {
     last_sample_ = heap.time();
+    if (hooks_.trace_contacts) hooks_.trace_contacts(solver_.contact_forces(heap.id()));
     hooks_.trace(heap.index(), last_sample_, heap.states());
   }
   /// Step at whose end the next sample of a trace is due: the one nearest to a multiple of 1 / rate.

@@ -1,8 +1,8 @@
-/// Makes `--formats bag,mcap` (output/scene_writer.hpp) and `--trace FILE.bag` (output/trace.hpp) known to the program
-/// that this file is linked into.
-#include "bag_trace.hpp"
+/// Makes `--formats bag,mcap` (output/scene_writer.hpp) and `--trace FILE.bag|.mcap` (output/trace.hpp) known to the
+/// program that this file is linked into.
 #include "bag_writer.hpp"
 #include "mcap_writer.hpp"
+#include "message_trace.hpp"
 
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/output/trace.hpp"
@@ -28,9 +28,7 @@ std::string name_space() {
                           const std::vector<RangeImage>& images) {
     write_mcap(path, profile, scene, loaded, images, bag_stamp(scene.index), name_space());
   });
-  register_bag_trace([](const std::string& path, const Request& request) -> std::unique_ptr<Trace> {
-    return std::make_unique<BagTrace>(path, request);
-  });
+  register_message_trace(message_trace);
   return true;
 }();
 

@@ -1,9 +1,11 @@
 #include "markers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -31,10 +33,7 @@ void set_triangles(Marker& m, const Mesh& mesh) {
   m.points.reserve(3 * mesh.triangles.size());
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
-      const Vec3& v = mesh.vertices[corner];
-      geometry_msgs::Point point;
-      point.x = v.x(), point.y = v.y(), point.z = v.z();
-      m.points.push_back(point);
+      m.points.push_back(point_message(mesh.vertices[corner]));
     }
   }
 }
@@ -61,6 +60,38 @@ std::array<Box, 5> walls(const Bin& bin) {
   return {Box{{0, 0, -0.5 * t}, {in.x() + 2 * t, in.y() + 2 * t, t}}, Box{{-x, 0, z}, {t, in.y(), in.z()}},
           Box{{x, 0, z}, {t, in.y(), in.z()}}, Box{{0, -y, z}, {in.x() + 2 * t, t, in.z()}},
           Box{{0, y, z}, {in.x() + 2 * t, t, in.z()}}};
+}
+
+geometry_msgs::Point point_message(const Vec3& v) {
+  geometry_msgs::Point point;
+  point.x = v.x(), point.y = v.y(), point.z = v.z();
+  return point;
+}
+
+/// The unit of what is drawn of contacts.
+struct LightestPart {
+  double weight = std::numeric_limits<double>::infinity();  ///< N
+  double diagonal = 0.0;                                    ///< m
+  explicit LightestPart(const LoadedRequest& loaded) {
+    for (std::size_t line = 0; line < loaded.parts.size(); ++line) {
+      const PartModel& part = *loaded.parts[line];
+      const double its = mass_of(loaded.request.parts[line], part) * loaded.request.gravity.norm();
+      if (!(its < weight)) continue;
+      weight = its;
+      diagonal = part.diagonal();
+    }
+  }
+};
+
+/// Blue at a tenth, green at three times, red at a hundred times the weight.
+std_msgs::ColorRGBA load_color(double weights) {
+  const double share = std::clamp((std::log10(std::max(weights, 1e-9)) + 1.0) / 3.0, 0.0, 1.0);
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(std::clamp(2.0 * share - 1.0, 0.0, 1.0));
+  color.g = static_cast<float>(1.0 - std::abs(2.0 * share - 1.0));
+  color.b = static_cast<float>(std::clamp(1.0 - 2.0 * share, 0.0, 1.0));
+  color.a = 1.0f;
+  return color;
 }
 
 }  // namespace
@@ -99,6 +130,60 @@ std::string resource_uri(const std::string& model, const std::string& path) {
     }
   }
   return uri;
+}
+
+visualization_msgs::MarkerArray following_markers(const LoadedRequest& loaded, const Frames& frames,
+                                                  const ros::Time& stamp) {
+  Scene scene;
+  for (std::size_t line = 0; line < loaded.request.parts.size(); ++line) {
+    for (std::size_t k = 0; k < loaded.request.parts[line].count; ++k) {
+      ScenePart part;
+      part.id = static_cast<int>(scene.parts.size());
+      part.line = line;
+      part.model = loaded.request.parts[line].model;
+      part.pose = Pose();
+      scene.parts.push_back(part);
+    }
+  }
+  visualization_msgs::MarkerArray array = scene_markers(scene, loaded, frames, stamp);
+  for (Marker& m : array.markers) {
+    if (m.ns != "parts") continue;
+    m.header.frame_id = part_frame(m.id, frames.prefix);
+    m.frame_locked = true;
+  }
+  return array;
+}
+
+visualization_msgs::MarkerArray contact_markers(const std::vector<SceneContact>& contacts, const LoadedRequest& loaded,
+                                                const Frames& frames, const ros::Time& stamp) {
+  const LightestPart lightest(loaded);
+  visualization_msgs::MarkerArray array;
+  const auto list = [&](const char* name, int type, double width) {
+    Marker m = marker(name, 0, Pose(), frames, stamp);
+    m.type = type;
+    m.scale.x = m.scale.y = m.scale.z = width * lightest.diagonal;
+    if (type == Marker::LINE_LIST) m.scale.y = m.scale.z = 0.0;
+    if (contacts.empty()) m.action = Marker::DELETE;
+    return m;
+  };
+  Marker points = list("contact_points", Marker::SPHERE_LIST, 0.04);
+  Marker normals = list("contact_normals", Marker::LINE_LIST, 0.01);
+  Marker forces = list("contact_forces", Marker::LINE_LIST, 0.015);
+  const auto add = [&](Marker& to, const Vec3& point, const SceneContact& contact) {
+    to.points.push_back(point_message(point));
+    to.colors.push_back(load_color(contact.force.norm() / lightest.weight));
+  };
+  for (const SceneContact& c : contacts) {
+    const double weights = c.force.norm() / lightest.weight;
+    add(points, c.point, c);
+    add(normals, c.point, c);
+    add(normals, c.point + 0.15 * lightest.diagonal * c.normal, c);
+    add(forces, c.point, c);
+    const double length = std::min(0.5 * weights, 3.0) * lightest.diagonal;
+    add(forces, c.point + (weights > 0.0 ? Vec3(length * c.force.normalized()) : Vec3::Zero()), c);
+  }
+  array.markers = {points, normals, forces};
+  return array;
 }
 
 visualization_msgs::MarkerArray scene_markers(const Scene& scene, const LoadedRequest& loaded, const Frames& frames,

@@ -1,7 +1,6 @@
 #include "mcap_writer.hpp"
 
 #include "bin_scenes/config/request_reader.hpp"
-#include "cdr.hpp"
 
 namespace bin_scenes {
 
@@ -14,20 +13,6 @@ std::string quality_of_service(Latch latch) {
   return std::string("- history: 1\n  depth: 1\n  reliability: 1\n  durability: ") + (latch == Latch::yes ? "1" : "2") +
          "\n  deadline: " + endless + "\n  lifespan: " + endless +
          "\n  liveliness: 1\n  liveliness_lease_duration: " + endless + "\n  avoid_ros_namespace_conventions: false\n";
-}
-
-template <class Message>
-void write(McapFile& file, McapProfile profile, const McapChannel& channel, std::uint64_t time,
-           const Message& message) {
-  const McapFile::ChannelId id = file.add_channel(channel);
-  if (profile == McapProfile::ros2) {
-    const std::vector<char> bytes = cdr_bytes(message);
-    return file.write(id, time, bytes.data(), bytes.size());
-  }
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  file.write(id, time, bytes.data(), bytes.size());
 }
 
 McapTexts facts(const Scene& scene, const Request& request) {
@@ -60,21 +45,18 @@ void describe_profile(McapFile& file, McapProfile profile) {
 
 void write_mcap(const std::string& path, McapProfile profile, const Scene& scene, const LoadedRequest& loaded,
                 const std::vector<RangeImage>& images, const ros::Time& stamp, const std::string& name_space) {
-  const std::uint64_t time = stamp.toNSec();
-  McapFile file(path, name_of(profile));
+  McapRecording recording(path, profile);
   for_each_message(scene, loaded, images, stamp, {}, [&](const std::string& name, const auto& message, Latch latch) {
-    using Message = std::decay_t<decltype(message)>;
-    const std::string topic = recorded_name(name, name_space);
-    write(file, profile, mcap_channel(profile, topic, ros_type_of<Message>(), latch, "/bin_scenes"), time, message);
+    recording.write(recorded_name(name, name_space), stamp, message, latch);
   });
   Request one = loaded.request;
   one.scenes = 1;
   one.first = scene.index;
-  file.attach("request.yaml", "application/yaml", time, write_request(one));
-  file.attach("scene.json", "application/json", time, scene_json(scene, loaded, images));
-  file.add_metadata("bin_scenes", facts(scene, loaded.request));
-  describe_profile(file, profile);
-  file.close();
+  const std::uint64_t time = stamp.toNSec();
+  recording.file().attach("request.yaml", "application/yaml", time, write_request(one));
+  recording.file().attach("scene.json", "application/json", time, scene_json(scene, loaded, images));
+  recording.file().add_metadata("bin_scenes", facts(scene, loaded.request));
+  recording.close();
 }
 
 }  // namespace bin_scenes

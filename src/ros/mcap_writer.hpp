@@ -2,9 +2,11 @@
 #pragma once
 
 #include "bin_scenes/output/scene_writer.hpp"
+#include "cdr.hpp"
 #include "output/mcap.hpp"
 #include "recording.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,8 +27,44 @@ McapChannel mcap_channel(McapProfile profile, const std::string& topic, const Ro
 /// States for rosbag2 that qualities of service are written as Humble does.
 void describe_profile(McapFile& file, McapProfile profile);
 
-/// As write_bag(): the same topics in the same order. Profile ros1 has the bytes of the bag's messages, ros2 the same
-/// messages as ROS 2 has them. Attached are scene.json, and as request.yaml what makes this scene again.
+/// An MCAP file of messages of ROS that a program sends itself. Profile ros1 has the bytes of a bag's messages, ros2
+/// the same messages as ROS 2 has them. The file appears with close().
+class McapRecording {
+ public:
+  McapRecording(const std::string& path, McapProfile profile) : file_(path, name_of(profile)), profile_(profile) {}
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message, Latch latch) {
+    auto channel = channels_.find(topic);
+    if (channel == channels_.end()) {
+      const McapChannel made = mcap_channel(profile_, topic, ros_type_of<Message>(), latch, "/bin_scenes");
+      channel = channels_.emplace(topic, file_.add_channel(made)).first;
+    }
+    const auto bytes = profile_ == McapProfile::ros2 ? cdr_bytes(message) : ros1_bytes(message);
+    file_.write(channel->second, stamp.toNSec(), bytes.data(), bytes.size());
+  }
+  McapFile& file() { return file_; }
+  void close() {
+    describe_profile(file_, profile_);
+    file_.close();
+  }
+
+ private:
+  template <class Message>
+  static std::vector<char> ros1_bytes(const Message& message) {
+    std::vector<char> bytes(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                       static_cast<std::uint32_t>(bytes.size()));
+    ros::serialization::serialize(stream, message);
+    return bytes;
+  }
+
+  McapFile file_;
+  McapProfile profile_;
+  std::map<std::string, McapFile::ChannelId> channels_;
+};
+
+/// As write_bag(): the same topics in the same order. Attached are scene.json, and as request.yaml what makes this
+/// scene again.
 void write_mcap(const std::string& path, McapProfile profile, const Scene& scene, const LoadedRequest& loaded,
                 const std::vector<RangeImage>& images, const ros::Time& stamp, const std::string& name_space = "");
 

@@ -13,9 +13,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -95,20 +97,13 @@ void print_set_apart(const std::vector<std::pair<std::size_t, std::string>>& apa
   for (const auto& [index, reasons] : apart) std::fprintf(stderr, "  scene_%06zu: %s\n", index, reasons.c_str());
 }
 
-std::vector<ScenePart> traced(const std::vector<BodyState>& states) {
-  std::vector<ScenePart> parts(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    parts[i].id = static_cast<int>(i);
-    parts[i].pose = states[i].pose;
-    parts[i].velocity = states[i].velocity;
-  }
-  return parts;
-}
-
 McapProfile mcap_profile(const GenerateOptions& options) {
   if (!options.mcap) return McapProfile::ros1;
-  if (std::find(options.formats.begin(), options.formats.end(), "mcap") == options.formats.end())
-    throw input_error("says which MCAP file to write, but --formats has none", "--mcap", "add mcap to it");
+  if (std::find(options.formats.begin(), options.formats.end(), "mcap") == options.formats.end() &&
+      std::filesystem::path(options.trace).extension() != ".mcap") {
+    throw input_error("says which MCAP file to write, but neither --formats nor --trace names one", "--mcap",
+                      "add --formats json,mcap or --trace FILE.mcap");
+  }
   return mcap_profile_of(*options.mcap, "--mcap");
 }
 
@@ -142,6 +137,41 @@ void check_options(const GenerateOptions& options, const Request& request, bool 
   }
 }
 
+/// Feeds the trace from the hooks of a run.
+class Tracing {
+ public:
+  Tracing(std::unique_ptr<Trace> trace, const Generator& generator) : trace_(std::move(trace)), generator_(generator) {}
+  void hook(RunHooks& hooks, double rate) {
+    hooks.trace_rate = rate;
+    hooks.trace = [this](std::size_t, double time, const std::vector<BodyState>& states) { add(time, states); };
+    if (!trace_->shows_contacts()) return;
+    hooks.trace_contacts = [this](const std::vector<ContactForce>& forces) {
+      sample_.contacts.clear();
+      for (const ContactForce& f : forces) sample_.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});
+    };
+  }
+  void finish() { trace_->finish(); }
+
+ private:
+  void add(double time, const std::vector<BodyState>& states) {
+    if (!begun_) trace_->begin(generator_.loaded());
+    begun_ = true;
+    sample_.time = time;
+    sample_.parts.resize(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      sample_.parts[i].id = static_cast<int>(i);
+      sample_.parts[i].pose = states[i].pose;
+      sample_.parts[i].velocity = states[i].velocity;
+    }
+    trace_->add(sample_);
+  }
+
+  std::unique_ptr<Trace> trace_;
+  const Generator& generator_;
+  TraceSample sample_;
+  bool begun_ = false;
+};
+
 }  // namespace
 
 int generate(const GenerateOptions& options) {
@@ -149,7 +179,8 @@ int generate(const GenerateOptions& options) {
   const std::atomic<bool>& interrupted = stop_on_signals(500'000, "bin_scenes: cancelled; finished scenes are kept\n");
   const CancelScope scope(&interrupted);
   Request request = read_request(options.request, overrides_of(options));
-  SceneStore store(options.out, options.formats, mcap_profile(options), options.verify);
+  const McapProfile profile = mcap_profile(options);
+  SceneStore store(options.out, options.formats, profile, options.verify);
   check_options(options, request, store.needs_sensors());
 
   std::set<std::size_t> there;
@@ -169,18 +200,15 @@ int generate(const GenerateOptions& options) {
 
   Generator generator;
   ProgressBar bar;
-  std::unique_ptr<Trace> trace;
+  std::optional<Tracing> trace;
   Generator::Options run;
   run.render = store.needs_images();
   run.grasps = store.needs_grasps();
   run.hooks.cancel = &interrupted;
   run.hooks.progress = [&](const Progress& progress) { bar.show(progress.fraction, text_of(progress)); };
   if (!options.trace.empty()) {
-    trace = open_trace(options.trace, request);
-    run.hooks.trace_rate = options.trace_rate;
-    run.hooks.trace = [&](std::size_t, double time, const std::vector<BodyState>& states) {
-      trace->add(time, traced(states));
-    };
+    trace.emplace(open_trace(options.trace, request, profile), generator);
+    trace->hook(run.hooks, options.trace_rate);
   }
   for (const auto& [first, count] : missing_runs(request, there)) {
     request.first = first;

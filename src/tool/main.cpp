@@ -41,8 +41,10 @@ void add_generate(CLI::App& app, GenerateOptions& o) {
   app.add_option("--mcap", o.mcap, "whose messages the format mcap holds: ros1, as without it, or ros2");
   app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
   app.add_option("--seconds", o.seconds, "simulate exactly this long instead of until rest");
-  app.add_option("--trace", o.trace,
-                 "file with pose and velocity of each part over simulated time: .csv, or .bag (poses alone, as TF)");
+  app.add_option(
+      "--trace", o.trace,
+      "file with each part over simulated time: .csv (pose and velocity), or .bag or .mcap with the contacts, for "
+      "RViz and Foxglove");
   app.add_option("--trace-rate", o.trace_rate, "rows a second and part")->capture_default_str();
   app.add_flag("--overwrite", o.overwrite, "make scenes anew that are there already");
   app.add_flag(

@@ -2,7 +2,7 @@
 // for field in profile ros2; definitions of ROS 2 are those of ROS 2 Jazzy.
 //     mcap_test.js TOOL SAMPLE PROJECT
 const assert = require("node:assert/strict");
-const { execFileSync } = require("node:child_process");
+const { execFileSync, spawnSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
@@ -198,6 +198,52 @@ test("every field of a scene that has all of them", async () => {
   expect_bag_in_ros1(bag, await read_mcap(path.join(work, "ros1.mcap")));
   expect_bag_in_ros2(bag, await read_mcap(path.join(work, "ros2.mcap")));
   assert.ok(compared > 2000, `${compared} values`);
+});
+
+/** [[topic, time, bytes], ...] of all messages. */
+async function all_of_bag(name) {
+  const reader = new FileReader(name);
+  const bag = new Bag(reader, { parse: false });
+  await bag.open();
+  const all = [];
+  for await (const result of bag.messageIterator()) {
+    all.push([result.topic, BigInt(result.timestamp.sec) * 1000000000n + BigInt(result.timestamp.nsec),
+              Buffer.from(result.data).toString("hex")]);
+  }
+  await reader.close();
+  return all.sort();
+}
+async function all_of_mcap(name) {
+  const bytes = fs.readFileSync(name);
+  const readable = { size: async () => BigInt(bytes.length), read: async (at, n) => bytes.subarray(Number(at), Number(at + n)) };
+  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+  const all = [];
+  for await (const message of reader.readMessages({ validateCrcs: true })) {
+    const channel = reader.channelsById.get(message.channelId);
+    all.push([channel.topic, message.logTime, Buffer.from(message.data).toString("hex")]);
+  }
+  return { profile: reader.header.profile, topics: [...reader.channelsById.values()].map((channel) => channel.topic).sort(), all: all.sort() };
+}
+
+test("a trace has the messages of the bag", async () => {
+  fs.writeFileSync(path.join(work, "fall.yaml"), `
+bin: {inner_size: [0.24, 0.2, 0.15]}
+parts: [{model: ${path.join(project, "models", "nut_hex.stl")}, unit: mm, count: 4}]
+`);
+  // The scene is set apart, because parts still move; its trace is whole all the same.
+  const trace = (name, ...more) => spawnSync(tool, ["generate", "fall.yaml", "--out", `out_${name}`, "--seconds", "0.4",
+                                                       "--trace", name, ...more], { cwd: work, stdio: "pipe" });
+  trace("fall.bag");
+  trace("fall.mcap");
+  trace("fall2.mcap", "--mcap", "ros2");
+  const bag = await all_of_bag(path.join(work, "fall.bag"));
+  const ros1 = await all_of_mcap(path.join(work, "fall.mcap"));
+  const ros2 = await all_of_mcap(path.join(work, "fall2.mcap"));
+  assert.deepEqual(ros1.topics, ["/contacts", "/markers", "/tf", "/tf_static"], "a channel a topic, not one a message");
+  assert.ok(bag.length > 80, `${bag.length} messages`);
+  assert.deepEqual(ros1.all, bag);
+  assert.equal(ros2.profile, "ros2");
+  assert.deepEqual(ros2.all.map(([topic, time]) => [topic, time]), bag.map(([topic, time]) => [topic, time]));
 });
 
 test("a data set of each profile", async () => {

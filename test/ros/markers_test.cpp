@@ -121,5 +121,52 @@ TEST(ResourceUri, KeepsPackagesAndEncodesPaths) {
   EXPECT_EQ(resource_uri("a b.stl", "/opt/a b#1.stl"), "file:///opt/a%20b%231.stl");
 }
 
+TEST_F(Markers, ContactsAreDrawnByTheWeightOfTheLightestPart) {
+  LoadedRequest loaded;
+  for (const double mass : {2.0, 0.5}) {
+    loaded.request.parts.emplace_back();
+    loaded.request.parts.back().mass = mass;
+    loaded.parts.push_back(load(cases_[0], 1.0));
+  }
+  const double diagonal = loaded.parts[0]->diagonal(), weight = 0.5 * loaded.request.gravity.norm();
+  const Vec3 point(0.1, 0.2, 0.3);
+  const auto contact = [&](double weights) {
+    return SceneContact{0, 1, point, Vec3::UnitX(), weights * weight * Vec3::UnitZ()};
+  };
+  const auto array = contact_markers({contact(1.0), contact(1000.0), contact(0.0)}, loaded, {}, stamp).markers;
+  ASSERT_EQ(array.size(), 3u);
+  EXPECT_EQ(array[0].points.size(), 3u);
+  const auto length = [&](const visualization_msgs::Marker& m, std::size_t i) {
+    const auto &from = m.points.at(2 * i), &to = m.points.at(2 * i + 1);
+    EXPECT_EQ(from.x, point.x());
+    return Vec3(to.x - from.x, to.y - from.y, to.z - from.z);
+  };
+  EXPECT_NEAR((length(array[1], 0) - 0.15 * diagonal * Vec3::UnitX()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((length(array[2], 0) - 0.5 * diagonal * Vec3::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((length(array[2], 1) - 3.0 * diagonal * Vec3::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_EQ(length(array[2], 2), Vec3::Zero());
+  EXPECT_EQ(array[0].colors.at(1).r, 1.0f) << "far above a hundred weights";
+  EXPECT_EQ(array[0].colors.at(2).b, 1.0f) << "nothing presses";
+  for (const auto& m : contact_markers({}, loaded, {}, stamp).markers)
+    EXPECT_EQ(m.action, visualization_msgs::Marker::DELETE);
+}
+
+TEST_F(Markers, PartsOfATraceFollowTheirFrames) {
+  LoadedRequest loaded;
+  loaded.request.parts.emplace_back();
+  loaded.request.parts.back().count = 3;
+  loaded.request.parts.back().model = cases_[0].file;
+  loaded.parts.push_back(load(cases_[0], 1.0));
+  int parts = 0;
+  for (const auto& m : following_markers(loaded, {}, stamp).markers) {
+    if (m.ns != "parts") continue;
+    EXPECT_EQ(m.header.frame_id, part_frame(parts++));
+    EXPECT_TRUE(m.frame_locked);
+    EXPECT_EQ(m.pose.position.x, 0.0);
+    EXPECT_EQ(m.pose.orientation.w, 1.0);
+  }
+  EXPECT_EQ(parts, 3);
+}
+
 }  // namespace
 }  // namespace bin_scenes

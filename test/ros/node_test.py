@@ -272,11 +272,22 @@ class NodeTest(NodeCase):
                     table.setdefault(time_s, {})["part_%04d" % part] = values[:7]
             sent = []
             with rosbag.Bag(os.path.join(folder, "trace.bag")) as bag:
-                self.assertEqual(set(bag.get_type_and_topic_info().topics), {"/tf", "/tf_static"})
+                self.assertEqual(set(bag.get_type_and_topic_info().topics), {"/tf", "/tf_static", "/markers", "/contacts"})
                 for _, message, stamp in bag.read_messages(topics=["/tf"]):
                     sent.append((stamp, {t.child_frame_id: t for t in message.transforms}))
+                contacts = [(stamp, {m.ns: m for m in message.markers})
+                            for _, message, stamp in bag.read_messages(topics=["/contacts"])]
+                (_, meshes, _), = bag.read_messages(topics=["/markers"])
         self.assertEqual(len(sent), len(table))
         self.assertGreater(len(sent), 40)
+        self.assertEqual([stamp for stamp, _ in contacts], [stamp for stamp, _ in sent])
+        self.assertEqual({m.header.frame_id for m in meshes.markers if m.ns == "parts"}, set(sent[-1][1]))
+        self.assertTrue(all(m.frame_locked for m in meshes.markers if m.ns == "parts"))
+        self.assertEqual(len(contacts[0][1]["contact_points"].points), 0, "nothing touches at the start")
+        last = contacts[-1][1]
+        touching = len(last["contact_points"].points)
+        self.assertGreater(touching, 0)
+        self.assertEqual([len(last["contact_" + name].points) for name in ("normals", "forces")], 2 * [2 * touching])
         begin = int(sent[0][0].to_sec())
         for (stamp, transforms), (time_s, rows) in zip(sent, sorted(table.items())):
             self.assertAlmostEqual((stamp - rospy.Time(begin)).to_sec(), time_s, places=8)

@@ -1,8 +1,9 @@
-/// --trace: states of every part over simulated time. The extension of the file says how they are written: .bag as
-/// transforms (a build with ROS), all others as CSV.
+/// --trace: states of every part over simulated time. The extension of the file says how they are written: .bag and
+/// .mcap as messages of ROS with the contacts (a build with ROS), all others as CSV.
 #pragma once
 
-#include "bin_scenes/scene/request.hpp"
+#include "bin_scenes/config/formats.hpp"
+#include "bin_scenes/part/loaded_request.hpp"
 #include "bin_scenes/scene/scene.hpp"
 
 #include <functional>
@@ -12,22 +13,33 @@
 
 namespace bin_scenes {
 
+/// The scene at one moment.
+struct TraceSample {
+  double time = 0.0;                   ///< s since the scene began
+  std::vector<ScenePart> parts;        ///< all of them, with id, pose (bin frame; not finite = not in the bin yet) and
+                                       ///< velocity
+  std::vector<SceneContact> contacts;  ///< of the step that ends then; only for a trace that shows_contacts()
+};
+
 class Trace {
  public:
   virtual ~Trace() = default;
-  /// @param time s since the scene began
-  /// @param parts all of them, with id, pose (bin frame; not finite = not in the bin yet) and velocity
-  virtual void add(double time, const std::vector<ScenePart>& parts) = 0;
+  /// Whether samples need their contacts, which cost the solver some time to list.
+  virtual bool shows_contacts() const { return false; }
+  /// Once, before the first sample, as soon as the models are loaded.
+  virtual void begin(const LoadedRequest& /*loaded*/) {}
+  virtual void add(const TraceSample& sample) = 0;
   /// Only then the file is there.
   virtual void finish() = 0;
 };
 
-/// For the one scene of `request`. Throws an environment Error where no file can be written, before anything is
-/// simulated.
-std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request);
+/// For the one scene of `request`. `profile`: of the messages in a .mcap file. Throws an environment Error where no
+/// file can be written, before anything is simulated.
+std::unique_ptr<Trace> open_trace(const std::string& path, const Request& request, McapProfile profile);
 
-using BagTraceMaker = std::function<std::unique_ptr<Trace>(const std::string& path, const Request& request)>;
-/// Makes bags known; called by the part of the program that knows ROS (ros/bag_format.cpp).
-void register_bag_trace(BagTraceMaker maker);
+using MessageTraceMaker =
+    std::function<std::unique_ptr<Trace>(const std::string& path, const Request& request, McapProfile profile)>;
+/// Makes .bag and .mcap known; called by the part of the program that knows ROS (ros/bag_format.cpp).
+void register_message_trace(MessageTraceMaker maker);
 
 }  // namespace bin_scenes

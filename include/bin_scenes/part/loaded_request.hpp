@@ -15,4 +15,9 @@ struct LoadedRequest {
   PartModelPtr bin_model = nullptr;      ///< Bin::Kind::mesh only
 };
 
+/// Of one part of the line (kg).
+inline double mass_of(const PartLine& line, const PartModel& model) {
+  return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
+}
+
 }  // namespace bin_scenes

@@ -27,6 +27,8 @@ struct RunHooks {
   /// whole multiples of 1 / `trace_rate` (Hz, simulated time; at most once a step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
+  /// Called before `trace` with the contacts of the same moment (Solver::contact_forces()).
+  std::function<void(const std::vector<ContactForce>&)> trace_contacts;
 };
 
 /// World of one scene of the request (bodies in order of part lines, one id each; walls up to the rim).
