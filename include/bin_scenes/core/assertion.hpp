@@ -1,7 +1,7 @@
-/// Invariants are stated where they hold: BIN_SCENES_ASSERT(condition). Every build has them, so that tests and users
-/// run the same code, and evaluates them where the environment variable BIN_SCENES_ASSERTIONS is set, as all tests set
-/// it. Otherwise one costs a branch; none stands in an inner loop. What does not hold is printed with its place, and
-/// the process aborts.
+/// BIN_SCENES_ASSERT(condition) states an invariant at the place where it holds. Every build contains the assertions,
+/// so that tests and users run the same code, but they are evaluated only if the environment variable
+/// BIN_SCENES_ASSERTIONS is set, as all tests set it. Otherwise an assertion costs one branch, and none stands in an
+/// inner loop. A violated condition is printed with file and line, and the process aborts.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"
@@ -35,7 +35,7 @@ template <class Items, class Condition>
 bool each_is(const Items& items, Condition&& condition) {
   return std::all_of(std::begin(items), std::end(items), condition);
 }
-/// No item equals the one before it.
+/// Whether each item is greater than the one before it.
 template <class Items>
 bool ascends(const Items& items) {
   return std::adjacent_find(std::begin(items), std::end(items),

@@ -28,7 +28,7 @@ struct Profile {
   }
 };
 
-/// Adds the object's lifetime to one stage.
+/// Adds the time between its construction and its destruction to one stage.
 class StageTimer {
  public:
   StageTimer(Profile& profile, std::string stage)

@@ -17,8 +17,8 @@ enum class Stream : std::uint64_t { pour = 1, sensor = 2, noise = 3, probe = 4, 
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t index, Stream stream);
-  /// An own stream for a piece of the work (a sensor, a row of its image): pieces may then be done in any order. Does
-  /// not move this one.
+  /// A separate stream for one piece of the work (a sensor, a row of its image), so that pieces may be done in any
+  /// order. The state of this stream does not change.
   Random of_piece(std::uint64_t piece) const;
 
   std::uint64_t next();
@@ -26,7 +26,7 @@ class Random {
   double uniform(double lower, double upper);  ///< [lower, upper)
   std::uint64_t below(std::uint64_t count);    ///< 0 .. count-1, unbiased; count > 0
   double normal();                             ///< mean 0, standard deviation 1 (Box-Muller)
-  void normals(double& a, double& b);          ///< two of them for the price of one
+  void normals(double& a, double& b);          ///< two such numbers at the cost of one
   Quat orientation();                          ///< uniform on SO(3) (Shoemake 1992, "Uniform random rotations")
 
  private:

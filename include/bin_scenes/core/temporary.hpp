@@ -7,11 +7,11 @@
 
 namespace bin_scenes {
 
-/// A file or directory that only appears under its name once it is whole: work on path(), then commit().
-/// Destroyed without commit(), it leaves nothing behind. commit() replaces what stood there.
+/// A file or directory that appears under its name only when it is complete: work on path(), then call commit(), which
+/// replaces an existing file of that name. Destroyed without commit(), it leaves nothing behind.
 ///
 /// Until then it is hidden beside its target as .NAME.tmp-PID-NUMBER@HOST, so that processes of several hosts can share
-/// a directory. What a killed process left is removed by remove_leftovers().
+/// a directory. remove_leftovers() removes what a killed process left.
 class Temporary {
  public:
   explicit Temporary(const std::string& target);

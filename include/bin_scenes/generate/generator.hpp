@@ -1,4 +1,5 @@
-/// The main job: from a request to judged scenes and their images. Tool, node and benchmark call this.
+/// The main task of the library: from a request to judged scenes and their images. The command line, the ROS node and
+/// the benchmark use this class.
 #pragma once
 
 #include "bin_scenes/grasp/scene_grasps.hpp"
@@ -12,8 +13,8 @@
 
 namespace bin_scenes {
 
-/// Keeps what is expensive between requests: the GL device, loaded parts with their proxies, search trees for rays.
-/// One thread at a time (the GL context belongs to the thread that made it).
+/// Keeps between requests what is expensive to make: the GL device, the loaded parts with their collision shapes, and
+/// the search trees for rays. It may be used by one thread only (the GL context belongs to the thread that made it).
 class Generator {
  public:
   Generator();
@@ -27,11 +28,12 @@ class Generator {
   struct Options {
     bool render = true;   ///< false: no sensor image is made
     bool grasps = false;  ///< of the request's grippers; what cameras see of them only with render
-    /// Called for each scene before it is handed over, in any thread and for several at once, while further scenes are
-    /// poured: the place for what takes long, such as writing files. It may take the images away. What it makes for the
-    /// one who gets the scene it keeps itself, by index.
+    /// Called for each scene before it is handed over, in any thread and for several scenes at the same time, while
+    /// further scenes are poured. It is the place for slow work such as writing files. It may move the images away.
+    /// What it produces for the receiver of the scene it must store itself, by the index of the scene.
     std::function<void(Result&)> prepare;
-    /// Of the scene that result() hands over, for heaps that give several: names it, and draws its sensors' noise.
+    /// Index of the scene that result() returns, for a heap that gives several scenes. The index names the scene and
+    /// selects the noise of its sensors.
     std::optional<std::size_t> index;
     RunHooks hooks;
   };
@@ -40,8 +42,8 @@ class Generator {
   /// soon as it is done (in order of index, in the calling thread). Throws Error; scenes handed over before stay valid.
   void generate(const Request& request, const Options& options, const std::function<void(Result&&)>& done);
 
-  /// Scene request.first as a heap that can be changed and settled again, not poured yet: models loaded, solver made.
-  /// It may outlive the generator.
+  /// Scene request.first as a heap that can be changed and settled repeatedly. Its models are loaded and its solver is
+  /// made, but nothing is poured yet. The heap may outlive the generator.
   Heap heap(const Request& request, const RunHooks& hooks = {});
   /// Part lines with their models, for Heap::add: checked, also against the heap's bin, and loaded as heap() does.
   /// Throws an input Error.
@@ -49,7 +51,7 @@ class Generator {
   /// The result of generate() for the current state of a heap: judged, and rendered as its request asks.
   Result result(const Heap& heap, const Options& options);
 
-  /// The last request, with its models.
+  /// The most recent request, with its models.
   const LoadedRequest& loaded() const;
 
  private:

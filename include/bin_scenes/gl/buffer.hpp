@@ -1,4 +1,4 @@
-/// Storage buffers (GL_SHADER_STORAGE_BUFFER): what compute passes read and write.
+/// Storage buffers (GL_SHADER_STORAGE_BUFFER), which compute passes read and write.
 /// Contents are zero after (re)allocation. The driver's limit on the size of a block (128 MiB on llvmpipe) is checked.
 #pragma once
 
@@ -35,7 +35,7 @@ class Storage {
   void bind(unsigned binding) const;
   /// A sub-range; `offset` a multiple of the driver's alignment (at most 256).
   void bind(unsigned binding, std::size_t offset, std::size_t bytes) const;
-  /// As the source of indirect dispatches.
+  /// Binds the buffer as the source of indirect dispatches.
   void bind_indirect() const;
 
   std::size_t bytes() const { return bytes_; }
@@ -46,7 +46,7 @@ class Storage {
   std::string label_;
   unsigned id_ = 0;
   std::size_t bytes_ = 0;
-  bool filled_ = false;  ///< and not written since
+  bool filled_ = false;  ///< by fill(), and not written since
 };
 
 /// `count` elements of one type whose layout in memory is std430's.

@@ -1,4 +1,4 @@
-/// A headless OpenGL 4.5 context through EGL. Knows nothing of physics.
+/// A headless OpenGL 4.5 context through EGL. This layer is independent of the physics.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace bin_scenes::gl {
 
-/// One EGL device as doctor lists it.
+/// One EGL device, as `bin_scenes doctor` lists it.
 struct DeviceInfo {
   std::string name;                       ///< EGL vendor / DRM node
   bool software = false;                  ///< EGL_MESA_device_software
@@ -20,8 +20,9 @@ struct Limits {
   long long storage_bytes = 0;
 };
 
-/// Owns the context; made current on the thread that constructs it, which then owns all GL calls. Objects on it are
-/// deleted while it is current: who has some keeps the device, and makes it current before they go.
+/// Owns the context; made current on the thread that constructs it, which then owns all GL calls. Its objects
+/// must be deleted while it is current: an owner of such objects keeps a reference to the device, and makes it current
+/// before it destroys them.
 class Device {
  public:
   /// Prefers hardware; software devices only if nothing else works or BIN_SCENES_GL=software; surfaceless Mesa last.
@@ -31,9 +32,9 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// The device of this thread, made on first use, and anew once it is lost.
+  /// The device of this thread. It is made on first use, and made again after it was lost.
   static std::shared_ptr<Device> shared();
-  /// The one that is current on this thread, else shared().
+  /// The device that is current on this thread, or shared() if there is none.
   static Device& current();
   static bool is_current();  ///< whether this thread may make GL calls
 
@@ -44,7 +45,7 @@ class Device {
   const Limits& limits() const;
   void make_current();  ///< throws an environment Error
   bool try_make_current() noexcept;
-  void lose();  ///< said by who finds that its work is gone: what is on it cannot be used any more
+  void lose();  ///< marks the device as lost, called when its results are gone; its objects cannot be used any more
   bool lost() const;
 
   static std::vector<DeviceInfo> enumerate();

@@ -7,9 +7,9 @@
 
 namespace bin_scenes::gl {
 
-/// Blocks summed, their sums scanned one level up, blocks scanned from there ("reduce then scan"), after Harris,
-/// Sengupta, Owens 2007
-/// ("Parallel prefix sum (scan) with CUDA"); as many levels as the size asks for. Integers: exact in any order.
+/// "Reduce then scan" after Harris, Sengupta, Owens 2007 ("Parallel prefix sum (scan) with CUDA"): blocks are summed,
+/// their sums are scanned one level up, and each block is scanned from its start value, with as many levels as the size
+/// requires. The sums are integers, and therefore exact in any order.
 class PrefixSum {
  public:
   PrefixSum();

@@ -54,7 +54,7 @@ class Program {
   mutable std::map<std::string, int> locations_;
 };
 
-/// What later commands wait for. The safe one is the default.
+/// What later commands wait for. The default, `all`, is always safe.
 enum class Barrier {
   storage,    ///< later passes see what this one wrote
   arguments,  ///< the same, and their numbers of groups: a GPU's front end waits until the pass has ended
@@ -64,7 +64,7 @@ enum class Barrier {
 void barrier(Barrier kind = Barrier::all);
 
 /// An axis takes at most 65,535 groups; more are folded into y. The shader computes its index with thread_index() or
-/// group_index() of shared/dispatch.h and checks its own bound. With no groups nothing is dispatched.
+/// group_index() of shared/dispatch.h and checks its bound itself. With 0 groups nothing is dispatched.
 std::array<unsigned, 2> folded_groups(std::size_t groups);
 void dispatch_groups(const Program& program, std::size_t groups, Barrier after = Barrier::storage);
 /// Enough groups for one invocation per item.

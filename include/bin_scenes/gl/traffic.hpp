@@ -9,11 +9,11 @@ namespace bin_scenes::gl {
 
 struct Traffic {
   std::uint64_t dispatches = 0, barriers = 0;
-  std::uint64_t argument_barriers = 0;  ///< of the barriers, those that numbers of groups wait for, too
+  std::uint64_t argument_barriers = 0;                    ///< those of the barriers that also protect numbers of groups
   std::uint64_t bytes_uploaded = 0, bytes_read_back = 0;  ///< between host and device
 };
 
-/// Totals of this thread, which has a device of its own. The functions of this layer add to them.
+/// Totals of the calling thread, which has a device of its own. The functions of this layer add to them.
 Traffic& traffic();
 
 /// Adds the counts during the object's lifetime to the counters gl_dispatches, gl_barriers, gl_argument_barriers,

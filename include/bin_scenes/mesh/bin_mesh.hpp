@@ -1,4 +1,4 @@
-/// The bin that has no mesh file, as triangles.
+/// The triangles of a bin that is not given as a mesh file.
 #pragma once
 
 #include "bin_scenes/mesh/mesh.hpp"

@@ -29,7 +29,7 @@ struct LoadOptions {
   bool require_closed = true;       ///< false: report openness instead of throwing (inspect, bins)
 };
 
-/// What a part line says of its file.
+/// The options that a part line of the request states for its model file.
 LoadOptions load_options(const PartLine& line);
 
 /// Whether this build reads STEP and IGES.
@@ -37,14 +37,14 @@ bool reads_cad();
 /// Whether LoadReport::format is one of these two.
 bool is_cad(const std::string& format);
 
-/// A model file, read once: what its digest says is what becomes of it, whoever writes to the file meanwhile.
+/// A model file, read once, so that its digest belongs to the bytes that are used even if the file changes meanwhile.
 struct ModelFile {
   std::string path;
   std::string bytes;
   std::string sha256;  ///< of the bytes
 };
 
-/// Findings in the file, and the repairs.
+/// What was found in the file, and how it was repaired.
 struct LoadReport {
   std::string format;
   std::size_t file_vertices = 0, file_triangles = 0, meshes = 0;  ///< meshes: solids, of STEP and IGES
@@ -85,7 +85,7 @@ LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string&
 /// Throws an input Error when a part does not fit the bin (diagonal above the bin's), or when no unit was given and it
 /// is below 1/2000 of the bin's longest side; without a unit the error names the likely one. An endless floor or free
 /// flight stands for a bin of 10 m.
-/// @param bin_mesh  of a bin that is one; its bounds are the bin's size.
+/// @param bin_mesh  the mesh of a bin that is given as one; its bounds are then the bin's size
 void check_plausible_size(const Mesh& mesh, const Bin& bin, const std::string& path, std::optional<Unit> given,
                           const Mesh* bin_mesh = nullptr);
 

@@ -90,7 +90,7 @@ using McapWriter = std::function<void(const std::string& path, McapProfile, cons
 void register_mcap_writer(McapWriter writer);
 /// Empty without ROS.
 const McapWriter& mcap_writer();
-/// Name of the profile of a file; empty if it is no MCAP file.
+/// The profile that an MCAP file names in its header; empty if the file is not MCAP.
 std::string mcap_profile_in(const std::string& path);
 
 }  // namespace bin_scenes

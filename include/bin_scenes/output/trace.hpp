@@ -29,7 +29,7 @@ class Trace {
   /// Once, before the first sample, as soon as the models are loaded.
   virtual void begin(const LoadedRequest& /*loaded*/) {}
   virtual void add(const TraceSample& sample) = 0;
-  /// Only then the file is there.
+  /// Completes the file; before this call it does not exist under its name.
   virtual void finish() = 0;
 };
 

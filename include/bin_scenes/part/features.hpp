@@ -27,8 +27,8 @@ struct Features {
 };
 
 /// Edges whose faces turn outwards by more than `sharp_angle` (rad). Edges with one face only (an open mesh) count as
-/// sharp; concave edges do not, because nothing touches a part there before it touches a face. Slivers, whose own
-/// normals mean nothing, take the normal of the face across their longest edge.
+/// sharp; concave edges do not, because nothing touches a part there before it touches a face. Slivers have no
+/// reliable normal of their own; they take the normal of the face across their longest edge.
 Features sharp_features(const Mesh& mesh, double sharp_angle);
 
 }  // namespace bin_scenes

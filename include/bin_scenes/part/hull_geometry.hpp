@@ -11,7 +11,7 @@ namespace bin_scenes {
 /// are needed, the hull is slightly too small: the point farthest outside is added until the number is reached.
 Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices);
 
-/// Few of the points, which reach as far as all of them in each direction (to 1e-9 of the diagonal).
+/// A small subset of the points that reaches as far as all of them in each direction (to 1e-9 of the diagonal).
 std::vector<Vec3> extreme_points(const std::vector<Vec3>& points);
 
 /// Half-space normal . x <= offset; the normal points out of the solid.

@@ -1,4 +1,4 @@
-/// A request and what it names.
+/// A request together with the models that it names.
 #pragma once
 
 #include "bin_scenes/part/part_model.hpp"
@@ -8,14 +8,14 @@
 
 namespace bin_scenes {
 
-/// What pouring, judging, rendering and writing of a scene are given together.
+/// The common input of pouring, judging, rendering and writing a scene.
 struct LoadedRequest {
   Request request;
   std::vector<PartModelPtr> parts = {};  ///< the models, by part line
   PartModelPtr bin_model = nullptr;      ///< Bin::Kind::mesh only
 };
 
-/// Of one part of the line (kg).
+/// Mass of one part of the line (kg): as given, or density times the volume of the mesh.
 inline double mass_of(const PartLine& line, const PartModel& model) {
   return line.mass ? *line.mass : line.density.value_or(1000.0) * model.mass().volume;
 }

@@ -18,7 +18,7 @@ struct ShapeError {
   double volume = 0;                             ///< (proxy - mesh) / mesh
 };
 
-/// `whole` is the same set with its interior kept: its volume is the proxy's.
+/// @param whole  the same set with its interior spheres, by which the volume of the proxy is measured
 ShapeError shape_error(const SphereSet& spheres, const SphereSet& whole, const MeshQuery& query);
 ShapeError shape_error(const DistanceField& field, const MeshQuery& query);
 ShapeError shape_error(const ConvexHulls& hulls, const MeshQuery& query);

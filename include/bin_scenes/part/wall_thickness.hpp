@@ -5,8 +5,9 @@ namespace bin_scenes {
 
 class MeshQuery;
 
-/// Length of material (m) ahead of a point of the surface, along its inward normal: of all but the 5 % of the surface
-/// where it is least, such as rims and tips. 0 for an open mesh. Shells that overlap count as united.
+/// Wall thickness (m): the length of material behind a point of the surface, along the inward normal. The result is the
+/// 5 % quantile over the surface, so that rims and tips do not count. 0 for an open mesh. Overlapping shells count as
+/// united.
 double wall_thickness(const MeshQuery& query);
 
 }  // namespace bin_scenes

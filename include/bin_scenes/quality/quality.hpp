@@ -19,9 +19,9 @@ struct Penetration {
 };
 Penetration penetration(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b, const Pose& pose_b);
 
-/// Overlap of a placed mesh with walls and floor of the bin. A wall is solid outwards without end, up to the rim; the
-/// depth is measured back into the bin or up over the rim, whichever is shorter. A closed mesh bin is treated as a
-/// part, an open one as a sheet that is solid on the side away from the part.
+/// Overlap of a placed mesh with walls and floor of the bin. A wall extends outwards without end and upwards to the
+/// rim; the depth is measured back into the bin or up over the rim, whichever is shorter. A closed mesh bin is treated
+/// as a part, an open one as a sheet that is solid on the side away from the part.
 Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& bin, const MeshQuery* bin_mesh);
 
 /// Distance that a can move along `direction` (unit, bin frame) before it touches b, up to `limit`. 0 if their surfaces
@@ -42,7 +42,7 @@ double free_distance(const MeshQuery& a, const Pose& pose_a, const MeshQuery& b,
 /// time was asked for).
 void judge(Scene& scene, const LoadedRequest& loaded);
 
-/// The same measures, part by part, of the parts that are there, in the order of the scene.
+/// The same measures for each part that is in the scene, in the order of the scene.
 struct PartQuality {
   int id = 0;
   double overlap = 0.0;           ///< m: deepest overlap with another part

@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// What a number may be; of a list or a vector each of its numbers.
+/// The allowed values of a number, or of each number of a list or vector.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -28,7 +28,8 @@ struct Key {
   const char* unit;  ///< "" if it has none
   const char* text;  ///< meaning; what a larger or smaller value costs
   Range range = anything;
-  bool written = true;  ///< false: has no meaning for the other values; left out when written back, and not checked
+  bool written =
+      true;  ///< false: without meaning for the present values of other keys; then neither written back nor checked
   bool needed = false;  ///< a file without it is refused
 };
 

@@ -1,4 +1,4 @@
-/// What became of a grasp that was tried in a copy of its heap.
+/// The result of a grasp that was simulated in a copy of its heap.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-/// Settings of sensor models by their type, so that a sensor holds those of models it does not know.
+/// Settings of sensor models, stored by their type, so that Sensor can hold the settings of any model without including
+/// its header.
 #pragma once
 
 #include <any>
@@ -9,7 +10,7 @@ namespace bin_scenes {
 
 class ModelSettings {
  public:
-  /// Made with its defaults when it is asked for first.
+  /// The settings of that type; the first call makes them with their defaults.
   template <class Settings>
   Settings& of() {
     std::any& found = all_[typeid(Settings)];

@@ -1,4 +1,4 @@
-/// Motion on a given path: of the bin, or of a fixed part (a pusher, a conveyor), which nothing can stop or turn aside.
+/// Motion on a given path, of the bin or of a fixed part (a pusher, a conveyor). Nothing can stop or deflect it.
 #pragma once
 
 #include "bin_scenes/core/types.hpp"

@@ -13,7 +13,7 @@ namespace bin_scenes {
 
 enum class PartState { resting, moving, escaped, fixed, not_poured, removed };
 const char* name_of(PartState state);
-/// Whether it is in the scene at all: what was never poured or has been taken out has no pose and is in no image.
+/// Whether the part is in the scene. A part that was never poured, or was taken out, has no pose and is in no image.
 inline bool is_there(PartState state) {
   return state != PartState::not_poured && state != PartState::removed;
 }

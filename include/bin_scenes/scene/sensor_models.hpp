@@ -1,4 +1,4 @@
-/// Settings of the built-in sensor models beside geometry (Sensor in scene/request.hpp): what light and chip do. Their
+/// Settings of the built-in sensor models: light and camera chip (the geometry is in Sensor, scene/request.hpp). Their
 /// meaning, unit, range and the value that switches an effect off are in the tables of keys (docs/use/request.md). A
 /// model of your own keeps its settings in its own file (sensor/sensor_model.hpp). `noise: false` of a sensor switches
 /// off all effects that are random.

@@ -1,4 +1,4 @@
-/// How a sensor is spelled where names have rules.
+/// The name of a sensor in topics and TF frames.
 #pragma once
 
 #include <string>

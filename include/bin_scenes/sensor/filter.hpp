@@ -7,7 +7,7 @@ namespace bin_scenes {
 
 /// A pixel stays if enough others of the window around it have nearly its depth.
 struct OutlierFilter {
-  int neighbours = 0;   ///< so many have to; 0 = off
+  int neighbours = 0;   ///< how many must have nearly the same depth; 0 = off
   int window = 5;       ///< odd, pixel: edge of the window
   double step = 0.005;  ///< m: largest difference of depth
 };
@@ -20,11 +20,11 @@ struct ReflectionFilter {
   double period = 5.0;  ///< projector pixels of the second fringe: the shorter, the less light that bounced moves it
 };
 
-/// Depth becomes that of a plane through the pixels around, on one surface with it: what drivers call smoothing or
-/// surface smoothness. SNR stays that of the measurement.
+/// Replaces each depth by that of a plane through the surrounding pixels of the same surface, which drivers call
+/// smoothing or surface smoothness. The SNR remains that of the measurement.
 struct SmoothingFilter {
   double sigma = 0.0;   ///< pixel: standard deviation of the weights; 0 = off
-  double step = 0.005;  ///< m: pixels that lie so far off the plane count nothing
+  double step = 0.005;  ///< m: pixels farther off the plane have no weight
 };
 
 /// Kept in Sensor::settings.
@@ -36,8 +36,9 @@ struct FilterSettings {
   bool any() const { return snr > 0.0 || outlier.neighbours > 0 || reflection.step > 0.0 || smoothing.sigma > 0.0; }
 };
 
-/// First by SNR, then by neighbours (the model itself has seen to reflections); what is left is smoothed. Each does all
-/// pixels at once, so that none depends on their order. Truth stays.
+/// Removes pixels by SNR, then by their neighbours, and smooths what is left (the sensor model itself has applied the
+/// reflection filter). Each filter treats all pixels at once, so that the result does not depend on their order. The
+/// true images do not change.
 void filter(const FilterSettings& settings, RangeImage& image);
 
 }  // namespace bin_scenes

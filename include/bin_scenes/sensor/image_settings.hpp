@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// What lights an image. Lamps add up: none casts a shadow itself.
+/// A light source of an image. The light of several lamps adds up, and a lamp itself casts no shadow.
 struct ImageLamp {
   enum class Type {
     area,      ///< a rectangle that shines to one side

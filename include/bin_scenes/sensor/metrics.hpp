@@ -31,9 +31,10 @@ struct SensorMetrics {
   double point_precision = 0.0;          ///< standard deviation of a point over repeated images, median over points
   double temporal_noise = 0.0;           ///< the same along the optical axis, on an albedo of 0.8
   double local_planarity = 0.0;          ///< standard deviation of points to planes fitted to 15 x 15 pixels, median
-  double global_planarity = 0.0;         ///< range of those planes' middles about one plane: what averaging leaves
-  double dimension_trueness = 0.0;       ///< largest error of a distance between two balls / the distance
-  std::size_t valid_points = 0;          ///< of the plate in the middle
+  double global_planarity =
+      0.0;  ///< range of the centres of those planes about one plane: the error that averaging leaves
+  double dimension_trueness = 0.0;  ///< largest error of a distance between two balls / the distance
+  std::size_t valid_points = 0;     ///< of the plate in the middle
 };
 
 /// @param sensor  with or without poses: it is put at the origin, looking along z, and projector and laser keep their

@@ -1,4 +1,4 @@
-/// From what a camera sees to what a sensor reports; src/sensor/models has one file a model.
+/// From the view of a camera to the report of a sensor. src/sensor/models has one file for each model.
 #pragma once
 
 #include "bin_scenes/sensor/range_image.hpp"
@@ -12,7 +12,7 @@ namespace bin_scenes {
 struct Surfaces {
   std::vector<Surface> lines;  ///< by part line
   Surface bin;
-  /// What makes a part's surface its own.
+  /// What distinguishes the surface of one part from that of another part of its line.
   struct Place {
     Pose to_part;       ///< from the bin frame to the part's
     Vec3 longest;       ///< unit, axis in the part's frame
@@ -33,9 +33,9 @@ struct Surfaces {
  private:
   static Surface own_surface(const Surface& even, const Place& place, const Vec3& point);
 };
-/// Even ones, without places.
+/// Surfaces of the request's lines, without the textures of single parts.
 Surfaces surfaces_of(const Request& request);
-/// Textures are those of a part in its scene, the same for all sensors.
+/// The same with the texture of each part of the scene, which is the same for all sensors.
 Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded);
 
 /// The key of all random numbers of a sensor in a scene.

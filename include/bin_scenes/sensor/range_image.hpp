@@ -12,7 +12,7 @@
 
 namespace bin_scenes {
 
-/// What a camera took: counts, row-major, channels of a pixel beside each other.
+/// A picture of a camera: counts, row-major, the channels of a pixel beside each other.
 struct Picture {
   int channels = 0;  ///< 1: grey; 3: red, green, blue; 0: none was taken
   int bits = 8;      ///< 8 or 16 a count

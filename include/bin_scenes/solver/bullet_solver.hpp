@@ -1,5 +1,5 @@
 /// The solver `bullet`: rigid bodies as compounds of convex hulls, stepped by Bullet in double precision on the CPU.
-/// Nothing of Bullet shows here; src/solver/bullet is the only folder that sees it.
+/// This header exposes nothing of Bullet; only the folder src/solver/bullet includes its headers.
 ///
 /// Bullet's tolerances are plain numbers made for bodies of about one unit, so each world is simulated in a scale in
 /// which the median part's bounding diagonal is one unit; poses and velocities are converted at this interface.

@@ -3,8 +3,8 @@
 ///
 ///     add_world ─► insert bodies ─► advance ─► states ─► ... ─► remove_world
 ///
-/// A world knows bodies, walls, gravity; pouring and rest are the business of pour/. Between two advances, calls about
-/// different worlds may come from different threads at once, but for add_world and remove_world.
+/// A world contains bodies, walls and gravity; pouring parts and deciding that they rest is done in pour/. Between two
+/// advances, calls about different worlds may come from different threads at once, but for add_world and remove_world.
 #pragma once
 
 #include "bin_scenes/core/error.hpp"
@@ -51,12 +51,12 @@ struct Frame {
   Vec3 spin = Vec3::Zero(), spin_rate = Vec3::Zero();  ///< rad/s, rad/s2
 
   bool turns() const { return !spin.isZero() || !spin_rate.isZero(); }
-  /// What a point at `x` that moves with `v` in the frame is accelerated by, beside gravity: by the change of the spin,
-  /// Coriolis and centrifugal.
+  /// Acceleration (m/s2) of a point at `x` that moves with velocity `v` in the frame, in addition to gravity: by the
+  /// change of the spin, the Coriolis and the centrifugal term.
   Vec3 acceleration(const Vec3& x, const Vec3& v) const {
     return -spin_rate.cross(x) - 2.0 * spin.cross(v) - spin.cross(spin.cross(x));
   }
-  /// What a body that turns with `w` in the frame changes it by (rad/s2), beside its own gyroscopic term.
+  /// Angular acceleration (rad/s2) of a body that turns with `w` in the frame, in addition to its own gyroscopic term.
   Vec3 angular_acceleration(const Vec3& w, const Mat3& inertia, const Mat3& inverse_inertia) const {
     const Vec3 whole = w + spin;
     return -spin_rate - spin.cross(w) - inverse_inertia * (whole.cross(inertia * whole) - w.cross(inertia * w));
@@ -75,14 +75,14 @@ struct Jaws {
   Vec3 velocity = Vec3::Zero();       ///< of the hand
 };
 
-/// With what two bodies press on each other at one point (bin frame, SI).
+/// The force between two bodies at one point (bin frame, SI).
 struct ContactForce {
   int a = 0, b = -1;   ///< bodies; b is -1 for the bin
   Vec3 point, normal;  ///< from a to b
   Vec3 force;          ///< N, on b with friction; on a acts its opposite
 };
 
-/// The worst that contacts did over some time, by the solver's own depths.
+/// The deepest contact over some time, by the solver's own contact depths.
 struct WorstContact {
   int a = -1, b = -1;                    ///< bodies of the deepest contact; b is -1 for the bin
   double depth = 0.0, relative = 0.0;    ///< m; depth / diagonal of the smaller part, by which it is the deepest
@@ -118,9 +118,10 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  /// Throws the input Error that add_world() would, before anything has been changed for the sake of such a world.
+  /// Throws the input Error that add_world() would throw for this definition, without changing anything.
   virtual void check(const WorldDef& /*def*/) const {}
-  /// All bodies absent. Throws on what the solver cannot do or what does not fit the memory budget.
+  /// Makes a world in which all bodies are absent. Throws an input Error if the solver cannot simulate it, or if it
+  /// does not fit the memory budget.
   virtual WorldId add_world(const WorldDef& def) = 0;
   virtual void remove_world(WorldId world) = 0;
 
@@ -140,7 +141,7 @@ class Solver {
   }
   /// Puts an absent body into the world (or moves a present one). Takes effect at the next advance().
   virtual void insert(WorldId world, std::size_t body, const BodyState& state) = 0;
-  /// Takes a body out and wakes what it touched; what these wake in turn, Phase::sleep says.
+  /// Takes a body out and wakes the bodies that it touched; Phase::sleep decides what these wake in turn.
   virtual void remove(WorldId world, std::size_t body) = 0;
   /// Returns false if contacts are the same to this solver in all phases.
   virtual bool set_phase(WorldId world, const Phase& phase) = 0;
@@ -158,10 +159,12 @@ class Solver {
 
   /// States of all bodies in order of WorldDef::bodies; absent ones keep what they had (initially: NaN position).
   virtual std::vector<BodyState> states(WorldId world) const = 0;
-  /// Bodies asleep in the solver, same order. A hint for progress and counters; rest is decided elsewhere.
+  /// For each body, in the same order, whether the solver lets it sleep. Meant for progress and counters only; whether
+  /// a body rests is decided in pour/.
   virtual std::vector<bool> asleep(WorldId world) const = 0;
 
-  /// What pressed in the last step, or when the bodies fell asleep. Empty if the solver reports no forces.
+  /// The contacts that carried a force in the last step, or when the bodies fell asleep. Empty if the solver reports no
+  /// forces.
   virtual std::vector<ContactForce> contact_forces(WorldId /*world*/) const { return {}; }
 
   /// The worst contact of all steps since this was last asked, or since the world was made. None if the solver does not

@@ -2,9 +2,10 @@
 /// 2016), chapter 5: parts as voxel spheres, a sorted grid, impulses with mass splitting and velocity bias, all in
 /// compute passes. Preset `thesis`; kept for its tables and for comparison, the default solver is another.
 ///
-/// Where the text and mechanics part, mechanics holds (shaders/thesis/contact_impulse.h says where). Beyond the text:
-/// a batch of worlds, hash tables per body for the contact counts, results that do not depend on order of arrival,
-/// buffers that grow, and a bin whose box and floor are lattices of static spheres computed on demand.
+/// Where the text contradicts mechanics, the code follows mechanics (shaders/thesis/contact_impulse.h lists these
+/// places). Beyond the text: a batch of worlds, hash tables per body for the contact counts, results that do not depend
+/// on order of arrival, buffers that grow, and a bin whose box and floor are lattices of static spheres computed on
+/// demand.
 ///
 /// Limits that are the method's own: fast or thin parts tunnel (raise sub_steps), results lean towards the voxel
 /// grid, the surface of a part is as rough as its spheres.
