@@ -1,4 +1,4 @@
-/// What requests and plans decide about output formats, and what a format cannot hold.
+/// Settings of output formats in requests and plans, and what a format cannot represent.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -9,7 +9,7 @@
 
 namespace bin_scenes {
 
-/// Where images lie in BOP's layout by scenes (output/bop_layout.hpp).
+/// The layout of the images of a BOP scene (output/bop_layout.hpp).
 struct BopLayout {
   enum class Kind {
     classic,    ///< gray/, depth/, scene_gt.json: image n is that of sensor n
@@ -27,12 +27,15 @@ const std::string& sensor_of_view(const Sensor& sensor);
 /// Why BOP's files cannot hold what a sensor sees, since they describe it by a camera matrix alone; empty: they can.
 std::string bop_misfit(const Sensor& sensor);
 extern const char* const bop_misfit_remedy;
-/// What BOP's files leave out of what sensors give; empty: nothing.
+/// What BOP's files omit of the output of the sensors; empty if they omit nothing.
 std::string bop_loss(const std::vector<Sensor>& sensors);
 
-enum class McapProfile { ros1, ros2 };  ///< whose players an MCAP file is for; ros2: of Humble and later
+enum class McapProfile {
+  ros1,
+  ros2
+};  ///< the ROS version whose messages an MCAP file contains; ros2: Humble and later
 const char* name_of(McapProfile profile);
-/// Throws an input Error for a name that is no profile's. `where`: the key or option that holds it.
+/// Throws an input Error for an unknown name. @param where  the key or option that contains the name
 McapProfile mcap_profile_of(const std::string& name, const std::string& where);
 
 }  // namespace bin_scenes

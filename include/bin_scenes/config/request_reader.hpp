@@ -1,4 +1,4 @@
-/// YAML <-> Request; the one reader. An unknown key is an error that suggests the nearest known one.
+/// Converts YAML to Request and back. An unknown key is an error that suggests the nearest known one.
 #pragma once
 
 #include "bin_scenes/scene/request.hpp"
@@ -18,7 +18,7 @@ struct PathRules {
   std::function<std::string(const std::string& name)> find_package;
 };
 
-/// "path.to.key=value", as given to --set or by what stands for it.
+/// "path.to.key=value", as given to --set or by an option that stands for a key.
 struct Override {
   std::string assignment;
   std::string origin;  ///< what the user wrote, for messages: "--seconds"; empty: --set
@@ -32,7 +32,7 @@ Request read_request(const std::string& path, const std::vector<Override>& overr
 Request read_request_text(const std::string& yaml, const std::string& base_directory,
                           const std::vector<Override>& overrides = {}, const PathRules& rules = {});
 
-/// Every key with its value, readable back.
+/// YAML with every key and its value, which read_request_text() reads back.
 std::string write_request(const Request& request);
 
 /// SHA-256 of what decides the scenes of a request: every key but `scenes` and `first`, and the bytes of its models
@@ -42,7 +42,7 @@ std::string request_hash(const Request& request);
 
 /// docs/use/request.md: every key with type, default, unit and consequence.
 std::string request_reference();
-/// JSON schema (draft 7) of a request file, for editors; what depends on several keys is not in it.
+/// JSON schema (draft 7) of a request file, for editors. Rules that involve several keys are not part of it.
 std::string request_json_schema();
 
 }  // namespace bin_scenes

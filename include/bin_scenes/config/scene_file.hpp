@@ -11,7 +11,8 @@
 
 namespace bin_scenes {
 
-/// What a sensor's camera truly sees of a part. Boxes are x, y, width and height in pixels; -1 four times: nothing.
+/// What the camera of a sensor truly sees of a part. Boxes are x, y, width and height in pixels; four times -1 means
+/// that nothing is visible.
 struct PartTruth {
   int id = 0;
   Pose pose_in_camera;  ///< of the model frame in the sensor's optical frame (m)
@@ -51,7 +52,7 @@ std::string scene_text(SceneFile scene);
 std::string report_text(Report report);
 /// Throws an input Error that names file and key.
 SceneFile read_scene_file(const std::string& path, Strictness strictness = Strictness::lenient);
-/// The same without what only the file has.
+/// The same as a Scene, without the fields that only the file has.
 Scene read_scene_json(const std::string& path);
 
 /// docs/use/scene.md: every key of the file with its unit and meaning.

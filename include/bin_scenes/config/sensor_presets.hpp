@@ -13,9 +13,9 @@ namespace bin_scenes {
 std::string sensor_preset_directory();
 /// Names of all presets, sorted.
 std::vector<std::string> sensor_presets();
-/// A sensor with the values of a preset, by its name. Throws an input Error that names the nearest one.
+/// A sensor with the values of the preset of that name. Throws an input Error that names the nearest preset.
 Sensor sensor_preset(const std::string& name);
-/// A sensor with the values of any such file.
+/// A sensor with the values of a file in the format of the presets.
 Sensor read_sensor_file(const std::string& path);
 
 }  // namespace bin_scenes

@@ -1,4 +1,4 @@
-/// Where the images of a scene lie in BOP's layout by scenes (github.com/thodan/bop_toolkit,
+/// The paths of the images of a scene in BOP's layout by scenes (github.com/thodan/bop_toolkit,
 /// docs/bop_datasets_format.md, bop_toolkit_lib/dataset_params.py).
 #pragma once
 
@@ -19,7 +19,8 @@ struct BopPlace {
   };
   std::vector<File> files;
 };
-/// By image of a scene. `split`: name of its folder; readers want pictures of "train_pbr" as RGB, too.
+/// The place of each image of a scene. @param split  name of its folder; readers expect pictures of "train_pbr" also as
+/// RGB
 std::vector<BopPlace> bop_places(const BopLayout& layout, const std::vector<Sensor>& sensors, const std::string& split);
 
 /// Path of a picture of the scene below its folder.

@@ -16,19 +16,19 @@
 
 namespace bin_scenes {
 
-/// A part line to add, and its model.
+/// A part line to be added, with its model.
 struct NewParts {
   PartLine line;
   PartModelPtr part;
 };
 
-/// Scenes of a request, by place: a rule instead of a list, since a request may ask for a thousand million.
+/// The indices of the scenes to make: a function instead of a list, since a request may ask for a thousand million.
 struct SceneList {
   std::size_t count = 0;
   std::function<std::size_t(std::size_t place)> index;
 };
 
-/// One thread at a time, as its solver.
+/// A heap may be used by one thread at a time, like its solver.
 class Heap {
  public:
   /// Scene `index` of the request, not poured yet. The model of a mesh bin is loaded through the cache when not given;
@@ -45,13 +45,13 @@ class Heap {
   std::vector<int> add(const std::vector<NewParts>& lines);
 
   /// Takes parts out (PartState::removed from now on). If the heap was at rest, all others sleep but those that touched
-  /// them: during the next settle() these move, and whom they wake in turn; the poses of all others stay as they are,
-  /// bit for bit, where the solver can let parts sleep (not with preset thesis).
-  /// Throws an input Error, before anything has changed, for an id that is not there.
+  /// them: during the next settle() these parts move, and the parts that they wake in turn. The poses of all others
+  /// stay the same bit for bit, if the solver can let parts sleep (preset thesis cannot). Throws an input Error, before
+  /// anything has changed, for an id that is not there.
   void remove(const std::vector<int>& ids);
 
-  /// Moves parts, without turning them, by `distance` (m, up to 10) along `direction` (bin frame) at 0.1 m/s, as a
-  /// gripper that nothing holds up. What lies on them or hangs in them is dragged along; what none of it touches keeps
+  /// Moves parts, without turning them, by `distance` (m, up to 10) along `direction` (bin frame) at 0.1 m/s, as by a
+  /// gripper that nothing can stop. What lies on them or hangs in them is dragged along; what none of it touches keeps
   /// its pose bit for bit. Afterwards the parts are dynamic again: remove() them, or settle() to let them fall. Throws
   /// an input Error as remove(), also for a fixed part or no direction; Error(cancelled) as settle().
   void lift(const std::vector<int>& ids, const Vec3& direction, double distance, const RunHooks& hooks = {});
@@ -64,8 +64,8 @@ class Heap {
   /// observed, or settled further.
   bool settle(const RunHooks& hooks = {});
 
-  /// As it is now: ids, poses, states, and of the last settle() simulated_s, wall_s, steps, finish, profile. Quality
-  /// and visibility are not filled in (quality/, sensor/).
+  /// The present state: ids, poses and states, and from the last settle() simulated_s, wall_s, steps, finish and
+  /// profile. Quality and visibility are filled in by quality/ and sensor/, not here.
   Scene scene() const;
 
   const Request& request() const;                  ///< with the lines that were added, and the gravity of now

@@ -1,5 +1,5 @@
-/// From request to resting scene: overlap-free seeded start, entry above the growing heap, rest over a window of
-/// simulated time. Knows no solver but the interface.
+/// From a request to a scene at rest: parts start from seeded poses without overlap, enter above the growing heap, and
+/// rest is decided over a window of simulated time. The code depends on the interface of solvers only.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -19,12 +19,12 @@ struct Progress {
   double fraction = 0.0;  ///< 0..1, never falls
 };
 
-/// Optional hooks of a caller.
+/// Optional callbacks of a caller.
 struct RunHooks {
   std::function<void(const Progress&)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< polled often; throws Error(cancelled)
-  /// Called with the states of every body: the --trace option. At the start, at the ends of steps that lie nearest to
-  /// whole multiples of 1 / `trace_rate` (Hz, simulated time; at most once a step), and at the end.
+  /// Called with the states of all bodies (option --trace): at the start, at the ends of the steps nearest to whole
+  /// multiples of 1 / `trace_rate` (Hz of simulated time; at most once a step), and at the end.
   std::function<void(std::size_t scene, double time, const std::vector<BodyState>&)> trace;
   double trace_rate = 0.0;
   /// Called before `trace` with the contacts of the same moment (Solver::contact_forces()).
@@ -51,7 +51,7 @@ WorldDef world_of(const LoadedRequest& loaded);
 std::vector<Scene> pour(const LoadedRequest& loaded, Solver& solver, const std::vector<std::size_t>& indices,
                         const RunHooks& hooks = {});
 
-/// Of the poses of all parts, bit for bit.
+/// Hash over the bits of the poses of all parts.
 std::uint64_t state_hash(const std::vector<ScenePart>& parts);
 
 }  // namespace bin_scenes

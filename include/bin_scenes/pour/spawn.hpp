@@ -1,4 +1,4 @@
-/// Start poses of parts: above the growing heap, or on a grid; they overlap nothing.
+/// Start poses of parts, above the growing heap or on a grid. They overlap nothing.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// A few dozen spheres that together enclose every triangle of a mesh: cheap bounds that, unlike a box, follow
-/// holes and arms.
+/// A few dozen spheres that together enclose every triangle of a mesh. Like a box they are cheap bounds, but they
+/// follow holes and arms.
 struct Cover {
   struct Ball {
     Vec3 center;
@@ -36,17 +36,18 @@ struct Opening {
 /// Sides of the convex outline of a mesh, seen from above.
 std::vector<Opening::Side> outline(const Mesh& mesh);
 
-/// Parts above the heap. A column search: the lowest height at which the part's balls clear those of everything below
-/// and beside it.
+/// Finds start poses above the heap by a column search: the lowest height at which the balls of the part clear those of
+/// everything below and beside it.
 class Rain {
  public:
   Rain(const Opening& opening, double drop_height) : opening_(opening), drop_height_(drop_height) {}
 
-  /// Something that is in the bin. `settled`: slow enough to count as heap; parts that still fall are only avoided.
+  /// Adds a part that is in the bin. @param settled  it is slow enough to count as heap; parts that still fall are only
+  /// avoided
   void add(const Cover& cover, const Pose& pose, bool settled);
-  /// Seeded pose of the model frame: turned uniformly among the orientations that fit between the walls; of `tries`
-  /// uniform places between them the lowest, with the lowest point drop_height above the heap. None if no try ends
-  /// below the rim, or all end high above parts that still fall.
+  /// A seeded pose of the model frame. The orientation is uniform among those that fit between the walls. Of `tries`
+  /// uniform places between the walls the lowest is taken, with the lowest point of the part drop_height above the
+  /// heap. None if no try ends below the rim, or all end high above parts that still fall.
   std::optional<Pose> place(const PartModel& part, const Cover& shape, Random& random, int tries);
 
  private:
@@ -55,7 +56,7 @@ class Rain {
     Pose pose;
     bool settled;
     Vec3 center;              ///< of its cover
-    std::vector<Vec3> balls;  ///< middles of its cover's, once they were asked for
+    std::vector<Vec3> balls;  ///< centres of the balls of its cover, made on first use
   };
   void sort();
   static const std::vector<Vec3>& balls_of(Obstacle& obstacle);

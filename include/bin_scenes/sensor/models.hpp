@@ -38,14 +38,14 @@ Surfaces surfaces_of(const Request& request);
 /// The same with the texture of each part of the scene, which is the same for all sensors.
 Surfaces surfaces_of(const Scene& scene, const LoadedRequest& loaded);
 
-/// The key of all random numbers of a sensor in a scene.
+/// The key from which all random numbers of a sensor in a scene are drawn.
 struct Draw {
   std::uint64_t seed = 0;
   std::size_t scene = 0;   ///< index
   std::size_t sensor = 0;  ///< number in the request
 };
 
-/// Measured and true images; counts and silhouettes are the caller's. @param sensor  resolved()
+/// Makes the measured and the true images; the caller fills in counts and silhouettes. @param sensor  resolved()
 /// @param view  of the sensor's camera, near to far; its images may be taken over
 RangeImage measure(const Scenery& scenery, View&& view, const Sensor& sensor, const Surfaces& surfaces,
                    const Draw& draw);

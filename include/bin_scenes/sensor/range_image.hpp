@@ -52,7 +52,7 @@ struct RangeImage {
 
 /// Measured point of a pixel in the optical frame (m); NaN where depth is.
 std::array<float, 3> point_at(const RangeImage& image, int column, int row);
-/// The same for a whole image: what it costs to remove a lens's distortion is spent on all cores.
+/// The same for a whole image, on all cores, because removing the distortion of a lens is expensive.
 std::vector<std::array<float, 3>> points_of(const RangeImage& image);
 /// Normals of points_of(image), towards the camera: of planes through the points of neighbouring pixels, as drivers of
 /// real sensors compute them; of the ideal model, which measures exactly, the true ones. NaN where depth is, and where

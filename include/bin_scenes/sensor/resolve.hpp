@@ -8,10 +8,11 @@
 
 namespace bin_scenes {
 
-/// Sensor with K and all poses filled in. By default the camera stands above the centre of the bin, looking down (image
-/// right = bin x, image up = bin y), the whole rim in view with a margin of 5 %; projector and laser stand a baseline
-/// away along the camera's x and are turned towards the centre of the bin. `bounds` of a mesh bin in the bin frame; a
-/// bin without rim is taken for a floor of Bin::inner_size. Throws an input Error if K or the range make no sense.
+/// Returns the sensor with K and all poses filled in. By default the camera stands above the centre of the bin and
+/// looks down (image right = bin x, image up = bin y), so that the whole rim is in view with a margin of 5 %. Projector
+/// and laser stand a baseline away along the camera's x and are turned towards the centre of the bin. A bin without a
+/// rim counts as a floor of Bin::inner_size. Throws an input Error if K or the range are impossible.
+/// @param bounds  bounds of a mesh bin in the bin frame (m); null for other bins
 Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds = nullptr);
 
 /// All sensors of a request. Throws an input Error also for a camera, projector or laser that stands below the floor,

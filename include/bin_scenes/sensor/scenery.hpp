@@ -1,4 +1,4 @@
-/// Ray casting against the true meshes of a scene, for all cameras, projectors and lasers.
+/// Ray casting against the true meshes of a scene, shared by all cameras, projectors and lasers.
 #pragma once
 
 #include "bin_scenes/part/loaded_request.hpp"
@@ -10,8 +10,8 @@
 
 namespace bin_scenes {
 
-/// Bin frame (m). Lengths along a ray are in units of its direction, which needs no unit length: with a direction of
-/// z = 1 in an optical frame they are depths.
+/// A ray in the bin frame (m). Distances along the ray are in units of its direction, which need not have unit length:
+/// with a direction of z = 1 in an optical frame they are depths.
 struct Ray {
   Vec3 origin = Vec3::Zero();
   Vec3 direction = Vec3::UnitZ();  ///< not finite: hits nothing
@@ -27,7 +27,7 @@ struct Hit {
   std::uint32_t body = 0;  ///< of Scenery's own numbers
 };
 
-/// The search trees of models, made once a model and kept while the model lives. Thread-safe.
+/// The search trees of models. A tree is made once for each model and kept while the model lives. Thread-safe.
 class SceneryCache {
  public:
   SceneryCache();
@@ -39,8 +39,8 @@ class SceneryCache {
   std::unique_ptr<State> state_;
 };
 
-/// Everything of a scene that light meets, placed once, for any number of views and threads. Parts that were not poured
-/// or whose pose is not finite are not there.
+/// All surfaces of a scene that light can meet. They are placed once and serve any number of views and threads. Parts
+/// that were not poured, or whose pose is not finite, are left out.
 ///
 /// Embree finds the triangle in single precision; distance and normal are those of the triangle's plane in double.
 class Scenery {
@@ -50,21 +50,21 @@ class Scenery {
   ~Scenery();
   Scenery(Scenery&&) noexcept;
 
-  /// How neighbouring rays go: a hint that changes speed only.
+  /// Whether neighbouring rays have similar directions; a hint that changes the speed only.
   enum class Rays { side_by_side, scattered };
   /// First hit of each of `count` rays.
   void first_hits(const Ray* rays, Hit* hits, std::size_t count, Rays kind = Rays::side_by_side) const;
-  /// What a ray hits whose face is known already. @param about  nearly its distance
+  /// The hit of a ray on a face that is known already. @param about  approximate distance of the hit
   Hit hit(const Ray& ray, std::uint32_t face, double about) const;
   /// Normal at a point that was hit, of the surface that the triangles stand for: it turns evenly across edges at which
   /// faces meet in less than 35 degrees. Towards the side that was hit.
   Vec3 smooth_normal(const Hit& hit, const Vec3& point) const;
   /// blocked[i] = 1 if anything lies between `near` and `far` of ray i, else 0.
   void blocked(const Ray* rays, std::uint8_t* blocked, std::size_t count, Rays kind = Rays::side_by_side) const;
-  /// The same with Scene::parts[part] as if it were alone; all 0 if that part is not there.
+  /// The same as if Scene::parts[part] were alone in the scene; all 0 if that part is not in the scene.
   void blocked_by(std::size_t part, const Ray* rays, std::uint8_t* blocked, std::size_t count) const;
 
-  /// Of Scene::parts[part] in the bin frame; empty if the part is not there.
+  /// Mesh and pose (bin frame) of Scene::parts[part]; empty if the part is not in the scene.
   struct Placed {
     const Mesh* mesh = nullptr;
     Pose pose;
@@ -78,11 +78,11 @@ class Scenery {
     Vec3 normal;
     double offset;
   };
-  /// One of all meshes that are there, the bin's included.
+  /// One placed mesh: a part or the bin.
   struct Body {
     const Mesh* mesh = nullptr;
     const std::vector<Plane>* planes = nullptr;  ///< of the mesh's triangles, in its frame
-    bool closed = false;                         ///< who stands outside sees fronts of triangles only
+    bool closed = false;                         ///< from outside only the fronts of triangles are visible
     std::uint32_t first_face = 0;                ///< that of its triangle 0
     Pose pose;
     std::int64_t part = -1;  ///< index into Scene::parts; -1: the bin
@@ -92,7 +92,7 @@ class Scenery {
   std::size_t body_count() const;
   Body body(std::size_t body) const;
 
-  /// A number of each triangle of all bodies, those of one body in a row.
+  /// Faces number the triangles of all bodies consecutively, body after body.
   static constexpr std::uint32_t no_face = ~0u, floor_face = no_face - 1;
   struct Face {
     std::uint32_t body = no_face, triangle = 0;

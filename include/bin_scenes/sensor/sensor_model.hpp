@@ -1,7 +1,7 @@
-/// What a sensor model is, and which there are. A model is one file that ends in its SensorModel: built-in ones are
-/// src/sensor/models/NAME_model.cpp, listed in src/sensor/CMakeLists.txt; a program may register models of its own.
-/// Request files, `--set`, suggestions, docs/use/request.md, check_sensors(), messages, scene.json, frames, outputs
-/// and `bin_scenes sensor` all ask this table.
+/// The interface of a sensor model, and the list of all models. A model is one file that ends in its SensorModel:
+/// built-in ones are src/sensor/models/NAME_model.cpp, listed in src/sensor/CMakeLists.txt; a program may register
+/// models of its own. Request files, `--set`, suggestions, docs/use/request.md, check_sensors(), messages, scene.json,
+/// frames, outputs and `bin_scenes sensor` all use this table.
 #pragma once
 
 #include "bin_scenes/scene/key.hpp"
@@ -14,7 +14,7 @@
 
 namespace bin_scenes {
 
-/// What is done with the keys of a model's settings: read, written, checked or listed.
+/// An operation on the keys of a model's settings: they are read, written, checked or listed.
 class KeyVisitor {
  public:
   virtual void field(const Key& key, double& value) = 0;
@@ -42,8 +42,8 @@ struct SensorModel {
   const char* text;  ///< of that section
   /// All keys of its settings, which it takes from the ModelSettings by their type. None: it has no section.
   void (*visit)(KeyVisitor& visitor, ModelSettings& settings);
-  /// Throws an input Error at `key`.something for what ranges do not say; called for every sensor, whatever its model,
-  /// so that a mistake does not wait for a change of model.
+  /// Throws an input Error that names a key below `key` for mistakes that the ranges of single keys do not exclude. It
+  /// is called for every sensor, whatever its model is, so that a mistake is found before the model is selected.
   void (*check)(const Sensor& sensor, const std::string& key);
   /// The same for a sensor of this model that is resolved().
   void (*check_places)(const Sensor& sensor, const std::string& where);
@@ -72,16 +72,16 @@ struct SensorModel {
 
 /// In the order of messages and reference.
 const std::vector<const SensorModel*>& sensor_models();
-/// The model of that name; throws an input Error for what is none: no model is taken for another.
+/// The model of that name. Throws an input Error for an unknown name.
 const SensorModel& sensor_model(const std::string& name);
-/// Adds a model, which must live on. Before the first request is read, and in one thread: from the initialiser of a
-/// constant, for instance. Returns true; throws an input Error for a name that is taken.
+/// Adds a model, which must live until the end of the program. Call it before the first request is read and from one
+/// thread only, for instance in the initialiser of a constant. Returns true; throws an input Error if the name exists.
 bool register_sensor_model(const SensorModel& model);
 
 /// The light that a sensor's model uses beside the camera: "projector" and "laser" with their poses, resolved().
 std::vector<std::pair<const char*, Pose>> light_of(const Sensor& sensor);
 
-/// Throws one input Error for the first key of a sensor that makes no sense.
+/// Throws an input Error for the first key of a sensor that is impossible.
 void check_sensors(const std::vector<Sensor>& sensors);
 
 }  // namespace bin_scenes

@@ -12,14 +12,15 @@ namespace bin_scenes {
 
 class SceneryCache;
 
-/// Keeps what is expensive between scenes: the search trees of models, while the models live.
+/// Keeps between scenes what is expensive to make: the search trees of models, while the models live.
 class SensorRig {
  public:
   SensorRig();
   ~SensorRig();
-  /// One image a sensor of `scene.sensors`, which are resolved(). Sets the parts' visible fractions and counts views
-  /// and silhouettes in the report's profile. For several scenes at once in several threads. The same scene gives the
-  /// same bits each time. Parts that were not poured or whose pose is not finite are not there.
+  /// Returns one image for each of `scene.sensors`, which must be resolved(). Sets the visible fractions of the parts,
+  /// and counts views and silhouettes in the profile of the report. May be called for several scenes at the same time
+  /// in several threads. The same scene gives the same bits each time. Parts that were not poured, or whose pose is not
+  /// finite, are left out.
   std::vector<RangeImage> render(Scene& scene, const LoadedRequest& loaded);
   /// The same for some sensors: makes the images of those that are wanted, unless they are there already. `wanted` and
   /// `images` have one entry a sensor; an image that has not been made is RangeImage().

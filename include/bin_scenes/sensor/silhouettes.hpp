@@ -1,4 +1,4 @@
-/// The pixels each part would have in a view if it were alone.
+/// Silhouettes: the pixels that a part would have in a view if it were alone in the scene.
 #pragma once
 
 #include "bin_scenes/sensor/view.hpp"
@@ -18,10 +18,10 @@ struct Silhouette {
   bool at(int column, int row) const;  ///< of the whole image; false outside the rectangle
 };
 
-/// By index into Scene::parts. A part's silhouette holds all pixels of `view` that show it.
+/// The silhouettes of all parts, by index into Scene::parts. They contain all pixels of `view` that show the part.
 std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, double near, double far);
 
-/// render() and silhouettes() in one pass where that can be.
+/// render() and silhouettes() together, in one pass over the triangles where possible.
 struct SeenWithMasks {
   View view;
   std::vector<Silhouette> alone;

@@ -14,10 +14,10 @@ enum class Validity : std::uint8_t {
   dark = 4,         ///< too little signal
   saturated = 5,    ///< too much
   mixed = 6,        ///< foreground and background in one pixel
-  decoding = 7,     ///< the code read makes no sense
+  decoding = 7,     ///< the code that was read is impossible
   unmatched = 8,    ///< no match in the second image
-  outlier = 9,      ///< too few neighbours of its depth: the filter took it away
-  reflection = 10,  ///< its light bounced: the filter took it away
+  outlier = 9,      ///< too few neighbours have nearly its depth: removed by the filter
+  reflection = 10,  ///< its light was reflected by another surface: removed by the filter
   last = reflection
 };
 

@@ -25,7 +25,7 @@ struct View {
 /// @param pose  optical frame in the bin frame
 /// @param near, far  depths (m) that bound what is seen
 View render(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
-/// The same by a ray a pixel, whatever the lens: slower.
+/// The same with one ray for each pixel, for any lens; slower.
 View cast(const Scenery& scenery, const Lens& lens, const Pose& pose, double near, double far);
 
 }  // namespace bin_scenes
