@@ -1,5 +1,6 @@
 #include "contained.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 
@@ -120,6 +121,7 @@ Contained run_contained(const std::function<std::string()>& work, const Containe
     result.finished = result.output.size() == sizeof size + size;
   }
   if (result.finished) {
+    BIN_SCENES_ASSERT(result.failure.empty());
     result.output.erase(0, sizeof size);
     return result;
   }
@@ -133,6 +135,7 @@ Contained run_contained(const std::function<std::string()>& work, const Containe
   } else {
     result.failure = "ended early";
   }
+  BIN_SCENES_ASSERT(!result.finished && !result.failure.empty());
   return result;
 }
 

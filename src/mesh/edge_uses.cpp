@@ -18,6 +18,7 @@ std::vector<EdgeUse> edge_uses(const Mesh& mesh) {
     }
   }
   std::sort(uses.begin(), uses.end());
+  BIN_SCENES_ASSERT(each_is(uses, [](const EdgeUse& use) { return use.low <= use.high && use.corner < 3; }));
   return uses;
 }
 

@@ -2,6 +2,7 @@
 /// by a fan.
 #include "holes.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 #include "shells.hpp"
@@ -51,6 +52,7 @@ std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh) {
 }
 
 double perimeter(const Mesh& mesh, const std::vector<std::uint32_t>& loop) {
+  BIN_SCENES_ASSERT(each_is(loop, [&](std::uint32_t v) { return v < mesh.vertices.size(); }));
   double length = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     length += (mesh.vertices[loop[(i + 1) % loop.size()]] - mesh.vertices[loop[i]]).norm();
@@ -62,6 +64,8 @@ namespace {
 
 void fill_with_least_area(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
   const std::size_t n = loop.size();
+  BIN_SCENES_ASSERT(n >= 2);
+  const std::size_t before = mesh.triangles.size();
   std::vector<double> least(n * n, 0.0);
   std::vector<std::uint32_t> apex(n * n, 0);
   const auto at = [&](std::size_t i) { return mesh.vertices[loop[i]]; };
@@ -90,6 +94,7 @@ void fill_with_least_area(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
     chords.push_back({i, m});
     chords.push_back({m, k});
   }
+  BIN_SCENES_ASSERT(mesh.triangles.size() == before + n - 2);
 }
 
 void fill_with_fan(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
@@ -147,6 +152,7 @@ Closed close_holes(Mesh& mesh, double max_perimeter) {
       mesh.triangles.resize(triangles);
     }
   }
+  BIN_SCENES_ASSERT(indices_in_range(mesh) && closed.small + closed.hidden <= loops.size());
   return closed;
 }
 

@@ -2,6 +2,7 @@
 /// something is a flag of the report.
 #include "bin_scenes/mesh/mesh_loader.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "mesh_file.hpp"
@@ -297,6 +298,8 @@ LoadedMesh repair_mesh(Mesh mesh, const LoadOptions& options, const std::string&
   const double diagonal = check_vertices(mesh, where);
   loaded.mesh = std::move(mesh);
   Repair(loaded, options, where, diagonal).run();
+  BIN_SCENES_ASSERT(indices_in_range(loaded.mesh) && loaded.report.closed == (loaded.report.open_edges == 0));
+  BIN_SCENES_ASSERT(!options.require_closed || loaded.report.closed);
   return loaded;
 }
 
@@ -311,6 +314,7 @@ LoadedMesh load_mesh(const ModelFile& model, const LoadOptions& options) {
   MeshFile file = parse_mesh_file(model, options);
   const double own_unit = file.metres_per_unit.value_or(1.0);
   const double metres = options.unit ? metres_per(*options.unit) : own_unit;
+  BIN_SCENES_ASSERT(metres > 0.0 && options.scale > 0.0);
   for (Vec3& v : file.mesh.vertices) v *= metres * options.scale;
 
   LoadedMesh loaded = repair_mesh(std::move(file.mesh), options, path);

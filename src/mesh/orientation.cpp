@@ -3,6 +3,8 @@
 #include "edge_uses.hpp"
 #include "shells.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -30,6 +32,7 @@ Agreement agree_winding(Mesh& mesh) {
     if (last - first != 2) return;
     const std::uint32_t a = first->triangle, b = first[1].triangle;
     const bool agrees = first->forward != first[1].forward;
+    BIN_SCENES_ASSERT(degree[a] < 3 && degree[b] < 3);
     agreed = agreed && agrees;
     links[a][degree[a]++] = {b, agrees};
     links[b][degree[b]++] = {a, agrees};
@@ -65,6 +68,7 @@ Agreement agree_winding(Mesh& mesh) {
       ++result.turned;
     }
   }
+  BIN_SCENES_ASSERT(result.turned <= mesh.triangles.size());
   return result;
 }
 
@@ -79,6 +83,7 @@ std::size_t turn_outward(Mesh& mesh) {
   };
   const Shells labels = shells(mesh);
   std::vector<Shell> list(labels.count);
+  BIN_SCENES_ASSERT(labels.of_triangle.size() == mesh.triangles.size());
   const Vec3 apex = mesh.empty() ? Vec3(Vec3::Zero()) : mesh.bounds().center();
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     Shell& shell = list[labels.of_triangle[t]];

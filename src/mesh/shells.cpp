@@ -4,6 +4,8 @@
 
 #include "core/disjoint_sets.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <cmath>
 
 namespace bin_scenes::repair {
@@ -19,6 +21,7 @@ Shells shells(const Mesh& mesh) {
     const std::uint32_t r = triangles.root(t);
     result.of_triangle[t] = r == t ? static_cast<std::uint32_t>(result.count++) : result.of_triangle[r];
   }
+  BIN_SCENES_ASSERT(each_is(result.of_triangle, [&](std::uint32_t shell) { return shell < result.count; }));
   return result;
 }
 
@@ -38,6 +41,7 @@ double area(const Mesh& mesh) {
 }
 
 double winding(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& p) {
+  BIN_SCENES_ASSERT(p.allFinite());
   double angle = 0.0;
   for (const std::uint32_t t : triangles) {
     const Vec3 a = mesh.vertices[mesh.triangles[t][0]] - p, b = mesh.vertices[mesh.triangles[t][1]] - p,

@@ -1,5 +1,6 @@
 #include "t_junctions.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "edge_uses.hpp"
 
@@ -54,6 +55,7 @@ std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
       }
       if (on_edge.empty()) continue;
       std::sort(on_edge.begin(), on_edge.end());
+      BIN_SCENES_ASSERT(on_edge.front().first > 0.0 && on_edge.back().first < length);
       std::uint32_t previous = a;
       for (const auto& [place, v] : on_edge) {
         mesh.triangles.push_back({previous, v, c});
@@ -66,6 +68,7 @@ std::size_t split_t_junctions(Mesh& mesh, double tolerance) {
     if (inserted_now == 0) break;
     inserted += inserted_now;
   }
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   return inserted;
 }
 

@@ -2,12 +2,15 @@
 
 #include "holes.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <vector>
 
 namespace bin_scenes::repair {
 
 void thicken(Mesh& mesh, double thickness) {
+  BIN_SCENES_ASSERT(thickness > 0.0 && indices_in_range(mesh));
   const std::size_t count = mesh.vertices.size();
   std::vector<Vec3> normal(count, Vec3::Zero());
   std::vector<double> total(count, 0.0), towards(count, 0.0);
@@ -22,6 +25,7 @@ void thicken(Mesh& mesh, double thickness) {
       towards[v] += a.dot(normal[v]);
     }
   }
+  BIN_SCENES_ASSERT(each_is(normal, [](const Vec3& n) { return is_unit(n); }));
   const auto loops = boundary_loops(mesh);
   const std::vector<Triangle> sheet = mesh.triangles;
   mesh.vertices.resize(2 * count);

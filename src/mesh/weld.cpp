@@ -80,6 +80,8 @@ std::vector<std::uint32_t> representatives(const std::vector<Vec3>& vertices, do
     if (standing[i] == i)
       cells[{index(vertices[i][0], 0), index(vertices[i][1], 1), index(vertices[i][2], 2)}].push_back(i);
   }
+  // A vertex that stands for others stands for itself.
+  BIN_SCENES_ASSERT(each_is(standing, [&](std::uint32_t s) { return standing[s] == s; }));
   return standing;
 }
 
@@ -103,6 +105,7 @@ void drop_unused_vertices(Mesh& mesh) {
 }  // namespace
 
 Welded weld(Mesh& mesh, double tolerance) {
+  BIN_SCENES_ASSERT(tolerance >= 0.0 && indices_in_range(mesh));
   Welded result;
   const std::vector<std::uint32_t> standing = representatives(mesh.vertices, tolerance, mesh.bounds().diagonal());
   for (std::uint32_t i = 0; i < standing.size(); ++i) result.vertices += standing[i] != i;
@@ -117,6 +120,7 @@ Welded weld(Mesh& mesh, double tolerance) {
 }
 
 std::size_t remove_slivers(Mesh& mesh, double tolerance) {
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   return remove_triangles(mesh, [&](const Triangle& t) { return shape(mesh, t).height <= tolerance; });
 }
 
@@ -161,6 +165,7 @@ Duplicates remove_duplicates(Mesh& mesh, bool keep_one_side) {
   for (std::size_t t = 0; t < keep.size(); ++t) {
     if (keep[t]) mesh.triangles[next++] = mesh.triangles[t];
   }
+  BIN_SCENES_ASSERT(next + result.same + 2 * result.opposite_pairs >= mesh.triangles.size());
   mesh.triangles.resize(next);
   return result;
 }

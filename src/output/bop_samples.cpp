@@ -2,8 +2,11 @@
 #include "output/bop_image.hpp"
 #include "output/tiff.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <cstdio>
 #include <filesystem>
+#include <numeric>
 
 namespace bin_scenes {
 
@@ -43,6 +46,7 @@ std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height)
     turn(static_cast<std::size_t>(mask.left + mask.width - 1) * rows +
          static_cast<std::size_t>(mask.top + mask.height));
   if (begin < pixels || counts.empty()) counts.push_back(pixels - begin);
+  BIN_SCENES_ASSERT(std::accumulate(counts.begin(), counts.end(), std::size_t{0}) == pixels);
   return counts;
 }
 

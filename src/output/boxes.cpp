@@ -1,5 +1,6 @@
 #include "output/boxes.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ std::array<int, 4> PixelBox::xywh() const {
 
 std::vector<PixelBox> visible_boxes(const RangeImage& image, std::size_t parts) {
   std::vector<PixelBox> boxes(parts);
+  BIN_SCENES_ASSERT(image.seen_label().size() == static_cast<std::size_t>(image.sensor.width) * image.sensor.height);
   const std::uint16_t* label = image.seen_label().data();
   for (int y = 0; y < image.sensor.height; ++y) {
     for (int x = 0; x < image.sensor.width; ++x, ++label) {
@@ -44,6 +46,8 @@ PixelBox projected_box(const Mesh& mesh, const Pose& model_in_camera, const Sens
 MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box) {
   MaskBox mask;
   if (box.empty()) return mask;
+  BIN_SCENES_ASSERT(box.left >= 0 && box.top >= 0 && box.right < image.sensor.width &&
+                    box.bottom < image.sensor.height);
   mask.left = box.left, mask.top = box.top;
   mask.width = box.right - box.left + 1, mask.height = box.bottom - box.top + 1;
   for (int y = box.top; y <= box.bottom; ++y) {
@@ -55,6 +59,7 @@ MaskBox visible_mask(const RangeImage& image, int id, const PixelBox& box) {
 
 MaskBox whole_mask(const Silhouette& s) {
   MaskBox mask{s.left, s.top, s.width, s.height, {}};
+  BIN_SCENES_ASSERT(s.bits.size() == s.words_per_row() * static_cast<std::size_t>(s.height));
   mask.inside.reserve(static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height));
   for (int y = 0; y < s.height; ++y) {
     const std::uint64_t* row = &s.bits[static_cast<std::size_t>(y) * s.words_per_row()];

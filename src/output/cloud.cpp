@@ -3,6 +3,8 @@
 #include "output/cloud_point.hpp"
 #include "output/png.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -47,6 +49,9 @@ void write_points(const std::string& path, const std::string& header, const Rang
   const std::unique_ptr<char[]> bytes(new char[size]);
   char* at = std::copy(header.begin(), header.end(), bytes.get());
   const std::vector<std::array<float, 3>> positions = points_of(image), normals = normals_of(image, positions);
+  BIN_SCENES_ASSERT(positions.size() == image.depth.size() && normals.size() == positions.size());
+  BIN_SCENES_ASSERT(image.label.size() == positions.size() && image.validity.size() == positions.size());
+  BIN_SCENES_ASSERT(image.snr.size() == positions.size() && image.normal.size() == positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i, at += cloud_point::bytes) {
     const cloud_point::Measured point = {positions[i], normals[i], image.intensity[i], image.label[i]};
     std::memcpy(at, &point, sizeof point);

@@ -1,5 +1,7 @@
 #include "output/png.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +63,8 @@ std::vector<double> mean_depth(const RangeImage& image) {
 
 std::vector<std::uint8_t> shaded_picture(const RangeImage& image) {
   const int width = image.width, height = image.height;
+  BIN_SCENES_ASSERT(image.depth.size() == static_cast<std::size_t>(width) * height);
+  BIN_SCENES_ASSERT(image.label.size() == image.depth.size() && image.normal.size() == image.depth.size());
   const Colour sky(0.97, 0.97, 0.98), bin(0.80, 0.82, 0.85);
   const Vec3 light = Vec3(-0.45, -0.65, -1.0).normalized();  // optical frame: left, up, towards the camera
 

@@ -1,5 +1,6 @@
 #include "output/trace_file.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 
 #include <cerrno>
@@ -25,6 +26,7 @@ TraceFile::~TraceFile() {
 }
 
 void TraceFile::add(const TraceSample& sample) {
+  BIN_SCENES_ASSERT(file_ && sample.time >= 0.0);
   for (const ScenePart& part : sample.parts) {
     if (!part.pose.finite()) continue;
     const Vec3 &p = part.pose.position, &v = part.velocity.linear, &w = part.velocity.angular;

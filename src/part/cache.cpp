@@ -1,5 +1,6 @@
 #include "bin_scenes/part/cache.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/temporary.hpp"
 
 #include <fcntl.h>
@@ -108,6 +109,7 @@ void Cache::write(const std::string& kind, const std::string& key, const Bytes& 
   fs::create_directories(folder, failed);
   if (failed) return;
 
+  BIN_SCENES_ASSERT(!kind.empty() && !key.empty());
   const std::string name = file_name(kind, key);
   const std::string target = (fs::path(folder) / name).string();
   // Each writer works under a name of its own; a cache that loses power may lose what it holds, so nothing waits for

@@ -2,6 +2,7 @@
 /// (plane_cuts.hpp, hacd_partition.hpp).
 #include "bin_scenes/part/convex_hulls.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/distance_field.hpp"
@@ -164,6 +165,7 @@ std::vector<Piece> merge(const std::vector<std::vector<Vec3>>& parts, const Prot
   for (std::size_t i = 0; i < n; ++i) {
     if (alive[i]) left.push_back(std::move(pieces[i]));
   }
+  BIN_SCENES_ASSERT(left.size() == count);
   return left;
 }
 
@@ -189,6 +191,7 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     const double surface = surface_error(hulls, query, protrusion);
     const double volume_error = volume > 0 ? union_volume(hulls) / volume - 1 : 0.0;
     const double found = std::max(surface / options.max_error, volume_error / options.max_volume_error);
+    BIN_SCENES_ASSERT(surface >= 0.0 && std::isfinite(volume_error));
     if (found >= excess) return;
     excess = found;
     best = {std::move(hulls), surface, volume_error, found <= 1};
@@ -232,6 +235,8 @@ ConvexHulls convex_hulls(const MeshQuery& query, const HullOptions& options) {
     if (best.surface_error > options.max_error)
       try_pieces(hacd_patches(mesh, patches), first_limit * options.max_error * diagonal);
   }
+  BIN_SCENES_ASSERT(!best.hulls.empty() && each_is(best.hulls, indices_in_range));
+  BIN_SCENES_ASSERT(best.met == (excess <= 1));
   return best;
 }
 

@@ -76,6 +76,7 @@ class FieldBuilder {
     in_slabs([&](int first, int end) { rasterise(first, end); });
     sweep();
     in_slabs([&](int first, int end) { refine(first, end); });
+    BIN_SCENES_ASSERT(each_is(field_.values, [](float value) { return value >= 0.0f; }));
     sign_field(field_, query_);
     for (float& value : field_.values) value = static_cast<float>(value * field_.cell);
     BIN_SCENES_ASSERT(each_is(field_.values, [](float value) { return std::isfinite(value); }));
@@ -231,6 +232,7 @@ DistanceField empty_field(const Aabb& box, const FieldOptions& options) {
   for (int axis = 0; axis < 3; ++axis) {
     field.nodes[axis] = static_cast<int>(std::ceil(box.size()[axis] / field.cell + 2 * padding)) + 1;
   }
+  BIN_SCENES_ASSERT(field.cell > 0.0 && padding >= 1.0);
   const Vec3 extent(field.nodes[0] - 1, field.nodes[1] - 1, field.nodes[2] - 1);
   field.origin = box.center() - 0.5 * field.cell * extent;
   return field;

@@ -2,6 +2,8 @@
 /// normal of a neighbour.
 #include "bin_scenes/part/features.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <tuple>
@@ -122,6 +124,7 @@ class CurveTracer {
     for (const SharpEdge& e : edges)
       for (const std::uint32_t v : e.ends) ++first_[v + 1];
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) first_[v + 1] += first_[v];
+    BIN_SCENES_ASSERT(first_.back() == 2 * edges.size());
     around_.resize(2 * edges.size());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::uint32_t i = 0; i < edges.size(); ++i)
@@ -173,6 +176,8 @@ class CurveTracer {
       edge = around_[first_[v]] == edge ? around_[first_[v] + 1] : around_[first_[v]];
     }
     curve.closed = v == start && !corner_[v];
+    BIN_SCENES_ASSERT(curve.points.size() == curve.normals.size() + 1);
+    BIN_SCENES_ASSERT(!curve.closed || curve.points.front() == curve.points.back());
     return curve;
   }
 
@@ -195,6 +200,7 @@ Features sharp_features(const Mesh& mesh, double sharp_angle) {
   const std::vector<Vec3> normals = face_normals(mesh, half_edges);
   const std::vector<SharpEdge> edges = sharp_edges(mesh, half_edges, normals, sharp_angle);
   const std::vector<Vec3> at_vertices = vertex_normals(mesh, normals);
+  BIN_SCENES_ASSERT(each_is(edges, [](const SharpEdge& edge) { return is_unit(edge.normal); }));
   CurveTracer tracer(mesh, edges, sharp_angle);
   Features features;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -4,6 +4,8 @@
 
 #include "ray_parity.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -94,6 +96,7 @@ class RowSigns {
     auto& crossings = crossings_[y + static_cast<std::size_t>(field_.nodes[1]) * z];
     if (crossings.empty()) return;
     std::sort(crossings.begin(), crossings.end());
+    BIN_SCENES_ASSERT(std::isfinite(crossings.front().x) && std::isfinite(crossings.back().x));
     int total = 0;
     for (const Crossing& crossing : crossings) total += crossing.change;
     // Rounding has let the row slip between two triangles.

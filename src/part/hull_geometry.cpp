@@ -1,5 +1,7 @@
 #include "bin_scenes/part/hull_geometry.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
@@ -89,6 +91,7 @@ Mesh convex_hull(const std::vector<Vec3>& points, int max_vertices) {
   if (enclosed < 0) {
     for (Triangle& t : hull.triangles) std::swap(t[1], t[2]);
   }
+  BIN_SCENES_ASSERT(indices_in_range(hull) && volume(hull) > 0.0);
   return hull;
 }
 
@@ -102,6 +105,7 @@ std::vector<Vec3> extreme_points(const std::vector<Vec3>& points) {
   std::vector<Vec3> extreme = hull.vertices;
   for (const Vec3& x : points)
     if (planes.outside_by_more(x, slack)) extreme.push_back(x);
+  BIN_SCENES_ASSERT(extreme.size() >= 4);
   return extreme;
 }
 
@@ -115,6 +119,7 @@ HullPlanes::HullPlanes(const Mesh& hull) : bounds_(hull.bounds()) {
     // Over all vertices, because the normal of a sliver may point anywhere: its plane then touches the hull elsewhere.
     double offset = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : hull.vertices) offset = std::max(offset, normal.dot(v));
+    BIN_SCENES_ASSERT(is_unit(normal) && std::isfinite(offset));
     planes_.push_back({normal, offset});
   }
 }

@@ -8,6 +8,7 @@ namespace bin_scenes {
 
 MassProperties mass_properties(const Mesh& mesh) {
   MassProperties result;
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   // Signed tetrahedra between each triangle and one apex. The apex is free for a closed mesh; the middle of the
   // bounding box keeps the sums small when the part lies far from the origin of its file.
   const Vec3 apex = mesh.empty() ? Vec3(Vec3::Zero()) : mesh.bounds().center();
@@ -24,6 +25,7 @@ MassProperties mass_properties(const Mesh& mesh) {
     result.area += 0.5 * (b - a).cross(c - a).norm();
   }
   result.volume = volume6 / 6.0;
+  BIN_SCENES_ASSERT(std::isfinite(result.volume) && result.area >= 0.0);
   if (result.volume == 0.0) {
     result.center = apex;
     return result;

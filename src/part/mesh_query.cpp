@@ -76,6 +76,10 @@ struct MeshQuery::Tree {
       corners.reserve(count);
       build(order, 0, count, 0);
     }
+    BIN_SCENES_ASSERT(corners.size() == count && moments.size() == nodes.size());
+    BIN_SCENES_ASSERT(each_is(nodes, [&](const Node& node) {
+      return node.count ? node.count <= leaf_size && node.first + node.count <= count : node.first < nodes.size();
+    }));
     triangle_boxes_ = {};
     for (const Node& node : nodes) boxes.push_back(single(node.box));
   }

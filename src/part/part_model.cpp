@@ -3,6 +3,7 @@
 #include "part_cache.hpp"
 #include "part_state.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 
 #include <algorithm>
@@ -70,6 +71,8 @@ std::shared_ptr<const PartModel> PartModel::make(LoadedMesh loaded, const std::s
   state.mass = mass_properties(mesh);
   state.diagonal = mesh.bounds().diagonal();
   for (const Vec3& v : mesh.vertices) state.radius = std::max(state.radius, (v - state.mass.center).norm());
+  BIN_SCENES_ASSERT(std::isfinite(state.diagonal) && std::isfinite(state.radius) && !state.mesh_key.empty());
+  BIN_SCENES_ASSERT(2.0 * state.radius >= state.diagonal * 0.5 || mesh.empty());
   return part;
 }
 
@@ -109,6 +112,7 @@ double PartModel::radius() const {
 
 const std::vector<Vec3>& PartModel::corners() const {
   std::call_once(state_->corners_once, [this] { state_->corners = extreme_points(mesh().vertices); });
+  BIN_SCENES_ASSERT(!state_->corners.empty() || mesh().vertices.empty());
   return state_->corners;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/in_parallel.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/part/hull_geometry.hpp"
 
@@ -179,6 +180,7 @@ class Cutter {
     if (piece.hull.empty()) return;  // flat: its neighbours cover it
     piece.surplus = surplus(piece.hull);
     std::tie(piece.protrusion, piece.worst) = measure_.protrusion(piece.hull);
+    BIN_SCENES_ASSERT(piece.surplus >= 0.0 && piece.surplus <= 1.0 && piece.protrusion >= 0.0);
     pieces_.push_back(std::move(piece));
   }
 
@@ -224,6 +226,7 @@ class Cutter {
           low + high + uneven * (low * low + high * high) + voxels_across * piece.surplus * crossed(piece, planes[i]);
     });
     std::pair<double, CutPlane> best{never, {}};
+    BIN_SCENES_ASSERT(each_is(costs, [](double cost) { return cost > 0.0; }));
     for (std::size_t i = 0; i < planes.size(); ++i)
       if (costs[i] < best.first) best = {costs[i], planes[i]};
     return best;
@@ -307,6 +310,7 @@ class Cutter {
 
 std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double tolerance) {
   constexpr std::uint32_t none = 0xffffffffu;
+  BIN_SCENES_ASSERT(is_unit(plane.normal) && tolerance >= 0.0);
   std::pair<Mesh, Mesh> sides;
   std::vector<double> height(surface.vertices.size());
   std::vector<int> side(surface.vertices.size());
@@ -360,6 +364,7 @@ std::pair<Mesh, Mesh> clip(const Mesh& surface, const CutPlane& plane, double to
       }
     }
   }
+  BIN_SCENES_ASSERT(indices_in_range(sides.first) && indices_in_range(sides.second));
   return sides;
 }
 

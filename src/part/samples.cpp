@@ -33,6 +33,7 @@ class PointGrid {
   PointGrid(const Aabb& box, double cell) : lower_(box.lower), cell_(cell) {
     // At most 64 cells an axis: the grid only has to be fine enough, not finer than the samples.
     cell_ = std::max(cell_, box.size().maxCoeff() / 64);
+    BIN_SCENES_ASSERT(cell_ > 0.0 && !box.empty());
     for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<int>(box.size()[axis] / cell_) + 1;
     cells_.resize(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);
   }
@@ -93,6 +94,7 @@ class Touchable {
     const Shells labels = shells_of(mesh);
     shell_ = labels.of_triangle;
     shell_volume_.assign(labels.count, 0.0);
+    BIN_SCENES_ASSERT(shell_.size() == mesh.triangles.size());
     const Vec3 center = mesh.bounds().center();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       shell_volume_[shell_[t]] += (mesh.vertices[mesh.triangles[t][0]] - center).dot(mesh.area_vector(t));
@@ -112,6 +114,7 @@ std::vector<SurfaceSample> along_curve(const FeatureCurve& curve, double step) {
   const double length = curve.length();
   const int pieces = std::max(curve.closed ? 3 : 1, static_cast<int>(std::lround(length / step)));
   const double spacing = length / pieces;
+  BIN_SCENES_ASSERT(step > 0.0 && pieces > 0 && curve.normals.size() + 1 == curve.points.size());
   double walked = 0;
   int next = curve.closed ? 0 : 1;
   const int last = pieces - 1;
@@ -256,6 +259,7 @@ std::vector<SurfaceSample> clustered(const std::vector<SurfaceSample>& samples, 
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   cluster_order(samples, order, 0, order.size(), cluster);
   BIN_SCENES_ASSERT(order.size() == samples.size());
+  BIN_SCENES_ASSERT(each_is(order, [&](std::uint32_t i) { return i < samples.size(); }));
   std::vector<SurfaceSample> sorted;
   sorted.reserve(samples.size());
   for (const std::uint32_t i : order) sorted.push_back(samples[i]);
@@ -283,6 +287,7 @@ SampleSet surface_samples(const MeshQuery& query, const SampleOptions& options) 
   // strip of 0.7 h on both of its faces, so the terms in the edges nearly cancel until the strips cover the whole part.
   const double left = std::max(0.5 * options.count, options.count - static_cast<double>(features.corners.size()));
   double spacing = std::max(std::sqrt(area / (0.87 * left)), edges / (edge_spacing_share * left));
+  BIN_SCENES_ASSERT(area >= 0.0 && edges >= 0.0 && left > 0.0);
   SampleSet set;
   for (;; spacing *= 1.2) {
     set.samples = feature_samples(features, edge_spacing_share * spacing, box, touchable);

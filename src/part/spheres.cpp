@@ -2,6 +2,7 @@
 /// is flat a sphere keeps its normal.
 #include "bin_scenes/part/spheres.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "triangle.hpp"
@@ -182,6 +183,8 @@ SphereSet voxel_spheres(const MeshQuery& query, const VoxelOptions& options) {
   set.pitch = 2 * radii.back() * options.tightness;
   add_voxels(query, Lattice(box, set.pitch, radii.back()), options.keep_interior, set);
 
+  BIN_SCENES_ASSERT(set.pitch > 0.0);
+  BIN_SCENES_ASSERT(each_is(set.spheres, [](const Sphere& s) { return s.center.allFinite() && s.radius > 0.0; }));
   const Mesh& mesh = query.mesh();
   std::vector<PreparedTriangle> triangles;
   triangles.reserve(mesh.triangles.size());

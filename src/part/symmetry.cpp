@@ -5,6 +5,8 @@
 #include "core/in_parallel.hpp"
 #include "symmetry_axes.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -282,6 +284,11 @@ SymmetryReport examine_symmetries(const PartModel& part, double tolerance) {
     found.discrete.push_back(search.about_center(turn));
     report.discrete_error.push_back(error);
   }
+  BIN_SCENES_ASSERT(report.continuous_error.size() == found.continuous.size());
+  BIN_SCENES_ASSERT(report.discrete_error.size() == found.discrete.size());
+  BIN_SCENES_ASSERT(each_is(found.continuous, [](const Symmetries::Axis& axis) { return is_unit(axis.direction); }));
+  BIN_SCENES_ASSERT(each_is(found.discrete, is_rigid));
+  BIN_SCENES_ASSERT(each_is(report.discrete_error, [&](double error) { return error <= report.limit; }));
   return report;
 }
 

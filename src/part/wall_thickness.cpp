@@ -1,6 +1,7 @@
 /// One ray from each of many points that are spread evenly over the surface.
 #include "bin_scenes/part/wall_thickness.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "ray_parity.hpp"
 
@@ -109,6 +110,7 @@ double wall_thickness(const MeshQuery& query) {
   for (const Ray& ray : rays_into(mesh))
     if (!query.inside(ray.from - outside * diagonal * ray.along))  // else it is a face within another solid
       lengths.push_back(length_inside(query, ray, at_surface * diagonal));
+  BIN_SCENES_ASSERT(each_is(lengths, [](double length) { return length > 0.0; }));
   if (lengths.empty()) return 0.0;
   const auto low = lengths.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(lengths.size()));
   std::nth_element(lengths.begin(), low, lengths.end());

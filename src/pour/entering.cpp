@@ -1,6 +1,7 @@
 /// How parts enter a heap: at given poses, in a grid, or as rain from above, slice by slice while the heap has room.
 #include "pour/heap_core.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ constexpr int misses_per_slice = 4;  ///< consecutive parts without a place afte
 bool HeapCore::enter(std::size_t first) {
   states_.resize(plan_->world.bodies.size(), {Pose::none(), {}});  // until a part is let in
   place_.resize(states_.size(), Place::waiting);
+  BIN_SCENES_ASSERT(place_.size() == states_.size() && first <= states_.size());
   start_given(first);
   const bool enters = !waiting_.empty();
   if (plan_->request.pour.pattern == Pour::Pattern::grid || plan_->world.bin.kind == Bin::Kind::none)
@@ -56,6 +58,7 @@ void HeapCore::start_grid() {
   if (kind == Bin::Kind::floor || kind == Bin::Kind::none) opening.upper.z() = opening.lower.z();
   opening.upper.z() = std::max(opening.upper.z(), top());
   const std::vector<Pose> poses = grid_poses(models, opening, plan_->request.pour.grid_spacing, random_);
+  BIN_SCENES_ASSERT(poses.size() == waiting_.size());
   for (std::size_t i = 0; i < poses.size(); ++i) insert(waiting_[i], {poses[i], {}});
   waiting_.clear();
 }
@@ -67,6 +70,7 @@ void HeapCore::start_rain() {
 }
 
 void HeapCore::insert_waiting() {
+  BIN_SCENES_ASSERT(each_is(waiting_, [this](std::size_t b) { return place_[b] == Place::waiting; }));
   if (waiting_.empty()) return;
   Rain rain(plan_->opening, plan_->request.pour.drop_height);
   if (plan_->world.bin_model) rain.add(plan_->bin_cover, Pose(), true);

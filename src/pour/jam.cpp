@@ -2,6 +2,8 @@
 
 #include "core/disjoint_sets.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,6 +45,8 @@ JamReport worst_jam(const WorldDef& world, const std::vector<BodyState>& states,
     if (moves(f.b)) on[static_cast<std::size_t>(f.b)].push_back(f.force);
     if (moves(f.a) && moves(f.b)) groups.join(static_cast<std::uint32_t>(f.a), static_cast<std::uint32_t>(f.b));
   }
+  BIN_SCENES_ASSERT(states.size() == world.bodies.size());
+  BIN_SCENES_ASSERT(each_is(forces, [](const ContactForce& f) { return f.force.allFinite() && f.a != f.b; }));
   const auto height = [&](std::size_t body) {
     return -(states[body].pose * world.parts[world.bodies[body].part]->mass().center).dot(world.gravity);
   };

@@ -1,6 +1,7 @@
 /// Parts that a gripper takes out, dragging others along.
 #include "pour/heap_core.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/core/cancel.hpp"
 
 #include <algorithm>
@@ -25,6 +26,8 @@ std::vector<bool> HeapCore::dragged_by(const std::vector<std::size_t>& lifted, c
     const auto a = static_cast<std::size_t>(f.a), b = static_cast<std::size_t>(f.b);
     presses.push_back(f.force.dot(direction) > 0.0 ? std::pair(a, b) : std::pair(b, a));
   }
+  BIN_SCENES_ASSERT(
+      each_is(presses, [this](const auto& p) { return p.first < states_.size() && p.second < states_.size(); }));
   std::vector<bool> dragged(states_.size(), false);
   for (const std::size_t body : lifted) dragged[body] = true;
   const std::vector<bool> is_lifted = dragged;
@@ -101,6 +104,8 @@ void HeapCore::let_go() {
 
 void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& direction, double distance,
                     const RunHooks& hooks) {
+  BIN_SCENES_ASSERT(is_unit(direction) && distance >= 0.0);
+  BIN_SCENES_ASSERT(each_is(bodies, [this](std::size_t b) { return b < states_.size() && moves(b); }));
   states();
   if (settling_.done()) begin(Stage::repair);
   start_clock();

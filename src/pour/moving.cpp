@@ -1,6 +1,8 @@
 /// Bins that turn, and bins and fixed parts that follow a given motion while the heap is simulated.
 #include "pour/heap_core.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +27,7 @@ Twist velocity_at(const Motion& motion, double t) {
 /// What a bin's motion is to those in it over the step of `dt` seconds from t on: changes are those of the whole step,
 /// so that the steps add up to the path; the rest is as in its middle.
 Frame frame_at(const Motion& motion, const Vec3& gravity, double t, double dt) {
+  BIN_SCENES_ASSERT(dt > 0.0);
   const Twist begin = velocity_at(motion, t), end = velocity_at(motion, t + dt);
   const Quat into_bin = motion.at(t + 0.5 * dt).orientation.conjugate();
   Frame frame;
@@ -41,6 +44,7 @@ BodyState state_at(const Motion& motion, const Pose& start, const Vec3& center, 
     return Pose{start.position + displacement.position, (displacement.orientation * start.orientation).normalized()};
   };
   const Pose now = pose_at(t), after = pose_at(t + dt);
+  BIN_SCENES_ASSERT(dt > 0.0 && is_rigid(now) && is_rigid(after));
   BodyState state;
   state.pose = now;
   state.velocity.linear = (after * center - now * center) / dt;
@@ -85,6 +89,7 @@ void HeapCore::put_on_path(double t, double dt, bool ends) {
 
 void HeapCore::begin_motion() {
   if (course_ != Course::ahead) return;
+  BIN_SCENES_ASSERT(motion_seconds() >= 0.0);
   course_ = motion_seconds() > 0.0 ? Course::under_way : Course::over;
   course_begun_ = time_;
 }

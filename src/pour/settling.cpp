@@ -1,6 +1,8 @@
 /// The table of transitions between stages, and what an observation of the heap says for them.
 #include "pour/settling.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes {
@@ -127,14 +129,17 @@ void Settling::enter(Stage stage, double time) {
   begun_ = time;
   if (done()) return;
   friction_ = std::min(friction_, row(stage_).phase.friction);
+  BIN_SCENES_ASSERT(friction_ > 0.0 && friction_ <= 1.0);
   checks_ += stage == Stage::probe || stage == Stage::verify;
   rechecks_ = stage == Stage::recheck ? rechecks_ + 1 : 0;
+  BIN_SCENES_ASSERT(rechecks_ <= most_rechecks);
 }
 
 bool Settling::advance(const HeapView& heap, double time) {
   if (done()) return false;
   const Seen seen{heap,          calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_,
                   time - poured_};
+  BIN_SCENES_ASSERT(seen.in_stage >= 0.0 && seen.last_stage <= seen.in_stage && seen.since_pour >= 0.0);
   advanced_ = time;
   for (const Transition& t : transitions) {
     if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;

@@ -2,6 +2,8 @@
 /// and place. Or parts stand on a grid.
 #include "bin_scenes/pour/spawn.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -112,6 +114,7 @@ std::vector<Opening::Side> outline(const Mesh& mesh) {
     const double length = along.head<2>().norm();
     if (!(length > 0.0)) continue;
     const double x = along.y() / length, y = -along.x() / length;
+    BIN_SCENES_ASSERT(is_unit(Vec3(x, y, 0.0)));
     sides.push_back({x, y, x * a.x() + y * a.y()});
   }
   return sides;
@@ -132,12 +135,14 @@ Cover cover(const Mesh& mesh, int cells) {
     result.balls.push_back({box.center(), 0.5 * box.diagonal()});
     result.radius = std::max(result.radius, (box.center() - result.center).norm() + 0.5 * box.diagonal());
   }
+  BIN_SCENES_ASSERT(std::isfinite(result.radius) && (mesh.empty() || !result.balls.empty()));
   return result;
 }
 
 void Rain::add(const Cover& cover, const Pose& pose, bool settled) {
   const Vec3 center = pose * cover.center;
   order_.emplace_back(center.z() + cover.radius, obstacles_.size());
+  BIN_SCENES_ASSERT(is_rigid(pose));
   obstacles_.push_back({&cover, pose, settled, center, {}});
   sorted_ = false;
 }
@@ -199,6 +204,7 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
     pose.position.z() = clear + drop_height_;
     best = pose;
   }
+  BIN_SCENES_ASSERT(!best || is_rigid(*best));
   return best;
 }
 
@@ -231,6 +237,7 @@ std::vector<Pose> grid_poses(const std::vector<const PartModel*>& parts, const O
     for (int turn = 0; turn < 64 && !fits(*parts[i], orientation, size); ++turn) orientation = random.orientation();
     poses.push_back({center - orientation * parts[i]->mass().center, orientation});
   }
+  BIN_SCENES_ASSERT(poses.size() == parts.size() && each_is(poses, is_rigid));
   return poses;
 }
 
