@@ -33,6 +33,7 @@
 #define BIND_ROWS 31
 #define BIND_SAMPLES 32
 #define BIND_IMPULSES 33
+#define BIND_WORST 34
 
 #define SPHERE_JOB_GROUP 64         // of a group that decides about pairs, one each
 #ifndef SPHERE_PAIR_GROUP
@@ -146,9 +147,18 @@ struct SphereProgress {
   // Read back, states lie behind it: vectors begin at multiples of 16 bytes.
 };
 
+// The deepest contact of a world since the host last asked for it: Solver::take_worst_contact().
+struct SphereWorst {
+  uint a, b;        // bodies, counted in the world; b may be SPHERE_GROUND
+  float depth;      // m
+  float relative;   // depth / diagonal of the smaller part; 0: there was none
+  float ago;        // s since the beginning of its step
+  uint unused0, unused1, unused2;
+};
+
 struct SphereBody {
   uvec4 ids;        // shape, world
-  vec4 material;    // inverse mass (0: fixed), friction, restitution
+  vec4 material;    // inverse mass (0: fixed), friction, restitution, diagonal of the bounding box (m)
 };
 
 struct SphereState {
@@ -281,6 +291,7 @@ GPU_STRUCTS_END
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
 static_assert(sizeof(SphereProgress) == 160, "std430");
+static_assert(sizeof(SphereWorst) == 32, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");

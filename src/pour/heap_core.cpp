@@ -337,7 +337,7 @@ Scene HeapCore::scene() {
   report.worst = {deepest_, audit_->worst_of_world(), unresolved_impacts_};
   if (!deepest_.known && time_ > 0.0)
     report.flags.push_back({"depths_unknown", "this solver does not report how deep contacts were during the run",
-                            "use sphere on the CPU, or bullet, where that matters"});
+                            "use sphere without preset thesis, or bullet, where that matters"});
   for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
   const std::vector<ContactForce> forces = this->forces();
   for (const ContactForce& f : forces) scene.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});

@@ -90,6 +90,9 @@ TEST_P(HeapTest, APickMovesWhatThePartCarriedAndNothingElse) {
   for (const int id : {1, 2}) EXPECT_NEAR(height(after, id), height(before, id) - 0.02, 2e-4) << id;
   for (const int id : {3, 4, 5}) EXPECT_TRUE(same_bits(after.parts[id].pose, before.parts[id].pose)) << id;
   EXPECT_LT(after.report.simulated_s, 2.0) << "the clock of this settle";
+  EXPECT_TRUE(after.report.worst.penetration.known);
+  EXPECT_GT(after.report.worst.penetration.value, 0.0);
+  EXPECT_LT(after.report.worst.penetration.relative, 0.02);
 }
 
 /// The GPU form holds so many bodies in a scene: what is refused leaves the heap as it was.

@@ -88,6 +88,7 @@ Batch::Batch(const Capacity& capacity)
       list_jobs_(pass("list_jobs")),
       color_manifolds_(world_pass("color_manifolds", capacity)),
       solve_(world_pass("solve", capacity)),
+      note_depths_(world_pass("note_depths", capacity)),
       update_sleep_(world_pass("update_sleep", capacity)) {
   const gl::Defines group = {{"SPHERE_PAIR_GROUP", std::to_string(pair_group_)}};
   collect_samples_ = pass("collect_samples", group);
@@ -112,6 +113,7 @@ void Batch::make_room() {
   at_least(running_, slots_.size());
   at_least(worlds_, slots_.size());
   at_least(progress_, slots_.size());
+  at_least(worst_, slots_.size());
   at_least(colors_, slots_.size() * (SPHERE_COLORS + 1));
   at_least(planes_, plane_arena_.size());
   at_least(bodies_, bodies);
@@ -182,13 +184,17 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   planes_.upload(r.first_plane, planes.data(), planes.size());
   std::vector<gpu::SphereBody> bodies;
   for (const sphere::Body& b : world.bodies)
-    bodies.push_back(to_gpu(b, shapes_.index_of(*world.shapes[b.shape]), static_cast<gpu::uint>(slot)));
+    {
+    const sphere::Shape& shape = *world.shapes[b.shape];
+    bodies.push_back(to_gpu(b, shape.diagonal, shapes_.index_of(shape), static_cast<gpu::uint>(slot)));
+  }
   bodies_.upload(r.first_body, bodies.data(), bodies.size());
   upload_states(slot, world);
   progress = upload_pairs(slot, world);
   tell_phase(world, progress);
   progress.cold_steps = static_cast<gpu::uint>(world.cold_steps);
   upload_progress({{slot, progress}});
+  forget_worst(slot);
   return slot;
 }
 
@@ -257,12 +263,18 @@ void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> wo
   }
 }
 
+void Batch::forget_worst(Slot slot) {
+  const gpu::SphereWorst none{};
+  worst_.upload(slot, &none, 1);
+}
+
 void Batch::request(const std::vector<Slot>& slots, gl::ReadBack& back) const {
   std::vector<gl::ReadBack::Range> ranges;
   const auto add = [&](const auto& buffer, std::size_t first, std::size_t count, std::size_t size) {
     ranges.push_back({&buffer.storage(), first * size, count * size});
   };
   for (const Slot slot : slots) add(progress_, slot, 1, sizeof(gpu::SphereProgress));
+  for (const Slot slot : slots) add(worst_, slot, 1, sizeof(gpu::SphereWorst));
   for (const Slot slot : slots)
     add(states_, regions_[slot].first_body, regions_[slot].bodies, sizeof(gpu::SphereState));
   back.request(ranges);

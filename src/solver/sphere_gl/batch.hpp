@@ -14,12 +14,12 @@
 ///     jobs       | pairs whose contacts are to be found, of all worlds |
 ///     samples    | those of these pairs that are near, in no order |   candidates alike, in chains of their jobs
 ///
-/// A step is nine dispatches, however many worlds run:
+/// A step is ten dispatches, however many worlds run:
 ///
 ///     find_pairs ─► list_jobs ─► collect_samples ─► test_samples ─► choose_contacts ─►
 ///     group/world   thread/pair  group/pair         thread/sample   group/pair
-///     color_manifolds ─► prepare_rows ─► solve ─► update_sleep
-///     group/world        thread/manifold  group/world, both
+///     color_manifolds ─► prepare_rows ─► solve ─► note_depths ─► update_sleep
+///     group/world        thread/manifold  group/world, all three
 // clang-format on
 ///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
@@ -58,8 +58,11 @@ class Batch {
   void upload_states(Slot slot, const sphere::World& world);
   /// What the steps of worlds left behind; upload takes effect at the next pass. Neighbours are one copy.
   void upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds);
-  /// Asks for where these worlds will stand, and the states of their bodies, after the passes issued so far. Wait for
-  /// `back` later: it holds the progress of each slot in turn, then the states of each.
+  /// A world's worst contact is looked for from the next step on, and no earlier one counts.
+  void forget_worst(Slot slot);
+  /// Asks for where these worlds will stand, their worst contacts, and the states of their bodies, after the passes
+  /// issued so far. Wait for `back` later: it holds the progress of each slot in turn, then the worst contact of each,
+  /// then the states of each.
   void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;
 
   /// Room for more pairs of a world that had too little, and for their contacts, from its progress; contents are kept.
@@ -72,8 +75,9 @@ class Batch {
 
   /// Everything of one world, after waiting for the passes so far.
   void download(Slot slot, sphere::World& world) const;
-  /// For tests: where it stands, and its manifolds as they lie on the device.
+  /// For tests: where it stands, its worst contact, and its manifolds as they lie on the device.
   gpu::SphereProgress progress(Slot slot) const { return progress_.download(slot, 1)[0]; }
+  gpu::SphereWorst worst(Slot slot) const { return worst_.download(slot, 1)[0]; }
   ManifoldImage manifolds(Slot slot) const;
 
   /// Worlds that the passes work on from now on, and the share of a whole step that their steps are.
@@ -85,6 +89,7 @@ class Batch {
   void find_contacts();
   void color_manifolds();
   void solve();
+  void note_depths();
   void update_sleep();
 
   gl::Timer& timer() { return timer_; }
@@ -117,7 +122,7 @@ class Batch {
   bool bound_ = false;
 
   gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_,
-      prepare_rows_, solve_, update_sleep_;
+      prepare_rows_, solve_, note_depths_, update_sleep_;
   gl::Timer timer_;
 
   ShapeTable shapes_;
@@ -143,6 +148,7 @@ class Batch {
   gl::Buffer<gpu::SphereOrdered> order_{"sphere.order"};
   gl::Buffer<gpu::vec4> rows_{"sphere.rows"};
   gl::Buffer<gpu::vec2> impulses_{"sphere.impulses"};
+  gl::Buffer<gpu::SphereWorst> worst_{"sphere.worst"};
 };
 
 }  // namespace bin_scenes::sphere_gl

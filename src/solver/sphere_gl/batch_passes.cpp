@@ -43,6 +43,7 @@ void Batch::bind() const {
   order_.bind(BIND_ORDER);
   rows_.bind(BIND_ROWS);
   impulses_.bind(BIND_IMPULSES);
+  worst_.bind(BIND_WORST);
 }
 
 void Batch::find_pairs() {
@@ -84,6 +85,11 @@ void Batch::solve() {
   gl::dispatch_groups(solve_, running_count_);
 }
 
+void Batch::note_depths() {
+  gl::Stage stage(timer_, "note_depths");
+  gl::dispatch_groups(note_depths_, running_count_);
+}
+
 void Batch::update_sleep() {
   gl::Stage stage(timer_, "update_sleep");
   gl::dispatch_groups(update_sleep_, running_count_);
@@ -94,6 +100,7 @@ void Batch::step() {
   find_contacts();
   color_manifolds();
   solve();
+  note_depths();
   update_sleep();
 }
 
@@ -105,7 +112,7 @@ std::size_t Batch::bytes() const {
         &near_.storage(),         &boxes_.storage(),          &ranges_.storage(),   &pairs_.storage(),
         &free_.storage(),         &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),
         &near_samples_.storage(), &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),
-        &rows_.storage(),         &impulses_.storage()})
+        &rows_.storage(),         &impulses_.storage(),       &worst_.storage()})
     sum += s->bytes();
   return sum;
 }

@@ -16,8 +16,8 @@ gpu::vec4 force_of(const Contact& c) {
 
 }  // namespace
 
-gpu::SphereBody to_gpu(const Body& body, std::uint32_t shape, std::uint32_t world) {
-  return {{shape, world, 0, 0}, {body.inverse_mass, body.friction, body.restitution, 0}};
+gpu::SphereBody to_gpu(const Body& body, float diagonal, std::uint32_t shape, std::uint32_t world) {
+  return {{shape, world, 0, 0}, {body.inverse_mass, body.friction, body.restitution, diagonal}};
 }
 
 gpu::SphereState state_of(const Body& b) {

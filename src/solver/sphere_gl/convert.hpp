@@ -33,7 +33,8 @@ inline sphere::Quatf quat(const gpu::vec4& v) {
   return {v.w, v.x, v.y, v.z};
 }
 
-gpu::SphereBody to_gpu(const sphere::Body& body, std::uint32_t shape, std::uint32_t world);
+/// @param diagonal  of the body's part (m)
+gpu::SphereBody to_gpu(const sphere::Body& body, float diagonal, std::uint32_t shape, std::uint32_t world);
 gpu::SphereState state_of(const sphere::Body& body);
 /// What the solver touches, and bookkeeping.
 void read_state(const gpu::SphereState& state, sphere::Body& body);

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -31,6 +32,8 @@ struct Resident {
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
   Batch::Slot slot = 0;
   gpu::SphereProgress progress{};
+  gpu::SphereWorst worst{};   ///< of the steps that were finished last, since it was taken
+  bool worst_taken = false;  ///< since then: the device is to forget it
   std::set<std::size_t> changed;  ///< bodies to upload
   std::uint64_t steps = 0;
 };
@@ -199,6 +202,15 @@ class GlSphereSolver final : public Solver {
     return sphere::forces_of(now, r.bodies);
   }
 
+  std::optional<WorstContact> take_worst_contact(WorldId id) override {
+    Resident& r = world(id);
+    const gpu::SphereWorst worst = std::exchange(r.worst, {});
+    r.worst_taken = r.worst_taken || worst.relative > 0;
+    if (worst.relative <= 0) return WorstContact();
+    const auto named = [&](gpu::uint body) { return body < r.bodies ? static_cast<int>(body) : -1; };
+    return WorstContact{named(worst.a), named(worst.b), worst.depth, worst.relative, worst.ago, 0};
+  }
+
   std::size_t worlds_at_once() const override { return at_once_; }
   double step_size() const override { return settings_.time_step; }
   std::uint64_t steps(WorldId id) const override { return world(id).steps; }
@@ -255,6 +267,7 @@ class GlSphereSolver final : public Solver {
       Resident& r = world(id);
       batch_.upload_states(r.slot, r.world, r.changed);
       r.changed.clear();
+      if (std::exchange(r.worst_taken, false)) batch_.forget_worst(r.slot);
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       most = std::max(most, own);
       r.steps += own;
@@ -326,9 +339,11 @@ class GlSphereSolver final : public Solver {
 
   void read_states(const Flight& flight) {
     const auto* progress = static_cast<const gpu::SphereProgress*>(flight.back->wait());
-    const auto* state = reinterpret_cast<const gpu::SphereState*>(progress + flight.ids.size());
+    const auto* worst = reinterpret_cast<const gpu::SphereWorst*>(progress + flight.ids.size());
+    const auto* state = reinterpret_cast<const gpu::SphereState*>(worst + flight.ids.size());
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
+      r.worst = *worst++;
       for (std::size_t i = 0; i < r.world.bodies.size(); ++i, ++state) {
         read_state(*state, r.world.bodies[i]);
       }

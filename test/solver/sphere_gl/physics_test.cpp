@@ -2,6 +2,7 @@
 #include "solver/extremes.hpp"
 #include "solver/sphere/world.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
+#include "solver/worst_contacts.hpp"
 
 namespace bin_scenes::testing {
 
@@ -40,6 +41,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Stacks);  // minutes on a software
 INSTANTIATE_TEST_SUITE_P(SphereGl, ClosedForms, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Counted, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, Extremes, ::testing::Values(sphere_gl), name);
+INSTANTIATE_TEST_SUITE_P(SphereGl, WorstContacts, ::testing::Values(sphere_gl), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, CoarseSteps, ::testing::Values(sphere_gl_coarse), name);
 INSTANTIATE_TEST_SUITE_P(SphereGl, UncutSteps, ::testing::Values(sphere_gl_uncut), name);
 

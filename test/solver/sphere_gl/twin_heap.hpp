@@ -66,4 +66,16 @@ struct Heap {
   }
 };
 
+/// The order in which the twin solves manifolds that the device has colored.
+inline void take_order(sphere::World& world) {
+  world.order.clear();
+  for (int c = 0; c < SPHERE_COLORS; ++c)
+    for (std::uint32_t m = 0; m < world.manifolds.size(); ++m)
+      if (world.manifolds[m].color == c) world.order.push_back(m);
+  for (sphere::Body& b : world.bodies) {
+    b.rotation = b.q.toRotationMatrix();
+    b.world_inverse_inertia = b.rotation * b.inverse_inertia * b.rotation.transpose();
+  }
+}
+
 }  // namespace bin_scenes::sphere_gl

@@ -262,18 +262,6 @@ TEST_F(SphereGl, ManifoldsKeepTheirColors) {
   EXPECT_LT(batch.progress(slot).colorings, 20u);
 }
 
-/// Takes colors and order from the device.
-void take_order(World& world) {
-  world.order.clear();
-  for (int c = 0; c < SPHERE_COLORS; ++c)
-    for (std::uint32_t m = 0; m < world.manifolds.size(); ++m)
-      if (world.manifolds[m].color == c) world.order.push_back(m);
-  for (Body& b : world.bodies) {
-    b.rotation = b.q.toRotationMatrix();
-    b.world_inverse_inertia = b.rotation * b.inverse_inertia * b.rotation.transpose();
-  }
-}
-
 TEST_P(TwinTest, ColorsAreThoseOfTheGreedyRuleInOrderOfTheHashedKey) {
   Batch batch(GetParam().capacity);
   World world = heap_of(60, 3);

@@ -1,0 +1,69 @@
+// One group a world: the deepest contact of all that this step solves, at the beginning of the step, by its depth as a
+// share of the diagonal of the smaller part. It replaces the world's worst contact if that was less deep. Of equally
+// deep ones the pair with the lowest bodies is named, so that the order of manifolds does not matter. Twin:
+// note_depths().
+#include "shared/sphere.h"
+
+layout(local_size_x = SPHERE_WORLD_GROUP) in;
+
+layout(std430, binding = BIND_RUNNING) readonly buffer Running { uint running[]; };
+layout(std430, binding = BIND_WORLDS) readonly buffer Worlds { SphereWorld worlds[]; };
+layout(std430, binding = BIND_PROGRESS) readonly buffer Progress { SphereProgress progress[]; };
+layout(std430, binding = BIND_BODIES) readonly buffer Bodies { SphereBody bodies[]; };
+layout(std430, binding = BIND_ORDER) readonly buffer Order { SphereOrdered order[]; };
+layout(std430, binding = BIND_ROWS) buffer Rows { vec4 rows[]; };
+layout(std430, binding = BIND_IMPULSES) buffer Impulses { vec2 impulses[]; };
+layout(std430, binding = BIND_WORST) buffer Worst { SphereWorst worst[]; };
+
+#include "shared/language.h"
+#include "shared/rotation.h"
+#include "sphere/contact_row.h"
+
+shared uint deepest;  // bits of a share of the diagonal; shares are not negative, so that bits are ordered as they are
+shared uint pair;     // lowest key of the manifolds that are as deep
+shared float depth;   // m, of that one
+
+const uint NO_PAIR = 0xffffffffu;
+
+struct Depth {
+  float depth, relative;  // m; share of the diagonal
+  uint key;               // both bodies, counted in the world
+};
+
+Depth depth_of(SphereWorld world, SphereOrdered m) {
+  float deep = 0.0, diagonal = bodies[m.a].material.w;
+  if (m.b != SPHERE_GROUND) diagonal = min(diagonal, bodies[m.b].material.w);
+  for (uint k = 0u; k < m.count; ++k)
+    deep = max(deep, -found_gap_at(SPHERE_ROW_PARTS * (world.rows.x + k * m.stride) + m.row, m.stride));
+  uint a = m.a - world.bodies.x, b = m.b == SPHERE_GROUND ? 0xffffu : m.b - world.bodies.x;
+  return Depth(deep, deep / diagonal, a << 16 | b);
+}
+
+void main() {
+  uint w = running[gl_WorkGroupID.x];
+  SphereWorld world = worlds[w];
+  if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
+  if (gl_LocalInvocationIndex == 0u) {
+    deepest = 0u;
+    pair = NO_PAIR;
+  }
+  barrier();
+  Depth own = Depth(0.0, 0.0, NO_PAIR);
+  for (uint o = gl_LocalInvocationIndex; o < progress[w].ordered; o += SPHERE_WORLD_GROUP) {
+    Depth next = depth_of(world, order[world.pairs.x + o]);
+    if (next.relative > own.relative || next.relative == own.relative && next.key < own.key) own = next;
+  }
+  bool overlaps = own.relative > 0.0;
+  if (overlaps) atomicMax(deepest, floatBitsToUint(own.relative));  // not of -0, whose bits are the largest
+  barrier();
+  bool is_deepest = overlaps && floatBitsToUint(own.relative) == deepest;
+  if (is_deepest) atomicMin(pair, own.key);
+  barrier();
+  if (is_deepest && own.key == pair) depth = own.depth;
+  barrier();
+  if (gl_LocalInvocationIndex != 0u) return;
+  worst[w].ago += progress[w].time_step;
+  if (uintBitsToFloat(deepest) <= worst[w].relative) return;
+  uint b = pair & 0xffffu;
+  worst[w] = SphereWorst(pair >> 16, b == 0xffffu ? SPHERE_GROUND : b, depth, uintBitsToFloat(deepest), 0.0, 0u, 0u, 0u);
+}
