@@ -25,6 +25,17 @@ TEST_P(Pressing, APointBetweenOthersGainsNothing) {
             }
 }
 
+// Tips sank in by up to 5 % of the diagonal before contacts were found, edges beyond the other tip pressed back, and
+// what was pushed out stayed as velocity: 0.1, 0.3, 4 and 52 % in ever shorter steps.
+TEST_P(Pressing, ATipOnATipGainsNothing) {
+  for (const std::uint32_t sides : {4u, 8u})
+    for (const double size : {0.005, 0.05, 0.3})
+      for (const double slim : {0.3, 0.5, 0.8})
+        for (const auto& [aside, drop] : {std::pair{1e-4, 0.0}, {1e-3, 0.0}, {1e-3, 0.02}})
+          EXPECT_LT(tip_on_tip(lab(), {sides, size, slim, aside, drop}), 1e-3)
+              << sides << " sides, " << size << " m, " << slim << ", " << aside << " aside, from " << drop;
+}
+
 // A slimmer one buckles without friction.
 TEST_P(Pressing, SidesOfAGroovePressAsItsAngleSays) {
   for (const double slim : {0.15, 0.3, 0.6}) {

@@ -70,6 +70,29 @@ inline Pressed press_between(Lab lab, const Row& row) {
   return out;
 }
 
+/// Two spikes of `size` (m), one upright on the floor, the other upside down above it, its tip `aside` (/ size) of the
+/// tip below and `drop` (/ size) above it.
+struct Tips {
+  std::uint32_t sides;
+  double size, slim, aside, drop;
+};
+/// The upper one slides off and falls: EnergyRise of both.
+inline double tip_on_tip(Lab lab, const Tips& tips) {
+  constexpr double friction = 0.5;
+  lab.def().bin.friction = friction;
+  const PartModelPtr part = PartModel::from_mesh(
+      spike_mesh(tips.sides, std::sqrt(2.0) * tips.slim * tips.size, tips.size, M_PI / tips.sides), "spike");
+  const Quat upright(Eigen::AngleAxisd(M_PI, Vec3::UnitX())), turned(Eigen::AngleAxisd(0.1, Vec3::UnitZ()));
+  lab.place(part, Vec3(0, 0, tips.size) + upright * part->mass().center, upright, material(friction));
+  const Vec3 tip = tips.size * Vec3(tips.aside, 0.37 * tips.aside, 1.0 + tips.drop);
+  lab.place(part, tip + turned * part->mass().center, turned, material(friction));
+  EnergyRise rise(lab, 2, g * part->diagonal());
+  lab.begin(phases::pour);
+  const double end = std::sqrt(tips.size / 0.5);
+  for (; lab.time() < end; lab.simulate(lab.solver().step_size())) rise.look();
+  return rise.most();
+}
+
 /// What each side of a groove presses with on a frictionless wedge of weight W in it / W: 1 / (2 sin of half its
 /// angle).
 inline double pressed_in_groove(Lab lab, double slim) {

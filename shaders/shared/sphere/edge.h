@@ -69,6 +69,49 @@ INLINE vec3 common_normal(IN(vec3) u, IN(vec3) v, IN(vec3) away) {
   return normal;
 }
 
+// Whether a point is beside an edge, and not past an end of it, where another edge is, or a corner that is not convex
+// all round. `along` the edge; `off`: from its line to the point.
+INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
+  along = node_at(samples, edge.b) - node_at(samples, edge.a);
+  vec3 from_end = point - node_at(samples, edge.a);
+  float t = dot(from_end, along) / dot(along, along);
+  off = from_end - t * along;
+  return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
+}
+
+// Unit normals of the two faces that meet at a sharp edge.
+struct Faces {
+  vec3 normal_1, normal_2;
+};
+INLINE Faces faces_at(IN(Cone) cone, IN(vec3) along) {
+  vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
+  Faces faces;
+  faces.normal_1 = common_normal(along, into_1, -into_2);
+  faces.normal_2 = common_normal(along, into_2, -into_1);
+  return faces;
+}
+
+// What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
+// the face behind it.
+INLINE float flush_in(IN(Field) field) {
+  return 0.002f * field.cell;
+}
+
+// Whether a point lies outside a face that meets a sharp edge within a cell of it. The grid cannot decide this in a tip
+// that is thinner than its cells.
+INLINE bool is_outside(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+  float flush = flush_in(field);
+  Range list = edges_near(other, field, point);
+  for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    vec3 along, off;
+    if (edge.sharp == 0u || !is_beside(other, edge, point, flush, along, off) || length(off) >= field.cell) continue;
+    Faces faces = faces_at(edge.cone, along);
+    if (max(dot(off, faces.normal_1), dot(off, faces.normal_2)) > flush) return true;
+  }
+  return false;
+}
+
 // Where the edge from p to q crosses one of the other part: depth and direction are those of the nearest such edge,
 // along the common normal of both, if both can be pressed along it. `touch` is the field's answer, and is replaced; it
 // is left as it was, and false returned, if there is none.
@@ -87,6 +130,8 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
     if (apart >= nearest) continue;
     vec3 normal = common_normal(u, v, out_of);
     if (!presses_between(edge, normal, out_of)) continue;
+    // Of a tip that lies beside another one, the far edges would press it back: through the other tip.
+    if (dot(between, normal) < -flush_in(field) && is_outside(other, field, on_u)) continue;
     nearest = apart;
     touch.point = on_u;
     touch.gradient = normal;
@@ -171,22 +216,18 @@ struct EdgesBeside {
 LANE_LIST(float, to_edge_lists, SPHERE_MAX_WAYS)
 #define TO_EDGE(found, i) LISTED(found.to_edge, to_edge_lists, i)
 
-// Whether a point is beside an edge, and not past an end of it, where another edge is, or a corner that is not convex
-// all round. `along` the edge; `off`: from its line to the point.
-INLINE bool is_beside(IN(Samples) samples, IN(Edge) edge, IN(vec3) point, float flush, OUT(vec3) along, OUT(vec3) off) {
-  along = node_at(samples, edge.b) - node_at(samples, edge.a);
-  vec3 from_end = point - node_at(samples, edge.a);
-  float t = dot(from_end, along) / dot(along, along);
-  off = from_end - t * along;
-  return t * length_of(edge) >= -flush && (t - 1.0f) * length_of(edge) <= flush;
-}
-
 // Adds the way out by a face, or takes the place of one of the same face by an edge farther away.
 INLINE void add_face(INOUT(EdgesBeside) found, IN(WayOut) face, float to_edge) {
   const float like = 0.95f;  // cosine of normals that count as of one face
   uint i = 0u;
   while (i < found.faces.count && dot(WAY(found.faces, i).away, face.away) < like) ++i;
-  if (i == SPHERE_MAX_WAYS || (i < found.faces.count && TO_EDGE(found, i) <= to_edge)) return;
+  if (i < found.faces.count && TO_EDGE(found, i) <= to_edge) return;
+  if (i == SPHERE_MAX_WAYS) {
+    i = 0u;
+    for (uint k = 1u; k < SPHERE_MAX_WAYS; ++k)
+      if (WAY(found.faces, k).distance < WAY(found.faces, i).distance) i = k;
+    if (WAY(found.faces, i).distance >= face.distance) return;
+  }
   WAY(found.faces, i) = face;
   TO_EDGE(found, i) = to_edge;
   found.faces.count = max(found.faces.count, i + 1u);
@@ -196,9 +237,9 @@ INLINE void add_face(INOUT(EdgesBeside) found, IN(WayOut) face, float to_edge) {
 INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN(vec3) off) {
   float to_edge = length(off);
   vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
-  vec3 normal_1 = common_normal(along, into_1, -into_2), normal_2 = common_normal(along, into_2, -into_1);
-  WayOut face_1 = way_of(OF_A_FACE, normal_1, dot(off, normal_1));
-  WayOut face_2 = way_of(OF_A_FACE, normal_2, dot(off, normal_2));
+  Faces faces = faces_at(cone, along);
+  WayOut face_1 = way_of(OF_A_FACE, faces.normal_1, dot(off, faces.normal_1));
+  WayOut face_2 = way_of(OF_A_FACE, faces.normal_2, dot(off, faces.normal_2));
   for (int f = 0; f < 2; ++f) add_face(found, f == 0 ? face_1 : face_2, to_edge);
   if (to_edge >= found.nearest) return;
   found.nearest = to_edge;
@@ -207,7 +248,8 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
   else if (face_2.distance >= face_1.distance && dot(off, into_2) >= 0.0f)
     found.outside = face_2;
   else
-    found.outside = way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(normal_1 + normal_2) : unit(off), to_edge);
+    found.outside =
+        way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(faces.normal_1 + faces.normal_2) : unit(off), to_edge);
 }
 
 INLINE void sort_by_length(INOUT(WaysOut) ways) {
@@ -219,22 +261,56 @@ INLINE void sort_by_length(INOUT(WaysOut) ways) {
     }
 }
 
+// Whether an end of an edge is a corner.
+INLINE bool ends_at(IN(Samples) samples, IN(Edge) edge, IN(vec3) corner, float same) {
+  vec3 from_a = node_at(samples, edge.a) - corner, from_b = node_at(samples, edge.b) - corner;
+  return min(dot(from_a, from_a), dot(from_b, from_b)) < same * same;
+}
+
+// Whether a point that is beside no sharp edge, but past the end of some, is outside a convex corner there: then it is
+// nearest to the corner itself. Where fewer than three end, the surface goes on; where a crease ends, too, it may be
+// before another face.
+INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) corner) {
+  float away = length(point - corner), same = 0.01f * field.cell;
+  if (away >= field.cell || away <= flush_in(field)) return false;
+  Range list = edges_near(other, field, point);
+  uint count = 0u;
+  for (uint k = list.first; k < list.end; ++k) {
+    IN(Edge) edge = edge_at(other, listed_edge(other, k));
+    if (edge.sharp == 0u || !ends_at(other, edge, corner, same)) continue;
+    if (is_crease(other, listed_edge(other, k))) return false;
+    ++count;
+  }
+  return count > 2u;
+}
+
 // The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
 // each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
 INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
-  // What stands out past a face by rounding is level with it. More, and what has passed an edge would still stand on
-  // the face behind it.
-  float flush = 0.002f * field.cell;
+  float flush = flush_in(field);
   EdgesBeside found;
   found.faces.count = 0u;
   found.nearest = field.cell;
   found.outside = way_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
+  vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // the nearest end of an edge that the point is past
   Range list = edges_near(other, field, point);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
     IN(Edge) edge = edge_at(other, listed_edge(other, k));
     vec3 along, off;
-    if (edge.sharp == 0u || !is_beside(other, edge, point, flush, along, off) || length(off) >= field.cell) continue;
-    add_edge(found, edge.cone, along, off);
+    if (edge.sharp == 0u) continue;
+    if (!is_beside(other, edge, point, flush, along, off)) {
+      vec3 a = node_at(other, edge.a), b = node_at(other, edge.b);
+      vec3 end = dot(point - a, along) < 0.0f ? a : b;
+      if (length(point - end) < length(point - corner)) corner = end;
+      continue;
+    }
+    if (length(off) < field.cell) add_edge(found, edge.cone, along, off);
+  }
+  if (found.faces.count == 0u && is_at_corner(other, field, point, corner)) {
+    float distance = length(point - corner);
+    WAY(found.faces, 0) = way_of(TO_AN_EDGE, (point - corner) / distance, distance);
+    found.faces.count = 1u;
+    return found.faces;
   }
   bool inside = true;
   for (uint i = 0u; i < found.faces.count; ++i) inside = inside && WAY(found.faces, i).distance <= flush;

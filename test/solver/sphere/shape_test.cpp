@@ -3,10 +3,12 @@
 #include "part/closed_forms.hpp"
 #include "part/shapes.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/tight_scenes.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -49,6 +51,28 @@ TEST(NodesOnCurves, AreNoMoreWhereTheyLeanLittle) {
 }
 
 // Steps are cut by it: by half of it, twice as many were cut while pins were poured.
+// With more edges than a cone has bounds, or edges too blunt to be sharp, a tip had the directions of one line that ends
+// there.
+TEST(Tips, OfAllSpikesPressInTheDirectionsOfEachFace) {
+  for (const std::uint32_t sides : {3u, 4u, 6u, 8u, 24u, 48u}) {
+    const PartModelPtr part = PartModel::from_mesh(testing::spike_mesh(sides, 0.03, 0.05), "spike");
+    const sphere::Vec3f tip = -part->mass().center.cast<float>();
+    const sphere::Shape shape = sphere::make_shape(*part, 200, 1000, 0.01);
+    for (const sphere::Samples* samples : {&shape.coarse, &shape.fine}) {
+      const auto at_tip = std::find_if(samples->nodes.begin(), samples->nodes.end(),
+                                       [&](const sphere::Vec3f& node) { return (node - tip).norm() < 1e-6f; });
+      ASSERT_NE(at_tip, samples->nodes.end()) << sides;
+      const sphere::Cone& cone = samples->cones[static_cast<std::size_t>(at_tip - samples->nodes.begin())];
+      EXPECT_NE(sphere::bounds_of(cone), 0u) << sides;
+      for (std::size_t t = 0; t < part->mesh().triangles.size(); ++t) {
+        sphere::Vec3f normal = part->mesh().area_vector(t).normalized().cast<float>();
+        if (normal.z() > 0.5f) continue;  // of the base
+        EXPECT_TRUE(sphere::turn_into_cone(cone, normal, 0.999f)) << sides << " sides, face " << t;
+      }
+    }
+  }
+}
+
 TEST(Wall, OfASlenderPartIsHowThickItIs) {
   const double radius = 1e-3;
   const PartModelPtr pin = PartModel::from_mesh(prism_mesh(radius, 0.06, 64), "pin");

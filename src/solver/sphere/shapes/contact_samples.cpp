@@ -95,11 +95,15 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   // A finely tessellated curve has many slightly bent edges: keep the sharpest until the nodes suffice.
   constexpr double most_missed = 5e-4, most_off = 2e-4;  // of d
   constexpr double sharpest = 0.75;                      // rad: a chamfer of 45 degrees has edges in any case
+  // Of the nodes. So few edges are those of a polyhedron, not of a curved face, however long they are: with lines in
+  // their place, the tip of a spike of eight faces had the cone of one line, and sank in sideways.
+  constexpr double few_edges = 0.25;
   const double most_length = edge_share * count * longest_edge_piece * part.diagonal();
   SharpEdges sharp;
   for (;; sharp_angle = std::min(1.3 * sharp_angle, sharpest)) {
     const bool last = sharp_angle >= sharpest;
-    if (!last && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
+    const bool few = sharp_count(folds, sharp_angle) <= count * few_edges;
+    if (!last && !few && sharp_length(mesh, folds, sharp_angle) > most_length) continue;
     sharp = straightened(mesh, sharp_edges(mesh, folds, sharp_angle), most_off * part.diagonal());
     if (last || sharp.convex.size() <= static_cast<std::size_t>(2 * count)) break;
   }

@@ -75,7 +75,7 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
 Samples ball_samples(float radius);
 
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
-constexpr int samples_format = 8;
+constexpr int samples_format = 10;
 
 void put(ByteWriter& out, const Samples& samples);
 void get(ByteReader& in, Samples& samples);

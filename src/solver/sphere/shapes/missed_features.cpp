@@ -3,6 +3,7 @@
 #include "solver/sphere/shapes/point_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace bin_scenes::sphere {
@@ -13,13 +14,53 @@ double bulge(const Cone& cone, double face_spacing) {
 
 namespace {
 
-/// Normal cone of a vertex from all its neighbours; all directions if they are too many.
-Cone vertex_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& neighbours) {
+/// A vertex without a node, and the faces around it.
+struct Vertex {
+  std::vector<std::uint32_t> neighbours;
+  std::vector<Vec3> normals;
+
+  /// Mean normal of the faces.
+  Vec3 out() const {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& normal : normals) sum += normal;
+    return sum.normalized();
+  }
+  /// rad: farthest that a face leans off their mean.
+  double spread() const {
+    double least = 1;
+    for (const Vec3& normal : normals) least = std::min(least, normal.dot(out()));
+    return std::acos(std::max(-1.0, least));
+  }
+};
+
+/// Of a rounded surface no vertex spreads as far: this one is a tip.
+constexpr double tip_spread = 0.6;  // rad
+
+/// Normal cone of a vertex from all its neighbours, or, if they are too many, about the mean normal of its faces.
+Cone vertex_cone(const Mesh& mesh, std::uint32_t v, const Vertex& vertex) {
   Cone cone;
-  if (neighbours.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
-  for (const std::uint32_t other : neighbours)
-    cone.bound[cone.bounds++] = (mesh.vertices[other] - mesh.vertices[vertex]).normalized().cast<float>();
+  if (vertex.neighbours.size() > static_cast<std::size_t>(Cone::max_bounds)) {
+    if (vertex.spread() < tip_spread) return cone;
+    cone.axis = vertex.out().cast<float>();
+    cone.spread = static_cast<float>(vertex.spread());
+    return cone;
+  }
+  for (const std::uint32_t other : vertex.neighbours)
+    cone.bound[cone.bounds++] = (mesh.vertices[other] - mesh.vertices[v]).normalized().cast<float>();
   return cone;
+}
+
+/// By vertex; empty for those that have nodes.
+std::vector<Vertex> vertices_without_nodes(const Mesh& mesh, const Draft& draft) {
+  std::vector<Vertex> vertices(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i];
+      if (draft.at_vertex[v] != Draft::none) continue;
+      vertices[v].neighbours.push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
+      vertices[v].normals.push_back(mesh.area_vector(t).normalized());
+    }
+  return vertices;
 }
 
 /// Whether the nodes of a draft feel what touches the surface at a point between them: whether one near it is no lower
@@ -62,22 +103,17 @@ class Feeling {
 }  // namespace
 
 void add_missed_vertices(const Mesh& mesh, double face_spacing, double most, Draft& draft) {
-  std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertices.size());
-  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t v = mesh.triangles[t][i];
-      if (draft.at_vertex[v] != Draft::none) continue;
-      neighbours[v].push_back(mesh.triangles[t][(i + 1) % 3]);  // of a closed mesh these are all
-      normals[v] += mesh.area_vector(t).normalized();
-    }
+  const std::vector<Vertex> vertices = vertices_without_nodes(mesh, draft);
   Feeling nodes(draft, face_spacing, most);
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     if (draft.at_vertex[v] != Draft::none) continue;
-    const Vec3 &x = mesh.vertices[v], out = normals[v].normalized();
+    const Vec3 &x = mesh.vertices[v], out = vertices[v].out();
     const auto below = [&](std::uint32_t other) { return out.dot(mesh.vertices[other] - x) <= 0; };
-    if (!std::all_of(neighbours[v].begin(), neighbours[v].end(), below)) continue;  // it cannot touch first
-    if (!nodes.feels(x, out)) draft.at_vertex[v] = draft.add(x, vertex_cone(mesh, v, neighbours[v]));
+    const auto& neighbours = vertices[v].neighbours;
+    if (!std::all_of(neighbours.begin(), neighbours.end(), below)) continue;  // it cannot touch first
+    // What touches a tip sideways is not felt by the nodes of a face beside it, nor by those of a line that ends there.
+    if (vertices[v].spread() > tip_spread || !nodes.feels(x, out))
+      draft.at_vertex[v] = draft.add(x, vertex_cone(mesh, v, vertices[v]));
   }
 }
 

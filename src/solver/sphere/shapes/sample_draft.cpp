@@ -1,5 +1,7 @@
 #include "solver/sphere/shapes/sample_draft.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace bin_scenes::sphere {
@@ -24,13 +26,37 @@ void Draft::add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, con
 
 namespace {
 
+/// Cone of a vertex of many edges: that about the mean direction of its faces that holds the normals of all of them.
+/// All directions beside a sliver.
+Cone round_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<const SharpEdge*>& edges) {
+  std::vector<Vec3> normals;
+  Vec3 sum = Vec3::Zero();
+  for (const SharpEdge* edge : edges) {
+    if (edge->cone.bounds == 0) return Cone{};
+    const std::uint32_t other = edge->a == vertex ? edge->b : edge->a;
+    const Vec3 along = (mesh.vertices[other] - mesh.vertices[vertex]).normalized();
+    for (int side = 0; side < 2; ++side) {
+      const Vec3 across = along.cross(edge->cone.bound[side].cast<double>());
+      const Vec3 away = -edge->cone.bound[1 - side].cast<double>();
+      sum += normals.emplace_back(across.dot(away) < 0 ? -across : across);
+    }
+  }
+  Cone cone;
+  cone.axis = sum.normalized().cast<float>();
+  double least = 1;
+  for (const Vec3& normal : normals) least = std::min(least, normal.dot(cone.axis.cast<double>()));
+  cone.spread = static_cast<float>(std::acos(std::max(0.0, least)));
+  return cone;
+}
+
 /// Cone of a vertex from the sharp edges that end there: three or more bound it themselves, two with their faces.
 Cone corner_cone(const Mesh& mesh, std::uint32_t vertex, const std::vector<const SharpEdge*>& edges) {
   Cone cone;
   const auto add = [&](const Vec3f& bound) {
     if (cone.bounds < Cone::max_bounds) cone.bound[cone.bounds++] = bound;
   };
-  if (edges.size() < 2 || edges.size() > static_cast<std::size_t>(Cone::max_bounds)) return cone;
+  if (edges.size() < 2) return cone;
+  if (edges.size() > static_cast<std::size_t>(Cone::max_bounds)) return round_cone(mesh, vertex, edges);
   for (const SharpEdge* edge : edges) {
     if (edge->cone.bounds == 0) return Cone{};
     const std::uint32_t other = edge->a == vertex ? edge->b : edge->a;

@@ -40,6 +40,9 @@ struct SharpEdges {
 /// The folds by more than `angle` (rad). Concave edges cannot touch first.
 SharpEdges sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double angle);
 
+/// Number of the convex ones that are sharp.
+double sharp_count(const std::vector<Fold>& folds, double angle);
+
 /// Length of all that are convex, m.
 double sharp_length(const Mesh& mesh, const std::vector<Fold>& folds, double angle);
 
