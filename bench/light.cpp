@@ -74,7 +74,7 @@ void run(Run& out) {
 }
 
 const Registration registration{
-    "light", "structured light in a V-groove", {"surface", "period_px", "bounces", "fidelity"}, run};
+    "light", "structured light in a V-groove", {"surface", "period_px", "bounces", "fidelity"}, run, "src/sensor"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -245,7 +245,8 @@ void run_lines(Run& out) {
 }
 
 const std::vector<std::string> keys = {"phase", "world_group", "pair_group", "pass"};
-const Registration passes{"meter", "cost of each pass on a card, counted without one", keys, run};
+const Registration passes{"meter", "cost of each pass on a card, counted without one", keys, run,
+                          "src/solver/sphere_gl shaders"};
 const Registration lines{"meter_lines",
                          "the same by line of source: choose a pass with --rows",
                          {"phase", "world_group", "pair_group", "pass", "line"},

@@ -79,7 +79,8 @@ void run(Run& out) {
 }
 
 const Registration registration{
-    "preparation", "seconds and memory to make each sample part ready, cold and warm", {"part", "solver"}, run};
+    "preparation", "seconds and memory to make each sample part ready, cold and warm", {"part", "solver"}, run,
+    "src/core src/mesh src/part"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

@@ -2,6 +2,7 @@
 /// ray cast in double precision.
 #include "framework/benchmark.hpp"
 
+#include "bin_scenes/config/plan.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/models.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
@@ -112,7 +113,28 @@ void image_time(Run& out, test::Stage& heap, int samples, bool denoise) {
   time(out, denoise ? what + ", denoised" : what, denoise ? 0.0 : 3.0, take);
 }
 
+/// The image that users of a preset get: that of the plan by which the throughput of data sets is measured, with the
+/// preset's defaults, without its bounce, and without its blur as well.
+void preset_times(Run& out) {
+  const std::string what = "preset structured_light_0.65m_590mm, 1280 x 976, 50 parts", dark = what + ", bounces 0",
+                    sharp = dark + ", blur 0";
+  const auto asked = [&](const std::string& row) { return out.wanted(Row().key("what", row)); };
+  if (!asked(what) && !asked(dark) && !asked(sharp)) return;
+  Poured poured = pour_timed(read_plan(Run::plan("throughput")).reference);
+  poured.scene.sensors = resolved_sensors(poured.loaded);
+  SensorRig rig;
+  const auto timed = [&](const std::string& row) {
+    time(out, row, 0.0, [&] { rig.render(poured.scene, poured.loaded); });
+  };
+  timed(what);
+  poured.scene.sensors.front().bounces = 0;
+  timed(dark);
+  poured.scene.sensors.front().imager.blur = 0.0;
+  timed(sharp);
+}
+
 void run(Run& out) {
+  preset_times(out);
   test::Stage balls, heap;
   add_balls(balls);
   add_heap(heap);
@@ -131,7 +153,8 @@ void run(Run& out) {
   time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
 }
 
-const Registration registration{"sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run};
+const Registration registration{"sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run,
+                                "src/core src/mesh src/sensor"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

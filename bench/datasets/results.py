@@ -43,8 +43,9 @@ def timed(*words):
     return time.monotonic() - begin, used.ru_utime + used.ru_stime
 
 
-def put(name, about, keys, rows):
-    """Writes rows (dicts with the same names) into the table `name` of this machine."""
+def put(name, about, keys, rows, measures):
+    """Writes rows (dicts with the same names) into the table `name` of this machine. When the folders `measures` of the
+    source tree change, bench/publish marks the table as stale."""
     path = device_folder() / (name + ".csv")
     rows = [dict(row, commit=commit()) for row in rows]
     fields = list(rows[0])
@@ -56,7 +57,7 @@ def put(name, about, keys, rows):
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w") as out:
         for key, value in (("benchmark", name), ("about", about), ("command", os.path.relpath(os.path.abspath(sys.argv[0]), ROOT)),
-                           ("cpu", cpu()), ("cores", os.cpu_count()), ("version", version()), ("commit", commit()),
+                           ("measures", measures), ("cpu", cpu()), ("cores", os.cpu_count()), ("version", version()), ("commit", commit()),
                            ("date", datetime.date.today()), ("roles", " ".join("key" if f in keys else "info" for f in fields))):
             out.write("# %s: %s\n" % (key, value))
         writer = csv.DictWriter(out, fields, lineterminator="\n")

@@ -33,8 +33,8 @@ std::string models() {
 }  // namespace
 
 Registration::Registration(const std::string& name, const std::string& about, const std::vector<std::string>& keys,
-                           std::function<void(Run&)> run) {
-  registry().push_back({name, about, keys, std::move(run)});
+                           std::function<void(Run&)> run, const std::string& measures) {
+  registry().push_back({name, about, keys, std::move(run), measures});
 }
 
 std::vector<Benchmark> benchmarks() {
@@ -95,6 +95,9 @@ Run::~Run() {
 std::string Run::part(const std::string& name) {
   return models() + "/" + name + ".stl";
 }
+std::string Run::plan(const std::string& name) {
+  return models() + "/../config/" + name + "_plan.yaml";
+}
 std::string Run::pieces(const std::string& name) {
   return models() + "/pieces/" + name + ".obj";
 }
@@ -131,7 +134,10 @@ Ended run(const Benchmark& benchmark, const Run::Options& options, const std::st
   Table table;
   const std::string before = options.out + "/" + benchmark.name + ".csv";
   if (fs::exists(before)) table = read_csv(before);
-  table.header = {{"benchmark", benchmark.name}, {"about", benchmark.about}, {"command", command}};
+  table.header = {{"benchmark", benchmark.name},
+                  {"about", benchmark.about},
+                  {"command", command},
+                  {"measures", benchmark.measures}};
   for (const auto& line : host()) table.header.push_back(line);
   table.header.emplace_back("quick", options.quick ? "yes" : "no");
   Run run(benchmark.name, options, table);

@@ -48,6 +48,8 @@ class Run {
   /// Paths in models/: a part's mesh, and the file of its exact convex pieces (channel_u and ring_24 have them).
   static std::string part(const std::string& name);
   static std::string pieces(const std::string& name);
+  /// Path of a plan in config/.
+  static std::string plan(const std::string& name);
   /// A folder for this run alone, removed afterwards.
   const std::string& scratch() const { return scratch_; }
   bool any_wanted() const { return any_wanted_; }  ///< of the rows asked about so far
@@ -64,12 +66,16 @@ struct Benchmark {
   std::string about;              ///< one line
   std::vector<std::string> keys;  ///< columns that rows can be chosen by
   std::function<void(Run&)> run;
+  std::string measures;  ///< folders of the source tree; when they change, bench/publish marks the results as stale
 };
+
+/// What most benchmarks measure: how heaps are poured.
+constexpr const char* pouring = "src/core src/part src/solver src/pour src/quality shaders";
 
 /// Puts a benchmark on the list; lives in an anonymous namespace of the benchmark's file.
 struct Registration {
   Registration(const std::string& name, const std::string& about, const std::vector<std::string>& keys,
-               std::function<void(Run&)> run);
+               std::function<void(Run&)> run, const std::string& measures = pouring);
 };
 
 /// All benchmarks by name.

@@ -129,6 +129,30 @@ at rest: at_rest of scenes | | all
         self.run_script("publish")
         self.assertEqual(self.run_script("publish", "--check").returncode, 0)
 
+    def git(self, *words):
+        return subprocess.run(["git", "-C", self.root, "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True,
+                              capture_output=True, text=True).stdout.strip()
+
+    def test_publish_marks_results_that_are_older_than_their_code(self):
+        source = self.root / "src/sensor/light.cpp"
+        source.parent.mkdir(parents=True)
+        source.write_text("one\n")
+        self.git("init")
+        self.git("add", "src")
+        self.git("commit", "-m", "one")
+        head = "# commit: %s\n# measures: src/sensor src/solver" % self.git("rev-parse", "--short=10", "HEAD")
+        (self.root / "bench/results/device/scenes.csv").write_text(TABLE.replace("# commit: abc", head))
+        self.run_script("publish")
+        self.assertNotIn("Stale", self.doc())
+        source.write_text("two\n")
+        check = self.run_script("publish", "--check")
+        self.assertEqual(check.returncode, 1)
+        self.assertIn("docs/lab/accuracy.md", check.stderr)
+        self.git("commit", "-am", "two")
+        self.run_script("publish")
+        self.assertIn("scenes.csv). Stale: changed since then: src/sensor\n", self.doc())
+        self.assertEqual(self.run_script("publish", "--check").returncode, 0)
+
     def comparison(self, before, after, *arguments):
         """Code and text of bench/compare_results for two folders with the same table of these rows."""
         for folder, rows in (("before", before), ("after", after)):

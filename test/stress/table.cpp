@@ -70,7 +70,7 @@ void Tally::add(const Case& c, const Outcome& o, const std::string& why_known) {
 void write_csv(const std::string& path, const std::vector<Tally>& rows, const std::string& command) {
   using bench::Row;
   bench::Table table;
-  table.header = {{"benchmark", "stress"}, {"command", command}};
+  table.header = {{"benchmark", "stress"}, {"command", command}, {"measures", "src shaders"}};
   for (const auto& line : bench::host()) table.header.push_back(line);
   for (const Tally& t : rows)
     table.add(Row()
