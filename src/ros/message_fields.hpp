@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,17 +32,18 @@ struct FieldStream {
   std::size_t at = 0;
 
   template <class Value>
-  void next(const Value& value) {
+  void next(Value& value) {
     visit(names.at(at++), value);
   }
 };
 
-/// Calls visit(name, value) for each field.
+/// Calls visit(name, value) for each field of a message, which may be const.
 template <class Message, class Visit>
-void for_each_field(const Message& message, Visit& visit) {
-  static const std::vector<std::string> names = field_names(ros::message_traits::Definition<Message>::value());
+void for_each_field(Message& message, Visit& visit) {
+  using Plain = std::remove_const_t<Message>;
+  static const std::vector<std::string> names = field_names(ros::message_traits::Definition<Plain>::value());
   FieldStream<Visit> stream{names, visit};
-  ros::serialization::Serializer<Message>::template allInOne<FieldStream<Visit>, const Message&>(stream, message);
+  ros::serialization::Serializer<Plain>::template allInOne<FieldStream<Visit>, Message&>(stream, message);
 }
 
 }  // namespace bin_scenes

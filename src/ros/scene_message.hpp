@@ -1,4 +1,4 @@
-/// Scene <-> message, in both directions without loss.
+/// Messages that describe a scene.
 #pragma once
 
 #include "bin_scenes/scene/scene.hpp"
@@ -10,15 +10,11 @@ namespace bin_scenes {
 /// `request` is what the scene was made from: its bin and its hash go along.
 bin_scenes_msgs::Scene scene_message(const Scene& scene, const Request& request, const Frames& frames,
                                      const ros::Time& stamp);
-Scene scene_from(const bin_scenes_msgs::Scene& message);
 
-bin_scenes_msgs::SceneReport report_message(const Report& report);
-Report report_from(const bin_scenes_msgs::SceneReport& message);
+/// Filled from the table of the report's keys. Throws if the message has no field for a key.
+bin_scenes_msgs::SceneReport report_message(Report report);
 
 bin_scenes_msgs::Sensor sensor_message(const Sensor& sensor);
-/// Of a finished scene's sensor, whose pose is known.
-Sensor sensor_from(const bin_scenes_msgs::Sensor& message);
-
 bin_scenes_msgs::Bin bin_message(const Bin& bin);
 /// "box", "mesh", "floor", "none": the value of `bin.kind` in messages.
 const char* name_of(Bin::Kind kind);

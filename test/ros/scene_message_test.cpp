@@ -1,10 +1,12 @@
 #include "scene_message.hpp"
-#include "bin_scenes/core/error.hpp"
-#include "bin_scenes/sensor/sensor_model.hpp"
-
+#include "message_fields.hpp"
+#include "scene/report_keys.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
 
 namespace bin_scenes {
 namespace {
@@ -36,97 +38,179 @@ TEST(SceneMessage, KeepsTheNamesOtherPackagesSee) {
   EXPECT_STREQ(ros::service_traits::datatype<bin_scenes_msgs::GenerateScene>(), "bin_scenes/GenerateScene");
 }
 
-TEST(SceneMessage, PartsAndSensorsComeBackBitForBit) {
+bool same(const Vec3& a, const geometry_msgs::Vector3& b) {
+  return a == Vec3(b.x, b.y, b.z);
+}
+
+TEST(SceneMessage, PartsAndSensorsArriveBitForBit) {
   const Scene scene = full_scene();
-  const Scene back = scene_from(wire(scene_message(scene, request_of(scene), Frames(), stamp)));
-  EXPECT_EQ(back.seed, scene.seed);
-  EXPECT_EQ(back.index, scene.index);
-  ASSERT_EQ(back.parts.size(), scene.parts.size());
+  const auto message = wire(scene_message(scene, request_of(scene), Frames(), stamp));
+  EXPECT_EQ(message.seed, scene.seed);
+  EXPECT_EQ(message.index, scene.index);
+  ASSERT_EQ(message.parts.size(), scene.parts.size());
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    const ScenePart &a = scene.parts[i], &b = back.parts[i];
+    const ScenePart& a = scene.parts[i];
+    const auto& b = message.parts[i];
     EXPECT_EQ(a.id, b.id);
     EXPECT_EQ(a.line, b.line);
     EXPECT_EQ(a.model, b.model);
-    EXPECT_TRUE(same(a.pose, b.pose)) << "part " << i;
-    EXPECT_EQ(a.velocity.linear, b.velocity.linear);
-    EXPECT_EQ(a.velocity.angular, b.velocity.angular);
-    EXPECT_EQ(a.state, b.state);
-    EXPECT_EQ(a.visible_fraction, b.visible_fraction);
+    EXPECT_TRUE(same(a.pose, pose_from(b.pose))) << "part " << i;
+    EXPECT_TRUE(same(a.velocity.linear, b.velocity.linear)) << "part " << i;
+    EXPECT_TRUE(same(a.velocity.angular, b.velocity.angular)) << "part " << i;
+    EXPECT_EQ(static_cast<std::uint8_t>(a.state), b.state);
+    ASSERT_EQ(b.visible_fraction.size(), scene.sensors.size());
+    for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+      const auto seen = a.visible_fraction.find(scene.sensors[s].name);
+      if (seen != a.visible_fraction.end())
+        EXPECT_EQ(b.visible_fraction[s], seen->second);
+      else
+        EXPECT_TRUE(std::isnan(b.visible_fraction[s])) << "part " << i;
+    }
   }
-  ASSERT_EQ(back.sensors.size(), scene.sensors.size());
+  ASSERT_EQ(message.sensors.size(), scene.sensors.size());
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
-    const Sensor &a = scene.sensors[i], &b = back.sensors[i];
+    const Sensor& a = scene.sensors[i];
+    const auto& b = message.sensors[i];
     EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.width, b.width);
-    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.model, b.model);
+    EXPECT_EQ(a.width, static_cast<int>(b.width));
+    EXPECT_EQ(a.height, static_cast<int>(b.height));
     EXPECT_EQ(a.fov, b.fov);
-    EXPECT_EQ(a.k, b.k);
-    EXPECT_TRUE(same(*a.pose, *b.pose));
+    EXPECT_TRUE(std::equal(a.k.begin(), a.k.end(), b.K.begin()));
+    EXPECT_TRUE(same(*a.pose, pose_from(b.pose)));
     EXPECT_EQ(a.near, b.near);
     EXPECT_EQ(a.far, b.far);
   }
 }
 
-TEST(SceneMessage, EverySensorModelComesBackAndAnotherIsRefused) {
-  for (const SensorModel* model : sensor_models()) {
-    Sensor sensor;
-    sensor.model = model->name;
-    EXPECT_EQ(sensor_from(sensor_message(sensor)).model, model->name);
+/// Gives every value of a report another number, and keeps the numbers and texts by the paths of their keys.
+class Numbering {
+ public:
+  template <class Value>
+  void field(const Key& key, Value& value) {
+    set(value);
+    paths.emplace_back(section_ + key.name);
   }
-  bin_scenes_msgs::Sensor message = sensor_message(Sensor());
-  message.model = "sonar";
-  try {
-    sensor_from(message);
-    ADD_FAILURE() << "taken for another model";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("'sonar'"), std::string::npos) << error.what();
+  template <class Struct>
+  void section(const Key& key, Struct& value) {
+    const std::string outer = section_;
+    section_ += key.name + std::string(".");
+    visit(*this, value);
+    section_ = outer;
   }
+  template <class Struct>
+  void list(const Key& key, std::vector<Struct>& values) {
+    values.resize(2);
+    for (Struct& value : values) section(key, value);
+  }
+  std::vector<std::string> paths;
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+
+ private:
+  template <class Number>
+  std::enable_if_t<std::is_arithmetic_v<Number>> set(Number& value) {
+    if constexpr (std::is_same_v<Number, bool>) return void(numbers.push_back(value = true));
+    value = static_cast<Number>(numbers.size() + 2);  // 1 is true
+    numbers.push_back(static_cast<double>(value));
+  }
+  void set(std::string& value) { texts.push_back(value = "text " + std::to_string(texts.size())); }
+  void set(Hexadecimal& number) { set(number.value); }
+  template <class Items>
+  auto set(Items& items) -> decltype(items.begin(), void()) {
+    if constexpr (std::is_same_v<Items, std::vector<int>> || std::is_same_v<Items, std::vector<std::string>>)
+      items.resize(2);
+    if constexpr (std::is_same_v<Items, std::map<std::string, double>> ||
+                  std::is_same_v<Items, std::map<std::string, std::uint64_t>>) {
+      const std::string name = "text " + std::to_string(texts.size());
+      texts.push_back(name);
+      set(items[name]);
+    } else {
+      for (auto& item : items) set(item);
+    }
+  }
+  std::string section_;
+};
+
+/// All numbers and texts of a message.
+class Leaves {
+ public:
+  template <class Value>
+  void operator()(const std::string&, const Value& value) {
+    add(value);
+  }
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+
+ private:
+  template <class Value>
+  void add(const Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>) {
+      numbers.push_back(static_cast<double>(value));
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      texts.push_back(value);
+    } else if constexpr (ros::message_traits::IsMessage<Value>::value) {
+      for_each_field(value, *this);
+    } else {
+      for (const auto& item : value) add(item);
+    }
+  }
+};
+
+template <class Value>
+std::vector<Value> sorted(std::vector<Value> values) {
+  std::sort(values.begin(), values.end());
+  return values;
 }
 
-TEST(SceneMessage, ReportComesBackWhole) {
-  const Report a = testing::full_report(), b = report_from(wire(report_message(a)));
-  EXPECT_EQ(a.at_rest, b.at_rest);
-  EXPECT_EQ(a.accepted, b.accepted);
-  EXPECT_EQ(a.reasons, b.reasons);
-  EXPECT_EQ(a.solver, b.solver);
-  EXPECT_EQ(a.solver_reason, b.solver_reason);
-  EXPECT_EQ(a.device, b.device);
-  EXPECT_EQ(a.simulated_s, b.simulated_s);
-  EXPECT_EQ(a.wall_s, b.wall_s);
-  EXPECT_EQ(a.finish, b.finish);
-  EXPECT_EQ(a.steps, b.steps);
-  EXPECT_EQ(a.profile.stages_ms, b.profile.stages_ms);
-  EXPECT_EQ(a.profile.counters, b.profile.counters);
-  const auto values = [](const Quantiles& q) { return std::vector<double>{q.median, q.p95, q.max}; };
-  EXPECT_EQ(values(a.penetration), values(b.penetration));
-  EXPECT_EQ(a.penetration.pair, b.penetration.pair);
-  EXPECT_EQ(a.penetration.p95_relative, b.penetration.p95_relative);
-  EXPECT_EQ(a.penetration.max_relative, b.penetration.max_relative);
-  EXPECT_EQ(a.penetration.bin_median, b.penetration.bin_median);
+TEST(SceneMessage, EveryKeyOfTheReportArrives) {
+  Report report;
+  Numbering numbering;
+  visit(numbering, report);
+  ASSERT_GT(numbering.paths.size(), 40u);
+  report.drift.measured = true;
+  numbering.numbers.insert(numbering.numbers.end(), {1.0, 1.0});  // drift.measured and worst.penetration_known
+  const auto message = wire(report_message(report));
+  Leaves leaves;
+  for_each_field(message, leaves);
+  EXPECT_EQ(sorted(leaves.numbers), sorted(numbering.numbers));
+  EXPECT_EQ(sorted(leaves.texts), sorted(numbering.texts));
+}
+
+TEST(SceneMessage, KeysOfSectionsAreWhereReadersExpectThem) {
+  Report a = testing::full_report();
+  a.energy = {0.1, 0.2, 3, {4.0, 0.5, 6, 7}};
+  a.jam = {8.0, 9};
+  const auto b = wire(report_message(a));
+  EXPECT_EQ(a.penetration.p95, b.penetration.depth.p95);
+  EXPECT_EQ(a.penetration.pair[1], b.penetration.pair[1]);
   EXPECT_EQ(a.penetration.bin_p95, b.penetration.bin_p95);
-  EXPECT_EQ(a.penetration.bin_max, b.penetration.bin_max);
-  EXPECT_EQ(a.penetration.bin_part, b.penetration.bin_part);
-  EXPECT_EQ(a.penetration.pairs, b.penetration.pairs);
-  EXPECT_EQ(values(a.gap), values(b.gap));
-  EXPECT_EQ(values(a.drift), values(b.drift));
-  EXPECT_EQ(a.drift.measured, b.drift.measured);
+  EXPECT_EQ(a.gap.median, b.gap.median);
+  EXPECT_EQ(a.drift.max, b.drift.distance.max);
   EXPECT_EQ(a.drift.turn_p95, b.drift.turn_p95);
-  EXPECT_EQ(a.worst.penetration.known, b.worst.penetration.known);
-  EXPECT_EQ(a.worst.penetration.value, b.worst.penetration.value);
-  EXPECT_EQ(a.worst.penetration.relative, b.worst.penetration.relative);
-  EXPECT_EQ(a.worst.penetration.pair, b.worst.penetration.pair);
-  EXPECT_EQ(a.worst.penetration.time, b.worst.penetration.time);
-  EXPECT_EQ(a.worst.energy_gain.relative, b.worst.energy_gain.relative);
-  EXPECT_EQ(a.worst.energy_gain.time, b.worst.energy_gain.time);
-  EXPECT_EQ(a.worst.unresolved_impacts, b.worst.unresolved_impacts);
-  EXPECT_EQ(a.escaped, b.escaped);
-  EXPECT_EQ(a.unstable, b.unstable);
-  EXPECT_EQ(a.not_poured, b.not_poured);
+  EXPECT_EQ(a.energy.time, b.energy.time);
+  EXPECT_EQ(a.energy.thrown.time, b.energy.thrown_time);
+  EXPECT_EQ(a.worst.penetration.value, b.worst.penetration);
+  EXPECT_EQ(a.worst.penetration.relative, b.worst.penetration_relative);
+  EXPECT_EQ(a.worst.penetration.pair[1], b.worst.pair[1]);
+  EXPECT_EQ(a.worst.energy_gain.relative, b.worst.energy_gain);
+  EXPECT_EQ(a.worst.energy_gain.time, b.worst.energy_gain_time);
+  EXPECT_EQ(a.jam.ratio, b.jam_ratio);
+  EXPECT_EQ(a.jam.part, b.jam_part);
   EXPECT_EQ(a.state_hash, b.state_hash);
-  ASSERT_EQ(b.flags.size(), 1u);
-  EXPECT_EQ(a.flags[0].code, b.flags[0].code);
-  EXPECT_EQ(a.flags[0].text, b.flags[0].text);
-  EXPECT_EQ(a.flags[0].remedy, b.flags[0].remedy);
+  EXPECT_EQ(b.stages[1].stage, "settle");
+  EXPECT_EQ(b.stages[1].ms, 40.0);
+  EXPECT_EQ(b.counters[0].value, 1234567890123ull);
+}
+
+TEST(SceneMessage, UnknownDepthsAreZeroAndSayThatTheyAreUnknown) {
+  Report report;
+  report.worst.penetration = {false, 1.0, 1.0, {-1, -1}, 0.0};
+  const auto message = report_message(report);
+  EXPECT_FALSE(message.worst.penetration_known);
+  EXPECT_EQ(message.worst.penetration, 0.0);
+  EXPECT_EQ(message.worst.penetration_relative, 0.0);
+  EXPECT_FALSE(message.drift.measured);
 }
 
 TEST(SceneMessage, SaysWhatItWasMadeFrom) {
