@@ -126,95 +126,38 @@ PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double fri
   return found;
 }
 
-namespace {
-
-void put(ByteWriter& out, const Pose& pose) {
-  out.put(pose.position);
-  for (int i = 0; i < 4; ++i) out.put(pose.orientation.coeffs()[i]);
-}
-void get(ByteReader& in, Pose& pose) {
-  in.get(pose.position);
-  for (int i = 0; i < 4; ++i) in.get(pose.orientation.coeffs()[i]);
+template <class Stream>
+void members(Stream& stream, Aabb& box) {
+  stream(box.lower, box.upper);
 }
 
-constexpr std::size_t GraspCounts::*all_counts[] = {&GraspCounts::tried,   &GraspCounts::width, &GraspCounts::friction,
-                                                    &GraspCounts::contact, &GraspCounts::seal,  &GraspCounts::collision,
-                                                    &GraspCounts::good};
-constexpr double Grasp::*all_numbers[] = {&Grasp::width, &Grasp::share, &Grasp::friction, &Grasp::radius,
-                                          &Grasp::lever, &Grasp::gap,   &Grasp::margin};
-constexpr std::size_t grasp_bytes = 26 * sizeof(double) + sizeof(std::uint64_t);
-constexpr std::size_t placed_bytes = 7 * sizeof(double) + sizeof(std::uint64_t);
-
-void put(ByteWriter& out, const std::vector<PartGrasps::Placed>& all) {
-  out.put(static_cast<std::uint64_t>(all.size()));
-  for (const auto& placed : all) {
-    out.put(static_cast<std::uint64_t>(placed.of));
-    put(out, placed.pose);
-  }
+template <class Stream>
+void members(Stream& stream, Grasp& g) {
+  stream(g.pose, g.width, g.share, g.friction, g.radius, g.lever, g.gap, g.margin, g.first, g.second, g.contacts);
 }
 
-void get(ByteReader& in, std::vector<PartGrasps::Placed>& all, std::size_t grasps) {
-  all.resize(in.count(placed_bytes));
-  for (auto& placed : all) {
-    std::uint64_t of = 0;
-    in.get(of);
-    placed.of = std::min<std::size_t>(of, grasps == 0 ? 0 : grasps - 1);
-    get(in, placed.pose);
-  }
+template <class Stream>
+void members(Stream& stream, PartGrasps::Placed& placed) {
+  stream(placed.of, placed.pose);
 }
 
-}  // namespace
-
-void put(ByteWriter& out, const PartGrasps& found) {
-  out.put(static_cast<std::uint64_t>(found.grasps.size()));
-  for (const Grasp& grasp : found.grasps) {
-    put(out, grasp.pose);
-    for (const auto number : all_numbers) out.put(grasp.*number);
-    for (const Aabb* box : {&grasp.first, &grasp.second}) {
-      out.put(box->lower);
-      out.put(box->upper);
-    }
-    out.put(static_cast<std::uint64_t>(grasp.contacts.size()));
-    for (const Vec3& point : grasp.contacts) out.put(point);
-  }
-  put(out, found.placed);
-  put(out, found.spare);
-  out.put(static_cast<std::uint64_t>(found.axes.size()));
-  for (const ClosingAxis& axis : found.axes) {
-    put(out, axis.pose);
-    out.put(axis.width);
-    out.put(axis.approaches);
-  }
-  for (const auto count : all_counts) out.put(static_cast<std::uint64_t>(found.counts.*count));
-  for (const double value : {found.coverage, found.apart, found.apart_angle}) out.put(value);
+template <class Stream>
+void members(Stream& stream, ClosingAxis& axis) {
+  stream(axis.pose, axis.width, axis.approaches);
 }
 
-void get(ByteReader& in, PartGrasps& found) {
-  found.grasps.resize(in.count(grasp_bytes));
-  for (Grasp& grasp : found.grasps) {
-    get(in, grasp.pose);
-    for (const auto number : all_numbers) in.get(grasp.*number);
-    for (Aabb* box : {&grasp.first, &grasp.second}) {
-      in.get(box->lower);
-      in.get(box->upper);
-    }
-    grasp.contacts.resize(in.count(sizeof(Vec3)));
-    for (Vec3& point : grasp.contacts) in.get(point);
-  }
-  get(in, found.placed, found.grasps.size());
-  get(in, found.spare, found.grasps.size());
-  found.axes.resize(in.count(8 * sizeof(double) + sizeof(std::uint64_t)));
-  for (ClosingAxis& axis : found.axes) {
-    get(in, axis.pose);
-    in.get(axis.width);
-    in.get(axis.approaches);
-  }
-  for (const auto count : all_counts) {
-    std::uint64_t value = 0;
-    in.get(value);
-    found.counts.*count = value;
-  }
-  for (double* value : {&found.coverage, &found.apart, &found.apart_angle}) in.get(*value);
+template <class Stream>
+void members(Stream& stream, GraspCounts& n) {
+  stream(n.tried, n.width, n.friction, n.contact, n.seal, n.collision, n.good);
+}
+
+template <class Stream>
+void members(Stream& stream, PartGrasps& found) {
+  stream(found.grasps, found.placed, found.spare, found.axes, found.counts, found.coverage, found.apart,
+         found.apart_angle);
+  const std::size_t last = std::max<std::size_t>(found.grasps.size(), 1) - 1;
+  for (auto* placed : {&found.placed, &found.spare})
+    for (PartGrasps::Placed& one : *placed) one.of = std::min(one.of, last);  // as read from a damaged file
 }
 
 std::string grasp_key(const PartModel& part, const Gripper& g, double friction) {

@@ -3,6 +3,7 @@
 #include "assimp_import.hpp"
 
 #include "contained.hpp"
+#include "mesh_bytes.hpp"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -16,6 +17,11 @@
 #include <stdexcept>
 
 namespace bin_scenes {
+
+template <class Stream>
+void members(Stream& stream, Import& import) {
+  stream(import.complaint, import.mesh, import.meshes, import.points, import.lines);
+}
 
 namespace {
 
@@ -93,17 +99,6 @@ Import import_here(const std::string& bytes, const std::string& format) {
   return result;
 }
 
-template <class T>
-void put(std::string& to, const T* from, std::size_t count) {
-  to.append(reinterpret_cast<const char*>(from), count * sizeof(T));
-}
-template <class T>
-void take(const std::string& from, std::size_t& offset, T* to, std::size_t count) {
-  if (count == 0) return;  // an empty vector has no place to copy to
-  std::memcpy(static_cast<void*>(to), from.data() + offset, count * sizeof(T));
-  offset += count * sizeof(T);
-}
-
 /// What a file may cost: ten times what assimp takes for the dearest format, an XML of many short numbers.
 ContainedLimits limits_of(std::size_t bytes) {
   const double megabytes = 1e-6 * static_cast<double>(bytes);
@@ -116,22 +111,12 @@ ContainedLimits limits_of(std::size_t bytes) {
 }  // namespace
 
 Import import_contained(const std::string& bytes, const std::string& format) {
-  using Counts = std::array<std::uint64_t, 6>;
   const Contained child = run_contained(
       [&] {
-        const Import import = import_here(bytes, format);
-        const Counts counts = {import.complaint.size(),
-                               import.mesh.vertices.size(),
-                               import.mesh.triangles.size(),
-                               import.meshes,
-                               import.points,
-                               import.lines};
-        std::string output;
-        put(output, counts.data(), counts.size());
-        put(output, import.complaint.data(), counts[0]);
-        put(output, import.mesh.vertices.data(), counts[1]);
-        put(output, import.mesh.triangles.data(), counts[2]);
-        return output;
+        Import import = import_here(bytes, format);
+        WriterInto<std::string> out;
+        out(import);
+        return out.take();
       },
       limits_of(bytes.size()));
   Import import;
@@ -139,18 +124,7 @@ Import import_contained(const std::string& bytes, const std::string& format) {
     import.complaint = "assimp " + child.failure;
     return import;
   }
-  Counts counts;
-  std::size_t offset = 0;
-  take(child.output, offset, counts.data(), counts.size());
-  import.complaint.resize(counts[0]);
-  import.mesh.vertices.resize(counts[1]);
-  import.mesh.triangles.resize(counts[2]);
-  take(child.output, offset, import.complaint.data(), counts[0]);
-  take(child.output, offset, import.mesh.vertices.data(), counts[1]);
-  take(child.output, offset, import.mesh.triangles.data(), counts[2]);
-  import.meshes = counts[3];
-  import.points = counts[4];
-  import.lines = counts[5];
+  ByteReader(child.output)(import);
   std::replace(import.complaint.begin(), import.complaint.end(), '\n', ' ');
   return import;
 }

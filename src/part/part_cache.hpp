@@ -27,7 +27,7 @@ T cached(const std::string& kind, const std::string& key, Make&& make) {
   if (const auto bytes = Cache::global().read(kind, full_key)) {
     ByteReader in(*bytes);
     T value;
-    get(in, value);
+    in(value);
     if (in.complete()) {
       ++PartWorkCounter::read;
       return value;
@@ -36,7 +36,7 @@ T cached(const std::string& kind, const std::string& key, Make&& make) {
   T value = make();
   ++PartWorkCounter::built;
   ByteWriter out;
-  put(out, value);
+  out(value);
   Cache::global().write(kind, full_key, out.take());
   return value;
 }

@@ -14,10 +14,10 @@ template <class T>
 void read_back(const CachedBytes& bytes) {
   ByteReader in(bytes);
   T value;
-  get(in, value);
+  in(value);
   if (!in.complete()) return;
   ByteWriter out;
-  put(out, value);
+  out(value);
   if (!(bytes == out.take())) found("contents that change when they are read and written");
 }
 

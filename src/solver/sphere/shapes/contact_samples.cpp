@@ -134,44 +134,19 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   return made;
 }
 
-namespace {
-
-/// Each list that clustered() makes but those of lay_out(), in one order for both directions.
-template <class AnySamples, class Each>
-void for_each_list(AnySamples& samples, Each&& each) {
-  each(samples.nodes);
-  each(samples.cones);
-  each(samples.edges);
-  each(samples.crease_ends);
-  each(samples.clusters);
-  each(samples.first_edge);
+/// The lists that clustered() makes; lay_out() makes the others.
+template <class Stream>
+void members(Stream& stream, Samples& samples) {
+  stream.raw_list(samples.nodes);
+  stream.raw_list(samples.cones);
+  stream.raw_list(samples.edges);
+  stream.raw_list(samples.crease_ends);
+  stream.raw_list(samples.clusters);
+  stream.raw_list(samples.first_edge);
+  stream(samples.spacing, samples.face_spacing, samples.sag, samples.radius);
+  if (std::is_same_v<Stream, ByteReader> && stream.ok()) lay_out(samples);
 }
-
-template <class AnySamples, class Each>
-void for_each_number(AnySamples& samples, Each&& each) {
-  each(samples.spacing);
-  each(samples.face_spacing);
-  each(samples.sag);
-  each(samples.radius);
-}
-
-}  // namespace
-
-void put(ByteWriter& out, const Samples& samples) {
-  for_each_list(samples, [&](const auto& list) {
-    out.put(static_cast<std::uint64_t>(list.size()));
-    out.put_raw(list.data(), list.size() * sizeof list[0]);
-  });
-  for_each_number(samples, [&](float number) { out.put(number); });
-}
-
-void get(ByteReader& in, Samples& samples) {
-  for_each_list(samples, [&](auto& list) {
-    list.resize(in.count(sizeof list[0]));
-    in.get_raw(list.data(), list.size() * sizeof list[0]);
-  });
-  for_each_number(samples, [&](float& number) { in.get(number); });
-  if (in.ok()) lay_out(samples);
-}
+template void members(ByteReader& stream, Samples& samples);
+template void members(ByteWriter& stream, Samples& samples);
 
 }  // namespace bin_scenes::sphere

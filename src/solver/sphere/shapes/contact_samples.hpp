@@ -23,11 +23,6 @@
 #include <cstdint>
 #include <vector>
 
-namespace bin_scenes {
-class ByteReader;
-class ByteWriter;
-}  // namespace bin_scenes
-
 namespace bin_scenes::sphere {
 
 struct Edge {
@@ -77,7 +72,8 @@ Samples ball_samples(float radius);
 /// Raise it whenever make_samples() makes others of the same part: older cache files are then passed over.
 constexpr int samples_format = 10;
 
-void put(ByteWriter& out, const Samples& samples);
-void get(ByteReader& in, Samples& samples);
+/// For streams of bytes (core/byte_stream.hpp).
+template <class Stream>
+void members(Stream& stream, Samples& samples);
 
 }  // namespace bin_scenes::sphere

@@ -60,16 +60,9 @@ struct Prepared {
   double wall = 0;  ///< m: wall_thickness()
 };
 
-void put(ByteWriter& out, const Prepared& prepared) {
-  put(out, prepared.coarse);
-  put(out, prepared.fine);
-  out.put(prepared.wall);
-}
-
-void get(ByteReader& in, Prepared& prepared) {
-  get(in, prepared.coarse);
-  get(in, prepared.fine);
-  in.get(prepared.wall);
+template <class Stream>
+void members(Stream& stream, Prepared& prepared) {
+  stream(prepared.coarse, prepared.fine, prepared.wall);
 }
 
 Prepared prepare(const PartModel& part, int coarse, int fine) {

@@ -1,0 +1,135 @@
+/// Structs as bytes and back, for the disk cache and for the results of contained processes. The members of a struct
+/// are listed once, and a stream writes or reads them in this order:
+///
+///     template <class Stream>
+///     void members(Stream& stream, Sphere& sphere) {
+///       stream(sphere.center, sphere.radius);
+///     }
+///
+/// Both sides are the same program on the same machine, so numbers have no byte order of their own.
+#pragma once
+
+#include "bin_scenes/core/types.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Whether all bytes of a value are its own, so that a list of such values is copied at once.
+template <class T>
+struct IsPlain : std::bool_constant<(std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, bool>> {};
+template <>
+struct IsPlain<Vec3> : std::true_type {};
+template <class T, std::size_t size>
+struct IsPlain<std::array<T, size>> : IsPlain<T> {};
+
+/// What both directions have in common. `Stream` has raw(data, bytes), flag(bool&) and size(list, bytes of an item).
+template <class Stream>
+class ByteStream {
+ public:
+  template <class... Values>
+  void operator()(Values&... values) {
+    (value(values), ...);
+  }
+  /// A list whose items are copied byte by byte.
+  template <class Item>
+  void raw_list(std::vector<Item>& list) {
+    self().size(list, sizeof(Item));
+    self().raw(list.data(), list.size() * sizeof(Item));
+  }
+
+ private:
+  Stream& self() { return static_cast<Stream&>(*this); }
+
+  template <class T>
+  void value(T& value) {
+    if constexpr (IsPlain<T>::value)
+      self().raw(&value, sizeof value);
+    else if constexpr (std::is_same_v<T, bool>)
+      self().flag(value);
+    else
+      members(self(), value);
+  }
+  void value(std::string& text) {
+    self().size(text, 1);
+    self().raw(text.data(), text.size());
+  }
+  template <class Item>
+  void value(std::vector<Item>& list) {
+    if constexpr (IsPlain<Item>::value) return raw_list(list);
+    self().size(list, sizeof(std::uint64_t));  // no struct that is listed takes less
+    for (Item& item : list) value(item);
+  }
+};
+
+/// @tparam Buffer  of bytes: std::string, or a vector of std::uint8_t
+template <class Buffer>
+class WriterInto : public ByteStream<WriterInto<Buffer>> {
+ public:
+  void raw(const void* data, std::size_t size) {
+    if (size == 0) return;
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+  void flag(bool value) { raw(&value, 1); }
+  template <class List>
+  void size(const List& list, std::size_t /*item*/) {
+    const std::uint64_t n = list.size();
+    raw(&n, sizeof n);
+  }
+  bool ok() const { return true; }
+  Buffer take() { return std::move(bytes_); }
+
+ private:
+  Buffer bytes_;
+};
+
+/// After running over the end every read gives zeros, and ok() is false.
+class ByteReader : public ByteStream<ByteReader> {
+ public:
+  /// @param bytes  data() and size(); has to outlive this
+  template <class Bytes>
+  explicit ByteReader(const Bytes& bytes)
+      : at_(reinterpret_cast<const std::uint8_t*>(bytes.data())), left_(bytes.size()) {}
+
+  void raw(void* data, std::size_t size) {
+    ok_ = ok_ && size <= left_;
+    if (size == 0) return;
+    if (!ok_) {
+      std::memset(data, 0, size);
+      return;
+    }
+    std::memcpy(data, at_, size);
+    at_ += size;
+    left_ -= size;
+  }
+  void flag(bool& value) {  // a bool of any other byte would be neither true nor false
+    std::uint8_t byte = 0;
+    raw(&byte, 1);
+    ok_ = ok_ && byte <= 1;
+    value = byte == 1;
+  }
+  /// Resizes a list to the number that follows, which is never more than the remaining bytes can hold.
+  template <class List>
+  void size(List& list, std::size_t item) {
+    std::uint64_t n = 0;
+    raw(&n, sizeof n);
+    if (n > left_ / item) ok_ = false;
+    list.resize(ok_ ? static_cast<std::size_t>(n) : 0);
+  }
+  bool ok() const { return ok_; }
+  bool complete() const { return ok_ && left_ == 0; }
+
+ private:
+  const std::uint8_t* at_;
+  std::size_t left_;
+  bool ok_ = true;
+};
+
+}  // namespace bin_scenes

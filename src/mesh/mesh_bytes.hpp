@@ -1,0 +1,20 @@
+/// Members of meshes and flags for streams of bytes.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+#include "bin_scenes/scene/report.hpp"
+#include "core/byte_stream.hpp"
+
+namespace bin_scenes {
+
+template <class Stream>
+void members(Stream& stream, Mesh& mesh) {
+  stream(mesh.vertices, mesh.triangles);
+}
+
+template <class Stream>
+void members(Stream& stream, Flag& flag) {
+  stream(flag.code, flag.text, flag.remedy);
+}
+
+}  // namespace bin_scenes
