@@ -3,8 +3,11 @@
 #include "bin_scenes/core/random.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
+#include "bin_scenes/sensor/stereo_pipeline.hpp"
 #include "sensor/report_points.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bin_scenes {
@@ -61,6 +64,12 @@ void keep_ranges(RangeImage& image, const Sensor& device, const Sensor& believed
   report_depths(image, depth_of, Validity::nothing);
 }
 
+/// At least one unit: 0 means that nothing was measured.
+void round_depths(RangeImage& image, double unit) {
+  if (!(unit > 0.0)) return;
+  report_depths(image, [unit](double, double, double depth) { return std::max(std::round(depth / unit), 1.0) * unit; });
+}
+
 }  // namespace
 
 Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::uint64_t seed) {
@@ -75,10 +84,13 @@ Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::
 
 void report_as_believed(RangeImage& image, const Sensor& device, const Sensor& believed) {
   image.sensor = believed;
-  if (!believed.settings.of<CalibrationSettings>().any()) return;
-  image.device = device;
   const SensorModel& model = sensor_model(believed.model);
-  (model.report ? model.report : keep_ranges)(image, device, believed);
+  if (believed.settings.of<CalibrationSettings>().any()) {
+    image.device = device;
+    (model.report ? model.report : keep_ranges)(image, device, believed);
+  }
+  if (believed.noise && !model.exact && image.points.empty())
+    round_depths(image, believed.settings.of<DepthFormat>().unit);
 }
 
 }  // namespace bin_scenes

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
+#include "bin_scenes/sensor/stereo_pipeline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +103,18 @@ double deepest(const Sensor& sensor, const Bin& bin, const Aabb& room) {
   return depth > 0.0 ? std::min(1.02 * depth, sensor.far) : sensor.far;
 }
 
-/// Finest of 1, 2, 5, 10, ... um with which 65,534 counts reach that depth.
-double scale_for(double depth) {
-  for (double per_metre = 1e6;; per_metre /= 10.0) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      if (step / per_metre * 65534.0 >= depth) return step / per_metre;
-    }
+/// Finest of 1, 2, 5, 10, ... um with which 65,534 counts reach that depth; of a sensor whose depth has a unit a
+/// fraction of it, so that its multiples are stored exactly.
+double scale_for(double depth, double unit) {
+  constexpr double most = 65534.0;
+  double scale = 0.0;
+  for (double per_metre = 1e6; scale == 0.0; per_metre /= 10.0) {
+    for (const double step : {5.0, 2.0, 1.0})
+      if (step / per_metre * most >= depth) scale = step / per_metre;
   }
+  if (!(unit > 0.0)) return scale;
+  const double fraction = unit / std::ceil(unit / scale * (1.0 - 1e-9));
+  return fraction * most >= depth ? fraction : scale;
 }
 
 /// In the material of a box's walls, which rise from the floor to the rim.
@@ -254,7 +260,8 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
     if (!lamp.pose) lamp.pose = full.pose;
   const SensorModel& model = sensor_model(sensor.model);
   if (!full.bounces && model.indirect) full.bounces = model.bounces;
-  full.depth_scale = scale_for(deepest(full, bin, room_of(bin, bounds)));
+  full.depth_scale =
+      scale_for(deepest(full, bin, room_of(bin, bounds)), full.noise ? full.settings.of<DepthFormat>().unit : 0.0);
   return full;
 }
 

@@ -5,16 +5,29 @@
 #include "bin_scenes/sensor/filter.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
+#include "bin_scenes/sensor/stereo_pipeline.hpp"
 
+#include <functional>
 #include <string>
 
 namespace bin_scenes {
+
+/// A section within the settings of a model.
+struct KeysOfModel {
+  const std::function<void(KeyVisitor&)>& visit_keys;
+};
+template <class Visitor>
+void visit(Visitor& v, KeysOfModel& section);
 
 /// A visitor of tables as a KeyVisitor.
 template <class Visitor>
 class AsKeyVisitor final : public KeyVisitor {
  public:
   explicit AsKeyVisitor(Visitor& visitor) : visitor_(visitor) {}
+  void section(const Key& key, const std::function<void(KeyVisitor&)>& visit_keys) override {
+    KeysOfModel keys{visit_keys};
+    visitor_.section(key, keys);
+  }
   void field(const Key& key, double& value) override { visitor_.field(key, value); }
   void field(const Key& key, int& value) override { visitor_.field(key, value); }
   void field(const Key& key, bool& value) override { visitor_.field(key, value); }
@@ -23,6 +36,12 @@ class AsKeyVisitor final : public KeyVisitor {
  private:
   Visitor& visitor_;
 };
+
+template <class Visitor>
+void visit(Visitor& v, KeysOfModel& section) {
+  AsKeyVisitor<Visitor> keys(v);
+  section.visit_keys(keys);
+}
 
 /// A section of the settings of one model.
 struct SettingsOfModel {
@@ -278,6 +297,11 @@ void visit(Visitor& v, Sensor& sensor) {
   v.field({"indirect_samples", "", "rays that look for such light; more = less noise, slower", at_least(4.0, 4096.0)},
           sensor.indirect_samples);
   v.field({"noise", "", "false: every random effect is off; geometry stays"}, sensor.noise);
+  v.field({"depth_unit", "m",
+           "models whose points are on the rays of their pixels, with noise: measured depth is rounded to multiples of "
+           "it, the truth is not; 0 = not rounded",
+           at_least(0.0, 0.1)},
+          sensor.settings.of<DepthFormat>().unit);
 }
 
 }  // namespace bin_scenes

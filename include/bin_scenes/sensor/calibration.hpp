@@ -28,7 +28,8 @@ struct CalibrationSettings {
 /// has a pose of its own. @param sensors  resolved()
 Sensor true_device(const std::vector<Sensor>& sensors, std::size_t number, std::uint64_t seed);
 
-/// Turns the points that `device` measured into those that it reports. @param image  of `device`
+/// Turns the points that `device` measured into those that it reports, in its unit of depth (DepthFormat).
+/// @param image  of `device`
 void report_as_believed(RangeImage& image, const Sensor& device, const Sensor& believed);
 
 }  // namespace bin_scenes

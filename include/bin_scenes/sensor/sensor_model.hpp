@@ -8,6 +8,7 @@
 #include "bin_scenes/scene/request.hpp"
 #include "bin_scenes/sensor/models.hpp"
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@ namespace bin_scenes {
 /// An operation on the keys of a model's settings: they are read, written, checked or listed.
 class KeyVisitor {
  public:
+  /// A map of further keys, which `visit_keys` visits.
+  virtual void section(const Key& key, const std::function<void(KeyVisitor&)>& visit_keys) = 0;
   virtual void field(const Key& key, double& value) = 0;
   virtual void field(const Key& key, int& value) = 0;
   virtual void field(const Key& key, bool& value) = 0;

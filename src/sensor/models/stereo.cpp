@@ -3,10 +3,13 @@
 #include "sensor/models/stereo.hpp"
 
 #include "core/in_parallel.hpp"
+#include "sensor/models/disparity_filters.hpp"
 #include "sensor/models/noise_field.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace bin_scenes {
 
@@ -169,11 +172,12 @@ Stereo::Pair Stereo::images(const Random& random, double scale) const {
 /// Each exposure is matched by itself; a pixel takes the longest that finds it and does not saturate there.
 Measurement Stereo::decoded(const Random& random) const {
   Measurement out(view_.depth.size());
+  std::vector<float> merged(view_.depth.size(), std::numeric_limits<float>::quiet_NaN());
   const int least = static_cast<int>(std::floor(of_disparity(setup_.far)));
   for (std::size_t k = 0; k < scales_.size(); ++k) {
     const Pair pair = images(k == 0 ? random : random.of_piece(2 + k), scales_[k]);
     const std::vector<float> disparity =
-        match(pair, view_.lens.width, view_.lens.height, setup_.settings, imager_, least);
+        match(pair, view_.lens.width, view_.lens.height, setup_.settings, setup_.pipeline, imager_, least);
     for (std::size_t i = 0; i < disparity.size(); ++i) {
       if (out.validity[i] == Validity::valid) continue;
       constexpr double grey = 1.0 / 255.0;  // a level, whose rounding is noise as well
@@ -185,10 +189,25 @@ Measurement Stereo::decoded(const Random& random) const {
       out.validity[i] = good                                ? Validity::valid
                         : lit_[i].code == Validity::nothing ? Validity::nothing
                                                             : Validity::unmatched;
-      if (good) out.depth[i] = z;
+      if (good) merged[i] = disparity[i];
     }
   }
+  deliver(std::move(merged), out);
   return out;
+}
+
+/// What the device does after matching, and the depths that follow.
+void Stereo::deliver(std::vector<float>&& disparities, Measurement& out) const {
+  const StereoPipeline& s = setup_.pipeline;
+  if (setup_.noise) filter_spatially(s.spatial, view_.lens.width, view_.lens.height, disparities);
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    if (out.validity[i] != Validity::valid) continue;
+    const double z = of_disparity(rounded_to_step(disparities[i], setup_.noise ? s.disparity_step : 0.0));
+    if (z >= setup_.near && z <= setup_.far)
+      out.depth[i] = z;
+    else
+      out.validity[i] = Validity::unmatched;
+  }
 }
 
 double Stereo::scale_of(double signal) const {
@@ -211,68 +230,11 @@ double Stereo::background(std::size_t pixel) const {
 
 double Stereo::depth_sigma(std::size_t pixel) const {
   if (lit_[pixel].code != Validity::valid) return std::numeric_limits<double>::quiet_NaN();
-  const double z = view_.depth[pixel], step = 1.0 / 16.0;
+  const double z = view_.depth[pixel], step = setup_.pipeline.disparity_step;
   const double signal = white(lit_[pixel]), over = background(pixel), scale = scale_of(signal + over);
-  const double sigma = std::hypot(disparity_sigma(scale * signal, scale * over), step / std::sqrt(12.0));
+  const double kept = spatially_filtered_noise(setup_.pipeline.spatial, noise_window());
+  const double sigma = std::hypot(kept * disparity_sigma(scale * signal, scale * over), step / std::sqrt(12.0));
   return sigma * z * z / of_disparity(1.0);
-}
-
-/// What can be matched without dots: borders of albedo, shadow and texture.
-std::vector<char> Stereo::surface_texture() const {
-  const std::vector<float> values = signals(view_, lit_, haze_);
-  std::vector<std::uint8_t> bytes(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * std::min(values[i], 1.0f)));
-  }
-  return textured(bytes, view_.lens.width, view_.lens.height, setup_.settings, imager_);
-}
-
-Measurement Stereo::analytic(const Random& random) const {
-  Measurement out(view_.depth.size());
-  const auto width = static_cast<std::size_t>(view_.lens.width);
-  const StereoSettings& s = setup_.settings;
-  std::vector<float> field;
-  const std::vector<char> texture = s.dots > 0.0 ? std::vector<char>() : surface_texture();
-  if (setup_.noise) field = correlated_noise(view_.lens.width, view_.lens.height, s.window, random);
-  in_parallel(static_cast<std::size_t>(view_.lens.height), [&](std::size_t row) {
-    std::vector<Ray> rays(width);
-    std::vector<std::uint8_t> hidden(width);
-    for (std::size_t x = 0; x < width; ++x) {
-      const SeenPoint point = seen_point(view_, row * width + x);
-      if (point.hit)
-        rays[x] = ray_between(point.position, point.normal, second_.position);
-      else
-        rays[x].direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-    }
-    scenery_.blocked(rays.data(), hidden.data(), width);
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = row * width + x;
-      out.validity[i] = lit_[i].code == Validity::nothing ? Validity::nothing : Validity::unmatched;
-      double signal = lit_[i].code == Validity::valid ? white(lit_[i]) : 0.0;
-      double over = background(i);
-      out.intensity[i] = static_cast<float>(std::min(signal + over, 1.0));
-      const double scale = scale_of(signal + over);
-      signal *= scale, over *= scale;
-      out.snr[i] = static_cast<float>(signal / std::sqrt(imager_.variance(signal + over)));
-      const double truth = of_disparity(view_.depth[i]);
-      const bool in_second = static_cast<double>(x) - truth >= 0.0 && truth < of_disparity(setup_.far) + s.disparities;
-      if (hidden[x] || !in_second || signal < s.min_signal || (!texture.empty() && !texture[i])) continue;
-      if (imager_.saturated(signal + over)) {
-        out.validity[i] = Validity::saturated;
-        continue;
-      }
-      double disparity = truth;
-      if (setup_.noise) {
-        // The matcher tells sixteenths.
-        disparity = std::round(16.0 * (truth + disparity_sigma(signal, over) * field[i])) / 16.0;
-      }
-      const double z = of_disparity(disparity);
-      if (!(z >= setup_.near && z <= setup_.far)) continue;
-      out.validity[i] = Validity::valid;
-      out.depth[i] = z;
-    }
-  });
-  return out;
 }
 
 }  // namespace bin_scenes

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
+#include "bin_scenes/sensor/stereo_pipeline.hpp"
 #include "bin_scenes/sensor/view.hpp"
 #include "sensor/models/illumination.hpp"
 #include "sensor/models/imager.hpp"
@@ -24,6 +25,7 @@ class Stereo {
     bool noise = true;
     double near = 0.0, far = 1e9;  ///< m, depths that the camera reports
     IndirectField::Setup indirect{};
+    StereoPipeline pipeline{};
   };
   /// @param random  of the indirect light's samples
   /// @param view  of the first camera, whose images are rectified: no distortion
@@ -55,7 +57,14 @@ class Stereo {
                                   const Random& random, double scale) const;
   /// The longest exposure of a signal that does not saturate, else the shortest.
   double scale_of(double signal) const;
+  void deliver(std::vector<float>&& disparities, Measurement& out) const;
   std::vector<char> surface_texture() const;
+  struct Matchable {
+    std::vector<float> disparity, sigma;
+  };
+  std::vector<std::uint8_t> hidden_from_second(std::size_t row) const;
+  Matchable matchable(Measurement& out) const;
+  double noise_window() const;
   double background(std::size_t pixel) const;
   double disparity_sigma(double signal, double background) const;
   double white(const Lit& lit) const { return gain_ * lit.reflected / (lit.distance * lit.distance); }
@@ -75,10 +84,10 @@ class Stereo {
   std::vector<float> haze_;     ///< indirect light of the first camera's pixels (signal); empty: none
 };
 
-/// Disparities (pixel, in sixteenths) of the first image's pixels by semi-global matching (Hirschmueller 2008, as in
-/// OpenCV), then refined; NaN unmatched.
+/// Disparities (pixel) of the first image's pixels; NaN unmatched. By semi-global matching (Hirschmueller 2008, as in
+/// OpenCV), then refined, or by match_census(); without texture nothing is matched, and speckles are removed.
 std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
-                         const Imager& imager, int least_disparity);
+                         const StereoPipeline& pipeline, const Imager& imager, int least_disparity);
 
 /// Whether the window around each pixel varies by StereoSettings::min_texture more than noise does.
 std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, int height,

@@ -1,9 +1,11 @@
+#include "sensor/models/census.hpp"
 #include "sensor/models/stereo.hpp"
 
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bin_scenes {
 
@@ -20,6 +22,7 @@ cv::Mat with_rim(const std::vector<std::uint8_t>& bytes, int width, int height, 
 }
 
 constexpr double white = 255.0;  // grey level of the full well
+constexpr float no_match = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
@@ -55,8 +58,11 @@ std::vector<char> textured(const std::vector<std::uint8_t>& image, int width, in
   return good;
 }
 
-std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& s,
-                         const Imager& imager, int least_disparity) {
+namespace {
+
+/// By OpenCV, in sixteenths of a pixel that are drawn to whole ones, then refined.
+std::vector<float> match_semi_globally(const Stereo::Pair& images, int width, int height, const StereoSettings& s,
+                                       int least_disparity, const std::vector<char>& good) {
   // Penalties for a change of disparity by one and by more, as OpenCV's documentation advises for one channel.
   const int area = s.window * s.window, rim = least_disparity + s.disparities;
   const cv::Ptr<cv::StereoSGBM> matcher = cv::StereoSGBM::create(
@@ -64,20 +70,43 @@ std::vector<float> match(const Stereo::Pair& images, int width, int height, cons
       31, s.uniqueness, s.speckle_size, 1, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat found;
   matcher->compute(with_rim(images.first, width, height, rim), with_rim(images.second, width, height, rim), found);
-  const std::vector<char> good = textured(images.first, width, height, s, imager);
   std::vector<float> disparities(images.first.size());
   for (int y = 0; y < height; ++y) {
     const short* const in = found.ptr<short>(y) + rim;
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      // Sixteenths of a pixel, drawn to whole ones; what would lie in the rim of the second image was not seen.
       const float disparity = static_cast<float>(in[x]) / 16.0f;
+      // What would be in the rim of the second image was not seen.
       const bool seen = in[x] > 0 && in[x] >= 16 * least_disparity && disparity <= static_cast<float>(x);
-      disparities[i] = seen && good[i] ? disparity : std::numeric_limits<float>::quiet_NaN();
+      disparities[i] = seen && good[i] ? disparity : no_match;
     }
   }
   refine(images, width, height, s.window, disparities);
-  for (float& d : disparities) d = std::round(16.0f * d) / 16.0f;
+  return disparities;
+}
+
+/// Removes islands of fewer than `size` pixels, each within a pixel of disparity from the next.
+void remove_speckles(int width, int height, int size, std::vector<float>& disparities) {
+  cv::Mat sixteenths(height, width, CV_16SC1);
+  short* const first = sixteenths.ptr<short>();
+  for (std::size_t i = 0; i < disparities.size(); ++i)
+    first[i] = static_cast<short>(std::isnan(disparities[i]) ? -16 : std::lround(16.0f * disparities[i]));
+  cv::filterSpeckles(sixteenths, -16, size, 16);
+  for (std::size_t i = 0; i < disparities.size(); ++i)
+    if (first[i] == -16) disparities[i] = no_match;
+}
+
+}  // namespace
+
+std::vector<float> match(const Stereo::Pair& images, int width, int height, const StereoSettings& s,
+                         const StereoPipeline& pipeline, const Imager& imager, int least_disparity) {
+  const std::vector<char> good = textured(images.first, width, height, s, imager);
+  if (pipeline.matcher == StereoMatcher::semi_global)
+    return match_semi_globally(images, width, height, s, least_disparity, good);
+  std::vector<float> disparities = match_census(images, width, height, s, pipeline, least_disparity);
+  for (std::size_t i = 0; i < disparities.size(); ++i)
+    if (!good[i]) disparities[i] = no_match;
+  if (s.speckle_size > 0) remove_speckles(width, height, s.speckle_size, disparities);
   return disparities;
 }
 

@@ -1,19 +1,64 @@
 /// Two cameras as a SensorModel: keys, checks, and the model made from a sensor.
 #include "bin_scenes/core/error.hpp"
+#include "sensor/models/census.hpp"
 #include "sensor/models/of_sensor.hpp"
 #include "sensor/report_points.hpp"
 
 namespace bin_scenes {
 
 Stereo::Setup stereo_setup(const Sensor& s) {
-  return {lens_of(s.projector), *s.projector.pose, s.settings.of<StereoSettings>(), s.imager, s.noise, s.near, s.far,
-          indirect_of(s)};
+  return {lens_of(s.projector),
+          *s.projector.pose,
+          s.settings.of<StereoSettings>(),
+          s.imager,
+          s.noise,
+          s.near,
+          s.far,
+          indirect_of(s),
+          s.settings.of<StereoPipeline>()};
 }
 
 namespace {
 
+const Names<StereoMatcher> matchers{{"semi_global", StereoMatcher::semi_global}, {"census", StereoMatcher::census}};
+
+void visit_spatial(KeyVisitor& v, SpatialFilter& s) {
+  v.field({"alpha", "", "weight of a pixel against the one before it; smaller = smoother, edges are wider",
+           at_least(0.01, 1.0)},
+          s.alpha);
+  v.field({"delta", "pixel",
+           "neighbours whose disparities differ by as much or more do not influence each other; larger = steps of "
+           "depth become ramps",
+           at_least(0.0, 1000.0)},
+          s.delta);
+  v.field({"iterations", "", "each is a pass to the right, left, down and up; 0 = off", at_least(0.0, 10.0)},
+          s.iterations);
+}
+
+void visit_census(KeyVisitor& v, StereoPipeline& s) {
+  v.field({"census", "pixel", "census: odd edge of the window of a signature; larger = less noise, wider edges",
+           at_least(3.0, 9.0)},
+          s.census);
+  v.field({"second_peak", "",
+           "census: share of all signature bits of the window by which any other disparity must fit worse than the "
+           "best one; more = wider gaps at edges, more holes",
+           at_least(0.0, 1.0)},
+          s.second_peak);
+}
+
+void visit_filters(KeyVisitor& v, StereoPipeline& s) {
+  v.field({"disparity_step", "pixel",
+           "with noise: disparities are rounded to multiples of it, as the number format of a device does; 0 = not "
+           "rounded",
+           at_least(0.0, 1.0)},
+          s.disparity_step);
+  v.section({"spatial", "", "edge-preserving recursive filter of disparities; holes are not filled"},
+            [&s](KeyVisitor& inner) { visit_spatial(inner, s.spatial); });
+}
+
 void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   StereoSettings& s = settings.of<StereoSettings>();
+  StereoPipeline& pipeline = settings.of<StereoPipeline>();
   v.field({"baseline", "m", "to the second camera along the first one's x; longer = less noise, more occlusion",
            at_least(1e-4, 100.0)},
           s.baseline);
@@ -23,12 +68,18 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
        "decoded: at most 2047 less focal length * baseline / far",
        at_least(16.0, 2032.0)},
       s.disparities);
+  v.field({"matcher", "",
+           "decoded: semi_global compares intensities along several paths, census compares signatures within a window "
+           "and leaves gaps at edges, as compact cameras do"},
+          pipeline.matcher, matchers);
   v.field({"window", "pixel", "odd: the matcher's block; larger = less noise, rounder edges", at_least(1.0, 51.0)},
           s.window);
+  visit_census(v, pipeline);
   v.field(
       {"dots", "", "share of the projector's pixels that are dots; 0 = no pattern, passive stereo", at_least(0.0, 0.9)},
       s.dots);
-  v.field({"uniqueness", "%", "by which the best match must beat the second; more = more holes, fewer outliers",
+  v.field({"uniqueness", "%",
+           "semi_global: by which the best match must beat the second; more = more holes, fewer outliers",
            at_least(0.0, 100.0)},
           s.uniqueness);
   v.field({"max_difference", "pixel", "left-right check; smaller = more holes, fewer outliers", at_least(0.0, 100.0)},
@@ -44,6 +95,7 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
           s.disparity_noise);
   v.field({"min_signal", "", "analytic: signal / full well below which nothing is matched (code 8)", above(0.0, 1.0)},
           s.min_signal);
+  visit_filters(v, pipeline);
 }
 
 void check(const Sensor& sensor, const std::string& key) {
@@ -51,6 +103,11 @@ void check(const Sensor& sensor, const std::string& key) {
   if (s.disparities % 16 != 0)
     throw input_error("is no multiple of 16", key + ".stereo.disparities", "the matcher wants one: 64, 128, 256");
   if (s.window % 2 == 0) throw input_error("is even", key + ".stereo.window", "5, 7 or 9 is usual");
+  const auto& pipeline = sensor.settings.of<StereoPipeline>();
+  if (pipeline.census % 2 == 0) throw input_error("is even", key + ".stereo.census", "5, 7 or 9 is usual");
+  if (pipeline.matcher == StereoMatcher::census && s.window > most_census_window(pipeline.census))
+    throw input_error("window and census are too large together", key + ".stereo.window",
+                      "at most " + std::to_string(most_census_window(pipeline.census)) + " with this census");
   if (sensor.model == "stereo" &&
       std::any_of(sensor.distortion.begin(), sensor.distortion.end(), [](double d) { return d != 0.0; })) {
     throw input_error("a stereo camera delivers rectified images, which have no distortion", key + ".distortion",

@@ -1,0 +1,37 @@
+/// A block matcher of census signatures, like those that compact stereo cameras have in hardware: two images are
+/// compared by bits that say which of two pixels is brighter, so that neither gain nor offset of a camera counts
+/// (Zabih, Woodfill 1994, "Non-parametric local transforms for computing visual correspondence"; pairs that lie
+/// opposite each other: Spangenberg et al. 2013, "Weighted semi-global matching and center-symmetric census
+/// transform"). Names of its tests are those of the settings that librealsense lists for the cameras D400 (second peak,
+/// left and right agree); the device's own matcher is not published in full.
+#pragma once
+
+#include "sensor/models/stereo.hpp"
+
+#include <vector>
+
+namespace bin_scenes {
+
+/// Bits of a signature from a window with that odd edge (pixel).
+constexpr int census_bits(int edge) {
+  return (edge * edge - 1) / 2;
+}
+/// Largest odd window whose costs, one for each bit of each pixel, fit into 15 bits.
+constexpr int most_census_window(int edge) {
+  int window = 1;
+  while (census_bits(edge) * (window + 2) * (window + 2) < 32767) window += 2;
+  return window;
+}
+
+/// Disparities (pixel) of the first image's pixels, at least `least_disparity`; NaN unmatched. The cost of a disparity
+/// is the number of bits that differ, summed over a window; the least one wins if no other but its two neighbours comes
+/// within StereoPipeline::second_peak, and if the second image's pixel agrees within max_difference. Two lines of the
+/// same slope through the cost and its neighbours give fractions of a pixel (equiangular fit: Shimizu, Okutomi 2005,
+/// "Sub-pixel estimation error cancellation on area-based matching"). A step between surfaces of less than about two
+/// pixels is blended over the window. At a larger one two disparities fit about equally well, so that a gap opens along
+/// the edge: at least 2 * second_peak windows wide, because at most half of the bits of a wrong disparity differ.
+/// Unlike in `match`, pixels without texture and speckles are not removed.
+std::vector<float> match_census(const Stereo::Pair& images, int width, int height, const StereoSettings& settings,
+                                const StereoPipeline& pipeline, int least_disparity);
+
+}  // namespace bin_scenes
