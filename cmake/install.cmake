@@ -11,6 +11,7 @@ endif()
 install(DIRECTORY shaders DESTINATION ${share} COMPONENT tool PATTERN test EXCLUDE)
 install(DIRECTORY models DESTINATION ${share} COMPONENT data FILES_MATCHING PATTERN *.stl PATTERN README.md)
 install(DIRECTORY config DESTINATION ${share} COMPONENT data)
+install(PROGRAMS bench/realism DESTINATION ${share} COMPONENT tool)
 install(DIRECTORY scripts/slurm DESTINATION ${share} USE_SOURCE_PERMISSIONS COMPONENT tool)
 # The reader of data sets needs nothing compiled; the module bin_scenes is installed by src/python.
 install(DIRECTORY python/bin_scenes_data DESTINATION ${python} COMPONENT python FILES_MATCHING PATTERN *.py)

@@ -40,7 +40,8 @@ set(exactly "(= ${CPACK_PACKAGE_VERSION})")
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 math(EXPR python_minor_after "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "bin-scenes-data ${exactly}, libegl1, libopengl0, libgl1-mesa-dri")
-set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS libjs-three)  # the 3-D view of `view` and of reports
+set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS
+  "libjs-three, python3-numpy, python3-scipy, python3-sklearn, python3-pil")  # the 3-D view of `view` and of reports; `realism`
 set(CPACK_DEBIAN_TOOL_PACKAGE_SUGGESTS "bin-scenes-ros, python3-bin-scenes")
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_NODE_PACKAGE_DEPENDS

@@ -56,6 +56,16 @@ struct SensorOptions {
 };
 int sensor(const SensorOptions& options);
 
+struct RealismOptions {
+  std::vector<std::string> files;               ///< of a real camera
+  std::string request, sensor;                  ///< sensor: of the request; empty: its first one
+  std::string focal;                            ///< pixel; empty: that of the sensor
+  std::string scale = "0.001", unit = "0.001";  ///< m
+  std::vector<std::string> crop, set;
+  bool json = false;
+};
+int realism(const RealismOptions& options);
+
 struct DatasetOptions {
   std::string plan, out;
   std::size_t workers = 0;  ///< 0: as many as cores

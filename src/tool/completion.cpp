@@ -119,11 +119,11 @@ Words values_of(const std::string& command, const std::string& option, const std
   if (option == "--solver") return names_of<SolverType>();
   if (option == "SENSOR") return with(sensor_presets(), requests);
   if (option == "--sensor" && command == "new") return sensor_presets();
-  if (option == "REQUEST" || option == "PLAN") return {requests};
+  if (option == "REQUEST" || option == "PLAN" || option == "--request") return {requests};
   if (option == "MODEL" || option == "PART") return {models};
   if (option == "SHELL") return {"bash", "zsh"};
-  static const std::set<std::string> paths = {"--out",  "--trace",  "--hulls", "--picture",
-                                              "--plot", "--models", "DIR",     "SCENE"};
+  static const std::set<std::string> paths = {"--out",    "--trace", "--hulls", "--picture", "--plot",
+                                              "--models", "DIR",     "SCENE",   "REAL"};
   return paths.count(option) ? Words{any_file} : Words{};
 }
 

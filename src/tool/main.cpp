@@ -113,6 +113,18 @@ void add_sensor(CLI::App& app, SensorOptions& o) {
   app.add_flag("--json", o.json, "as JSON");
 }
 
+void add_realism(CLI::App& app, RealismOptions& o) {
+  app.add_option("REAL", o.files, "depth of a real camera: PLY or PCD clouds, or 16-bit PNG")->required();
+  app.add_option("--request", o.request, "request of similar scenes, with the sensor to compare")->required();
+  app.add_option("--sensor", o.sensor, "of a request with several; left out: the first one");
+  app.add_option("--focal", o.focal, "focal length of the real camera, pixel; left out: that of the sensor");
+  app.add_option("--scale", o.scale, "m per count of the real camera's PNG files")->capture_default_str();
+  app.add_option("--unit", o.unit, "m to which all depths are rounded before; 0: not")->capture_default_str();
+  app.add_option("--crop", o.crop, "left, top, width and height of what is compared of all images, pixel")->expected(4);
+  app.add_option("--set", o.set, "key=value: overrides any key of the request by its path");
+  app.add_flag("--json", o.json, "as JSON");
+}
+
 void add_submit(CLI::App& app, SubmitOptions& o) {
   app.add_flag("--slurm")->group("");  // accepted, as it was needed once
   app.add_option("PLAN", o.plan, "plan of the data set")->required();
@@ -207,6 +219,8 @@ void add_commands(CLI::App& app, Commands& all) {
   all.add(app, inspect, "inspect", "what a model is, and how well its proxies fit it", add_inspect);
   all.add(app, symmetries, "symmetries", "turns after which a part looks the same, as BOP lists them", add_symmetries);
   all.add(app, sensor, "sensor", "what a sensor is worth: its noise, and how well it measures", add_sensor);
+  all.add(app, realism, "realism", "how a simulated sensor differs from a real camera's files, and which keys move it",
+          add_realism);
   CLI::App& set =
       all.add(app, dataset, "dataset", "make a data set from a plan; it goes on where it was stopped", add_dataset);
   all.add(set, dataset_verify, "verify", "read a data set and check it against itself", add_verify);

@@ -6,6 +6,7 @@ import importlib.util
 import pathlib
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -109,18 +110,79 @@ class Separation(unittest.TestCase):
 
 
 class Files(unittest.TestCase):
-    def test_a_cloud_becomes_the_image_that_it_came_from(self):
-        image = plane(30, 40, 0.5)
-        image[7:9, 11] = np.nan
-        row, column = np.nonzero(np.isfinite(image))
-        z = image[row, column] / 1e3
-        points = np.stack([(column - 19.8) * z / FOCAL, -(row - 13.7) * z / FOCAL, -z], 1)
-        with tempfile.TemporaryDirectory() as folder:
-            path = folder + "/cloud.ply"
-            with open(path, "w", encoding="ascii") as file:
-                file.write("ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nend_header\n" % len(points))
-                np.savetxt(file, points, "%.6f")
-            np.testing.assert_allclose(realism.read_ply(path, FOCAL), image, atol=1e-3)
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.image = plane(50, 60, 0.5)
+        self.image[7:9, 11] = np.nan
+        row, column = np.mgrid[:50, :60]
+        z = self.image / 1e3
+        self.cloud = np.stack([(column - 19.8) * z / FOCAL, (row - 13.7) * z / FOCAL, z], 2).reshape(-1, 3)
+        self.there = np.isfinite(self.cloud).all(1)
+
+    def file(self, name, content):
+        path = pathlib.Path(self.folder.name) / name
+        path.write_bytes(content)
+        return str(path)
+
+    def check(self, name, content):
+        options = types.SimpleNamespace(focal=FOCAL, unit=0, crop=None, scale=1e-3)
+        np.testing.assert_allclose(realism.read(self.file(name, content), options), self.image, atol=1e-3)
+
+    def test_ply(self):
+        rows = self.cloud[self.there] * [1, -1, -1]  # as OpenGL has them
+        text = "".join("%.7f %.7f %.7f\n" % tuple(row) for row in rows)
+        head = "ply\nformat %s 1.0\ncomment x\nelement vertex %d\n%send_header\n"
+        axes = "property float x\nproperty float y\nproperty float z\n"
+        self.check("ascii.ply", (head % ("ascii", len(rows), axes) + text).encode())
+        for name, order in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
+            data = np.zeros(len(rows), [("c", "u1"), ("x", order + "f8"), ("y", order + "f4"), ("z", order + "f4")])
+            data["x"], data["y"], data["z"] = rows.T
+            fields = "property uchar c\nproperty double x\nproperty float y\nproperty float z\n"
+            self.check(name + ".ply", (head % (name, len(rows), fields)).encode() + data.tobytes())
+
+    def test_organised_pcd(self):
+        head = ("# .PCD v0.7\nVERSION 0.7\nFIELDS x y z normal label\nSIZE 4 4 4 4 2\nTYPE F F F F U\nCOUNT 1 1 1 3 1\n"
+                "WIDTH 60\nHEIGHT 50\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3000\nDATA %s\n")
+        data = np.zeros(3000, [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("n", "<f4", 3), ("l", "<u2")])
+        data["x"], data["y"], data["z"] = self.cloud.T
+        self.check("binary.pcd", (head % "binary").encode() + data.tobytes())
+        text = "".join("%s %s %s 0 0 1 7\n" % tuple(row) for row in self.cloud)
+        self.check("ascii.pcd", (head % "ascii" + text).encode())
+
+    def test_depth_image(self):
+        counts = np.nan_to_num(np.round(self.image * 100), nan=0).astype(np.uint16)
+        path = str(pathlib.Path(self.folder.name) / "depth.png")
+        realism.Image.fromarray(counts).save(path)
+        options = types.SimpleNamespace(focal=FOCAL, unit=0, crop=None, scale=1e-5)
+        np.testing.assert_allclose(realism.read(path, options), self.image, atol=0.006)
+
+    def test_broken_files_are_named(self):
+        options = types.SimpleNamespace(focal=FOCAL, unit=0, crop=None, scale=1e-3)
+        for name, content in (("a.ply", b"plx\n"), ("b.ply", b"ply\nformat ascii 1.0\nelement vertex 9\nend_header\n"),
+                              ("c.pcd", b"FIELDS x y z\nDATA binary_compressed\n"), ("d.png", b"no picture"), ("e.ply", b"")):
+            with self.assertRaises(realism.BadFile) as caught:
+                realism.read(self.file(name, content), options)
+            self.assertIn(name, str(caught.exception))
+
+
+class Verdicts(unittest.TestCase):
+    def test_a_figure_out_of_range_names_its_factor_and_keys(self):
+        rows = [("step_width", 10.0, 8.0, 11.0, 2.0, 1.0), ("flat_rms", 1.0, 0.6, 3.0, 0.7, 0.8)]
+        off, fine = realism.verdicts(rows)
+        self.assertTrue(off["off"])
+        self.assertAlmostEqual(off["factor"], 0.2)
+        self.assertIn("stereo.window", off["keys"])
+        self.assertFalse(fine["off"])
+        self.assertEqual(fine["keys"], [])
+
+    def test_one_real_file_has_no_range(self):
+        off, fine = realism.verdicts([("step_width", 10.0, 10.0, 10.0, 6.0, 1.0), ("flat_rms", 1.0, 1.0, 1.0, 1.4, 0.8)])
+        self.assertTrue(off["off"])
+        self.assertFalse(fine["off"])
+
+    def test_each_figure_has_keys(self):
+        self.assertEqual(set(realism.KEYS), {figure.__name__ for figure in realism.FIGURES})
 
 
 if __name__ == "__main__":
