@@ -188,6 +188,10 @@ void complete(Request& request, const std::string& base, const PathRules& rules,
     request.bin.mesh_sha256 = sha256_of_file(request.bin.mesh);
   }
   find_pictures(request.sensors, base, rules, where);
+  for (std::size_t i = 0; i < request.grippers.size(); ++i) {
+    std::string& mesh = request.grippers[i].finger_mesh;
+    if (!mesh.empty()) mesh = resolve_file(mesh, base, rules, where("grippers[" + std::to_string(i) + "].finger_mesh"));
+  }
   if (!request.pour.scene.empty()) {
     if (request.pour.pattern != Pour::Pattern::given) {
       throw input_error("'pour.scene' needs pattern given", where("pour.scene"), "set pour.pattern: given");

@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 #include "generate/bin_walls.hpp"
+#include "grasp/finger_boxes.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -85,8 +86,17 @@ void ModelStore::load(const Request& request) {
     parts.push_back(get(line.path, line.sha256, load_options(line)));
   }
   check_models({request, parts, bin});
+  Request completed = request;
+  for (std::size_t i = 0; i < completed.grippers.size(); ++i) {
+    Gripper& gripper = completed.grippers[i];
+    if (gripper.finger_mesh.empty() || gripper.type != Gripper::Type::parallel) continue;
+    LoadOptions options;
+    options.scale = gripper.finger_mesh_scale;
+    gripper.finger_boxes = boxes_around(get(gripper.finger_mesh, "", options)->mesh(), gripper,
+                                        "grippers[" + std::to_string(i) + "].finger_mesh");
+  }
   keep(std::move(used));
-  loaded_ = {request, std::move(parts), std::move(bin)};
+  loaded_ = {std::move(completed), std::move(parts), std::move(bin)};
 }
 
 void ModelStore::keep(std::map<std::string, PartModelPtr>&& used) {

@@ -4,6 +4,14 @@
 
 namespace bin_scenes {
 
+namespace {
+
+const PartPick& pick_of(const SceneGrasps& grasps, int id) {
+  return *std::find_if(grasps.parts.begin(), grasps.parts.end(), [&](const PartPick& pick) { return pick.id == id; });
+}
+
+}  // namespace
+
 std::vector<std::size_t> spread_over_scores(const std::vector<SceneGrasp>& grasps, std::size_t count, bool all) {
   using Obstacle = SceneGrasp::Obstacle;
   std::vector<std::size_t> free;
@@ -25,7 +33,9 @@ void prove_grasps(SceneGrasps& grasps, const Scene& scene, const LoadedRequest& 
   std::vector<Trial> trials;
   for (const std::size_t i : chosen) {
     const SceneGrasp& grasp = grasps.grasps[i];
-    trials.push_back({grasp.part, grasp.gripper, grasp.pose, grasp.width, grasp.force});
+    const Vec3& lift = pick_of(grasps, grasp.part).lift;
+    trials.push_back({grasp.part, grasp.gripper, grasp.pose, grasp.width, grasp.force, grasp.inner,
+                      lift.norm() > 0.0 ? Vec3(lift.normalized()) : Vec3(Vec3::UnitZ())});
   }
   const std::vector<LiftProof> proofs = prover.prove(scene, loaded, trials);
   for (std::size_t k = 0; k < chosen.size(); ++k) grasps.grasps[chosen[k]].proof = proofs[k];

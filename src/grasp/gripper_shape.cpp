@@ -1,6 +1,7 @@
 #include "grasp/gripper_shape.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace bin_scenes {
 
@@ -17,11 +18,29 @@ double tip_of(const Gripper& g) {
   return g.type == Gripper::Type::parallel ? 0.5 * g.pad_length : 0.0;
 }
 
-/// Both fingers, whose inner faces are `inner` and whose outer ones `outer` away from the middle.
-void add_fingers(std::vector<Sweep>& all, const Gripper& g, double inner, double outer, double back, double margin) {
-  const double tip = tip_of(g), top = tip - g.finger_depth - back, half = 0.5 * g.finger_width;
-  all.push_back(box({inner, -half, top}, {outer, half, tip}, margin));
-  all.push_back(box({-outer, -half, top}, {-inner, half, tip}, margin));
+/// Finger at +x with its inner face in the plane x = 0.
+std::vector<Aabb> finger_of(const Gripper& g) {
+  if (!g.finger_boxes.empty()) return g.finger_boxes;
+  const double tip = tip_of(g), half = 0.5 * g.finger_width;
+  return {{Vec3(0.0, -half, tip - g.finger_depth), Vec3(g.finger_thickness, half, tip)}};
+}
+
+/// Both fingers with their inner faces at any distance between `near` and `far` from the gripper's centre plane.
+void add_fingers(std::vector<Sweep>& all, const Gripper& g, double near, double far, double back, double margin) {
+  for (const Aabb& part : finger_of(g)) {
+    const Vec3 lower(part.lower.x() + near, part.lower.y(), part.lower.z() - back);
+    const Vec3 upper(part.upper.x() + far, part.upper.y(), part.upper.z());
+    all.push_back(box(lower, upper, margin));
+    all.push_back(box({-upper.x(), -upper.y(), lower.z()}, {-lower.x(), -lower.y(), upper.z()}, margin));
+  }
+}
+
+/// Distance of the inner faces of the fingers from the gripper's centre plane when the pads touch the part, and before.
+double closed_at(const Gripper& g, const Aperture& at) {
+  return 0.5 * g.between_fingers(at);
+}
+double opened_at(const Gripper& g, const Aperture& at) {
+  return closed_at(g, at) + (at.inner ? -1.0 : 1.0) * g.opened(at);
 }
 
 void add_cup(std::vector<Sweep>& all, const Gripper& g, double back, double margin) {
@@ -30,46 +49,46 @@ void add_cup(std::vector<Sweep>& all, const Gripper& g, double back, double marg
   all.push_back(Sweep::cylinder(Pose(), 0.5 * g.radius + margin, -g.finger_depth - back - margin, -cup + margin));
 }
 
+/// The palm has the axes of the flange; moving back, it sweeps along the gripper's own axis.
 void add_palm(std::vector<Sweep>& all, const Gripper& g, double back, double margin) {
   const double top = tip_of(g) - g.finger_depth;
   const Vec3 half = 0.5 * g.palm;
-  all.push_back(box({-half.x(), -half.y(), top - g.palm.z() - back}, {half.x(), half.y(), top}, margin));
+  if (g.tool_rotation.isZero()) {
+    all.push_back(box({-half.x(), -half.y(), top - g.palm.z() - back}, {half.x(), half.y(), top}, margin));
+    return;
+  }
+  const Pose flange = g.flange();
+  const Sweep palm(flange, Vec3(0.0, 0.0, half.z()), half + Vec3::Constant(margin));
+  all.push_back(back > 0.0 ? palm.moved(Vec3(0.0, 0.0, -back)) : palm);
 }
 
 }  // namespace
 
-double opening_of(const Gripper& gripper, double width) {
-  return std::min(gripper.opening, 0.5 * std::max(0.0, gripper.travel() - width));
-}
-
-std::vector<Sweep> approach_sweeps(const Gripper& g, double width, double back, double margin) {
+std::vector<Sweep> approach_sweeps(const Gripper& g, const Aperture& at, double back, double margin) {
   std::vector<Sweep> all;
-  if (g.type == Gripper::Type::parallel) {
-    const double inner = 0.5 * width + opening_of(g, width);
-    add_fingers(all, g, inner, inner + g.finger_thickness, back, margin);
-  } else {
+  if (g.type == Gripper::Type::parallel)
+    add_fingers(all, g, opened_at(g, at), opened_at(g, at), back, margin);
+  else
     add_cup(all, g, back, margin);
-  }
   add_palm(all, g, back, margin);
   return all;
 }
 
-std::vector<Sweep> closing_sweeps(const Gripper& g, double width, double margin) {
+std::vector<Sweep> closing_sweeps(const Gripper& g, const Aperture& at, double margin) {
   std::vector<Sweep> all;
   if (g.type == Gripper::Type::parallel) {
-    const double inner = 0.5 * width;
-    add_fingers(all, g, inner, inner + opening_of(g, width) + g.finger_thickness, 0.0, margin);
+    const auto [near, far] = std::minmax({closed_at(g, at), opened_at(g, at)});
+    add_fingers(all, g, near, far, 0.0, margin);
   }
   return all;
 }
 
-std::vector<Sweep> closed_shape(const Gripper& g, double width, double margin) {
+std::vector<Sweep> closed_shape(const Gripper& g, const Aperture& at, double margin) {
   std::vector<Sweep> all;
-  if (g.type == Gripper::Type::parallel) {
-    add_fingers(all, g, 0.5 * width, 0.5 * width + g.finger_thickness, 0.0, margin);
-  } else {
+  if (g.type == Gripper::Type::parallel)
+    add_fingers(all, g, closed_at(g, at), closed_at(g, at), 0.0, margin);
+  else
     add_cup(all, g, 0.0, margin);
-  }
   add_palm(all, g, 0.0, margin);
   return all;
 }

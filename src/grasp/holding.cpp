@@ -21,9 +21,9 @@ double farthest(const Aabb& box, const Vec3& direction) {
 }
 
 /// Arm (m) with which the pads' forces alone hold a moment across the closing axis, gripper's frame: the one presses
-/// at the near end of its contact, the other at the far end.
+/// at the near end of its contact, the other at the far end. Forces from within point the other way.
 double arm_of(const Grasp& grasp, const Vec3& moment) {
-  const Vec3 along = Vec3::UnitX().cross(moment.normalized());
+  const Vec3 along = Vec3::UnitX().cross((grasp.inner ? -1.0 : 1.0) * moment.normalized());
   return farthest(grasp.second, along) + farthest(grasp.first, -along);
 }
 
@@ -39,6 +39,7 @@ Hold hold_between_pads(const Grasp& grasp, const Pose& pose, const Gripper& g, d
   Hold hold;
   hold.friction = grasp.friction + across + std::max(0.0, lever - arm) / grasp.width;
   hold.safety = spare / across;
+  hold.sliding = spare * 2.0 * g.force / burden.pull;
   if (hold.safety * lever > arm) hold.safety = (spare * grasp.width + arm) / (across * grasp.width + lever);
   const double held = arm + std::max(0.0, spare - across) * grasp.width;
   hold.moment = std::hypot(twist / (2.0 * g.force * std::max(spare, 1e-9)), turns ? lever / held : 0.0);
@@ -59,6 +60,7 @@ Hold hold_by_cup(const Grasp& grasp, const Pose& pose, const Gripper& g, double 
   if (!(vacuum > 0.0)) return hold;
   const double torn = (along + tilting / grasp.radius) / vacuum, slides = (across / friction + along) / vacuum;
   hold.safety = 1.0 / std::max(torn, slides);
+  hold.sliding = 1.0 / slides;
   if (torn >= 1.0) return hold;
   hold.friction = across / (vacuum - along);
   hold.moment = tilting / (grasp.radius * (vacuum - along));

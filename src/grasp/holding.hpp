@@ -15,6 +15,7 @@ struct Burden {
 
 struct Hold {
   double safety = 0.0;    ///< factor by which the burden could grow before the part slips; below 1: it slips
+  double sliding = 0.0;   ///< the same for sliding alone, whatever the part turns in the gripper
   double friction = 0.0;  ///< smallest coefficient that suffices; infinite: none does
   double moment = 0.0;    ///< moment of the weight / moment that is held; 1 and more: not held
 };

@@ -20,9 +20,11 @@ constexpr std::size_t points_tried = 700;
 constexpr double same_place = 1e-6;      ///< / diagonal: lengths of rounding
 constexpr double least_contact = 0.005;  ///< share of the pad
 
-/// Where a line through the part enters and leaves it, and the direction from its far end to its near one.
+/// Where a line enters and leaves the part, or, from within, where it crosses a hole; and the direction from its far
+/// end to its near one.
 struct Pair {
   Vec3 near, far, axis;
+  bool inner = false;
 };
 
 /// The gripper's frame with closing axis x, and z turned about it from a direction across it.
@@ -33,24 +35,33 @@ Pose pose_about(const Pair& pair, const Vec3& from, double turn) {
   return {0.5 * (pair.near + pair.far), Quat(frame).normalized()};
 }
 
+bool fits(const Gripper& gripper, double width, bool inner) {
+  return inner ? width >= gripper.narrowest_hole() && width <= gripper.widest_hole() : width <= gripper.widest();
+}
+
 class PairFinder {
  public:
   PairFinder(const PartModel& part, const Gripper& gripper, double friction, GraspCounts& counts)
       : query_(part.query()),
+        gripper_(gripper),
         least_(same_place * part.diagonal()),
-        stroke_(gripper.widest()),
         cosine_(1.0 / std::sqrt(1.0 + friction * friction)),
         counts_(counts) {}
 
-  /// All pairs of a point with others straight through the part.
+  /// All pairs of a point with others straight through the part, and with the one across a hole.
   std::vector<Pair> from(const SpreadPoint& start) const {
     std::vector<Pair> pairs;
     for (const Passage& passage : passages(query_, start.point, -start.normal, least_)) {
       const Vec3 normal = normal_of(passage);
       if (normal.dot(start.normal) >= 0.0) continue;  // an entrance
-      if (const auto pair = through(start, start.point - passage.distance * start.normal, normal))
+      if (const auto pair = between(start, start.point - passage.distance * start.normal, normal, false))
         pairs.push_back(*pair);
     }
+    if (!gripper_.inner) return pairs;
+    const auto across = passages(query_, start.point, start.normal, least_);
+    if (across.empty() || normal_of(across.front()).dot(start.normal) >= 0.0) return pairs;
+    const Vec3 far = start.point + across.front().distance * start.normal;
+    if (const auto pair = between(start, far, normal_of(across.front()), true)) pairs.push_back(*pair);
     return pairs;
   }
 
@@ -58,35 +69,36 @@ class PairFinder {
   Vec3 normal_of(const Passage& passage) const { return query_.mesh().area_vector(passage.triangle).normalized(); }
 
   /// Along the mean of both normals, which asks both sides for the same friction.
-  std::optional<Pair> through(const SpreadPoint& start, Vec3 far, Vec3 normal) const {
+  std::optional<Pair> between(const SpreadPoint& start, Vec3 far, Vec3 normal, bool inner) const {
+    const double side = inner ? 1.0 : -1.0;  // of the other point, seen along the first one's normal
     Vec3 axis = start.normal;
     for (int i = 0; i < 3; ++i) {
       const Vec3 mean = (start.normal - normal).normalized();
       if ((mean - axis).norm() < 1e-9) break;
-      const auto passed = passages(query_, start.point, -mean, least_);
+      const auto passed = passages(query_, start.point, side * mean, least_);
+      const auto away = [&](const Passage& p) { return (start.point + side * p.distance * mean - far).norm(); };
       const Passage* best = nullptr;
       for (const Passage& p : passed)
-        if (normal_of(p).dot(mean) < 0.0 && (!best || (start.point - p.distance * mean - far).norm() <
-                                                          (start.point - best->distance * mean - far).norm()))
-          best = &p;
+        if (normal_of(p).dot(mean) < 0.0 && (!best || away(p) < away(*best))) best = &p;
       if (!best) break;
       axis = mean;
-      far = start.point - best->distance * mean;
+      far = start.point + side * best->distance * mean;
       normal = normal_of(*best);
     }
     if (axis.dot(start.normal) < cosine_ || -axis.dot(normal) < cosine_) {
       ++counts_.friction;
       return std::nullopt;
     }
-    if ((far - start.point).norm() > stroke_) {
+    if (!fits(gripper_, (far - start.point).norm(), inner)) {
       ++counts_.width;
       return std::nullopt;
     }
-    return Pair{start.point, far, axis};
+    return Pair{start.point, far, -side * axis, inner};
   }
 
   const MeshQuery& query_;
-  double least_, stroke_, cosine_;
+  const Gripper& gripper_;
+  double least_, cosine_;
   GraspCounts& counts_;
 };
 
@@ -95,69 +107,87 @@ bool meets_part(const std::vector<Sweep>& sweeps, const MeshQuery& query, const 
   return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.meets(query, part); });
 }
 
-/// Contact points of both pads in the gripper's frame, whose middle is between them.
+/// Contact points of both pads in the gripper's frame, whose origin is between them.
 std::vector<Vec3> pad_contacts_of(const PadContact& right, const PadContact& left, double width) {
   std::vector<Vec3> points;
   for (const auto& p : right.points) points.emplace_back(0.5 * width, p.x(), p.y());
-  for (const auto& p : left.points) points.emplace_back(-0.5 * width, -p.x(), p.y());
+  for (const auto& p : left.points) points.emplace_back(-0.5 * width, p.x(), p.y());
   return points;
+}
+
+/// With the axis that points across the closing axis reversed.
+PadContact mirrored(PadContact contact) {
+  for (auto& point : contact.points) point.x() = -point.x();
+  contact.centroid.x() = -contact.centroid.x();
+  std::swap(contact.lower.x(), contact.upper.x());
+  contact.lower.x() = -contact.lower.x();
+  contact.upper.x() = -contact.upper.x();
+  return contact;
+}
+
+/// Presses the pad that touches the surface on one side (1: at +x, -1: at -x); along y and z of the gripper.
+std::optional<PadContact> press_side(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
+                                     const Aperture& guess, double side) {
+  const Mat3 frame = pose.orientation.toRotationMatrix();
+  const double out = guess.inner ? -side : side;  // of the surface, along x
+  Pad pad{pose.position + side * 0.5 * guess.width * frame.col(0),
+          out * frame.col(1),
+          frame.col(2),
+          out * frame.col(0),
+          0.5 * gripper.finger_width,
+          0.5 * gripper.pad_length,
+          0.0,
+          gripper.pad_give,
+          friction};
+  pad.start = std::max(gripper.opened(guess), same_place * part.diagonal());
+  auto contact = press(part.query(), pad);
+  if (contact && out < 0.0) contact = mirrored(std::move(*contact));
+  return contact;
 }
 
 }  // namespace
 
 bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp) {
   const double shrink = -10.0 * same_place * part.diagonal();
-  return meets_part(approach_sweeps(gripper, grasp.width, part.diagonal(), shrink), part.query(), grasp.pose) ||
-         meets_part(closing_sweeps(gripper, grasp.width, shrink), part.query(), grasp.pose);
+  const Aperture at = grasp.aperture();
+  return meets_part(approach_sweeps(gripper, at, part.diagonal(), shrink), part.query(), grasp.pose) ||
+         meets_part(closing_sweeps(gripper, at, shrink), part.query(), grasp.pose);
 }
 
 std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
-                                   double guess, GraspCounts& counts) {
-  const Mat3 frame = pose.orientation.toRotationMatrix();
-  Pad pad{pose.position + 0.5 * guess * frame.col(0),
-          frame.col(1),
-          frame.col(2),
-          frame.col(0),
-          0.5 * gripper.finger_width,
-          0.5 * gripper.pad_length,
-          0.0,
-          gripper.pad_give,
-          friction};
-  pad.start = std::max(opening_of(gripper, guess), same_place * part.diagonal());
-  const auto right = press(part.query(), pad);
-  pad.middle = pose.position - 0.5 * guess * frame.col(0);
-  pad.u = -pad.u;
-  pad.out = -pad.out;
-  const auto left = right ? press(part.query(), pad) : std::nullopt;
+                                   const Aperture& guess, GraspCounts& counts) {
+  const auto right = press_side(part, gripper, friction, pose, guess, 1.0);
+  const auto left = right ? press_side(part, gripper, friction, pose, guess, -1.0) : std::nullopt;
   if (!left) {
     ++counts.contact;
     return std::nullopt;
   }
+  const double out = guess.inner ? -1.0 : 1.0;
+  const Vec3 axis = pose.orientation * Vec3::UnitX();
   Grasp grasp;
-  grasp.width = guess + right->height + left->height;
-  grasp.pose = {pose.position + 0.5 * (right->height - left->height) * frame.col(0), pose.orientation};
+  grasp.inner = guess.inner;
+  grasp.width = guess.width + out * (right->height + left->height);
+  grasp.pose = {pose.position + out * 0.5 * (right->height - left->height) * axis, pose.orientation};
   grasp.share = std::min(right->share, left->share);
   grasp.friction = std::max(right->friction, left->friction);
   grasp.radius = 0.5 * (right->radius + left->radius);
-  // The left pad's u points the other way. Forces of both pads must lie on one line.
-  const bool opposite = right->lower.x() <= -left->lower.x() && -left->upper.x() <= right->upper.x() &&
-                        right->lower.y() <= left->upper.y() && left->lower.y() <= right->upper.y();
+  // Forces of both pads must lie on one line.
+  const bool opposite =
+      (right->lower.array() <= left->upper.array()).all() && (left->lower.array() <= right->upper.array()).all();
   if (!opposite || grasp.share < least_contact) {
     ++counts.contact;
-  } else if (grasp.width > gripper.widest()) {
+  } else if (!fits(gripper, grasp.width, grasp.inner)) {
     ++counts.width;
   } else if (grasp.friction > friction) {
     ++counts.friction;
   } else {
-    const Eigen::Vector2d middle = 0.5 * (right->centroid + Eigen::Vector2d(-left->centroid.x(), left->centroid.y()));
-    const Vec3 on_axis = grasp.pose * Vec3(0.0, middle.x(), middle.y());
-    const Vec3 offset = part.mass().center - on_axis;
-    grasp.lever = (offset - offset.dot(frame.col(0)) * frame.col(0)).norm();
+    const Eigen::Vector2d between = 0.5 * (right->centroid + left->centroid);
+    const Vec3 offset = part.mass().center - grasp.pose * Vec3(0.0, between.x(), between.y());
+    grasp.lever = (offset - offset.dot(axis) * axis).norm();
     grasp.contacts = pad_contacts_of(*right, *left, grasp.width);
-    grasp.second = {Vec3(0.5 * grasp.width, right->lower.x(), right->lower.y()),
-                    Vec3(0.5 * grasp.width, right->upper.x(), right->upper.y())};
-    grasp.first = {Vec3(-0.5 * grasp.width, -left->upper.x(), left->lower.y()),
-                   Vec3(-0.5 * grasp.width, -left->lower.x(), left->upper.y())};
+    const double half = 0.5 * grasp.width;
+    grasp.second = {Vec3(half, right->lower.x(), right->lower.y()), Vec3(half, right->upper.x(), right->upper.y())};
+    grasp.first = {Vec3(-half, left->lower.x(), left->lower.y()), Vec3(-half, left->upper.x(), left->upper.y())};
     return grasp;
   }
   return std::nullopt;
@@ -172,7 +202,7 @@ constexpr double depths[] = {0.0, 0.3, 0.42};
 /// Grasps of one pair of points from all sides.
 ClosingAxis turn_about(const Pair& pair, const PartModel& part, const Gripper& gripper, double friction,
                        const Vec3& from, GraspCounts& counts, std::vector<Grasp>& grasps) {
-  ClosingAxis axis{pose_about(pair, from, 0.0), (pair.near - pair.far).norm(), 0};
+  ClosingAxis axis{pose_about(pair, from, 0.0), (pair.near - pair.far).norm(), pair.inner, 0};
   for (int turn = 0; turn < ClosingAxis::turns; ++turn) {
     const Pose centred = pose_about(pair, from, 2.0 * M_PI * turn / ClosingAxis::turns);
     bool any = false;
@@ -181,7 +211,7 @@ ClosingAxis turn_about(const Pair& pair, const PartModel& part, const Gripper& g
       ++counts.tried;
       Pose pose = centred;
       pose.position -= depth * gripper.pad_length * (pose.orientation * Vec3::UnitZ());
-      const auto grasp = close_fingers(part, gripper, friction, pose, axis.width, counts);
+      const auto grasp = close_fingers(part, gripper, friction, pose, {axis.width, axis.inner}, counts);
       if (!grasp) continue;
       if (goes_through(part, gripper, *grasp)) {
         ++counts.collision;

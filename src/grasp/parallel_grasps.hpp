@@ -1,4 +1,4 @@
-/// Poses of a two-finger gripper whose pads meet the part from opposite sides.
+/// Poses of a two-finger gripper whose pads meet the part from opposite sides, or two walls of a hole from within.
 #pragma once
 
 #include "bin_scenes/grasp/part_grasps.hpp"
@@ -15,10 +15,10 @@ struct ParallelGrasps {
 ParallelGrasps parallel_grasps(const PartModel& part, const Gripper& gripper, double friction,
                                const std::vector<Vec3>& directions, GraspCounts& counts);
 
-/// The pads pressed onto the part, with the closing axis through `middle` along `closing`. None, and counted, if they
-/// do not hold it.
+/// The pads pressed onto the part from about the distance `guess`, with the closing axis along x of the pose. None, and
+/// counted, if they do not hold it.
 std::optional<Grasp> close_fingers(const PartModel& part, const Gripper& gripper, double friction, const Pose& pose,
-                                   double guess, GraspCounts& counts);
+                                   const Aperture& guess, GraspCounts& counts);
 
 /// Whether the gripper meets the part itself as it comes or closes. The pads touch it, which is none.
 bool goes_through(const PartModel& part, const Gripper& gripper, const Grasp& grasp);

@@ -8,12 +8,13 @@
 #include "part/part_cache.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 5;              ///< raise it whenever the way grasps are found changes
+constexpr int grasp_format = 6;              ///< raise it whenever the way grasps are found changes
 constexpr double symmetry_limit = 1e-3;      ///< / diagonal: symmetries that a gripper cannot tell from exact ones
 constexpr double first_apart = 0.03;         ///< / diagonal: of thinning
 constexpr double first_angle = 0.3;          ///< rad
@@ -36,16 +37,19 @@ std::vector<Pose> poses_of(const std::vector<Grasp>& grasps) {
   return poses;
 }
 
-void place(PartGrasps& found, const PoseMeasure& symmetric, const PoseMeasure::Limits& limits, const Gripper& gripper) {
+/// Places grasps from index `first` on, which are of one kind.
+void place(PartGrasps& found, std::size_t first, const PoseMeasure& symmetric, const PoseMeasure::Limits& limits,
+           const Gripper& gripper) {
   std::vector<PartGrasps::Placed> all;
-  for (std::size_t i = 0; i < found.grasps.size(); ++i)
+  for (std::size_t i = first; i < found.grasps.size(); ++i)
     for (const Pose& pose : symmetric.images(found.grasps[i].pose, limits)) all.push_back({i, pose});
   std::vector<Pose> poses;
   for (const auto& placed : all) poses.push_back(placed.pose);
   const bool cup = gripper.type == Gripper::Type::suction;
   const std::size_t count = std::max(gripper.most, cup ? most_searched : 0);
+  std::size_t chosen = 0;
   for (const std::size_t i : thin(poses, PoseMeasure({}, gripper.type), limits, count))
-    (found.placed.size() < gripper.most ? found.placed : found.spare).push_back(all[i]);
+    (chosen++ < gripper.most ? found.placed : found.spare).push_back(all[i]);
 }
 
 /// Each axis in all places to which symmetries bring it, a coarse cover of the part first.
@@ -81,13 +85,33 @@ std::vector<ClosingAxis> spread_axes(std::vector<ClosingAxis> all, const PartMod
   return axes;
 }
 
-double coverage_of(const PartGrasps& found, const std::vector<Pose>& left_out, const PoseMeasure& symmetric) {
+std::size_t covered_of(const PartGrasps& found, const std::vector<Grasp>& left_out, const PoseMeasure& symmetric) {
   const PoseMeasure::Limits limits{found.apart, found.apart_angle};
-  std::size_t covered = 0;
-  for (const Pose& pose : left_out)
-    covered += std::any_of(found.placed.begin(), found.placed.end(),
-                           [&](const PartGrasps::Placed& one) { return symmetric.near(one.pose, pose, limits); });
-  return static_cast<double>(covered) / static_cast<double>(left_out.size() + 2);
+  const auto is_covered = [&](const Grasp& one) {
+    return std::any_of(found.placed.begin(), found.placed.end(), [&](const PartGrasps::Placed& placed) {
+      return found.grasps[placed.of].inner == one.inner && symmetric.near(placed.pose, one.pose, limits);
+    });
+  };
+  return static_cast<std::size_t>(std::count_if(left_out.begin(), left_out.end(), is_covered));
+}
+
+/// Grasps and closing axes from outside, or those from within. The kinds are thinned apart: poses of a ring's grasps
+/// from outside and from within are the same.
+template <class Kind>
+std::vector<Kind> of_kind(const std::vector<Kind>& all, bool inner) {
+  std::vector<Kind> chosen;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), [&](const Kind& one) { return one.inner == inner; });
+  return chosen;
+}
+
+/// Sets some poses apart for the measure of coverage, and keeps the others, the best ones first.
+std::vector<Grasp> taken_of(const std::vector<Grasp>& all, std::vector<Grasp>& left_out) {
+  std::vector<Grasp> taken;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool apart = all.size() > left_out_one_of && i % left_out_one_of == left_out_one_of - 1;
+    (apart ? left_out : taken).push_back(all[i]);
+  }
+  return taken;
 }
 
 }  // namespace
@@ -95,34 +119,28 @@ double coverage_of(const PartGrasps& found, const std::vector<Pose>& left_out, c
 PartGrasps find_grasps(const PartModel& part, const Gripper& gripper, double friction) {
   PartGrasps found;
   const Symmetries symmetries = find_symmetries(part, symmetry_limit);
-  std::vector<Grasp> all;
-  if (gripper.type == Gripper::Type::parallel) {
-    ParallelGrasps parallel =
-        parallel_grasps(part, gripper, friction, shape_directions(part, symmetries), found.counts);
-    all = std::move(parallel.grasps);
-    found.axes = spread_axes(std::move(parallel.axes), part, symmetries);
-  } else {
-    all = suction_grasps(part, gripper, found.counts);
-  }
-  std::vector<Pose> left_out;
-  std::vector<Grasp> taken;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all.size() > left_out_one_of && i % left_out_one_of == left_out_one_of - 1) {
-      left_out.push_back(all[i].pose);
-    } else {
-      taken.push_back(std::move(all[i]));
-    }
-  }
-  std::stable_sort(taken.begin(), taken.end(), [&](const Grasp& a, const Grasp& b) {
-    return badness(a, part, gripper, friction) < badness(b, part, gripper, friction);
-  });
+  ParallelGrasps all;
+  if (gripper.type == Gripper::Type::parallel)
+    all = parallel_grasps(part, gripper, friction, shape_directions(part, symmetries), found.counts);
+  else
+    all.grasps = suction_grasps(part, gripper, found.counts);
   const PoseMeasure symmetric(symmetries, gripper.type);
   const PoseMeasure::Limits limits{first_apart * part.diagonal(), first_angle};
-  for (const std::size_t i : thin(poses_of(taken), symmetric, limits, most_grasps)) found.grasps.push_back(taken[i]);
-  place(found, symmetric, limits, gripper);
+  std::vector<Grasp> left_out;
+  for (const bool inner : {false, true}) {
+    std::vector<Grasp> taken = taken_of(of_kind(all.grasps, inner), left_out);
+    std::stable_sort(taken.begin(), taken.end(), [&](const Grasp& a, const Grasp& b) {
+      return badness(a, part, gripper, friction) < badness(b, part, gripper, friction);
+    });
+    const std::size_t first = found.grasps.size();
+    for (const std::size_t i : thin(poses_of(taken), symmetric, limits, most_grasps)) found.grasps.push_back(taken[i]);
+    place(found, first, symmetric, limits, gripper);
+    for (ClosingAxis& axis : spread_axes(of_kind(all.axes, inner), part, symmetries)) found.axes.push_back(axis);
+  }
   found.apart = covered_within * limits.apart;
   found.apart_angle = covered_within * limits.angle;
-  found.coverage = coverage_of(found, left_out, symmetric);
+  found.coverage =
+      static_cast<double>(covered_of(found, left_out, symmetric)) / static_cast<double>(left_out.size() + 2);
   return found;
 }
 
@@ -133,7 +151,8 @@ void members(Stream& stream, Aabb& box) {
 
 template <class Stream>
 void members(Stream& stream, Grasp& g) {
-  stream(g.pose, g.width, g.share, g.friction, g.radius, g.lever, g.gap, g.margin, g.first, g.second, g.contacts);
+  stream(g.pose, g.width, g.share, g.friction, g.radius, g.lever, g.gap, g.margin, g.inner, g.first, g.second,
+         g.contacts);
 }
 
 template <class Stream>
@@ -143,7 +162,7 @@ void members(Stream& stream, PartGrasps::Placed& placed) {
 
 template <class Stream>
 void members(Stream& stream, ClosingAxis& axis) {
-  stream(axis.pose, axis.width, axis.approaches);
+  stream(axis.pose, axis.width, axis.inner, axis.approaches);
 }
 
 template <class Stream>
@@ -165,8 +184,11 @@ std::string grasp_key(const PartModel& part, const Gripper& g, double friction) 
                     std::to_string(static_cast<int>(g.type)) + " " + std::to_string(g.most) + " ";
   for (const double value :
        {g.travel(), g.opening, g.finger_width, g.finger_depth, g.finger_thickness, g.pad_length, g.pad_give, g.radius,
-        g.lip, g.margin, g.finger_clearance, g.palm.x(), g.palm.y(), g.palm.z(), friction})
+        g.lip, g.margin, g.finger_clearance, g.palm.x(), g.palm.y(), g.palm.z(), g.tool_rotation.x(),
+        g.tool_rotation.y(), g.tool_rotation.z(), g.inner ? 1.0 : 0.0, friction})
     key += key_text(value);
+  for (const Aabb& box : g.finger_boxes)
+    for (int i = 0; i < 3; ++i) key += key_text(box.lower[i]) + key_text(box.upper[i]);
   return key;
 }
 

@@ -29,8 +29,8 @@ std::vector<std::size_t> order_around(const PlacedParts& placed, const PlacedPar
 
 }  // namespace
 
-Reach::Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper)
-    : placed_(placed), gripper_(gripper), order_(order_around(placed, part)) {}
+Reach::Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper, const Vec3& lift)
+    : placed_(placed), gripper_(gripper), lift_(lift), order_(order_around(placed, part)) {}
 
 double Reach::height_to_top(const SceneGrasp& grasp) const {
   return placed_.top() - grasp.pose.position.dot(placed_.up()) + gripper_.finger_depth;
@@ -43,13 +43,15 @@ double Reach::way_back(const SceneGrasp& grasp) const {
 
 bool Reach::meets(SceneGrasp& grasp) const {
   const double margin = gripper_.clearance;
-  if (check(approach_sweeps(gripper_, grasp.width, way_back(grasp), margin), SceneGrasp::Obstacle::approach, grasp) ||
-      check(closing_sweeps(gripper_, grasp.width, margin), SceneGrasp::Obstacle::closing, grasp))
+  if (check(approach_sweeps(gripper_, grasp.aperture(), way_back(grasp), margin), SceneGrasp::Obstacle::approach,
+            grasp) ||
+      check(closing_sweeps(gripper_, grasp.aperture(), margin), SceneGrasp::Obstacle::closing, grasp))
     return true;
-  if (-(grasp.pose.orientation * Vec3::UnitZ()).dot(placed_.up()) > std::cos(upright)) return false;
-  const Vec3 lift = grasp.pose.orientation.conjugate() * (std::max(0.0, height_to_top(grasp)) * placed_.up());
+  if (-(grasp.pose.orientation * Vec3::UnitZ()).dot(lift_) > std::cos(upright)) return false;
+  const double length = std::max(0.0, height_to_top(grasp)) / lift_.dot(placed_.up());
+  const Vec3 lift = grasp.pose.orientation.conjugate() * (length * lift_);
   std::vector<Sweep> lifted;
-  for (const Sweep& body : closed_shape(gripper_, grasp.width, margin)) lifted.push_back(body.moved(lift));
+  for (const Sweep& body : closed_shape(gripper_, grasp.aperture(), margin)) lifted.push_back(body.moved(lift));
   return check(lifted, SceneGrasp::Obstacle::lift, grasp);
 }
 
@@ -60,8 +62,9 @@ double Reach::room(const SceneGrasp& grasp) const {
     SceneGrasp tried = grasp;
     const double margin = factor * wider;
     tried.pose.position -= (margin - gripper_.clearance) * (grasp.pose.orientation * Vec3::UnitZ());
-    if (check(approach_sweeps(gripper_, grasp.width, way_back(grasp), margin), SceneGrasp::Obstacle::approach, tried) ||
-        check(closing_sweeps(gripper_, grasp.width, margin), SceneGrasp::Obstacle::closing, tried))
+    if (check(approach_sweeps(gripper_, grasp.aperture(), way_back(grasp), margin), SceneGrasp::Obstacle::approach,
+              tried) ||
+        check(closing_sweeps(gripper_, grasp.aperture(), margin), SceneGrasp::Obstacle::closing, tried))
       return 0.5 * (factor - 1.0);
   }
   return 1.0;

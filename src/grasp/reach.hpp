@@ -11,7 +11,8 @@ namespace bin_scenes {
 /// One part among the others, for all grasps of a gripper.
 class Reach {
  public:
-  Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper);
+  /// @param lift  unit: direction in which the part is lifted
+  Reach(const PlacedParts& placed, const PlacedPart& part, const Gripper& gripper, const Vec3& lift);
 
   /// Whether the gripper, grown by its clearance, meets others or the bin as it comes, closes or goes up; says where
   /// and whom in the grasp.
@@ -26,6 +27,7 @@ class Reach {
 
   const PlacedParts& placed_;
   const Gripper& gripper_;
+  const Vec3 lift_;
   std::vector<std::size_t> order_;  ///< of all others, the nearest first
 };
 

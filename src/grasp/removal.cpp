@@ -1,5 +1,6 @@
-/// A part goes straight up, against gravity, until it is out of the bin. Whom its mesh would meet on the way, or who
-/// presses down on it, has to go first.
+/// A part goes straight up, against gravity, until it is out of the bin, or along the direction nearest to that which
+/// the request permits and nothing is in the way of. Whom its mesh would meet, or who presses down on it, has to go
+/// first.
 #include "grasp/removal.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace bin_scenes {
@@ -20,6 +22,8 @@ constexpr double lies_on = 0.05;       ///< load / weight of the lighter one, fr
 constexpr double supports = 0.2;       ///< sine of the normal's angle to the horizontal, from which a contact supports
 constexpr double most_overlap = 0.02;  ///< / smaller diagonal: of parts at rest, which is no hold
 constexpr double side_play = 1e-3;     ///< / smaller diagonal: by which a gripper gives way to what it grazes
+constexpr double cone_step = 0.18;     ///< rad: between the tilts of lifts that are tried
+constexpr int cone_directions = 8;     ///< of each tilt
 
 /// Forces that act on one part.
 struct Acting {
@@ -137,7 +141,16 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direct
 
 namespace {
 
-void measure_overlaps(std::vector<PartPick>& picks, const PlacedParts& placed) {
+/// Whether a part can be moved by `move` past all others. It may graze what it lies on and what it touches.
+bool passes(const PlacedParts& placed, const PlacedPart& part, const Vec3& move) {
+  const double length = move.norm();
+  if (!(length > 0.0)) return true;
+  return std::none_of(placed.all().begin(), placed.all().end(), [&](const PlacedPart& other) {
+    return other.id != part.id && hinders(other, part, move / length, length);
+  });
+}
+
+void measure_overlaps(std::vector<PartPick>& picks, const PlacedParts& placed, double slight_overlap) {
   if (std::all_of(picks.begin(), picks.end(), [](const PartPick& pick) { return pick.blocked_by.empty(); })) return;
   std::map<int, std::size_t> index;
   for (std::size_t i = 0; i < placed.all().size(); ++i)
@@ -150,8 +163,34 @@ void measure_overlaps(std::vector<PartPick>& picks, const PlacedParts& placed) {
       pick.blocked_areas.push_back(id < 0 ? 0.0 : overlaps.area(index.at(pick.id), index.at(id)));
       if (id >= 0) above.push_back(index.at(id));
     }
-    if (!above.empty()) pick.overlap = overlaps.of(index.at(pick.id), above);
+    if (above.empty()) continue;
+    pick.overlap = overlaps.of(index.at(pick.id), above);
+    pick.overlap.passes = passes(placed, placed.all()[index.at(pick.id)], pick.overlap.move);
+    pick.slight = above.size() == pick.blocked_by.size() && pick.overlap.share <= slight_overlap;
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// The displacement nearest to the vertical, within the cone, by which a part leaves the bin and meets nothing.
+std::optional<Vec3> free_lift(const PlacedParts& placed, const PlacedPart& part, double height, double cone) {
+  const Vec3 &up = placed.up(), across = up.unitOrthogonal();
+  const int rings = static_cast<int>(std::ceil(cone / cone_step - 1e-9));
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double tilt = cone * ring / rings;
+    for (int k = 0; k < cone_directions; ++k) {
+      const Vec3 aside = Eigen::AngleAxisd(2.0 * M_PI * k / cone_directions, up) * across;
+      const Vec3 direction = std::cos(tilt) * up + std::sin(tilt) * aside;
+      const double length = height / std::cos(tilt);
+      const auto meets = [&](const PlacedPart& other) {
+        return other.id != part.id && hinders(other, part, direction, length);
+      };
+      if (std::none_of(placed.all().begin(), placed.all().end(), meets)) return Vec3(length * direction);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -174,17 +213,23 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
     std::set<int> blocking;
     for (const auto& [other, force] : acting.pressing)
       if (force > lies_on * std::min(weight[part.id], weight[other])) blocking.insert(other);
-    const double limit = placed.top() - lowest(part.box, placed.up());
-    pick.lift = limit * placed.up();
+    const double height = placed.top() - lowest(part.box, placed.up());
+    pick.lift = height * placed.up();
+    const bool lies_under_load = !blocking.empty();
     for (const PlacedPart& other : placed.all()) {
       const bool upright_walls = other.id < 0 && loaded.request.bin.kind == Bin::Kind::box;
       if (other.id == part.id || upright_walls || blocking.count(other.id)) continue;
-      if (hinders(other, part, placed.up(), limit)) blocking.insert(other.id);
+      if (hinders(other, part, placed.up(), height)) blocking.insert(other.id);
     }
+    if (!blocking.empty() && !lies_under_load)
+      if (const auto lift = free_lift(placed, part, height, loaded.request.lift_cone)) {
+        pick.lift = *lift;
+        blocking.clear();
+      }
     pick.blocked_by.assign(blocking.begin(), blocking.end());
     picks.push_back(std::move(pick));
   }
-  measure_overlaps(picks, placed);
+  measure_overlaps(picks, placed, loaded.request.slight_overlap);
   return picks;
 }
 

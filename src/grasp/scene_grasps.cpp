@@ -55,14 +55,15 @@ class PartGrasper {
         gripper_(loaded.request.grippers[gripper]),
         model_(*loaded.parts[part.line]),
         friction_(pair_friction(gripper_.friction, loaded.request.parts[part.line].friction)),
-        reach_(placed, part, gripper_) {
+        lift_(pick.lift.norm() > 0.0 ? Vec3(pick.lift.normalized()) : placed.up()),
+        reach_(placed, part, gripper_, lift_) {
     const double mass = mass_of(loaded.request.parts[part.line], model_);
-    const Vec3 inertia = -mass * gripper_.acceleration * placed.up();
+    const Vec3 inertia = -mass * gripper_.acceleration * lift_;
     burden_ = {pick.pull + inertia.norm(), loaded.request.gravity * mass + inertia, part.pose * model_.mass().center,
-               placed.up()};
+               lift_};
   }
 
-  /// Appends the grasps that every scene tries, and of a part that nothing blocks those of the scene's own search.
+  /// Appends the grasps that every scene tries, and of a part that can be lifted those of the scene's own search.
   void add_to(std::vector<SceneGrasp>& all, const PartGrasps& grasps, const std::vector<Eye>& eyes) const {
     for (const PartGrasps::Placed& one : grasps.placed) {
       stop_if_cancelled();
@@ -74,7 +75,7 @@ class PartGrasper {
       all.push_back(tried(grasps.grasps[one.of], pose, eyes));
       all.back().grasp = one.of;
     }
-    if (!pick_.blocked_by.empty() || gripper_.free_wanted == 0) return;
+    if (!pick_.lifts() || gripper_.free_wanted == 0) return;
     const bool cup = gripper_.type == Gripper::Type::suction;
     const auto keep = [&](const SearchedPose& searched) {
       SceneGrasp grasp = tried(searched.grasp, searched.pose, eyes);
@@ -99,11 +100,12 @@ class PartGrasper {
     grasp.gripper = index_;
     grasp.pose = pose;
     grasp.width = known.width;
+    grasp.inner = known.inner;
     grasp.force = gripper_.type == Gripper::Type::parallel ? gripper_.force : vacuum_of(known, gripper_);
     const Hold hold = hold_of(known, pose, gripper_, friction_, burden_);
     grasp.friction = hold.friction;
     grasp.columns = columns_of(known, hold, gripper_, friction_, tilt_of(pose));
-    if (!pick_.blocked_by.empty()) {
+    if (!pick_.lifts()) {
       grasp.obstacle = SceneGrasp::Obstacle::blocked;
     } else if (hold.safety < 1.0) {
       grasp.obstacle = SceneGrasp::Obstacle::slips;
@@ -124,6 +126,7 @@ class PartGrasper {
   const Gripper& gripper_;
   const PartModel& model_;
   double friction_;
+  const Vec3 lift_;  ///< unit
   Reach reach_;
   Burden burden_{};
 };

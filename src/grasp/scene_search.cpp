@@ -28,10 +28,10 @@ constexpr double alike_angle = 0.25;     ///< rad
 constexpr double width_cost = 0.5;       ///< of width / stroke, beside 1 of the tilt and 1 of the lever / radius
 
 struct Candidate {
-  Pose pose;           ///< of the gripper in the bin frame
-  double tilt = 0.0;   ///< rad
-  double cost = 0.0;   ///< within a chunk, cheaper ones go first
-  double width = 0.0;  ///< m, between the surfaces
+  Pose pose;          ///< of the gripper in the bin frame
+  double tilt = 0.0;  ///< rad
+  double cost = 0.0;  ///< within a chunk, cheaper ones go first
+  Aperture guess;     ///< of the surfaces
   std::size_t index = 0;
 };
 
@@ -69,7 +69,7 @@ class Searcher {
   PartSearch with_fingers() {
     for (const Candidate& candidate : ordered(finger_candidates())) {
       if (over()) break;
-      if (!is_new(candidate.pose)) continue;
+      if (!is_new(candidate)) continue;
       stop_if_cancelled();
       try_depths(candidate);
     }
@@ -80,7 +80,7 @@ class Searcher {
     const std::size_t listed = s_.grasps.placed.size();
     for (const Candidate& candidate : ordered(cup_candidates())) {
       if (over()) break;
-      if (!is_new(candidate.pose)) continue;
+      if (!is_new(candidate)) continue;
       stop_if_cancelled();
       const std::size_t of = place(candidate.index).of;
       note({s_.grasps.grasps[of], candidate.pose, of, candidate.index < listed}, candidate.tilt);
@@ -91,16 +91,17 @@ class Searcher {
  private:
   bool over() const { return result_.free >= s_.gripper.free_wanted || result_.tried >= s_.gripper.tries; }
 
-  bool is_new(const Pose& pose) const {
-    return std::none_of(found_.begin(), found_.end(),
-                        [&](const Pose& known) { return measure_.near(known, pose, limits_); });
+  bool is_new(const Candidate& candidate) const {
+    return std::none_of(found_.begin(), found_.end(), [&](const Found& known) {
+      return known.inner == candidate.guess.inner && measure_.near(known.pose, candidate.pose, limits_);
+    });
   }
 
   bool note(const SearchedPose& tried, double tilt) {
     count(tilt);
     if (!keep_(tried)) return false;
     ++result_.free;
-    found_.push_back(tried.pose);
+    found_.push_back({tried.pose, tried.grasp.inner});
     return true;
   }
   void count(double tilt) {
@@ -134,8 +135,9 @@ class Searcher {
       if (tilt > s_.gripper.tilt || !leaves_room(of, z)) continue;
       Mat3 frame;
       frame << axis, z.cross(axis), z;
-      const double cost = tilt + lever(middle) + width_cost * of.width / s_.gripper.travel();
-      all.push_back({{middle, Quat(frame).normalized()}, tilt, cost, of.width, 0});
+      const Aperture guess{of.width, of.inner};
+      const double cost = tilt + lever(middle) + width_cost * s_.gripper.between_fingers(guess) / s_.gripper.travel();
+      all.push_back({{middle, Quat(frame).normalized()}, tilt, cost, guess, 0});
     }
   }
 
@@ -164,7 +166,7 @@ class Searcher {
       const PartGrasps::Placed& one = place(i);
       const Pose pose = s_.part.pose * one.pose;
       const double tilt = tilt_of(pose.orientation * Vec3::UnitZ(), s_.placed.up());
-      if (tilt <= s_.gripper.tilt) all.push_back({pose, tilt, tilt + lever(pose.position), 0.0, i});
+      if (tilt <= s_.gripper.tilt) all.push_back({pose, tilt, tilt + lever(pose.position), {}, i});
     }
     return all;
   }
@@ -174,7 +176,7 @@ class Searcher {
     if (!s_.placed.flat_floor()) return 0.0;
     const double down = -(candidate.pose.orientation * Vec3::UnitZ()).z();
     double lowest = std::numeric_limits<double>::infinity();
-    for (const Sweep& body : approach_sweeps(s_.gripper, candidate.width, 0.0, s_.gripper.clearance))
+    for (const Sweep& body : approach_sweeps(s_.gripper, candidate.guess, 0.0, s_.gripper.clearance))
       lowest = std::min(lowest, body.placed(candidate.pose).lowest(Vec3::UnitZ()));
     constexpr double rounding = 1e-6;
     return down > 0.05 ? std::max(0.0, rounding - lowest) / down : 0.0;
@@ -190,7 +192,7 @@ class Searcher {
     for (; back <= least_hold * length && !over(); back += depth_step * length) {
       Pose pose = candidate.pose;
       pose.position -= back * (pose.orientation * Vec3::UnitZ());
-      const auto grasp = close_fingers(s_.model, s_.gripper, s_.friction, into_part * pose, candidate.width, counts);
+      const auto grasp = close_fingers(s_.model, s_.gripper, s_.friction, into_part * pose, candidate.guess, counts);
       if (!grasp) {
         count(candidate.tilt);
         continue;
@@ -203,7 +205,11 @@ class Searcher {
   const KeepIfFree& keep_;
   PoseMeasure measure_;
   PoseMeasure::Limits limits_;
-  std::vector<Pose> found_;
+  struct Found {
+    Pose pose;
+    bool inner;
+  };
+  std::vector<Found> found_;
   PartSearch result_;
 };
 

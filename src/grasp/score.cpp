@@ -7,7 +7,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr double safe = 4.0;         ///< safety factor from which more is of no use; its inverse likewise
+constexpr double safe = 6.0;         ///< factor of safety from which more is of no use; its inverse likewise
 constexpr double enough_pad = 0.05;  ///< share of the pad: with so much, 1 - 1/e of the column
 constexpr double wide_margin = 0.5;  ///< of a cup's radius: more margin is of no use
 
@@ -16,12 +16,13 @@ constexpr double wide_margin = 0.5;  ///< of a cup's radius: more margin is of n
 GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gripper, double friction, double tilt) {
   GraspColumns columns;
   columns.safety = hold.safety;
+  columns.sliding = hold.sliding;
   columns.moment = 1.0 - std::sqrt(std::clamp(hold.moment, 0.0, 1.0));
   columns.upright = 1.0 - tilt / (0.5 * M_PI);
   if (gripper.type == Gripper::Type::parallel) {
     columns.antipodal = std::max(0.0, 1.0 - grasp.friction / friction);
     columns.overlap = 1.0 - std::exp(-grasp.share / enough_pad);
-    columns.closing = std::max(0.0, 1.0 - grasp.width / gripper.travel());
+    columns.closing = std::max(0.0, 1.0 - gripper.between_fingers(grasp.aperture()) / gripper.travel());
   } else {
     columns.antipodal = std::max(0.0, 1.0 - grasp.gap / gripper.lip);
     columns.overlap = std::min(1.0, grasp.margin / (wide_margin * grasp.radius));
@@ -31,10 +32,10 @@ GraspColumns columns_of(const Grasp& grasp, const Hold& hold, const Gripper& gri
 }
 
 double score_of(const GraspColumns& c, const ScoreWeights& w) {
-  const double holding = std::log(std::clamp(c.safety, 1.0 / safe, safe));
-  const double sum = w.bias + w.holding * holding + w.antipodal * c.antipodal + w.moment * c.moment +
-                     w.overlap * c.overlap + w.upright * c.upright + w.clearance * c.clearance + w.closing * c.closing +
-                     w.seen * c.seen + w.measured * c.measured;
+  const auto spare = [](double factor) { return std::log(std::clamp(factor, 1.0 / safe, safe)); };
+  const double sum = w.bias + w.holding * spare(c.safety) + w.sliding * spare(c.sliding) + w.antipodal * c.antipodal +
+                     w.moment * c.moment + w.overlap * c.overlap + w.upright * c.upright + w.clearance * c.clearance +
+                     w.closing * c.closing + w.seen * c.seen + w.measured * c.measured;
   return 1.0 / (1.0 + std::exp(-sum));
 }
 

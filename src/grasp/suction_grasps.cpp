@@ -181,7 +181,7 @@ std::optional<Grasp> set_cup(const PartModel& part, const Gripper& g, const Spre
   Pose raised = pose;
   raised.position -= (std::max(0.0, print->inner_high - crest) + rounding * part.diagonal()) * z;
   const Pose part_there = raised.inverse();
-  for (const Sweep& sweep : approach_sweeps(g, 0.0, part.diagonal(), -0.5 * rounding * part.diagonal())) {
+  for (const Sweep& sweep : approach_sweeps(g, {}, part.diagonal(), -0.5 * rounding * part.diagonal())) {
     if (!sweep.meets(part.query(), part_there)) continue;
     ++counts.collision;
     return std::nullopt;

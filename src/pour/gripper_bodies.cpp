@@ -51,14 +51,24 @@ std::vector<GripperBody> bodies_of(const Gripper& g) {
   const bool fingers = g.type == Gripper::Type::parallel;
   const double tip = fingers ? 0.5 * g.pad_length : 0.0;
   if (fingers) {
-    const PartModelPtr finger = box({g.finger_thickness, g.finger_width, g.finger_depth}, "finger");
-    for (const double side : {-0.5, 0.5})
-      bodies.push_back({finger, {Vec3(side * g.finger_thickness, 0.0, tip - 0.5 * g.finger_depth), Quat::Identity()}});
+    if (!g.finger_mesh.empty()) {
+      LoadOptions options;
+      options.scale = g.finger_mesh_scale;
+      const PartModelPtr finger = PartModel::load(g.finger_mesh, options);
+      bodies.push_back({finger, {Vec3::Zero(), Quat(0.0, 0.0, 0.0, 1.0)}});  // half a turn about z
+      bodies.push_back({finger, Pose()});
+    } else {
+      const PartModelPtr finger = box({g.finger_thickness, g.finger_width, g.finger_depth}, "finger");
+      for (const double side : {-0.5, 0.5})
+        bodies.push_back(
+            {finger, {Vec3(side * g.finger_thickness, 0.0, tip - 0.5 * g.finger_depth), Quat::Identity()}});
+    }
   } else {
     // A low one would count as a small part, for which the solver shortens its steps.
     bodies.push_back({ring(g.radius, std::max(3.0 * g.radius, 0.5 * g.finger_depth)), Pose()});
   }
-  bodies.push_back({box(g.palm, "palm"), {Vec3(0.0, 0.0, tip - g.finger_depth - 0.5 * g.palm.z()), Quat::Identity()}});
+  const Pose flange = g.flange();
+  bodies.push_back({box(g.palm, "palm"), flange * Pose{Vec3(0.0, 0.0, 0.5 * g.palm.z()), Quat::Identity()}});
   return bodies;
 }
 

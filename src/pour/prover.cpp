@@ -92,8 +92,9 @@ class Attempt {
     solver_.set_phase(id_, phases::repair);
     before_ = solver_.states(id_);
     solver_.insert(id_, part_, {before_[part_].pose, Twist()});
-    const double open =
-        0.5 * trial_.width + std::min(gripper_.opening, 0.5 * std::max(0.0, gripper_.travel() - trial_.width));
+    const Aperture at{trial_.width, trial_.inner};
+    const double opening = gripper_.opened(at);
+    const double open = 0.5 * gripper_.between_fingers(at) + (trial_.inner ? -opening : opening);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       Pose pose = bodies_[k].pose;
       if (parallel() && k < 2) pose.position.x() += k == 0 ? -open : open;
@@ -101,7 +102,7 @@ class Attempt {
       solver_.insert(id_, first_ + k, {starts_.back(), Twist()});
     }
     contact_ = before_[part_].pose.inverse() * trial_.pose.position;
-    patience_ = closing_patience + (open - 0.5 * trial_.width + gripper_.pad_give) / closing_speed;
+    patience_ = closing_patience + (opening + gripper_.pad_give) / closing_speed;
   }
   ~Attempt() { solver_.remove_world(id_); }
   Attempt(const Attempt&) = delete;
@@ -114,15 +115,15 @@ class Attempt {
   /// Sets the gripper's velocities for the next `seconds`.
   void go(double seconds) {
     const double next = stage_ == Stage::lift ? height_at(time_ + seconds, gripper_.acceleration) : height_;
-    const Vec3 velocity = (next - height_) / seconds * ground_.up;
+    const Vec3 velocity = (next - height_) / seconds * trial_.lift;
     if (parallel())
-      solver_.set_jaws(id_, {first_, first_ + 1, trial_.pose.orientation * Vec3::UnitX(), trial_.force, closing_speed,
+      solver_.set_jaws(id_, {first_, first_ + 1, (trial_.inner ? -1.0 : 1.0) * axis(), trial_.force, closing_speed,
                              jaw_masses * ground_.world.bodies[part_].mass, velocity});
     else
       solver_.set_force(id_, part_, -vacuum() * (trial_.pose.orientation * Vec3::UnitZ()), mouth());
     for (std::size_t k = parallel() ? 2 : 0; stage_ == Stage::lift && k < bodies_.size(); ++k) {
       Pose pose = starts_[k];
-      pose.position += height_ * ground_.up;
+      pose.position += height_ * trial_.lift;
       solver_.insert(id_, first_ + k, {pose, {velocity, Vec3::Zero()}});
     }
     height_ = next;
@@ -144,7 +145,8 @@ class Attempt {
   enum class Stage { grasp, hold, lift, over };
 
   bool parallel() const { return gripper_.type == Gripper::Type::parallel; }
-  Vec3 mouth() const { return trial_.pose.position + height_ * ground_.up; }
+  Vec3 axis() const { return trial_.pose.orientation * Vec3::UnitX(); }
+  Vec3 mouth() const { return trial_.pose.position + height_ * trial_.lift; }
   double vacuum() const { return trial_.force * (stage_ == Stage::grasp ? std::min(1.0, time_ / vacuum_rise) : 1.0); }
   Vec3 center(const BodyState& state) const { return state.pose * ground_.model(part_).mass().center; }
 
@@ -160,15 +162,22 @@ class Attempt {
       if (time_ >= vacuum_rise) begin(Stage::hold);
       return;
     }
-    const Vec3 axis = trial_.pose.orientation * Vec3::UnitX();
     const BodyState &a = states_[first_], &b = states_[first_ + 1];
-    const double width = (b.pose.position - a.pose.position).dot(axis) - gripper_.finger_thickness;
-    const double closing = 0.5 * (a.velocity.linear - b.velocity.linear).dot(axis);
+    const double closing = 0.5 * (a.velocity.linear - b.velocity.linear).dot(axis());
     const bool late = time_ > patience_;
-    if (width <= 0.0 || (late && !holds_part()))
+    if (at_end(a, b) || (late && !holds_part()))
       end(LiftProof::Outcome::missed);
     else if (late || (std::abs(closing) < closing_rest && holds_part()))
       begin(Stage::hold);
+  }
+
+  /// Whether the fingers have met each other, or have come to the end of their stroke.
+  bool at_end(const BodyState& a, const BodyState& b) const {
+    const auto face = [&](std::size_t k) { return (starts_[k].position - trial_.pose.position).dot(axis()); };
+    const double moved = (b.pose.position - a.pose.position).dot(axis()) - (face(1) - face(0));
+    const Aperture at{trial_.width, trial_.inner};
+    const double opening = 2.0 * gripper_.opened(at), between = gripper_.between_fingers(at);
+    return trial_.inner ? between - opening + moved >= gripper_.travel() : between + opening + moved <= 0.0;
   }
 
   /// Whether the gripper has the part, and what others pull it back with.
@@ -191,7 +200,7 @@ class Attempt {
     const std::size_t needed = parallel() ? 2 : 0;
     bool all = true;
     for (std::size_t k = 0; k < needed; ++k) all = all && pressing.count(first_ + k);
-    return {all, std::max(0.0, -others.dot(ground_.up))};
+    return {all, std::max(0.0, -others.dot(trial_.lift))};
   }
   bool holds_part() const { return touch().gripper; }
 
@@ -210,7 +219,7 @@ class Attempt {
       if (without_ >= touches_without_grip) return end_lost();
     }
     if (height_ < lift_height) return;
-    const bool came = (center(states_[part_]) - center(before_[part_])).dot(ground_.up) >= 0.5 * lift_height;
+    const bool came = (center(states_[part_]) - center(before_[part_])).dot(trial_.lift) >= 0.5 * lift_height;
     if (!came || without_ > 0) return end_lost();
     note_others();
     end(proof_.dragged.empty() ? LiftProof::Outcome::lifted : LiftProof::Outcome::dragged);
@@ -225,7 +234,7 @@ class Attempt {
   void end(LiftProof::Outcome outcome) {
     proof_.outcome = outcome;
     if (stage_ == Stage::lift) {
-      const Vec3 hand = height_ * ground_.up;
+      const Vec3 hand = height_ * trial_.lift;
       proof_.slip = (center(states_[part_]) - hand - center(held_)).norm();
       proof_.turn = turn_between(states_[part_].pose, held_.pose);
     }

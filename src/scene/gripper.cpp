@@ -2,6 +2,7 @@
 
 #include "bin_scenes/core/error.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -37,6 +38,22 @@ std::vector<std::pair<const char*, double>> lengths(const Gripper& g) {
 }
 
 }  // namespace
+
+double Gripper::opened(const Aperture& at) const {
+  const double room = at.inner ? between_fingers(at) : travel() - at.width;
+  return std::min(opening, 0.5 * std::max(0.0, room));
+}
+
+Quat Gripper::tool_orientation() const {
+  const auto turn = [&](int axis) { return Quat(Eigen::AngleAxisd(tool_rotation[axis], Vec3::Unit(axis))); };
+  return turn(2) * turn(1) * turn(0);
+}
+
+Pose Gripper::flange() const {
+  const double tip = type == Type::parallel ? 0.5 * pad_length : 0.0;
+  const Quat axes = tool_orientation().conjugate();
+  return {Vec3(0.0, 0.0, tip - finger_depth) - axes * Vec3(0.0, 0.0, palm.z()), axes};
+}
 
 void check_gripper(const Gripper& gripper, const std::string& key) {
   for (const auto& [name, value] : lengths(gripper)) {

@@ -13,7 +13,9 @@ inline Names<Gripper::Type> names(Gripper::Type) {
 template <class Visitor>
 void visit(Visitor& v, ScoreWeights& w) {
   v.field({"bias", "", "added to the weighted columns; larger values raise all scores"}, w.bias);
-  v.field({"holding", "", "of ln(safety factor against slip), limited to -ln 4 and ln 4"}, w.holding);
+  v.field({"holding", "", "of ln(safety factor against slipping and turning), limited to -ln 6 and ln 6"}, w.holding);
+  v.field({"sliding", "", "of ln(safety factor against sliding alone, whatever the part turns), limited likewise"},
+          w.sliding);
   v.field({"antipodal", "", "of the share of friction, or of the lip, that the shape of the contact leaves"},
           w.antipodal);
   v.field({"moment", "", "of 1 - sqrt(moment of the weight about the contact / moment that is held)"}, w.moment);
@@ -36,25 +38,54 @@ void visit(Visitor& v, Gripper& g) {
            "default radius / 2",
            above(0.0)},
           g.stroke);
-  v.field({"opening", "m", "parallel: by which each finger opens beyond the part", at_least(0.0)}, g.opening);
-  v.field({"finger_width", "m", "parallel: of finger and pad", above(0.0)}, g.finger_width);
+  v.field({"opening", "m",
+           "parallel: by which each finger is away from the part before it closes, as far as the stroke permits",
+           at_least(0.0)},
+          g.opening);
+  v.field({"finger_width", "m", "parallel: of finger and pad, across closing and approach", above(0.0)},
+          g.finger_width);
   v.field({"finger_depth", "m", "from the palm to finger tips or ring", above(0.0)}, g.finger_depth);
   v.field({"finger_thickness", "m", "parallel: along closing", above(0.0)}, g.finger_thickness);
-  v.field({"pad_length", "m", "parallel: of the pad, from the tip on", above(0.0)}, g.pad_length);
-  v.field({"pad_give", "m", "parallel: what lies no deeper is in contact", above(0.0)}, g.pad_give);
+  v.field(
+      {"finger_mesh", "",
+       "parallel: mesh file of the finger at +x, in the gripper's frame with closed pads: its pad lies in the plane "
+       "x = 0, its tip at z = pad_length / 2; the other finger is the same, turned by half about z. It replaces the "
+       "box of the finger for collisions (by boxes around slices of it) and in proofs; finger_width and pad_length "
+       "describe its pad, finger_thickness the distance of its outer pad",
+       anything, !g.finger_mesh.empty()},
+      g.finger_mesh);
+  v.field({"finger_mesh_scale", "m", "per unit of finger_mesh; 0.001: mm", above(0.0, 1e3), !g.finger_mesh.empty()},
+          g.finger_mesh_scale);
+  v.field({"pad_length", "m", "parallel: of the pad, from the tip towards the palm", above(0.0)}, g.pad_length);
+  v.field({"pad_give", "m", "parallel: by which the pad yields: what lies no deeper is in contact", above(0.0)},
+          g.pad_give);
   v.field({"radius", "m", "suction: of the ring", above(0.0)}, g.radius);
   v.field({"lip", "m", "suction: largest gap that the lip closes", above(0.0)}, g.lip);
-  v.field({"stiffness", "N/m", "suction: of the lip in its gap; takes from force", at_least(0.0)}, g.stiffness);
+  v.field({"stiffness", "N/m",
+           "suction: of the lip against being pressed into its gap; reduces the force of the vacuum", at_least(0.0)},
+          g.stiffness);
   v.field({"palm", "m", "box behind the fingers: along closing, across, along approach", above(0.0, 1e4)}, g.palm);
   v.field({"force", "N", "of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
-  v.field({"friction", "", "of pad or ring; with a part sqrt(a * b)", above(0.0, 10.0)}, g.friction);
-  v.field({"clearance", "m", "to bin and other parts", at_least(0.0)}, g.clearance);
+  v.field({"friction", "", "of pad or ring; the coefficient of a pair is sqrt(gripper * part)", above(0.0, 10.0)},
+          g.friction);
+  v.field({"clearance", "m", "to everything but the part itself", at_least(0.0)}, g.clearance);
   v.field({"finger_clearance", "m",
            "parallel: least gap between each opened finger and the part; a part is at most stroke - 2 "
            "finger_clearance wide",
            at_least(0.0)},
           g.finger_clearance);
   v.field({"margin", "m", "suction: least distance of the ring from edges and holes", at_least(0.0)}, g.margin);
+  v.field(
+      {"inner", "",
+       "parallel: true: also grasps from within, as of rings and tubes, by fingers that expand; their outer faces are "
+       "pads, too"},
+      g.inner);
+  v.field(
+      {"tool_rotation", "rad",
+       "roll, pitch, yaw (about fixed axes) of the gripper's frame in that of the robot's flange, as of a bent tool; "
+       "the palm has the flange's axes",
+       at_least(-7.0, 7.0)},
+      g.tool_rotation);
   v.field({"acceleration", "m/s2", "of the lift, also when it is proved; adds to gravity", at_least(0.0, 100.0)},
           g.acceleration);
   v.field({"tilt", "rad", "largest angle of approach and gravity", at_least(0.0, 3.2)}, g.tilt);

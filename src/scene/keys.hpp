@@ -283,6 +283,17 @@ void visit(Visitor& v, Request& request) {
   v.field({"prove_all", "", "true: prove also chooses grasps of blocked parts, and grasps that would slip", anything,
            request.prove > 0},
           request.prove_all);
+  v.field(
+      {"lift_cone", "rad",
+       "grasped parts that cannot go straight up may be lifted along any direction within this angle of it; the one "
+       "nearest to the vertical is chosen",
+       at_least(0.0, 1.2), !request.grippers.empty()},
+      request.lift_cone);
+  v.field({"slight_overlap", "",
+           "share of a part's footprint: a part that others cover by no more counts as free to be lifted; 0: only "
+           "uncovered parts do",
+           at_least(0.0, 1.0), !request.grippers.empty()},
+          request.slight_overlap);
   v.section({"accept", "", "when a scene is accepted; others are set apart with the reason"}, request.accept);
   v.field({"seconds", "s", "simulates exactly this long instead of until rest", above(0.0, 1e5)}, request.seconds);
   v.field({"drift_check", "",

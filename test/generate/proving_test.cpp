@@ -1,5 +1,7 @@
 #include "generate/proving.hpp"
 
+#include "bin_scenes/core/error.hpp"
+#include "grasp/finger_boxes.hpp"
 #include "grasp/gripper_shape.hpp"
 #include "pour/gripper_bodies.hpp"
 
@@ -41,7 +43,7 @@ TEST(Proving, FingersAndPalmAreTheBodiesThatCollisionsAreFoundWith) {
     }
     simulated.push_back(box);
   }
-  const std::vector<Sweep> checked = closed_shape(gripper, width, 0.0);
+  const std::vector<Sweep> checked = closed_shape(gripper, {width}, 0.0);
   ASSERT_EQ(simulated.size(), checked.size());
   for (const Sweep& sweep : checked) {
     double least = 1.0;
@@ -59,6 +61,36 @@ TEST(Proving, RingsAreClosedAndEndAtTheCupsMouth) {
   const double inner = 0.7 * cup.radius, area = 0.5 * 32 * std::sin(2.0 * M_PI / 32);  // of a polygon of radius 1
   EXPECT_NEAR(ring.model->mass().volume / (area * (cup.radius * cup.radius - inner * inner) * 0.03), 1.0, 1e-6);
   EXPECT_NEAR(ring.model->mesh().bounds().upper.z(), 0.0, 1e-12);
+}
+
+TEST(Proving, AFingerOfAMeshIsCoveredByBoxes) {
+  // A finger 4 mm thick and 8 mm wide at its tip, and 10 mm thick and 16 mm wide above it.
+  Gripper gripper;
+  const double tip = 0.5 * gripper.pad_length;
+  const auto box = [](const Vec3& lower, const Vec3& upper, Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.vertices.emplace_back(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(),
+                                 i & 4 ? upper.z() : lower.z());
+    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
+                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
+                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  };
+  Mesh mesh;
+  box({0, -0.004, tip - 0.024}, {0.004, 0.004, tip}, mesh);
+  box({0, -0.008, tip - 0.048}, {0.010, 0.008, tip - 0.024}, mesh);
+  const std::vector<Aabb> boxes = boxes_around(mesh, gripper, "finger_mesh");
+  ASSERT_LE(boxes.size(), 3u);
+  double volume = 0.0;
+  for (const Aabb& one : boxes) volume += one.size().prod();
+  const double exact = 0.024 * (0.004 * 0.008 + 0.010 * 0.016);
+  EXPECT_GE(volume, exact * (1.0 - 1e-9));
+  EXPECT_LE(volume, exact + 0.003 * 0.010 * 0.016 * 1.01);  // one slice may belong to both
+  gripper.finger_boxes = boxes;
+  EXPECT_EQ(closed_shape(gripper, {0.02}, 0.0).size(), 2 * boxes.size() + 1);
+  for (Vec3& v : mesh.vertices) v *= 1000.0;
+  EXPECT_THROW(boxes_around(mesh, gripper, "finger_mesh"), Error);
 }
 
 }  // namespace

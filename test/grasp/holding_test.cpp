@@ -54,5 +54,46 @@ TEST(Holding, ACupLosesHalfOfItsVacuumAtItsWidestGap) {
   }
 }
 
+TEST(Holding, SlidingAloneLeavesTheMomentOut) {
+  Grasp grasp;
+  grasp.width = 0.01;
+  grasp.radius = 0.002;
+  grasp.friction = 0.1;
+  grasp.first = grasp.second = {Vec3::Constant(-1e-9), Vec3::Constant(1e-9)};
+  Gripper gripper;
+  gripper.force = 3.0;
+  const Pose down{Vec3::Zero(), Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()))};
+  for (const double beside : {0.0, 0.02, 0.05}) {
+    const Burden burden{2.0, Vec3(0, 0, -2.0), Vec3(0, beside, -0.01), Vec3::UnitZ()};
+    const Hold hold = hold_of(grasp, down, gripper, 0.5, burden);
+    EXPECT_NEAR(hold.sliding, (0.5 - 0.1) * 2.0 * 3.0 / 2.0, 1e-12);
+    EXPECT_EQ(hold.safety<hold.sliding - 1e-6, beside> 0.0) << beside;
+  }
+}
+
+// Weights beside the pads turn a part out of fingers that press from outside and from within by the same moment.
+TEST(Holding, FromWithinPadsHoldTheSameMoment) {
+  Grasp grasp;
+  grasp.width = 0.03;
+  grasp.radius = 0.002;
+  grasp.first = {Vec3(-0.015, -0.003, -0.002), Vec3(-0.015, 0.003, 0.002)};
+  grasp.second = {Vec3(0.015, -0.003, -0.002), Vec3(0.015, 0.003, 0.002)};
+  const Pose down{Vec3::Zero(), Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()))};
+  const Burden burden{1.0, Vec3(0, 0, -1.0), Vec3(0.004, 0.002, -0.01), Vec3::UnitZ()};
+  const double outer = hold_of(grasp, down, Gripper(), 0.5, burden).safety;
+  grasp.inner = true;
+  EXPECT_NEAR(hold_of(grasp, down, Gripper(), 0.5, burden).safety, outer, 1e-9);
+  // Contacts that are apart along the approach: from outside the lower pad lies behind the upper one, as seen from the
+  // moment; from within it is the other way round.
+  grasp.first = {Vec3(-0.015, -0.003, 0.002), Vec3(-0.015, 0.003, 0.004)};
+  grasp.second = {Vec3(0.015, -0.003, -0.004), Vec3(0.015, 0.003, -0.002)};
+  const double within = hold_of(grasp, down, Gripper(), 0.5, burden).moment;
+  grasp.inner = false;
+  std::swap(grasp.first, grasp.second);
+  std::swap(grasp.first.lower.x(), grasp.second.lower.x());
+  std::swap(grasp.first.upper.x(), grasp.second.upper.x());
+  EXPECT_NEAR(hold_of(grasp, down, Gripper(), 0.5, burden).moment, within, 1e-9);
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -283,5 +283,43 @@ TEST(SuctionGrasps, AHoleUnderTheCupLeaks) {
   EXPECT_GT(flat, 0u);
 }
 
+TEST(InnerGrasps, RingIsExpandedAcrossItsHole) {
+  const double hole = 0.022;
+  const Mesh mesh = test::ring(0.5 * 0.03, 0.5 * hole, 0.01, 48).mesh;
+  Gripper gripper = two_fingers();
+  gripper.finger_width = 0.006;
+  gripper.finger_thickness = 0.004;
+  for (const Grasp& grasp : grasps_of(mesh, gripper).grasps) EXPECT_FALSE(grasp.inner);
+  gripper.inner = true;
+  const PartGrasps found = grasps_of(mesh, gripper);
+  std::size_t within = 0;
+  for (const PartGrasps::Placed& placed : found.placed) {
+    const Grasp& grasp = found.grasps.at(placed.of);
+    if (!grasp.inner) continue;
+    ++within;
+    // The wall has 48 sides, and a pad of 6 mm touches it at its edges.
+    EXPECT_LT(grasp.width, hole);
+    EXPECT_GT(grasp.width, 2.0 * std::sqrt(0.25 * hole * hole - 0.003 * 0.003) - 2e-4);
+    EXPECT_GT(std::abs(approach(placed.pose).z()), 0.6);
+    EXPECT_LT(placed.pose.position.head<2>().norm(), 0.3 * hole);
+  }
+  EXPECT_GT(within, 3u);
+  // Grasps from outside stay the same.
+  gripper.inner = false;
+  EXPECT_EQ(grasps_of(mesh, gripper).placed.size(), found.placed.size() - within);
+}
+
+TEST(InnerGrasps, FingersMustFitIntoTheHole) {
+  Gripper gripper = two_fingers();
+  gripper.inner = true;
+  gripper.finger_width = 0.004;
+  for (const double thickness : {0.003, 0.0045, 0.0055, 0.008}) {  // the pads are 11.3 mm apart, with 0.5 mm of room
+    gripper.finger_thickness = thickness;
+    const PartGrasps found = grasps_of(test::ring(0.012, 0.006, 0.01, 48).mesh, gripper);
+    const bool any = std::any_of(found.grasps.begin(), found.grasps.end(), [](const Grasp& g) { return g.inner; });
+    EXPECT_EQ(any, thickness < 0.0051) << thickness;
+  }
+}
+
 }  // namespace
 }  // namespace bin_scenes

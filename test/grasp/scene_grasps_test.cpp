@@ -222,5 +222,66 @@ TEST(SceneGrasps, APalmThatCannotFollowIsTold) {
   EXPECT_TRUE(told({0.4, 0.315, 0.2}).empty());  // it goes in, turned
 }
 
+TEST(SceneGrasps, SlightlyCoveredPartsAreGrasped) {
+  // A plate of 40 mm, covered by another one by 1, 2 or 4 of its 40 mm.
+  for (const double over : {0.001, 0.002, 0.004}) {
+    Stage stage({two_fingers()});
+    const std::size_t plate = stage.add(test::box_mesh({0.04, 0.04, 0.01}));
+    stage.put(plate, Vec3(0, 0, 0.005));
+    stage.put(plate, Vec3(0.04 - over, 0, 0.0151));
+    stage.loaded.request.slight_overlap = 0.06;
+    const SceneGrasps found = stage.find();
+    const PartPick& pick = pick_of(found, 0);
+    EXPECT_EQ(pick.blocked_by, (std::vector<int>{1}));
+    EXPECT_NEAR(pick.overlap.share, over / 0.04, 0.02);
+    EXPECT_EQ(pick.slight, over < 0.003) << over;
+    EXPECT_EQ(free_of(found, 0) > 0, over < 0.003) << over;
+    EXPECT_EQ(pick.depth, 1);
+    stage.loaded.request.slight_overlap = 0.0;
+    EXPECT_EQ(free_of(stage.find(), 0), 0u);
+  }
+}
+
+TEST(SceneGrasps, LiftsLeanAwayFromWhatIsInTheWay) {
+  // A fixed shelf over a third of a block: free to leave at 45 degrees, away from the shelf.
+  Stage stage({two_fingers()});
+  stage.put(stage.add(test::box_mesh({0.03, 0.03, 0.02})), Vec3(0, 0, 0.01));
+  const std::size_t shelf = stage.add(test::box_mesh({0.06, 0.06, 0.004}));
+  stage.loaded.request.parts[shelf].fixed = true;
+  stage.put(shelf, Vec3(0.035, 0, 0.036));
+  stage.scene.parts.back().state = PartState::fixed;
+  EXPECT_EQ(pick_of(stage.find(), 0).blocked_by, (std::vector<int>{1}));
+  EXPECT_EQ(pick_of(stage.find(), 0).depth, -1);
+  stage.loaded.request.lift_cone = 0.3;
+  EXPECT_EQ(pick_of(stage.find(), 0).blocked_by, (std::vector<int>{1}));
+  stage.loaded.request.lift_cone = 0.9;
+  const SceneGrasps found = stage.find();
+  const PartPick& pick = pick_of(found, 0);
+  EXPECT_TRUE(pick.blocked_by.empty());
+  EXPECT_EQ(pick.depth, 0);
+  EXPECT_LT(pick.lift.x(), -0.02);
+  const double tilt = std::acos(pick.lift.normalized().z());
+  EXPECT_GT(tilt, 0.6);  // it has to move 10 mm aside over the 14 mm up to the shelf
+  EXPECT_LE(tilt, 0.9 + 1e-9);
+  EXPECT_NEAR(pick.lift.z(), 0.1, 1e-9);  // out of the bin
+  EXPECT_GT(free_of(found, 0), 0u);
+  for (const SceneGrasp& grasp : found.grasps)
+    if (grasp.part == 0 && grasp.free()) EXPECT_LT(grasp.pose.position.x(), 0.01);
+}
+
+TEST(SceneGrasps, ThePalmOfABentToolLeans) {
+  // The flange is turned by 40 degrees about y: the palm hits the wall of the bin on one side only.
+  Gripper gripper = two_fingers();
+  gripper.tool_rotation = Vec3(0.0, 0.7, 0.0);
+  const Pose flange = gripper.flange();
+  const Vec3 axis = flange.orientation * Vec3::UnitZ();
+  EXPECT_NEAR(std::acos(axis.z()), 0.7, 1e-12);
+  // The centre of the palm's front is where the fingers end, whatever the rotation.
+  const Vec3 front = flange * Vec3(0.0, 0.0, gripper.palm.z());
+  EXPECT_NEAR((front - Vec3(0.0, 0.0, 0.5 * gripper.pad_length - gripper.finger_depth)).norm(), 0.0, 1e-12);
+  gripper.tool_rotation = Vec3::Zero();
+  EXPECT_NEAR((gripper.flange().position - Vec3(0, 0, 0.005 - 0.04 - gripper.palm.z())).norm(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace bin_scenes

@@ -14,7 +14,8 @@ namespace bin_scenes {
 /// Pose and what decides whether it holds. Model frame of the part, m.
 struct Grasp {
   Pose pose;                   ///< of the gripper's frame (scene/gripper.hpp) in the model frame
-  double width = 0.0;          ///< parallel: distance of the pads that touch (m)
+  double width = 0.0;          ///< parallel: distance of the surfaces that the pads touch (m)
+  bool inner = false;          ///< parallel: the fingers press outwards, from within
   double share = 1.0;          ///< parallel: of the pad that is in contact, the smaller of both
   double friction = 0.0;       ///< smallest coefficient with which it holds without load
   double radius = 0.0;         ///< m. parallel: largest moment about the closing axis = 2 * friction * force * radius;
@@ -24,6 +25,7 @@ struct Grasp {
   Aabb first, second;          ///< parallel: of the contact on the pad at -x and at x (m, gripper's frame)
   double gap = 0.0;            ///< m, suction: largest distance of the ring, pressed on and tilted, from the surface
   std::vector<Vec3> contacts;  ///< points of the surface that the pads or the ring touch; gripper's frame
+  Aperture aperture() const { return {width, inner}; }
 };
 
 /// How many poses were tried, and what became of them.
@@ -37,11 +39,13 @@ struct GraspCounts {
   std::size_t good = 0;       ///< the rest
 };
 
-/// A line through the part on which two pads can close: where a scene looks for further grasps. Model frame.
+/// A line on which two pads can close, through the part or from wall to wall of a hole: where a scene looks for further
+/// grasps. Model frame.
 struct ClosingAxis {
   static constexpr int turns = 16;  ///< steps in which the turn of the approach about the direction is counted
   Pose pose;                        ///< between the surfaces; x along the direction, z the approach of turn 0
   double width = 0.0;               ///< m between the surfaces
+  bool inner = false;               ///< the surfaces face each other, with nothing between them
   std::uint64_t approaches = 0;     ///< bit k: at turn k the gripper holds the part, without going through it
 };
 

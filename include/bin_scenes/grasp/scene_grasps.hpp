@@ -15,9 +15,10 @@
 
 namespace bin_scenes {
 
-/// What the score of a grasp is made from. Each is 0..1, the larger the better, but for the safety factor.
+/// What the score of a grasp is made from. Each is 0..1, the larger the better, but for the factors of safety.
 struct GraspColumns {
-  double safety = 0.0;     ///< factor by which the burden of the lift could grow before the part slips
+  double safety = 0.0;     ///< factor by which the burden of the lift could grow before the part slips or turns
+  double sliding = 0.0;    ///< the same before the part slides out, whatever it turns in the gripper
   double antipodal = 0.0;  ///< share of friction that the slope of the contacts leaves; of a lip that its gap leaves
   double moment = 0.0;     ///< 1 - sqrt(moment of the weight about the contact / moment that is held)
   double overlap = 0.0;    ///< fingers: 1 - exp(-(share of the pad in contact) / 0.05); cup: margin / (radius / 2)
@@ -29,6 +30,21 @@ struct GraspColumns {
   double measured = 1.0;  ///< share of the contact that the best camera measured; 1 without images
 };
 
+/// `use(name, value)` for each column.
+template <class Use>
+void for_each_column(const GraspColumns& c, const Use& use) {
+  use("safety", c.safety);
+  use("sliding", c.sliding);
+  use("antipodal", c.antipodal);
+  use("moment", c.moment);
+  use("overlap", c.overlap);
+  use("upright", c.upright);
+  use("clearance", c.clearance);
+  use("closing", c.closing);
+  use("seen", c.seen);
+  use("measured", c.measured);
+}
+
 struct SceneGrasp {
   int part = 0;             ///< id
   std::size_t gripper = 0;  ///< index into Request::grippers
@@ -36,6 +52,7 @@ struct SceneGrasp {
   std::optional<std::size_t> grasp;
   Pose pose;           ///< of the gripper in the bin frame
   double width = 0.0;  ///< m, parallel
+  bool inner = false;  ///< parallel: the fingers press outwards, from within
   double force = 0.0;  ///< N: of each finger; of the vacuum, less what the lip takes in its gap
   double score = 0.0;  ///< 0..1: of the columns, by the gripper's weights; calibrated as the chance of the lift
   GraspColumns columns;
@@ -50,6 +67,8 @@ struct SceneGrasp {
     lift       ///< as it goes up with the part
   } obstacle = Obstacle::none;
   int other = -1;  ///< approach, closing, lift: id of the part that it meets, -1: the bin
+
+  Aperture aperture() const { return {width, inner}; }
 
   /// By sensor, in the order of the images: shares of the contact that the camera sees, and that it measured.
   std::vector<double> visible, measured;
@@ -70,13 +89,18 @@ struct PartPick {
   int id = 0;
   double load = 0.0;            ///< N: what others press down on it; 0 also if the solver reports no forces
   double pull = 0.0;            ///< N to lift it out: its weight, the load, and friction of contacts at its sides
-  Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement upwards by which it leaves all others below it
+  Vec3 lift = Vec3::Zero();     ///< m, bin frame: the displacement by which it leaves all others below it; straight up
+                                ///< if that is free or nothing is, else the free direction nearest to it that was found
   std::vector<int> blocked_by;  ///< ids that obstruct its lift or lie on it, ascending; -1: a bin's mesh
+  /// Whether those only cover it so little that its grasps are looked for all the same: Request::slight_overlap.
+  bool slight = false;
+  bool lifts() const { return blocked_by.empty() || slight; }
   /// By how much those of `blocked_by` that are parts cover it, seen along the lift.
   struct Overlap {
     double area = 0.0;         ///< m2
     double share = 0.0;        ///< of the part's footprint
     Vec3 move = Vec3::Zero();  ///< m across the lift: the shortest that was found after which nothing is above it
+    bool passes = false;       ///< whether the part meets nothing on this move but what it lies on or grazes
   } overlap;
   std::vector<double> blocked_areas;  ///< m2, of each one of blocked_by alone
   int depth = -1;          ///< how many rounds of picking precede it; -1: never, as of what a fixed part covers

@@ -12,15 +12,17 @@ namespace bin_scenes {
 
 /// A grasp to be tried.
 struct Trial {
-  int part = 0;             ///< id
-  std::size_t gripper = 0;  ///< index into Request::grippers
-  Pose pose;                ///< of the gripper in the bin frame, at the end of its approach
-  double width = 0.0;       ///< m, parallel: at which the pads should meet the part
-  double force = 0.0;       ///< N: of each finger, or of the vacuum
+  int part = 0;               ///< id
+  std::size_t gripper = 0;    ///< index into Request::grippers
+  Pose pose;                  ///< of the gripper in the bin frame, at the end of its approach
+  double width = 0.0;         ///< m, parallel: at which the pads should meet the part
+  double force = 0.0;         ///< N: of each finger, or of the vacuum
+  bool inner = false;         ///< parallel: the fingers expand
+  Vec3 lift = Vec3::UnitZ();  ///< unit: direction of the lift in the bin frame
 };
 
-/// Fingers close with their force, or the vacuum pulls the part to the cup's ring; then the gripper goes up by 0.1 m,
-/// against gravity, at first with its acceleration. Other parts sleep until something touches them. Always by the
+/// Fingers close with their force, or the vacuum pulls the part to the cup's ring; then the gripper moves by 0.1 m
+/// along the lift, at first with its acceleration. Other parts sleep until something touches them. Always by the
 /// default solver, on the CPU.
 ///
 /// Keeps the shapes of parts and grippers between the scenes of a request. Thread-safe: serves one caller at a time.

@@ -271,6 +271,8 @@ struct Request {
   std::vector<Gripper> grippers;
   std::size_t prove = 0;
   bool prove_all = false;
+  double lift_cone = 0.0;        ///< rad: of the lifts of grasped parts against the vertical
+  double slight_overlap = 0.03;  ///< share of a part's footprint: those covered by no more count as free to lift
   std::string rig;
   Acceptance accept;
   std::optional<double> seconds;
