@@ -42,17 +42,23 @@ PageJson counts_of(const PageJson& all) {
   return counts;
 }
 
-PageJson best_of(const PageJson& grasps) {
+/// With the displacement of its part's lift.
+PageJson best_of(const PageJson& grasps, const PageJson& parts) {
   std::vector<const PageJson*> free;
   for (const PageJson& grasp : grasps)
     if (grasp.at("free").get<bool>()) free.push_back(&grasp);
   std::stable_sort(free.begin(), free.end(),
                    [](const PageJson* a, const PageJson* b) { return a->at("score") > b->at("score"); });
-  std::set<int> parts;
+  std::set<int> shown;
   std::stable_partition(free.begin(), free.end(),
-                        [&](const PageJson* grasp) { return parts.insert(grasp->at("part").get<int>()).second; });
+                        [&](const PageJson* grasp) { return shown.insert(grasp->at("part").get<int>()).second; });
   PageJson best = PageJson::array();
-  for (std::size_t i = 0; i < std::min(most_grasps, free.size()); ++i) best.push_back(*free[i]);
+  for (std::size_t i = 0; i < std::min(most_grasps, free.size()); ++i) {
+    best.push_back(*free[i]);
+    best.back()["lift"] = {0.0, 0.0, 0.1};  // of files that earlier versions wrote
+    for (const PageJson& part : parts)
+      if (part.at("id") == free[i]->at("part") && part.contains("lift")) best.back()["lift"] = part.at("lift");
+  }
   return best;
 }
 
@@ -65,7 +71,7 @@ PageJson grasp_view(const std::string& folder) {
   if (!fs::is_regular_file(path, missing)) return view;
   const PageJson all = PageJson::parse(read_file(path.string()));
   view["grippers"] = all.at("grippers");
-  view["grasps"] = best_of(all.at("grasps"));
+  view["grasps"] = best_of(all.at("grasps"), all.value("parts", PageJson::array()));
   view["counts"] = counts_of(all);
   return view;
 }

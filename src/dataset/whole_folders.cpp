@@ -112,7 +112,10 @@ void write_scene_files(const std::string& folder, const std::set<std::string>& f
   if (formats.count("grasps") && result.grasps) {
     write_text((base / "grasps.json").string(), grasps_json(*result.grasps, result.scene, loaded.request));
     for (const Sensor& sensor : result.scene.sensors)
-      write_text((base / (sensor.name + "_grasps.npy")).string(), grasps_npy(*result.grasps, sensor, loaded.request));
+      for (std::size_t i = 0; i < loaded.request.grippers.size(); ++i)
+        write_text((base / (sensor.name + "_grasps_" + file_name_of(loaded.request.grippers[i]) + ".npy")).string(),
+                   grasps_npy(*result.grasps, sensor, loaded.request, i));
+    for (const RangeImage& image : result.images) write_grasp_maps(folder, image, *result.grasps, loaded.request);
   }
   write_text((base / "scene.json").string(), scene_json(result.scene, loaded, result.images));
 }

@@ -14,7 +14,7 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 6;              ///< raise it whenever the way grasps are found changes
+constexpr int grasp_format = 7;              ///< raise it whenever the way grasps are found changes
 constexpr double symmetry_limit = 1e-3;      ///< / diagonal: symmetries that a gripper cannot tell from exact ones
 constexpr double first_apart = 0.03;         ///< / diagonal: of thinning
 constexpr double first_angle = 0.3;          ///< rad

@@ -1,6 +1,7 @@
 /// grasps.json: what can be picked of a scene. One grasp a line.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
+#include "scene/gripper_keys.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,10 +22,16 @@ GraspJson pose_json(const Pose& pose) {
   return {{"position", {p.x(), p.y(), p.z()}}, {"orientation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-GraspJson weights_json(const ScoreWeights& w) {
-  return {{"bias", w.bias},       {"holding", w.holding},  {"antipodal", w.antipodal}, {"moment", w.moment},
-          {"overlap", w.overlap}, {"upright", w.upright},  {"clearance", w.clearance}, {"closing", w.closing},
-          {"seen", w.seen},       {"measured", w.measured}};
+/// The values of a table of keys that are numbers.
+struct NumbersJson {
+  GraspJson json;
+  void field(const Key& key, double& value) { json[key.name] = value; }
+};
+
+GraspJson weights_json(ScoreWeights weights) {
+  NumbersJson numbers;
+  visit(numbers, weights);
+  return std::move(numbers.json);
 }
 
 /// An infinite value is null.
@@ -32,16 +39,10 @@ GraspJson number_json(double value) {
   return std::isfinite(value) ? GraspJson(value) : GraspJson();
 }
 
-GraspJson columns_json(const GraspColumns& c) {
-  return {{"safety", number_json(c.safety)},
-          {"antipodal", c.antipodal},
-          {"moment", c.moment},
-          {"overlap", c.overlap},
-          {"upright", c.upright},
-          {"clearance", c.clearance},
-          {"closing", c.closing},
-          {"seen", c.seen},
-          {"measured", c.measured}};
+GraspJson columns_json(const GraspColumns& columns) {
+  GraspJson json;
+  for_each_column(columns, [&](const char* name, double value) { json[name] = number_json(value); });
+  return json;
 }
 
 /// What draws a gripper and what labels depend on; keys as in the request.
@@ -54,6 +55,7 @@ GraspJson gripper_json(const Gripper& g) {
                  {"finger_width", g.finger_width},
                  {"finger_thickness", g.finger_thickness},
                  {"finger_clearance", g.finger_clearance},
+                 {"inner", g.inner},
                  {"pad_length", g.pad_length},
                  {"pad_give", g.pad_give}});
   } else {
@@ -69,6 +71,7 @@ GraspJson gripper_json(const Gripper& g) {
                {"force", g.force},
                {"friction", g.friction},
                {"clearance", g.clearance},
+               {"tool_rotation", {g.tool_rotation.x(), g.tool_rotation.y(), g.tool_rotation.z()}},
                {"acceleration", g.acceleration},
                {"tilt", g.tilt},
                {"most", g.most},
@@ -92,7 +95,9 @@ GraspJson grasp_json(const SceneGrasp& grasp, const PartPick& pick, const Scene&
                     {"gripper", request.grippers[grasp.gripper].name},
                     {"grasp", grasp.grasp ? static_cast<std::int64_t>(*grasp.grasp) : -1},
                     {"pose", pose_json(grasp.pose)},
+                    {"flange", pose_json(grasp.pose * request.grippers[grasp.gripper].flange())},
                     {"width", grasp.width},
+                    {"inner", grasp.inner},
                     {"score", grasp.score},
                     {"columns", columns_json(grasp.columns)},
                     {"friction", number_json(grasp.friction)},
@@ -129,6 +134,7 @@ GraspJson overlap_json(const PartPick& pick) {
   return {{"area", pick.overlap.area},
           {"share", pick.overlap.share},
           {"move", {move.x(), move.y(), move.z()}},
+          {"passes", pick.overlap.passes},
           {"by", std::move(by)}};
 }
 
@@ -170,6 +176,8 @@ std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Req
                              {"load", pick.load},
                              {"pull", pick.pull},
                              {"depth", pick.depth},
+                             {"lift", {pick.lift.x(), pick.lift.y(), pick.lift.z()}},
+                             {"slight", pick.slight},
                              {"overlap", overlap_json(pick)},
                              {"tilted", pick.tilted},
                              {"searched", searches_json(pick, request)}});

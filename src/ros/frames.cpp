@@ -36,6 +36,14 @@ std::string sensor_frame(const std::string& sensor, const std::string& prefix) {
   return prefix + graph_name(sensor) + "_optical_frame";
 }
 
+geometry_msgs::Vector3 vector_message(const Vec3& v) {
+  geometry_msgs::Vector3 message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
 geometry_msgs::Pose pose_message(const Pose& pose) {
   geometry_msgs::Pose message;
   message.position.x = pose.position.x();

@@ -4,6 +4,7 @@
 #include "bin_scenes/scene/scene.hpp"
 
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -23,6 +24,7 @@ std::string part_frame(int id, const std::string& prefix = "");  ///< "part_0007
 std::string sensor_frame(const std::string& sensor, const std::string& prefix = "");
 
 geometry_msgs::Pose pose_message(const Pose& pose);
+geometry_msgs::Vector3 vector_message(const Vec3& v);
 /// The inverse. A quaternion of four zeros, the default of a message, is the identity.
 Pose pose_from(const geometry_msgs::Pose& message);
 

@@ -64,7 +64,7 @@ class GripperMarkers {
     if (g.type == Gripper::Type::parallel) {
       for (const double side : {-0.5, 0.5})
         body(GraspMarker::CUBE, grasp.pose,
-             Vec3(side * (grasp.width + g.finger_thickness), 0.0, tip - 0.5 * g.finger_depth),
+             Vec3(side * (g.between_fingers(grasp.aperture()) + g.finger_thickness), 0.0, tip - 0.5 * g.finger_depth),
              Vec3(g.finger_thickness, g.finger_width, g.finger_depth));
     } else {
       body(GraspMarker::CYLINDER, grasp.pose, Vec3(0.0, 0.0, -0.5 * g.radius),
@@ -73,7 +73,7 @@ class GripperMarkers {
            Vec3(g.radius, g.radius, g.finger_depth));
     }
     next_.color.a = 0.3f;
-    body(GraspMarker::CUBE, grasp.pose, Vec3(0.0, 0.0, tip - g.finger_depth - 0.5 * g.palm.z()), g.palm);
+    body(GraspMarker::CUBE, grasp.pose * g.flange(), Vec3(0.0, 0.0, 0.5 * g.palm.z()), g.palm);
   }
 
  private:
@@ -88,6 +88,23 @@ class GripperMarkers {
   visualization_msgs::MarkerArray& all_;
   GraspMarker next_;
 };
+
+}  // namespace
+
+namespace {
+
+void add_part(bin_scenes_msgs::GetGrasps::Response& response, const PartPick& pick) {
+  response.part_ids.push_back(pick.id);
+  response.loads.push_back(pick.load);
+  response.pulls.push_back(pick.pull);
+  response.depths.push_back(pick.depth);
+  response.lifts.push_back(vector_message(pick.lift));
+  response.slight.push_back(pick.slight);
+  response.overlap_areas.push_back(pick.overlap.area);
+  response.overlap_shares.push_back(pick.overlap.share);
+  response.overlap_moves.push_back(vector_message(pick.overlap.move));
+  response.overlap_passes.push_back(pick.overlap.passes);
+}
 
 }  // namespace
 
@@ -117,12 +134,20 @@ void fill(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<Scen
     response.poses.poses.push_back(pose_message(grasp.pose));
     response.parts.push_back(grasp.part);
     response.grippers.push_back(request.grippers[grasp.gripper].name);
+    response.flanges.poses.push_back(pose_message(grasp.pose * request.grippers[grasp.gripper].flange()));
+    response.grasps.push_back(grasp.grasp ? static_cast<int>(*grasp.grasp) : -1);
     response.widths.push_back(grasp.width);
+    response.inner.push_back(grasp.inner);
     response.scores.push_back(grasp.score);
+    for_each_column(grasp.columns, [&](const char*, double value) { response.column_values.push_back(value); });
+    response.frictions.push_back(grasp.friction);
     response.free.push_back(grasp.free());
     response.reasons.push_back(reason_of(grasp, *pick_of(all, grasp.part)));
   }
+  for_each_column(GraspColumns(), [&](const char* name, double) { response.columns.emplace_back(name); });
+  response.flanges.header = response.poses.header;
   response.removal_order.assign(all.removal_order.begin(), all.removal_order.end());
+  for (const PartPick& pick : all.parts) add_part(response, pick);
 }
 
 void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vector<SceneGrasp>& chosen,
@@ -137,7 +162,7 @@ void fill_shares(bin_scenes_msgs::GetGrasps::Response& response, const std::vect
 PartPick picked_by(const SceneGrasps& all, const Request& request, const bin_scenes_msgs::PickPart::Request& asked) {
   const auto& direction = asked.lift_direction;
   if (asked.ids.size() != 1 || direction.x != 0.0 || direction.y != 0.0 || direction.z != 0.0)
-    throw input_error("a grasp takes one part straight up", "pick_part",
+    throw input_error("a grasp takes one part along the lift that get_grasps states", "pick_part",
                       "name one part in ids, and leave lift_direction 0 0 0");
   const PartPick* pick = pick_of(all, asked.ids[0]);
   if (!pick)

@@ -16,14 +16,6 @@ static_assert(int(PartState::escaped) == msgs::ScenePart::ESCAPED && int(PartSta
 static_assert(int(PartState::not_poured) == msgs::ScenePart::NOT_POURED);
 static_assert(int(PartState::removed) == msgs::ScenePart::REMOVED);
 
-geometry_msgs::Vector3 vector_message(const Vec3& v) {
-  geometry_msgs::Vector3 message;
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
-  return message;
-}
-
 msgs::ScenePart part_message(const ScenePart& part, const std::vector<Sensor>& sensors, const Frames& frames) {
   msgs::ScenePart message;
   message.id = part.id;

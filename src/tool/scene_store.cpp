@@ -83,7 +83,8 @@ bool SceneStore::complete(const std::string& folder, std::size_t index, const Re
     if (wants("pcd") && !there(base / (sensor.name + ".pcd"))) return false;
     if (wants("ply") && !there(base / (sensor.name + ".ply"))) return false;
     if (wants("png") && !there(base / (sensor.name + ".png"))) return false;
-    if (wants("grasps") && !there(base / (sensor.name + "_grasps.npy"))) return false;
+    for (std::size_t i = 0; wants("grasps") && i < request.grippers.size(); ++i)
+      if (!there(base / (sensor.name + "_grasps_" + file_name_of(request.grippers[i]) + ".npy"))) return false;
   }
   const fs::path bop = bop_folder(index, accepted);
   return !wants("bop") || (there(bop / "scene_gt.json") && whole(bop, verify_));

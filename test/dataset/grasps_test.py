@@ -102,7 +102,7 @@ class Grasps(DataSetTest):
         self.assertGreater(len(free), 10)
         gripper = next(gripper for gripper in told["grippers"] if gripper["name"] == "two")
         for camera in ("camera", "side"):
-            rows = np.load(self.folder / ("out/scenes/scene_000000/%s_grasps.npy" % camera))
+            rows = np.load(self.folder / ("out/scenes/scene_000000/%s_grasps_two.npy" % camera))
             self.assertEqual((rows.shape, rows.dtype), ((len(free), 17), np.float32))
             for row, grasp in zip(rows, free):
                 pose = grasp["pose_in_camera"][camera]
@@ -114,6 +114,31 @@ class Grasps(DataSetTest):
                             gripper["finger_width"], gripper["pad_length"] / 2, *rotation.ravel(), *pose["position"], grasp["part"]]
                 np.testing.assert_allclose(row, expected, rtol=0, atol=1e-6)
                 self.assertAlmostEqual(np.linalg.det(row[4:13].reshape(3, 3)), 1, 5)
+
+    def test_cups_and_layers_are_maps_of_pixels(self):
+        """Rows of suctionnetAPI's SuctionGroup; maps against poses and labels of the same scene."""
+        from PIL import Image
+        self.make(self.plan(scenes=1, outputs="json, png, grasps"), "out")
+        told, folder = self.grasps("out", 0), self.folder / "out/scenes/scene_000000"
+        free = [grasp for grasp in told["grasps"] if grasp["free"] and grasp["gripper"] == "cup_10mm"]
+        self.assertGreater(len(free), 10)
+        rows = np.load(folder / "side_grasps_cup_10mm.npy")
+        self.assertEqual((rows.shape, rows.dtype), ((len(free), 8), np.float32))
+        for row, grasp in zip(rows, free):
+            pose = grasp["pose_in_camera"]["side"]
+            x, y, z, w = pose["orientation_xyzw"]
+            away = [-2 * (x * z + y * w), -2 * (y * z - x * w), -1 + 2 * (x * x + y * y)]
+            np.testing.assert_allclose(row, [grasp["score"], *away, *pose["position"], grasp["part"]], rtol=0, atol=1e-6)
+        labels, layers, cups = (np.array(Image.open(folder / ("side_%s.png" % name))) for name in ("truth_labels", "layers",
+                                                                                                  "suction_cup_10mm"))
+        for part in told["parts"]:
+            expected = 1 if part["slight"] or str(part["id"]) not in told["blocked_by"] else 2 if part["overlap"]["share"] < 0.5 else 3
+            self.assertEqual(set(layers[labels == part["id"] + 1]) - {expected}, set())
+        self.assertEqual(set(layers[labels == 0]), {0})
+        self.assertTrue((cups > 0).any())
+        for part in {row for row in labels[cups > 0]}:  # scores of free grasps of the part that is seen
+            scores = {round(65535 * grasp["score"]) for grasp in free if grasp["part"] == part - 1}
+            self.assertEqual(set(cups[labels == part].tolist()) - scores - {0}, set())
 
     def test_a_bin_is_emptied_by_its_own_grasps(self):
         more = "depletion: {steps: 3, take: {order: grasp}}"

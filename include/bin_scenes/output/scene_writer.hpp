@@ -29,9 +29,18 @@ SceneFile scene_file(const Scene& scene, const LoadedRequest& loaded, const std:
 /// grasps.json as text (format "bin_scenes/grasps/1"): docs/use/outputs.md.
 std::string grasps_json(const SceneGrasps& grasps, const Scene& scene, const Request& request);
 
-/// Free grasps of grippers with two fingers as a file of numpy, for graspnetAPI's GraspGroup: float32, 17 columns, in
-/// the frame of the sensor.
-std::string grasps_npy(const SceneGrasps& grasps, const Sensor& sensor, const Request& request);
+/// Free grasps of one gripper as a file of numpy, float32, in the frame of the sensor. Two fingers: 17 columns for
+/// graspnetAPI's GraspGroup, whose format has no grasps from within. A cup: 8 columns for suctionnetAPI's SuctionGroup.
+/// @param gripper  index into Request::grippers
+std::string grasps_npy(const SceneGrasps& grasps, const Sensor& sensor, const Request& request, std::size_t gripper);
+/// The gripper's name as a part of file names: what is neither letter nor digit nor one of -._ becomes _.
+std::string file_name_of(const Gripper& gripper);
+
+/// <sensor>_layers.png, 8 bit: 0 bin and background, 1 parts that can be lifted, 2 partly covered, 3 covered by half of
+/// their footprint and more. <sensor>_suction_<gripper>.png for each cup, 16 bit: score * 65535 of the nearest cup that
+/// was tried within its radius, 0 where it is not free or none was tried. Of the true view of the camera.
+void write_grasp_maps(const std::string& directory, const RangeImage& image, const SceneGrasps& grasps,
+                      const Request& request);
 
 void write_text(const std::string& path, const std::string& text);
 
