@@ -216,7 +216,7 @@ at rest: at_rest of scenes | | all
             (self.root / folder).mkdir(parents=True)
         for name, code in (("build/bench/bin_scenes_bench", 0), ("test/stress/soak", 1), ("bench/publish", 0),
                            ("test/stress/inspect_all", 0), ("bench/datasets/measure", 0), ("bench/datasets/audit", 0),
-                           ("bench/datasets/lifts", 0), ("build/bin_scenes", 0)):
+                           ("bench/datasets/calibration", 0), ("bench/datasets/overlaps", 0), ("build/bin_scenes", 0)):
             script = self.root / name
             script.unlink(missing_ok=True)
             script.write_text("#!/bin/bash\necho did %s $*\nexit %d\n" % (name, code))
@@ -229,7 +229,8 @@ at rest: at_rest of scenes | | all
                                *("did bench/datasets/measure %s --tool build/bin_scenes" % part
                                  for part in ("throughput", "masks", "growth")),
                                "did bench/datasets/audit build/bin_scenes --stock build/bench/bin_scenes_bench_stock",
-                               "did bench/datasets/lifts --tool build/bin_scenes", "did bench/publish"])
+                               "did bench/datasets/calibration --tool build/bin_scenes",
+                               "did bench/datasets/overlaps --tool build/bin_scenes", "did bench/publish"])
         missing = self.run_script("all", "nowhere")
         self.assertEqual(missing.returncode, 2)
         self.assertIn("scripts/build", missing.stderr)
