@@ -27,8 +27,9 @@ void visit(Visitor& v, ScoreWeights& w) {
   v.field({"measured", "", "of the share of the contact that the best camera measured"}, w.measured);
 }
 
+/// Names and lengths.
 template <class Visitor>
-void visit(Visitor& v, Gripper& g) {
+void visit_shape(Visitor& v, Gripper& g) {
   v.field({"name", "", "name in the outputs; left out: that of the preset"}, g.name);
   v.field({"preset", "", "name of a file of config/grippers whose values are the defaults here", anything, false},
           g.preset);
@@ -65,6 +66,11 @@ void visit(Visitor& v, Gripper& g) {
            "suction: of the lip against being pressed into its gap; reduces the force of the vacuum", at_least(0.0)},
           g.stiffness);
   v.field({"palm", "m", "box behind the fingers: along closing, across, along approach", above(0.0, 1e4)}, g.palm);
+}
+
+template <class Visitor>
+void visit(Visitor& v, Gripper& g) {
+  visit_shape(v, g);
   v.field({"force", "N", "of each finger, or of the vacuum", above(0.0, 1e5)}, g.force);
   v.field({"friction", "", "of pad or ring; the coefficient of a pair is sqrt(gripper * part)", above(0.0, 10.0)},
           g.friction);
