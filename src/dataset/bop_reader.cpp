@@ -92,8 +92,13 @@ std::string suffix_for(const fs::path& scene, const std::string& sensor) {
   throw input_error("has no sensor '" + sensor + "'", scene.string(), "there are:" + known);
 }
 
+/// An entry of scene_camera.json: "cam_R_w2c", which XYZ-IBD spells "R_w2c" in places. Null: it is not there.
+nlohmann::json of_world(const nlohmann::json& camera, const std::string& key) {
+  return camera.value("cam_" + key, camera.value(key, nlohmann::json()));
+}
+
 bool tells_world(const nlohmann::json& camera) {
-  return camera.contains("cam_R_w2c") && camera.contains("cam_t_w2c");
+  return !of_world(camera, "R_w2c").is_null() && !of_world(camera, "t_w2c").is_null();
 }
 
 BopView view_of(const fs::path& scene, const std::string& suffix, const std::string& key, const nlohmann::json& camera,
@@ -104,10 +109,11 @@ BopView view_of(const fs::path& scene, const std::string& suffix, const std::str
   view.suffix = suffix;
   view.image = std::stoi(key);
   view.k = camera.at("cam_K").get<std::array<double, 9>>();
+  view.depth_scale = metres * camera.value("depth_scale", 1.0);
   Pose camera_in_world;
   if (tells_world(camera)) {
-    const Pose world_in_camera{millimetres_of(camera.at("cam_t_w2c")),
-                               rotation(camera.at("cam_R_w2c"), where + ", cam_R_w2c")};
+    const Pose world_in_camera{millimetres_of(of_world(camera, "t_w2c")),
+                               rotation(of_world(camera, "R_w2c"), where + ", cam_R_w2c")};
     camera_in_world = world_in_camera.inverse();
     if (options.up) camera_in_world = Pose{Vec3::Zero(), upright(*options.up)} * camera_in_world;
   } else {
@@ -118,6 +124,7 @@ BopView view_of(const fs::path& scene, const std::string& suffix, const std::str
     const std::string entry = where + ", entry " + std::to_string(i);
     BopPart part;
     part.object = truth[i].at("obj_id");
+    if (truth[i].contains("id")) part.id = truth[i].at("id").get<int>();
     part.in_camera = {millimetres_of(truth[i].at("cam_t_m2c")), rotation(truth[i].at("cam_R_m2c"), entry)};
     part.in_world = camera_in_world * part.in_camera;
     if (!part.in_world.finite()) throw input_error("the pose is not finite", entry, "leave the entry out");

@@ -16,8 +16,9 @@ struct BopPart {
   int object = 0;
   Pose in_camera;                  ///< m, of the model
   Pose in_world;                   ///< m; z up
-  std::optional<double> visible;   ///< visib_fract as told
-  std::optional<long> px_visible;  ///< px_count_visib as told
+  std::optional<double> visible;   ///< visib_fract as stated
+  std::optional<long> px_visible;  ///< px_count_visib as stated
+  std::optional<int> id;           ///< of the instance; only data sets of this project state it
 };
 
 /// What one image says of a heap. Images of several views of it have the same parts in the same places.
@@ -26,7 +27,8 @@ struct BopView {
   std::string suffix;           ///< of its files: "" or "_SENSOR"
   int image = 0;
   std::array<double, 9> k{};
-  Pose camera;  ///< in the world
+  double depth_scale = 1e-3;  ///< m a count of the depth image
+  Pose camera;                ///< in the world
   std::vector<BopPart> parts;
 };
 

@@ -1,7 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
-#include "bin_scenes/scene/report.hpp"
 #include "dataset/whole_folders.hpp"
+#include "tool/audit_judge.hpp"
 #include "tool/audit_page.hpp"
 #include "tool/audit_state.hpp"
 #include "tool/commands.hpp"
@@ -64,23 +64,22 @@ std::string bin_text(const AuditBin& bin, bool own) {
   return text;
 }
 
-Json json_of(AuditFigures& figures, const std::string& lies_in, bool world_told) {
-  Json json = {{"scenes", figures.scenes},   {"heaps", figures.heaps}, {"parts", figures.parts},
-               {"escaped", figures.escaped}, {"lies_in", lies_in},     {"world_told", world_told},
-               {"measures", Json::array()}};
-  for (const AuditMeasure* measure : figures.all()) {
-    if (measure->values.empty()) continue;
-    const Quantiles q = quantiles(measure->values);
-    json["measures"].push_back({{"name", measure->name},
-                                {"unit", measure->unit},
-                                {"p50", q.median},
-                                {"p95", q.p95},
-                                {"max", q.max},
-                                {"limit", measure->limit},
-                                {"above", share_above(*measure)},
-                                {"count", measure->values.size()}});
+/// The worst parts or images that have faults.
+void print_worst(const Json& list, std::size_t all, const char* what) {
+  if (all == 0) return;
+  std::printf("\n%zu %s above a limit or with faults; the worst:\n", all, what);
+  for (const Json& item : list) {
+    if (item["faults"].empty()) continue;
+    std::printf("  %s, image %d", item["scene"].get<std::string>().c_str(), item["image"].get<int>());
+    if (item.contains("entry")) {
+      std::printf(", entry %zu", item["entry"].get<std::size_t>());
+      if (item.contains("id") && item["id"] != item["entry"]) std::printf(" (id %d)", item["id"].get<int>());
+      std::printf(", object %d", item["object"].get<int>());
+    }
+    std::string faults;
+    for (const Json& fault : item["faults"]) faults += (faults.empty() ? "" : "; ") + fault.get<std::string>();
+    std::printf(": %s\n", faults.c_str());
   }
-  return json;
 }
 
 void print(const Json& json) {
@@ -88,21 +87,23 @@ void print(const Json& json) {
               json["heaps"].get<std::size_t>(), json["parts"].get<std::size_t>(), json["escaped"].get<std::size_t>(),
               json["lies_in"].get<std::string>().c_str());
   if (!json["world_told"])
-    std::printf("no image states cam_R_w2c: up is against the camera's axis, or what --up says\n");
-  std::printf("%-46s %-14s %10s %10s %10s   %s\n", "measure", "unit", "p50", "p95", "max", "parts above a limit");
+    std::printf("no image states cam_R_w2c: up is opposite to the camera's axis, or what --up states\n");
+  std::printf("%-12s %-46s %-14s %10s %10s %10s   %s\n", "key", "measure", "unit", "p50", "p95", "max",
+              "above the limit");
   for (const Json& m : json["measures"])
-    std::printf("%-46s %-14s %10.3g %10.3g %10.3g   %.1f %% above %g\n", m["name"].get<std::string>().c_str(),
-                m["unit"].get<std::string>().c_str(), m["p50"].get<double>(), m["p95"].get<double>(),
-                m["max"].get<double>(), 100.0 * m["above"].get<double>(), m["limit"].get<double>());
+    std::printf("%-12s %-46s %-14s %10.3g %10.3g %10.3g   %.1f %% above %g\n", m["key"].get<std::string>().c_str(),
+                m["name"].get<std::string>().c_str(), m["unit"].get<std::string>().c_str(), m["p50"].get<double>(),
+                m["p95"].get<double>(), m["max"].get<double>(), 100.0 * m["above"].get<double>(),
+                m["limit"].get<double>());
+  for (const Json& fault : json["faults"]) std::printf("%s\n", fault.get<std::string>().c_str());
+  print_worst(json["worst_parts"], json["parts_with_faults"], "parts");
+  print_worst(json["worst_images"], json["images_with_faults"], "images");
+  std::string exceeded;
+  for (const Json& key : json["exceeded"]) exceeded += (exceeded.empty() ? "" : ", ") + key.get<std::string>();
+  std::printf("%s\n", exceeded.empty() ? "within all limits" : ("limits are exceeded: " + exceeded).c_str());
 }
 
 }  // namespace
-
-double share_above(const AuditMeasure& measure) {
-  const auto above =
-      std::count_if(measure.values.begin(), measure.values.end(), [&](double value) { return value > measure.limit; });
-  return measure.values.empty() ? 0.0 : static_cast<double>(above) / static_cast<double>(measure.values.size());
-}
 
 int audit(const AuditOptions& options) {
   AuditBin bin = bin_given(options);
@@ -119,28 +120,32 @@ int audit(const AuditOptions& options) {
   bar.stage(0.0, 0.0, "reading the data set");
   const BopSet set = read_bop_set(own ? (root / "bop").string() : options.directory, read);
   AuditFigures figures;
+  set_limits(figures, options.limits);
   std::set<fs::path> scenes;
   Auditor auditor(set);
   const std::vector<AuditHeap> heaps = heaps_of(set, figures);
   const std::size_t most = options.most > 0 ? std::min(options.most, heaps.size()) : heaps.size();
   for (const AuditHeap& heap : heaps) {
     if (figures.heaps == most) break;
-    bar.show(static_cast<double>(figures.heaps) / static_cast<double>(most),
+    bar.show(0.8 * static_cast<double>(figures.heaps) / static_cast<double>(most),
              "heap " + std::to_string(figures.heaps + 1) + " of " + std::to_string(most));
     scenes.insert(heap.views.front()->scene);
     AuditBin of_heap = bin;
     if (own) of_heap.inner_size = own_bin(root, *heap.views.front());
     auditor.audit(heap, of_heap, figures);
   }
+  auditor.audit_labels(figures, [&](double share) { bar.show(0.8 + 0.2 * share, "labels"); });
+  check_ids(set, heaps, figures);
   bar.clear();
   figures.scenes = scenes.size();
-  const Json json = json_of(figures, bin_text(bin, own), set.world_told);
+  Json json = audit_json(set, figures, options.share);
+  json["lies_in"] = bin_text(bin, own);
   if (!options.out.empty()) write_text(options.out, audit_page(options.directory, json, figures));
   if (options.json)
     std::printf("%s\n", json.dump(1).c_str());
   else
     print(json);
-  return exit_done;
+  return json["exceeded"].empty() ? exit_done : exit_set_apart;
 }
 
 }  // namespace bin_scenes

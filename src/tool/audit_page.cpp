@@ -12,11 +12,12 @@ namespace {
 
 constexpr const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>Audit</title><style>
-body { font: 14px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 1100px; padding: 16px; color: #1c2733; }
+body { font: 14px/1.5 system-ui, sans-serif; margin: 0 auto; max-width: 1400px; padding: 16px; color: #1c2733; }
 table { border-collapse: collapse; } td, th { padding: 3px 14px 3px 0; text-align: left; border-bottom: 1px solid #dde3ea; }
 td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
 .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(320px, 1fr)); gap: 18px; margin-top: 18px; }
 svg text { font-size: 10px; fill: #56636f; } h2 { font-size: 14px; margin: 0 0 4px; }
+.bad { color: #b3261e; } .worst { margin-top: 18px; } td:last-child { max-width: 520px; }
 </style></head><body>
 )";
 
@@ -53,6 +54,31 @@ std::string histogram(const AuditMeasure& measure) {
          measure.unit + "</text></svg>";
 }
 
+/// The worst parts or images, with their signed figures.
+std::string worst_table(const nlohmann::ordered_json& list, const std::string& title, std::size_t faulty) {
+  if (list.empty()) return "";
+  std::string table = "<h2 class=worst>" + title + "; " + std::to_string(faulty) +
+                      " above a limit or with faults</h2><table><tr><th>scene</th><th class=n>image</th>";
+  const bool parts = list.front().contains("entry");
+  if (parts) table += "<th class=n>entry</th><th class=n>object</th><th class=n>IoU</th>";
+  table += "<th class=n>shift, px</th><th class=n>depth, mm</th><th>what is wrong</th></tr>";
+  for (const auto& item : list) {
+    const auto cell = [&](const char* key) {
+      if (!item.contains(key)) return std::string("<td class=n>-</td>");
+      const auto& value = item.at(key);
+      const std::string text = value.is_array() ? figure_text(value.at(0)) + ", " + figure_text(value.at(1))
+                                                : figure_text(value.get<double>());
+      return "<td class=n>" + text + "</td>";
+    };
+    table += "<tr><td>" + escaped(item.at("scene").get<std::string>()) + "</td>" + cell("image");
+    if (parts) table += cell("entry") + cell("object") + cell("iou");
+    std::string faults;
+    for (const auto& fault : item.at("faults")) faults += (faults.empty() ? "" : "; ") + fault.get<std::string>();
+    table += cell("shift_px") + cell("depth_mm") + "<td>" + escaped(faults) + "</td></tr>";
+  }
+  return table + "</table>";
+}
+
 }  // namespace
 
 std::string audit_page(const std::string& name, const nlohmann::ordered_json& json, AuditFigures& figures) {
@@ -69,7 +95,11 @@ std::string audit_page(const std::string& name, const nlohmann::ordered_json& js
     for (const char* key : {"p50", "p95", "max", "limit"}) page += "<td class=n>" + figure_text(m.at(key)) + "</td>";
     page += "<td class=n>" + figure_text(100.0 * m.at("above").get<double>()) + " %</td></tr>";
   }
-  page += "</table><div class=charts>";
+  page += "</table>";
+  for (const auto& fault : json.at("faults")) page += "<p class=bad>" + escaped(fault.get<std::string>()) + "</p>";
+  page += worst_table(json.at("worst_parts"), "Worst parts", json.at("parts_with_faults"));
+  page += worst_table(json.at("worst_images"), "Worst images", json.at("images_with_faults"));
+  page += "<div class=charts>";
   for (const AuditMeasure* measure : figures.all()) {
     if (measure->values.empty()) continue;
     page += std::string("<div><h2>") + measure->name + "</h2>" + histogram(*measure) + "</div>";

@@ -9,9 +9,7 @@
 
 namespace bin_scenes {
 
-double share_above(const AuditMeasure& measure);
-
-/// Table of `json`, and a histogram of each measure.
+/// Tables of `json` (audit_json()), and a histogram of each measure.
 std::string audit_page(const std::string& name, const nlohmann::ordered_json& json, AuditFigures& figures);
 
 }  // namespace bin_scenes

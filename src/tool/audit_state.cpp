@@ -1,10 +1,8 @@
-/// Puts the parts of a BOP scene into a request and measures overlap, gap, drift and visibility by the library's own
-/// judge, solver and rays.
+/// Puts the parts of a BOP scene into a request and measures overlap, gap and drift by the library's own judge and
+/// solver.
 #include "tool/audit_state.hpp"
 
 #include "bin_scenes/core/error.hpp"
-#include "bin_scenes/sensor/resolve.hpp"
-#include "output/png_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double degrees_per_radian = 180.0 / M_PI, millimetres_per_metre = 1e3;
+constexpr double degrees_per_radian = 180.0 / M_PI;
 constexpr double drift_seconds = 0.5;
 
 double turn_between(const Pose& a, const Pose& b) {
@@ -49,8 +47,8 @@ double fitted_floor(const std::vector<double>& ends, double diagonal) {
 }  // namespace
 
 std::vector<AuditMeasure*> AuditFigures::all() {
-  return {&overlap,  &overlap_mm, &into_bin, &gap,  &gap_mm,   &drift,
-          &drift_mm, &turn,       &visible,  &mask, &apart_mm, &apart_degree};
+  return {&overlap, &overlap_mm, &into_bin,     &gap,  &gap_mm,       &drift, &drift_mm, &turn,   &visible,
+          &counted, &apart_mm,   &apart_degree, &mask, &mask_visible, &shift, &depth,    &camera, &depth_common};
 }
 
 std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
@@ -60,8 +58,9 @@ std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
       const BopView& first = *heaps.back().views.front();
       for (std::size_t i = 0; i < view.parts.size(); ++i) {
         const Pose &a = first.parts[i].in_world, &b = view.parts[i].in_world;
-        figures.apart_mm.values.push_back(millimetres_per_metre * (a.position - b.position).norm());
-        figures.apart_degree.values.push_back(turn_between(a, b));
+        const AuditPlace place{static_cast<std::size_t>(&view - set.views.data()), i};
+        figures.apart_mm.add(mm_per_metre * (a.position - b.position).norm(), place);
+        figures.apart_degree.add(turn_between(a, b), place);
       }
       heaps.back().views.push_back(&view);
     } else {
@@ -73,10 +72,12 @@ std::vector<AuditHeap> heaps_of(const BopSet& set, AuditFigures& figures) {
 
 /// A heap as a request that goes on from it.
 struct Auditor::Placed {
+  std::size_t view = 0;
   LoadedRequest loaded;
   Scene scene;
   std::vector<std::size_t> entry;  ///< of the view, by id
   Pose shift;                      ///< from the set's world to the bin frame
+  AuditPlace place(int id) const { return {view, entry[static_cast<std::size_t>(id)]}; }
 };
 
 Auditor::Auditor(const BopSet& set) : set_(set) {
@@ -87,6 +88,7 @@ Auditor::Auditor(const BopSet& set) : set_(set) {
 
 Auditor::Placed Auditor::place(const BopView& view, const AuditBin& bin) const {
   Placed placed;
+  placed.view = static_cast<std::size_t>(&view - set_.views.data());
   std::vector<double> ends;
   double diagonal = 0.0;
   Aabb around;
@@ -152,18 +154,21 @@ void Auditor::audit(const AuditHeap& heap, const AuditBin& bin, AuditFigures& fi
   }
   audit_quality(placed, figures);
   audit_drift(placed, figures);
-  for (const BopView* view : heap.views) audit_image(*view, placed, figures);
+  Surroundings around{placed.loaded.request.bin, placed.shift};
+  if (bin.fitted) around.bin.kind = Bin::Kind::none;  // walls that nobody stated must not hide parts
+  for (const BopView* view : heap.views) around_[static_cast<std::size_t>(view - set_.views.data())] = around;
 }
 
 void Auditor::audit_quality(const Placed& placed, AuditFigures& figures) const {
   for (const PartQuality& part : part_quality(placed.scene, placed.loaded)) {
     const double diagonal = placed.loaded.parts[placed.scene.parts[static_cast<std::size_t>(part.id)].line]->diagonal();
-    figures.overlap.values.push_back(100.0 * part.overlap_relative);
-    figures.overlap_mm.values.push_back(millimetres_per_metre * part.overlap);
-    figures.into_bin.values.push_back(millimetres_per_metre * part.into_bin);
+    const AuditPlace place = placed.place(part.id);
+    figures.overlap.add(100.0 * part.overlap_relative, place);
+    figures.overlap_mm.add(mm_per_metre * part.overlap, place);
+    figures.into_bin.add(mm_per_metre * part.into_bin, place);
     if (!std::isfinite(part.gap)) continue;
-    figures.gap.values.push_back(100.0 * part.gap / diagonal);
-    figures.gap_mm.values.push_back(millimetres_per_metre * part.gap);
+    figures.gap.add(100.0 * part.gap / diagonal, place);
+    figures.gap_mm.add(mm_per_metre * part.gap, place);
   }
 }
 
@@ -177,49 +182,10 @@ void Auditor::audit_drift(const Placed& placed, AuditFigures& figures) {
     if (!end.pose.finite()) continue;
     const PartModel& model = *placed.loaded.parts[start.line];
     const double move = (end.pose * model.mass().center - start.pose * model.mass().center).norm();
-    figures.drift.values.push_back(100.0 * move / model.diagonal());
-    figures.drift_mm.values.push_back(millimetres_per_metre * move);
-    figures.turn.values.push_back(turn_between(start.pose, end.pose));
-  }
-}
-
-void Auditor::audit_image(const BopView& view, const Placed& placed, AuditFigures& figures) {
-  int width = 0, height = 0;
-  for (std::size_t i = 0; i < view.parts.size(); ++i) {
-    const fs::path visible = mask_of(view, "mask_visib", i), whole = mask_of(view, "mask", i);
-    for (const fs::path& path : {visible, whole}) {
-      if (!fs::is_regular_file(path)) continue;
-      const LoadedImage mask = load_png(path.string());
-      if (width == 0) width = mask.width, height = mask.height;
-      if (mask.width != width || mask.height != height)
-        throw input_error("is " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-                              ", other masks are " + std::to_string(width) + " x " + std::to_string(height),
-                          path.string(), "masks have the size of their image");
-      if (path != visible || !view.parts[i].px_visible) continue;
-      const auto pixels =
-          std::count_if(mask.samples.begin(), mask.samples.end(), [](auto sample) { return sample != 0; });
-      const auto told = static_cast<double>(*view.parts[i].px_visible);
-      figures.mask.values.push_back(100.0 * std::abs(static_cast<double>(pixels) - told) /
-                                    std::max(1.0, std::max(told, static_cast<double>(pixels))));
-    }
-  }
-  const bool told = std::all_of(view.parts.begin(), view.parts.end(), [](const BopPart& part) { return part.visible; });
-  if (width == 0 || !told) return;
-  Sensor sensor;
-  sensor.width = width, sensor.height = height;
-  sensor.k.assign(view.k.begin(), view.k.end());
-  sensor.pose = placed.shift * view.camera;
-  sensor.near = 0.01, sensor.far = 100.0;
-  Scene scene = placed.scene;
-  for (ScenePart& part : scene.parts) {  // as this view has it, which may differ from the first
-    const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
-    part.pose = placed.shift * told_part.in_world;
-  }
-  scene.sensors = {resolved(sensor, placed.loaded.request.bin, nullptr)};
-  rig_.render(scene, placed.loaded);
-  for (const ScenePart& part : scene.parts) {
-    const BopPart& told_part = view.parts[placed.entry[static_cast<std::size_t>(part.id)]];
-    figures.visible.values.push_back(std::abs(*told_part.visible - part.visible_fraction.at(sensor.name)));
+    const AuditPlace place = placed.place(start.id);
+    figures.drift.add(100.0 * move / model.diagonal(), place);
+    figures.drift_mm.add(mm_per_metre * move, place);
+    figures.turn.add(turn_between(start.pose, end.pose), place);
   }
 }
 

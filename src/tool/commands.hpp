@@ -101,10 +101,12 @@ int dataset_submit(const SubmitOptions& options);
 
 struct AuditOptions {
   std::string directory, sensor, models;
-  std::string bin, up;          ///< "x,y,z"; empty: not given
-  std::optional<double> floor;  ///< m
-  std::size_t most = 0;         ///< heaps; 0: all
-  std::string out;              ///< HTML file; empty: none
+  std::string bin, up;              ///< "x,y,z"; empty: not given
+  std::optional<double> floor;      ///< m
+  std::size_t most = 0;             ///< heaps; 0: all
+  std::vector<std::string> limits;  ///< "key=value"
+  double share = 0.05;              ///< of the parts that may be above a limit of overlap, gap or drift
+  std::string out;                  ///< HTML file; empty: none
   bool json = false;
 };
 int audit(const AuditOptions& options);

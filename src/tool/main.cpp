@@ -71,6 +71,10 @@ void add_audit(CLI::App& app, AuditOptions& o) {
   app.add_option("--sensor", o.sensor, "of a set with several; left out: the first one");
   app.add_option("--models", o.models, "folder of the models; left out: models beside or above the scenes");
   app.add_option("--most", o.most, "heaps to audit; left out: all");
+  app.add_option("--limit", o.limits, "KEY=VALUE: another limit of a measure, by the key that the table shows");
+  app.add_option("--share", o.share, "share of the parts that may exceed limits of overlap, fall, drift and visibility")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   app.add_option("--out", o.out, "HTML file with the table and a histogram of each measure");
   app.add_flag("--json", o.json, "as JSON");
 }
@@ -231,7 +235,9 @@ void add_commands(CLI::App& app, Commands& all) {
   all.add(app, report, "report", "a data set as one HTML page", add_report);
   all.add(app, view, "view", "a scene as one HTML page: parts, clouds, cameras, report", add_view);
   all.add(app, audit, "audit",
-          "how exact the scenes of any BOP data set are: overlap, free fall, drift, visible fractions", add_audit);
+          "how exact the scenes of any BOP data set are, and which parts and images are not: overlap, drift, masks, "
+          "depth, cameras; exit code 1 if limits are exceeded",
+          add_audit);
   all.add(app, doctor, "doctor", "what of this machine can be used, and what is missing");
   all.add(app, print_completion, "completion", "script of completion for a shell: source <(bin_scenes completion bash)",
           add_completion);

@@ -1,0 +1,54 @@
+/// What the labels of many parts say together about the camera that a data set states.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace bin_scenes {
+
+/// Where images truly are, less where the stated K puts them.
+struct CameraError {
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< px, of the principal point
+  Eigen::Vector2d scale = Eigen::Vector2d::Zero();  ///< of the focal lengths, relative
+  double radial = 0.0;                              ///< k1 of a lens whose distortion the images still have
+
+  /// px, of a point that the stated K images at `at`.
+  Eigen::Vector2d at(const Eigen::Vector2d& at, const std::array<double, 9>& k) const;
+  /// px, the largest of an image's corners and centre.
+  double largest(int width, int height, const std::array<double, 9>& k) const;
+  std::array<double, 9> corrected(std::array<double, 9> k) const;
+};
+
+/// A mask's shift against the silhouette, by the place of the silhouette.
+struct ShiftSample {
+  Eigen::Vector2d at, shift;  ///< px
+};
+
+/// Tukey's biweight by reweighted least squares, from the median of all shifts: up to a third of the samples may be
+/// wrong by any amount. Scale and radial distortion are found from 10 and 20 samples on, and are 0 unless they explain
+/// the shifts better by far. None below 4 samples.
+std::optional<CameraError> fit_camera(const std::vector<ShiftSample>& samples, const std::array<double, 9>& k);
+
+/// Depth of a part.
+struct DepthSample {
+  double error;        ///< mm, measured less model's
+  double depth;        ///< m
+  double obliqueness;  ///< distance / depth - 1
+};
+
+struct DepthError {
+  double offset = 0.0;    ///< mm
+  double scale = 0.0;     ///< relative
+  double distance = 0.0;  ///< 1: the image holds distances from the camera instead of depths along its axis
+  double of(const DepthSample& sample) const {
+    return offset + 1e3 * sample.depth * (scale + distance * sample.obliqueness);
+  }
+};
+std::optional<DepthError> fit_depth(const std::vector<DepthSample>& samples);
+
+double median_of(std::vector<double> values);  ///< the lower one of an even number; 0 of none
+
+}  // namespace bin_scenes
