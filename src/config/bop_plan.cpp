@@ -37,7 +37,6 @@ class BopReader {
   void read(const YAML::Node& node) {
     if (!node) return;
     if (!node.IsMap()) return complain_("expected a map", "", "bop: {layout: industrial, visible: truth}");
-    const Names known = {"layout", "format", "modalities", "evaluate", "visible", "tolerance", "symmetries"};
     for (const auto& item : node) {
       const std::string name = item.first.Scalar();
       const YAML::Node value = item.second;
@@ -50,6 +49,10 @@ class BopReader {
       else if (name == "visible")
         choose(value, name, {"truth", "measured"},
                [&](const std::string& text) { plan_.measured = text == "measured"; });
+      else if (name == "masks")
+        choose(value, name, {"png", "rle"}, [&](const std::string& text) { plan_.run_lengths = text == "rle"; });
+      else if (name == "most_targets")
+        read_most_targets(value);
       else if (name == "tolerance")
         read_tolerance(value);
       else if (name == "modalities")
@@ -57,7 +60,9 @@ class BopReader {
       else if (name == "evaluate")
         read_evaluated(value);
       else if (name != "symmetries")
-        complain_("is unknown", name, "known are layout, format, modalities, evaluate, visible, tolerance, symmetries");
+        complain_(
+            "is unknown", name,
+            "known are layout, format, modalities, evaluate, visible, tolerance, symmetries, masks, most_targets");
     }
   }
 
@@ -100,6 +105,15 @@ class BopReader {
     }
     if (!(tolerance > 0.0 && tolerance <= 0.1)) complain_("must be above 0 and at most 0.1 m", "tolerance", "m");
     plan_.tolerance = tolerance;
+  }
+
+  void read_most_targets(const YAML::Node& value) {
+    try {
+      read_value(value, plan_.most_targets);
+    } catch (const Mismatch& mismatch) {
+      return complain_("expected " + mismatch.expected, "most_targets", "bop_toolkit keeps 100 estimates an image");
+    }
+    if (plan_.most_targets == 0) complain_("must be at least 1", "most_targets", "leave it out for any number");
   }
 
   bool is_sensor(const std::string& name, const std::string& key) {

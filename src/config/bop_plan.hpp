@@ -15,6 +15,8 @@ struct BopPlan {
   BopLayout layout;
   std::optional<double> tolerance;  ///< m, of visible: measured
   bool measured = false;
+  bool run_lengths = false;      ///< masks as run lengths instead of PNG files
+  std::size_t most_targets = 0;  ///< visible parts of an image that is a target; 0: any number
 };
 
 /// @param own   the plan's key; may be undefined

@@ -1,5 +1,7 @@
 #include "config/plan_misfit.hpp"
 
+#include <algorithm>
+
 namespace bin_scenes::config {
 
 std::optional<Error> misfit(const Plan& plan, const Request& request) {
@@ -17,6 +19,24 @@ std::optional<Error> misfit(const Plan& plan, const Request& request) {
   for (const Sensor& sensor : request.sensors)
     if (const std::string why = bop_misfit(sensor); !why.empty()) return input_error(why, "outputs", bop_misfit_remedy);
   return std::nullopt;
+}
+
+void note_losses(Plan& plan, const std::optional<Distribution>& parts) {
+  if (const std::string loss = bop_loss(plan.reference.sensors); !loss.empty()) plan.notes.push_back(loss);
+  if (plan.most_targets > 0) return;
+  std::size_t most = 0;
+  if (!parts)
+    for (const PartLine& line : plan.reference.parts) most += line.count;
+  else if (parts->kind == Distribution::Kind::constant)
+    most = static_cast<std::size_t>(parts->a);
+  else
+    for (const std::string& end : parts->ends(YAML::Node()))
+      most = std::max(most, static_cast<std::size_t>(std::stod(end)));
+  if (most <= bop_most_estimates) return;
+  const std::string kept = std::to_string(bop_most_estimates);
+  plan.notes.push_back("a heap may have " + std::to_string(most) + " parts, and bop_toolkit keeps " + kept +
+                       " estimates an image: bop: {most_targets: " + kept +
+                       "} leaves images with more visible parts out of the targets");
 }
 
 }  // namespace bin_scenes::config

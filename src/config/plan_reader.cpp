@@ -232,6 +232,7 @@ class PlanFile {
     const config::BopPlan bop =
         config::read_bop_plan(bop_.value_or(none), rig_bop_.value_or(none), sensors, complain_of);
     plan_.bop = bop.layout;
+    plan_.run_lengths = bop.run_lengths, plan_.most_targets = bop.most_targets;
     if (bop.measured) plan_.tolerance = bop.tolerance.value_or(usual_tolerance);
   }
 
@@ -353,7 +354,7 @@ class PlanFile {
     if (plan_.wants("shards") && plan_.shard_size < plan_.reference.sensors.size())
       complain("is less than the images of one scene", "shard_size", "give at least as many as there are sensors");
     if (!plan_.wants("bop") && !plan_.wants("shards")) return;
-    if (const std::string loss = bop_loss(plan_.reference.sensors); !loss.empty()) plan_.notes.push_back(loss);
+    config::note_losses(plan_, state_->amount.parts);
     for (const config::Draw& draw : state_->draws) {
       const std::size_t dot = draw.path.rfind('.');
       const std::string name = draw.path.substr(dot == std::string::npos ? 0 : dot + 1);

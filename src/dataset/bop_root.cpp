@@ -110,6 +110,12 @@ OrderedJson views_together(const std::vector<SensorInfo>& sensors, const std::st
   return views;
 }
 
+std::size_t total(const std::map<int, int>& seen) {
+  std::size_t all = 0;
+  for (const auto& [object, count] : seen) all += static_cast<std::size_t>(count);
+  return all;
+}
+
 Targets targets_of(const DataFolder& folder, const DataSetFacts& facts, const std::vector<SensorInfo>& sensors) {
   Targets targets;
   const std::string suffix = facts.bop.kind == BopLayout::Kind::classic ? "" : "_" + facts.bop.sensor;
@@ -124,6 +130,7 @@ Targets targets_of(const DataFolder& folder, const DataSetFacts& facts, const st
       const OrderedJson& of_image = info->value(image, OrderedJson::array());
       for (std::size_t i = 0; i < std::min(entries.size(), of_image.size()); ++i)
         if (of_image[i].value("visib_fract", 0.0) >= least_visible) ++seen[entries[i].value("obj_id", 0)];
+      if (facts.most_targets > 0 && total(seen) > facts.most_targets) continue;
       const std::size_t number = std::stoul(image);
       for (const auto& [object, count] : seen)
         targets.localization.push_back(
@@ -170,6 +177,25 @@ std::map<std::string, std::string> bop_root_files(const DataFolder& folder, cons
   put("test_targets_bop24.json", targets.detection);
   if (industrial) put("test_targets_multiview_bop25.json", targets.views);
   return files;
+}
+
+std::string crowded_targets(const DataFolder& folder, const std::string& name) {
+  const DataSetFacts facts = read_facts(folder.root);
+  const std::size_t kept = name == "xyzibd" ? 2 * bop_most_estimates : bop_most_estimates;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> seen;  // parts by scene and image
+  for (const auto& target : targets_of(folder, facts, sensors_of(folder, facts)).localization)
+    seen[{target.at("scene_id"), target.at("im_id")}] += target.at("inst_count").get<std::size_t>();
+  std::size_t crowded = 0, most = 0;
+  for (const auto& [image, parts] : seen) {
+    crowded += parts > kept;
+    most = std::max(most, parts);
+  }
+  if (crowded == 0) return "";
+  return std::to_string(crowded) + " of " + std::to_string(seen.size()) + " target images have more than " +
+         std::to_string(kept) + " visible parts, up to " + std::to_string(most) + "; bop_toolkit keeps " +
+         std::to_string(kept) +
+         " estimates an image, so that even the truth scores below 1. Set bop: {most_targets: " + std::to_string(kept) +
+         "} in the plan, or pour fewer parts";
 }
 
 void write_bop_root(const DataFolder& folder, const DataSetFacts& facts) {

@@ -17,4 +17,8 @@ void write_bop_root(const DataFolder& folder, const DataSetFacts& facts);
 /// of Python, each below a comment that says where. Throws an input Error without BOP's layout by scenes.
 std::string toolkit_entry(const DataFolder& folder, const std::string& name);
 
+/// A warning where target images have more visible parts than bop_toolkit keeps estimates of (twice as many of the data
+/// set xyzibd); empty: there are none.
+std::string crowded_targets(const DataFolder& folder, const std::string& name = "");
+
 }  // namespace bin_scenes

@@ -70,6 +70,8 @@ std::string facts_text(const DataSetFacts& facts) {
                                  {"split", nlohmann::ordered_json::object()}};
   for (const auto& [name, share] : facts.split) json["split"][name] = share;
   json["bop"] = json_of(facts.bop);
+  if (facts.run_lengths) json["bop"]["masks"] = "rle";
+  if (facts.most_targets > 0) json["bop"]["most_targets"] = facts.most_targets;
   return json.dump(1) + "\n";
 }
 
@@ -130,6 +132,8 @@ DataSetFacts facts_of(const Plan& plan) {
   facts.formats = plan.formats;
   facts.tolerance = plan.tolerance;
   facts.bop = plan.bop;
+  facts.run_lengths = plan.run_lengths;
+  facts.most_targets = plan.most_targets;
   facts.shard_size = plan.shard_size;
   facts.split = plan.split;
   if (facts.split.empty()) facts.split = {{"train", 1.0}};
@@ -147,10 +151,22 @@ DataSetFacts read_facts(const fs::path& root) {
     throw input_error(std::string("is damaged, or not of format ") + format_name, path.string(),
                       "use the version of bin_scenes that made it");
   try {
-    DataSetFacts facts{json.at("plan_sha256"),    json.at("plan_text_sha256"), json.at("version"),
-                       json.at("heaps"),          json.at("depletion_steps"),  json.at("attempts"),
-                       json.at("sensors"),        json.at("outputs"),          json.at("bop_tolerance_m"),
-                       layout_in(json.at("bop")), json.at("shard_size"),       {}};
+    DataSetFacts facts{json.at("plan_sha256"),
+                       json.at("plan_text_sha256"),
+                       json.at("version"),
+                       json.at("heaps"),
+                       json.at("depletion_steps"),
+                       json.at("attempts"),
+                       json.at("sensors"),
+                       json.at("outputs"),
+                       json.at("bop_tolerance_m"),
+                       layout_in(json.at("bop")),
+                       false,
+                       0,
+                       json.at("shard_size"),
+                       {}};
+    facts.run_lengths = json.at("bop").value("masks", "") == "rle";
+    facts.most_targets = json.at("bop").value("most_targets", std::size_t{0});
     for (const auto& [name, share] : json.at("split").items()) facts.split.emplace_back(name, share);
     if (!facts.split.empty()) return facts;
   } catch (const nlohmann::json::exception&) {

@@ -33,6 +33,8 @@ struct DataSetFacts {
   std::vector<std::string> formats;
   double tolerance = 0.0;  ///< m, of visible pixels by measured depth; 0: they are those of the true image
   BopLayout bop;
+  bool run_lengths = false;      ///< bop: masks are run lengths in JSON files instead of PNG files
+  std::size_t most_targets = 0;  ///< bop: visible parts of an image that is a target; 0: any number
   std::size_t shard_size = 0;
   std::vector<std::pair<std::string, double>> split;  ///< never empty
 

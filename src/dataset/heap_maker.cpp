@@ -205,7 +205,7 @@ void HeapMaker::write_scene(const Generator::Result& result, const LoadedRequest
   // The folder with scene.json gets its name last: where it is, everything is.
   if (plan_.wants("bop"))
     folders.write(folder_.bop(facts_, scene), [&](const std::string& hidden) {
-      write_bop(hidden, bop, plan_.bop, facts_.split_of_scene(scene), plan_.objects.size());
+      write_bop(hidden, bop, plan_.bop, facts_.split_of_scene(scene), plan_.objects.size(), plan_.run_lengths);
     });
   if (plan_.wants("shards"))
     folders.write(folder_.samples(scene), [&](const std::string& hidden) {

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/types.hpp"
 #include "bin_scenes/sensor/calibration.hpp"
 #include "bin_scenes/sensor/resolve.hpp"
+#include "dataset/bop_files.hpp"
 #include "dataset/extent.hpp"
 #include "dataset/verify.hpp"
 #include "output/bop_image.hpp"
@@ -74,7 +75,9 @@ struct ImageFiles {
   const SceneSensor& sensor;
   const Json &camera, &truth, &info;
   BoxCamera box_camera;
-  const Json* annotations;  ///< of scene_gt_coco.json; null: the layout has none
+  const Json* annotations;              ///< of scene_gt_coco.json; null: the layout has none
+  const BopMasks* visible_run_lengths;  ///< null: masks are PNG files
+  const BopMasks* whole_run_lengths;
 
   std::string name() const { return folder.string() + ", image " + std::to_string(place.image) + place.suffix; }
 };
@@ -91,6 +94,17 @@ void verify_annotation(const ImageFiles& image, std::size_t entry, const LoadedI
   findings.expect(good, "bop_coco", where, "scene_gt_coco tells another object or mask");
 }
 
+/// From run lengths if there are such, otherwise from a PNG file.
+LoadedImage mask_from(const BopMasks* run_lengths, std::size_t entry, const std::string& path) {
+  if (!run_lengths) return load_png(path);
+  const std::optional<BinaryImage> mask = run_lengths->of(entry);
+  if (!mask) throw input_error("is missing", run_lengths->place(entry), "make the scene anew");
+  LoadedImage image;
+  image.width = mask->width, image.height = mask->height;
+  image.samples.assign(mask->inside.begin(), mask->inside.end());
+  return image;
+}
+
 void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annotation, Owners& owners,
                   Findings& findings) {
   const std::string name = six_digits(image.place.image) + "_" + six_digits(entry) + ".png";
@@ -99,8 +113,8 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
   const int id = image.truth[entry].at("id"), width = image.sensor.width, height = image.sensor.height;
   LoadedImage seen, whole;
   try {
-    seen = load_png(where);
-    whole = load_png((image.folder / ("mask" + image.place.suffix) / name).string());
+    seen = mask_from(image.visible_run_lengths, entry, where);
+    whole = mask_from(image.whole_run_lengths, entry, (image.folder / ("mask" + image.place.suffix) / name).string());
   } catch (const Error& error) {
     findings.expect(false, "bop_mask_there", error.where(), error.problem());
     return;
@@ -319,12 +333,17 @@ void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t
     for (const BopPlace& place : places) ++images[place.suffix];
     std::map<std::string, SensorFiles> files;
     for (const auto& [suffix, count] : images)
-      files[suffix] = files_of(path, suffix, facts.bop.kind == BopLayout::Kind::industrial, count, findings);
+      files[suffix] =
+          files_of(path, suffix, facts.bop.kind == BopLayout::Kind::industrial || facts.run_lengths, count, findings);
     for (std::size_t n = 0; n < places.size(); ++n) {
       const BopPlace& place = places[n];
       const SensorFiles& of_sensor = files.at(place.suffix);
       if (!of_sensor.camera) continue;
       const std::string key = std::to_string(place.image);
+      BopView view;
+      view.scene = path, view.suffix = place.suffix, view.image = static_cast<int>(place.image);
+      std::optional<BopMasks> visible, whole;
+      if (facts.run_lengths) visible.emplace(view, "mask_visib"), whole.emplace(view, "mask");
       const ImageFiles image{path,
                              place,
                              scene.sensors.at(n),
@@ -332,7 +351,9 @@ void verify_bop(const DataFolder& folder, const DataSetFacts& facts, std::size_t
                              of_sensor.truth->at(key),
                              of_sensor.info->at(key),
                              cameras[n],
-                             of_sensor.coco ? &*of_sensor.coco : nullptr};
+                             of_sensor.coco ? &*of_sensor.coco : nullptr,
+                             visible ? &*visible : nullptr,
+                             whole ? &*whole : nullptr};
       Owners owners;
       verify_image(image, scene, models, owners, findings);
       if (facts.tolerance > 0.0 || owners.part.empty()) continue;

@@ -33,9 +33,12 @@ struct BopImage {
 std::vector<BopImage> bop_images(const Scene& scene, const std::vector<PartModelPtr>& parts,
                                  const std::vector<RangeImage>& images, const BopOptions& options);
 
-/// The scene's folder of BOP's layout by scenes. `objects`: how many models the data set has.
+/// The scene's folder of BOP's layout by scenes. `objects`: how many models the data set has. `run_lengths`: masks are
+/// in scene_mask.json, scene_mask_visib.json and scene_gt_coco.json instead of PNG files.
 void write_bop(const std::string& directory, const std::vector<BopImage>& images, const BopLayout& layout = {},
-               const std::string& split = "train", std::size_t objects = 0);
+               const std::string& split = "train", std::size_t objects = 0, bool run_lengths = false);
+/// {entry: {counts, size}}, as in mask.json of BOP's layout by images.
+nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int width, int height);
 
 /// scene_gt_coco.json, as bop_toolkit's calc_gt_coco writes it, with boxes of whole silhouettes.
 /// @param places  of the images, all of one sensor

@@ -10,16 +10,12 @@
 
 namespace bin_scenes {
 
-namespace {
-
 nlohmann::ordered_json run_lengths_of(const std::vector<MaskBox>& masks, int width, int height) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < masks.size(); ++i)
     json[std::to_string(i)] = {{"counts", run_lengths(masks[i], width, height)}, {"size", {height, width}}};
   return json;
 }
-
-}  // namespace
 
 std::vector<std::size_t> run_lengths(const MaskBox& mask, int width, int height) {
   const auto rows = static_cast<std::size_t>(height), pixels = rows * static_cast<std::size_t>(width);

@@ -63,6 +63,7 @@ void write_masks(const fs::path& root, const BopImage& image, const BopPlace& pl
 /// What the JSON files of one sensor contain.
 struct SensorFiles {
   Json camera = Json::object(), truth = Json::object(), info = Json::object();
+  Json visible = Json::object(), whole = Json::object();  ///< run lengths of masks by image
   std::vector<const BopImage*> images;
   std::vector<BopPlace> places;
 };
@@ -76,7 +77,7 @@ std::string six_digits(std::size_t number) {
 }
 
 void write_bop(const std::string& directory, const std::vector<BopImage>& images, const BopLayout& layout,
-               const std::string& split, std::size_t objects) {
+               const std::string& split, std::size_t objects, bool run_lengths) {
   const fs::path root(directory);
   const bool classic = layout.kind == BopLayout::Kind::classic;
   std::vector<Sensor> sensors;
@@ -98,13 +99,23 @@ void write_bop(const std::string& directory, const std::vector<BopImage>& images
       make_directory(root / file.folder);
       write_bytes((root / file.folder / (six_digits(place.image) + file.extension)).string(), encoded(image, file));
     }
-    write_masks(root, image, place, classic);
+    if (run_lengths) {
+      of_sensor.visible[key] = run_lengths_of(image.visible, image.width, image.height);
+      if (image.whole.size() == image.ids.size())
+        of_sensor.whole[key] = run_lengths_of(image.whole, image.width, image.height);
+    } else {
+      write_masks(root, image, place, classic);
+    }
   }
   for (const auto& [suffix, of_sensor] : files) {
     write_text((root / ("scene_camera" + suffix + ".json")).string(), of_sensor.camera.dump(1) + "\n");
     write_text((root / ("scene_gt" + suffix + ".json")).string(), of_sensor.truth.dump(1) + "\n");
     write_text((root / ("scene_gt_info" + suffix + ".json")).string(), of_sensor.info.dump(1) + "\n");
-    if (!classic)
+    if (run_lengths) {
+      write_text((root / ("scene_mask_visib" + suffix + ".json")).string(), of_sensor.visible.dump() + "\n");
+      write_text((root / ("scene_mask" + suffix + ".json")).string(), of_sensor.whole.dump() + "\n");
+    }
+    if (!classic || run_lengths)
       write_text((root / ("scene_gt_coco" + suffix + ".json")).string(),
                  bop_coco(of_sensor.images, of_sensor.places, objects).dump() + "\n");
   }

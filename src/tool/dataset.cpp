@@ -109,6 +109,9 @@ int dataset(const DatasetOptions& options) {
   if (end.not_poured > 0)
     std::fprintf(stderr, "bin_scenes: warning: %zu of %zu parts found no room: ask for fewer, or enlarge the bin\n",
                  end.not_poured, end.asked_for);
+  if (plan.wants("bop"))
+    if (const std::string crowded = crowded_targets({options.out}); !crowded.empty())
+      std::fprintf(stderr, "bin_scenes: warning: %s\n", crowded.c_str());
   if (end.failed == 0) return exit_done;
   std::fprintf(stderr, "bin_scenes: %zu of %zu heaps were not accepted in %zu attempts each, see %s/set_apart\n",
                end.failed, end.heaps, plan.attempts, options.out.c_str());
@@ -160,6 +163,8 @@ int dataset_toolkit(const ToolkitOptions& options) {
     throw input_error("'" + options.name + "' is no name that bop_toolkit reads back from a file of results", "--name",
                       "small letters and digits");
   std::printf("%s", toolkit_entry({options.directory}, options.name).c_str());
+  if (const std::string crowded = crowded_targets({options.directory}, options.name); !crowded.empty())
+    std::fprintf(stderr, "bin_scenes: warning: %s\n", crowded.c_str());
   return exit_done;
 }
 

@@ -49,6 +49,8 @@ struct Depletion {
   bool by_grasp = false;  ///< one part at a time that the grippers can pick; else the highest, as many as are drawn
 };
 
+constexpr std::size_t bop_most_estimates = 100;  ///< that bop_toolkit keeps of an image, of most data sets
+
 class Plan {
  public:
   std::uint64_t seed = 0;
@@ -60,6 +62,8 @@ class Plan {
   /// visible. Keys bop.visible and bop.tolerance.
   double tolerance = 0.0;
   BopLayout bop;                  ///< keys bop.layout, format, modalities and evaluate
+  bool run_lengths = false;       ///< bop: masks are run lengths in JSON files instead of PNG files; key bop.masks
+  std::size_t most_targets = 0;   ///< bop: visible parts of an image that is a target, 0: any; key bop.most_targets
   double most_not_poured = 0.05;  ///< share of a heap's parts that may find no room; key `not_poured`
   std::size_t shard_size = 1000;  ///< images in a shard
   std::vector<std::pair<std::string, double>> split;  ///< name and share of heaps; empty: all are of "train"
