@@ -1,4 +1,5 @@
 #include "config/plan_state.hpp"
+#include "config/plan_surfaces.hpp"
 #include "config/read_document.hpp"
 
 #include <algorithm>
@@ -98,20 +99,25 @@ bool Plan::wants(const std::string& format) const {
 
 Request Plan::request(std::size_t heap, std::size_t attempt, const VolumeOf& volume_of) const {
   const Random stream(seed_of(seed, attempt), heap, Stream::plan);
-  std::vector<Override> overrides;
-  for (std::size_t i = 0; i < state->draws.size(); ++i) {
-    const config::Draw& draw = state->draws[i];
-    Random random = stream.of_piece(i);
-    overrides.emplace_back(
-        draw.path + "=" + draw.distribution.draw(random, config::own_value(state->request, draw.path)), draw.where);
-  }
-  Request request =
-      config::read_document(YAML::Clone(state->request), state->file, state->base, overrides, PathRules());
+  const auto drawn = [&](std::size_t kind) {  // of surfaces; all other keys are the same in every kind
+    std::vector<Override> overrides;
+    for (std::size_t i = 0; i < state->draws.size(); ++i) {
+      const config::Draw& draw = state->draws[i];
+      const bool anew = kind > 0 && config::is_of_surface(draw.path);
+      Random random = stream.of_piece(anew ? 3'000'000 + 1000 * i + kind : i);
+      overrides.emplace_back(
+          draw.path + "=" + draw.distribution.draw(random, config::own_value(state->request, draw.path)), draw.where);
+    }
+    return config::read_document(YAML::Clone(state->request), state->file, state->base, overrides, PathRules());
+  };
+  Request request = drawn(0);
   request.seed = seed_of(seed, attempt);
   request.first = heap * (depletion.steps + 1);
-  if (state->amount.parts || state->amount.fill) {
+  config::Amount amount = state->amount;
+  config::split_surfaces(request, amount, state->draws, state->surfaces, drawn);
+  if (amount.parts || amount.fill) {
     Random random = stream.of_piece(1'000'000);
-    set_counts(request, state->amount, random, volume_of);
+    set_counts(request, amount, random, volume_of);
     check(request);
   }
   request.text_sha256 = request_hash(request);

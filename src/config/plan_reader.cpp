@@ -78,6 +78,8 @@ class PlanFile {
     if (!keys.node({"request", "", ""})) complain("is missing", "request", "give a request, or the path of its file");
     read_draws(keys.node({"draw", "", ""}));
     read_amount(keys.node({"amount", "", ""}));
+    keys.field({"surfaces", "", ""}, state_->surfaces);
+    if (state_->surfaces < 1 || state_->surfaces > 100) complain("must be 1 to 100", "surfaces", "1 is the default");
     read_depletion(keys.node({"depletion", "", ""}));
     remember_bop(keys.node({"bop", "", ""}));
     keys.field({"not_poured", "", ""}, plan_.most_not_poured);

@@ -36,6 +36,7 @@ struct Plan::State {
   std::string file, base;  ///< of the request: for messages, and what relative paths start at
   std::vector<config::Draw> draws;
   config::Amount amount;
+  std::size_t surfaces = 1;  ///< kinds of surfaces of a part line whose surface is drawn
   std::optional<config::Distribution> take;
 };
 
