@@ -118,6 +118,14 @@ class View(unittest.TestCase):
             self.assertEqual(row["approach"], sum(grasp["reason"].endswith(": approach") for grasp in of_gripper))
         if CHROMIUM:
             self.assertIn('data-grasps="%d"' % len(data["grasps"]), self.browse("--dump-dom"))
+            self.assertEqual(self.too_wide(), "0")
+
+    def too_wide(self):
+        """Pixels by which the panel of a page of 1400 px is wider than its place."""
+        page = self.scene / "view.html"
+        page.write_text(page.read_text().replace("</body>", "<script>{const panel = document.getElementById('panel'); "
+                                                 "panel.dataset.wide = panel.scrollWidth - panel.clientWidth;}</script></body>"))
+        return re.search(r'data-wide="(-?\d+)"', self.browse("--window-size=1400,900", "--dump-dom"))[1]
 
     def cloud(self, page):
         cloud = self.data(page)["clouds"][0]
