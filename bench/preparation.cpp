@@ -78,9 +78,11 @@ void run(Run& out) {
     for (const char* solver : {"sphere", "bullet", "sphere/thesis"}) measure(out, part, solver, out.quick() ? 1 : 3);
 }
 
-const Registration registration{
-    "preparation", "seconds and memory to make each sample part ready, cold and warm", {"part", "solver"}, run,
-    "src/core src/mesh src/part"};
+const Registration registration{"preparation",
+                                "seconds and memory to make each sample part ready, cold and warm",
+                                {"part", "solver"},
+                                run,
+                                "src/core src/mesh src/part"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

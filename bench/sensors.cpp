@@ -153,8 +153,8 @@ void run(Run& out) {
   time(out, "silhouettes of 256 parts alone", 0.4, [&] { silhouettes(scenery, view, sensor.near, sensor.far); });
 }
 
-const Registration registration{"sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run,
-                                "src/core src/mesh src/sensor"};
+const Registration registration{
+    "sensors", "wall and CPU seconds of a view by each sensor model", {"what"}, run, "src/core src/mesh src/sensor"};
 
 }  // namespace
 }  // namespace bin_scenes::bench

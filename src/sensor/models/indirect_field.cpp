@@ -17,11 +17,17 @@ namespace {
 constexpr int coarsest = 8;          // pixel: largest distance between nodes
 constexpr int finest = 1;            // pixel: smallest one
 constexpr int tile_size = 4;         // pixel: of one tile all pixels ask the same nodes
-constexpr double near_by = 9.0;      // nodes lie closer where surfaces are nearer than so many of their distances
 constexpr double averaged = 0.2;     // of the distance to other surfaces: as far as indirect light is nearly linear
 constexpr float foretold = 0.4f;     // share of the nodes' slopes in what lies between them
+constexpr int most_samples = 1024;   // rays a node
 constexpr float one_normal = 0.97f;  // cosine: facets of a curved surface that turn by less are one face
 constexpr float one_plane = 0.15f;   // distance off a face's plane / distance on it
+
+/// Nodes lie closer where surfaces are nearer than so many of their distances. Interpolation errs with the square of
+/// the distance between nodes, and noise with the root of the rays: both fall together.
+double near_by(int samples) {
+  return std::min(9.0, 4.0 * std::sqrt(std::sqrt(samples / 16.0)));
+}
 
 /// How much faster than of a matte surface the light changes along a shiny one, whose lobe meets less.
 double narrowness(const Surface& surface) {
@@ -37,6 +43,8 @@ IndirectField::IndirectField(const LitScene& scene, const View& view, const Setu
       setup_(setup),
       channels_(pattern.channels),
       growing_(pattern.growing),
+      unit_(pattern.unit),
+
       respond_(pattern.respond),
       random_(random),
       width_(view.lens.width),
@@ -58,7 +66,8 @@ IndirectField::IndirectField(const LitScene& scene, const View& view, const Setu
   });
   for (const Nodes& square : squares) {
     nodes_.all.insert(nodes_.all.end(), square.all.begin(), square.all.end());
-    nodes_.values.insert(nodes_.values.end(), square.values.begin(), square.values.end());
+    nodes_.followed.insert(nodes_.followed.end(), square.followed.begin(), square.followed.end());
+    nodes_.others.insert(nodes_.others.end(), square.others.begin(), square.others.end());
   }
   tell_tiles();
 }
@@ -133,10 +142,28 @@ std::size_t IndirectField::middle_of(const std::vector<std::size_t>& pixels) con
   return *std::min_element(pixels.begin(), pixels.end(), [&](std::size_t a, std::size_t b) { return off(a) < off(b); });
 }
 
-/// Rays of a node. Close nodes need fewer: their mean serves a pixel.
-int IndirectField::samples_at(int spacing) const {
-  return std::max(std::min(setup_.samples, 8),
-                  static_cast<int>(setup_.samples * std::sqrt(static_cast<double>(spacing) / coarsest)));
+/// Rays that a node needs for the standard error of the setup, by the variance of its first rays. Few nodes with many
+/// rays cost less than many nodes with few, for the same error: what varies between nodes is noise first.
+int IndirectField::samples_for(const Gathered& light) const {
+  const double tolerated = setup_.error * unit_;
+  if (tolerated <= 0.0) return setup_.samples;
+  double square = 0.0;
+  for (const Path& path : light.paths) square += path.weight * path.weight;
+  return static_cast<int>(std::clamp(setup_.samples * square / (tolerated * tolerated), 1.0 * setup_.samples,
+                                     std::max(1.0 * setup_.samples, 1.0 * most_samples)));
+}
+
+/// Light of a node. False: other surfaces are too near.
+bool IndirectField::look(std::size_t pixel, double too_near, Gathered& light) const {
+  const Face at = face(pixel);
+  const SeenPoint point{view_.pose * at.point.cast<double>(), view_.pose.orientation * at.normal.cast<double>(),
+                        at.line, true, at.label};
+  const Vec3& eye = view_.pose.position;
+  const Random key = random_.of_piece(pixel);
+  if (!gather(scene_, point, eye, {setup_.samples, setup_.bounces, too_near}, key, light)) return false;
+  const int samples = samples_for(light);
+  if (samples > setup_.samples) gather(scene_, point, eye, {samples, setup_.bounces}, key, light);
+  return true;
 }
 
 /// A node for each face of a square of the image; where surfaces are near, in each quarter again.
@@ -152,13 +179,9 @@ void IndirectField::divide(Nodes& out, int left, int top, int spacing, std::vect
     pixels.erase(pixels.begin(), rest == pixels.begin() ? rest + 1 : rest);
     const std::size_t middle = middle_of(same);
     const double size = spacing * view_.depth[middle] / view_.lens.fx;
-    const double dense = near_by * narrowness(scene_.surfaces.of(own.line));
+    const double dense = near_by(setup_.samples) * narrowness(scene_.surfaces.of(own.line));
     const double too_near = spacing <= finest ? std::numeric_limits<double>::infinity() : 1.0 / (dense * size);
-    const Face at = face(middle);
-    const SeenPoint point{view_.pose * at.point.cast<double>(), view_.pose.orientation * at.normal.cast<double>(),
-                          at.line, true, at.label};
-    const Search search{samples_at(spacing), setup_.bounces, too_near};
-    if (gather(scene_, point, view_.pose.position, search, random_.of_piece(middle), light)) {
+    if (look(middle, too_near, light)) {
       add_node(out, middle, spacing, light);
       continue;
     }
@@ -183,13 +206,17 @@ Vec3 IndirectField::step_on_face(std::size_t pixel, const Vec3& step) const {
 }
 
 void IndirectField::add_node(Nodes& out, std::size_t pixel, int spacing, const Gathered& light) const {
-  const std::size_t at = out.values.size();
-  out.values.resize(at + 3 * static_cast<std::size_t>(channels_), 0.0f);
+  thread_local std::vector<float> values;
+  values.assign(3 * static_cast<std::size_t>(channels_), 0.0f);
   if (!light.paths.empty()) {
     const Vec3 steps[] = {step_on_face(pixel, Vec3(1.0 / view_.lens.fx, 0.0, 0.0)),
                           step_on_face(pixel, Vec3(0.0, 1.0 / view_.lens.fy, 0.0))};
-    respond_(light.paths, steps, &out.values[at]);
+    respond_(light.paths, steps, values.data());
   }
+  for (int part = 0; part < 3; ++part)
+    out.followed.insert(out.followed.end(), values.begin() + part * channels_,
+                        values.begin() + part * channels_ + growing_);
+  out.others.insert(out.others.end(), values.begin() + growing_, values.begin() + channels_);
   const double pixel_size = view_.depth[pixel] / view_.lens.fx;
   const double reach = std::clamp(
       averaged / narrowness(scene_.surfaces.of(view_.line[pixel])) / std::max(light.nearness * pixel_size, 1e-9),
@@ -205,17 +232,22 @@ bool IndirectField::nearest(std::size_t pixel, int count, float* channels) const
   const Face own = face(pixel);
   const std::size_t tile = tile_of(pixel);
   float distance = 2.0f * coarsest;
-  const float* values = nullptr;
+  const Node* best = nullptr;
+  std::uint32_t number = 0;
   for (std::uint32_t k = first_[tile]; k < first_[tile + 1]; ++k) {
     const std::uint32_t i = near_[k];
     const Node& node = nodes_.all[i];
     const float off = std::abs(node.x - x) + std::abs(node.y - y);
     if (off >= distance || !one_face(node.face, own)) continue;
     distance = off;
-    values = node.lit ? &nodes_.values[3 * static_cast<std::size_t>(i) * channels_] : nullptr;
+    best = &node, number = i;
   }
-  if (values) std::copy_n(values, count, channels);
-  return values != nullptr;
+  if (!best || !best->lit) return false;
+  const int followed = std::min(count, growing_);
+  std::copy_n(&nodes_.followed[3 * static_cast<std::size_t>(number) * growing_], followed, channels);
+  const std::size_t others = static_cast<std::size_t>(number) * static_cast<std::size_t>(channels_ - growing_);
+  for (int c = growing_; c < count; ++c) channels[c] = nodes_.others[others + static_cast<std::size_t>(c - growing_)];
+  return true;
 }
 
 /// A plane through the nodes around, the nearer the heavier. Where the light bends, such a mean errs by as much to one
@@ -258,12 +290,14 @@ bool IndirectField::at(std::size_t pixel, int count, float* channels) const {
   const float ax = -(syy * cx - sxy * cy) / det, ay = -(sxx * cy - sxy * cx) / det;
   for (const Used& u : used) {
     const float weight = u.weight * (1.0f / m + ax * (u.x - cx) + ay * (u.y - cy));
-    const float *const value = &nodes_.values[3 * static_cast<std::size_t>(u.node) * channels_],
-                       *const right = value + channels_, *const down = right + channels_;
+    const float* const value = &nodes_.followed[3 * static_cast<std::size_t>(u.node) * growing_];
+    const float *const right = value + growing_, *const down = right + growing_;
     for (int c = 0; c < std::min(count, growing_); ++c) {
       channels[c] += weight * (value[c] - foretold * (u.x * right[c] + u.y * down[c]));
     }
-    for (int c = growing_; c < count; ++c) channels[c] += weight * value[c];
+    const std::size_t others = static_cast<std::size_t>(u.node) * static_cast<std::size_t>(channels_ - growing_);
+    for (int c = growing_; c < count; ++c)
+      channels[c] += weight * nodes_.others[others + static_cast<std::size_t>(c - growing_)];
   }
   return true;
 }

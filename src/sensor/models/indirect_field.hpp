@@ -16,8 +16,9 @@ namespace bin_scenes {
 class IndirectField {
  public:
   struct Setup {
-    int bounces = 0;   ///< 0: no indirect light
-    int samples = 16;  ///< rays a node, where nodes lie far apart
+    int bounces = 0;      ///< 0: no indirect light
+    int samples = 16;     ///< least number of rays of a node
+    double error = 0.03;  ///< standard error of a node's light / Pattern::unit above which it gets more; 0: none does
   };
   /// What a pattern makes of light by some paths: adds to the channels, which interpolation mixes, to as many by which
   /// they grow as the paths' ends move by steps[0] (m), and to as many for steps[1].
@@ -27,6 +28,7 @@ class IndirectField {
     int growing;  ///< how many of them, the first ones, are followed between nodes as paths move with the pixel; others
                   ///< are interpolated only
     Respond respond;
+    double unit = 0.0;  ///< light of which Setup::error is a share: typical direct light, as Path::weight; 0: none
   };
 
   /// Asks the lamp and the pattern's `respond` while it is made only.
@@ -49,10 +51,10 @@ class IndirectField {
     float reach;  ///< pixel, over which it is averaged with others
     bool lit;
   };
-  /// Nodes, and of each the channels and their growth to the right and down.
+  /// Nodes, and of each the channels that are followed with their growth to the right and down, and the others.
   struct Nodes {
     std::vector<Node> all;
-    std::vector<float> values;
+    std::vector<float> followed, others;
   };
   static bool one_face(const Face& a, const Face& b);
   Face face(std::size_t pixel) const;
@@ -60,7 +62,8 @@ class IndirectField {
   std::size_t tile_of(std::size_t pixel) const;
   void fill(Nodes& out, int left, int top) const;
   void divide(Nodes& out, int left, int top, int spacing, std::vector<std::size_t> pixels) const;
-  int samples_at(int spacing) const;
+  int samples_for(const Gathered& light) const;
+  bool look(std::size_t pixel, double too_near, Gathered& light) const;
   std::size_t middle_of(const std::vector<std::size_t>& pixels) const;
   Vec3 step_on_face(std::size_t pixel, const Vec3& step) const;
   void add_node(Nodes& out, std::size_t pixel, int spacing, const Gathered& light) const;
@@ -72,6 +75,7 @@ class IndirectField {
   const View& view_;
   Setup setup_;
   int channels_, growing_;
+  double unit_;
   const Respond& respond_;
   Random random_;
   int width_, height_;

@@ -10,6 +10,21 @@ namespace {
 constexpr double speed_of_light = 299792458.0;  // m/s
 enum Channel { cosine, sine, channels };
 
+/// Of the direct light of the pixels, as Path::weight; of some ten thousand of them.
+double mean_light(const View& view, const Surfaces& surfaces) {
+  const std::size_t step = view.depth.size() / 16384 + 1;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < view.depth.size(); i += step) {
+    const SeenPoint p = seen_point(view, i);
+    if (!p.hit) continue;
+    Surface own;
+    const Vec3 back = view.pose.position - p.position, to_light = back.normalized();
+    sum += reflected(surfaces.at(p.line, p.label, p.position, own), p.normal, to_light, to_light) / back.squaredNorm();
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 }  // namespace
 
 Multipath::Multipath(const Scenery& scenery, const View& view, const Surfaces& surfaces,
@@ -17,10 +32,10 @@ Multipath::Multipath(const Scenery& scenery, const View& view, const Surfaces& s
     : view_(view),
       wave_(2.0 * M_PI * 1e6 * modulation / speed_of_light),
       lamp_(scenery, view.lens, view.pose, surfaces),
-      field_({scenery, surfaces, lamp_}, view, setup, phasors(), rays) {}
+      field_({scenery, surfaces, lamp_}, view, setup, phasors(mean_light(view, surfaces)), rays) {}
 
 /// Ways are those from the light to the surface that a pixel sees.
-IndirectField::Pattern Multipath::phasors() const {
+IndirectField::Pattern Multipath::phasors(double unit) const {
   const auto add = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
     for (const Path& path : paths) {
       const double c = path.weight * std::cos(wave_ * path.length), s = path.weight * std::sin(wave_ * path.length);
@@ -34,7 +49,7 @@ IndirectField::Pattern Multipath::phasors() const {
       }
     }
   };
-  return {channels, channels, add};
+  return {channels, channels, add, unit};
 }
 
 std::complex<double> Multipath::at(std::size_t pixel) const {

@@ -24,7 +24,7 @@ class Multipath {
   double range(double phase) const { return 0.5 * phase / wave_; }
 
  private:
-  IndirectField::Pattern phasors() const;
+  IndirectField::Pattern phasors(double unit) const;
 
   const View& view_;
   double wave_;  ///< rad/m of light's way

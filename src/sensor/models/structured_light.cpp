@@ -92,9 +92,22 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
   const int all = channels() + images();
   const IndirectField::Pattern pattern{
       all, setup.only_analytic ? channels() : all,
-      [this](const std::vector<Path>& paths, const Vec3* steps, float* out) { add_paths(paths, steps, out); }};
+      [this](const std::vector<Path>& paths, const Vec3* steps, float* out) { add_paths(paths, steps, out); },
+      mean_white()};
   indirect_ =
       std::make_unique<const IndirectField>(LitScene{scenery, surfaces, lamp}, view, setup.indirect, pattern, random);
+}
+
+/// Of the pixels that the projector lights.
+double StructuredLight::mean_white() const {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < whites_.size(); ++i) {
+    if (codes_[i] != Validity::valid) continue;
+    sum += whites_[i];
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 /// None: reflections are not filtered.

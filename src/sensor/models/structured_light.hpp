@@ -88,6 +88,7 @@ class StructuredLight {
   void light_rows(std::size_t first, std::size_t last);
   void add_paths(const std::vector<Path>& paths, const Vec3* steps, float* values) const;
   double gain() const;
+  double mean_white() const;
   Pixel pixel(std::size_t column, std::size_t row) const;
   Vec2 slope(const Pixel& pixel) const;
   double diffuse(std::size_t index) const;

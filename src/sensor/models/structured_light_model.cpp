@@ -5,6 +5,21 @@
 
 namespace bin_scenes {
 
+namespace {
+
+/// Kept in Sensor::settings.
+struct IndirectSettings {
+  double error = IndirectField::Setup().error;
+};
+
+IndirectField::Setup indirect_light_of(const Sensor& s) {
+  IndirectField::Setup setup = indirect_of(s);
+  setup.error = s.settings.of<IndirectSettings>().error;
+  return setup;
+}
+
+}  // namespace
+
 StructuredLight::Setup structured_light_setup(const Sensor& s) {
   return {lens_of(s.projector),
           *s.projector.pose,
@@ -13,7 +28,7 @@ StructuredLight::Setup structured_light_setup(const Sensor& s) {
           s.noise,
           s.near,
           s.far,
-          indirect_of(s),
+          indirect_light_of(s),
           s.fidelity == Fidelity::analytic,
           s.settings.of<FilterSettings>().reflection};
 }
@@ -38,6 +53,11 @@ void visit_keys(KeyVisitor& v, ModelSettings& settings) {
   v.field({"mixed", "", "pixels of foreground and background: remove = invalid (code 6), keep = flying points"},
           s.mixed, mixed_pixels);
   v.field({"edge_step", "m", "smallest depth step inside a mixed pixel", above(0.0, 10.0)}, s.edge_step);
+  v.field({"indirect_error", "",
+           "largest standard error of the light that met other surfaces, as a share of the mean direct light: places "
+           "that need it get more rays than indirect_samples, at most 1024; smaller = less noise, slower; 0 = none do",
+           at_least(0.0, 1.0)},
+          settings.of<IndirectSettings>().error);
 }
 
 void check_reflection(const Sensor& sensor, const std::string& key) {

@@ -292,6 +292,14 @@ TEST(Interreflection, FewRaysFindTheErrorInTheMean) {
   EXPECT_LT(e.off_rms, 0.3 * e.expected_rms);
 }
 
+/// The default gives places with much indirect light more rays, until their noise is a tenth of the error.
+TEST(Interreflection, TheDefaultFindsTheErrorOfAGrooveToATenth) {
+  for (const double period : {24.0, 64.0}) {
+    const Errors e = errors_in(Groove(0.9, period), false);
+    EXPECT_LT(e.off_rms, 0.1 * e.expected_rms) << period;
+  }
+}
+
 /// Finer fringes of light that comes from far apart cancel (Gupta et al. 2011): their share of a period falls as well.
 TEST(Interreflection, ErrorFallsWithThePeriodAndGrowsWithAlbedo) {
   const double coarse = errors_in(Groove(0.9, 64.0), false).measured_rms,
