@@ -98,6 +98,31 @@ inline Rebound strike_light_cube(Lab lab, double mass, double offset = 0.0) {
   return out;
 }
 
+struct Stood {
+  double deepest = 0.0;  ///< overlap at any time / d
+  double moved = 0.0;    ///< farthest that the light one went sideways / edge
+  bool rests = false;    ///< both are asleep in the end
+};
+/// A cube on a light one of 1 kg per cubic decimetre, `offset` (edges) aside and `gap` (edges) above it, for a second.
+inline Stood stand_on_light_cube(Lab lab, double edge, double ratio, double offset, double gap) {
+  const PartModelPtr cube = box(Vec3::Constant(edge));
+  const double mass = 1000.0 * edge * edge * edge;
+  const auto light = lab.place(cube, Vec3(0, 0, 0.5 * edge), Quat::Identity(), material(0.5, 0.0, mass));
+  const auto heavy =
+      lab.place(cube, Vec3(offset, 0, 1.5 + gap) * edge, Quat::Identity(), material(0.5, 0.0, ratio * mass));
+  lab.begin(phases::hold);
+  Stood out;
+  while (lab.time() < 1.0) {
+    lab.simulate(lab.solver().step_size());
+    out.moved = std::max(out.moved, lab.center(light).head<2>().norm() / edge);
+    if (const auto worst = lab.solver().take_worst_contact(lab.world()))
+      out.deepest = std::max(out.deepest, worst->relative);
+  }
+  const std::vector<bool> asleep = lab.solver().asleep(lab.world());
+  out.rests = asleep[light] && asleep[heavy];
+  return out;
+}
+
 /// Cubes that fall on each other one after the other, without friction.
 inline Rebound pile_up_cubes(Lab lab, int count) {
   const double edge = 0.05;

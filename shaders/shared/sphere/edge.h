@@ -248,8 +248,7 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
   else if (face_2.distance >= face_1.distance && dot(off, into_2) >= 0.0f)
     found.outside = face_2;
   else
-    found.outside =
-        way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(faces.normal_1 + faces.normal_2) : unit(off), to_edge);
+    found.outside = way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(faces.normal_1 + faces.normal_2) : unit(off), to_edge);
 }
 
 INLINE void sort_by_length(INOUT(WaysOut) ways) {

@@ -129,6 +129,17 @@ int effort_of_masses(const World& world) {
   return static_cast<int>(std::ceil(std::min(std::max(work, 1.0f), world.settings.max_mass_effort)));
 }
 
+float push_speed_of_masses(const World& world) {
+  // The bias of a contact presses with at most mass x a2 x push speed in a sub-step (softly() in contact.h); the mass
+  // is that of the light part. It has to carry the weight of the heavy one, and as much again to lift it.
+  const Softness& stiff = world.settings.stiff;
+  const float angle = 2.0f * static_cast<float>(M_PI) * stiff.hertz_share;
+  const float a2 = angle * (2.0f * stiff.damping_ratio + angle);
+  const float h = world.whole_step / static_cast<float>(world.settings.sub_steps);
+  const float needed = 2.0f * world.mass_ratio * world.gravity.norm() * h / (a2 * world.smallest_size);
+  return std::max(world.settings.push_speed, needed);
+}
+
 int effort_of(const World& world) {
   Heap heap(world);
   if (heap.empty() || world.gravity.isZero()) return effort_of_layers(world, 0);  // no part lies on another

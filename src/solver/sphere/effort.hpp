@@ -17,6 +17,9 @@ float mass_ratio_of(const World& world);
 /// part that carries it can.
 int effort_of_masses(const World& world);
 
+/// Settings::push_speed with which a contact of the lightest part carries the heaviest one.
+float push_speed_of_masses(const World& world);
+
 /// Effort of the heap as it lies now.
 int effort_of(const World& world);
 

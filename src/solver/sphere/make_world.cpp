@@ -82,6 +82,7 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
   w.effort = effort_to_come(w, def);
   w.mass_ratio = mass_ratio_of(w);
   w.mass_effort = effort_of_masses(w);
+  w.settings.push_speed = push_speed_of_masses(w);
   return w;
 }
 

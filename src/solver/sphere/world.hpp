@@ -234,7 +234,7 @@ struct World {
   int refinement() const {
     return stiffness == Stiffness::soft ? effort * softness().refinement : softness().refinement;
   }
-  int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : effort; }
+  int sweep_effort() const { return stiffness == Stiffness::soft ? mass_effort : std::max(effort, mass_effort); }
   /// Most sweeps of a sub-step while an impact is not shared; 0: it is left to the next ones.
   /// @param impact  something closes fast in this step
   int impact_sweeps(bool impact) const {

@@ -1,7 +1,9 @@
 /// How much work a heap gets, and what it brings.
 #include "boxes.hpp"
 #include "pour/settling.hpp"
+#include "solver/hard_contact_scenes.hpp"
 #include "solver/sphere/make_world.hpp"
+#include "solver/sphere/sphere_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -145,6 +147,20 @@ TEST(Effort, WhatLiesUnderHeavierPartsGetsMoreWork) {
     EXPECT_EQ(effort(437, heavy_above), 3);
     EXPECT_EQ(effort(1e9f, heavy_above), 8);
   }
+}
+
+// Of 5 mm the light one sank into the floor by 15 % of its diagonal, since overlap was let out too slowly to carry the
+// heavy one; of 0.3 m both trembled, since stiff contacts had fewer sweeps than soft ones.
+TEST(Effort, AThousandTimesAsHeavyStandsOnStiffContacts) {
+  for (const double edge : {0.005, 0.05, 0.3})
+    for (const double offset : {0.0, 0.1, 0.3})
+      for (const double gap : {0.0, 0.02}) {
+        const testing::Stood stood =
+            testing::stand_on_light_cube(testing::Lab(make_sphere_solver({})), edge, 1000.0, offset, gap);
+        EXPECT_LT(stood.deepest, 0.01) << edge << " m, " << offset << " aside, from " << gap;
+        EXPECT_LT(stood.moved, 0.02) << edge << " m, " << offset << " aside, from " << gap;
+        EXPECT_TRUE(stood.rests) << edge << " m, " << offset << " aside, from " << gap;
+      }
 }
 
 }  // namespace

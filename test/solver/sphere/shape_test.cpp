@@ -51,8 +51,8 @@ TEST(NodesOnCurves, AreNoMoreWhereTheyLeanLittle) {
 }
 
 // Steps are cut by it: by half of it, twice as many were cut while pins were poured.
-// With more edges than a cone has bounds, or edges too blunt to be sharp, a tip had the directions of one line that ends
-// there.
+// With more edges than a cone has bounds, or edges too blunt to be sharp, a tip had the directions of one line that
+// ends there.
 TEST(Tips, OfAllSpikesPressInTheDirectionsOfEachFace) {
   for (const std::uint32_t sides : {3u, 4u, 6u, 8u, 24u, 48u}) {
     const PartModelPtr part = PartModel::from_mesh(testing::spike_mesh(sides, 0.03, 0.05), "spike");

@@ -221,8 +221,8 @@ SharpEdges sharp_edges(const Mesh& mesh, const std::vector<Fold>& folds, double 
 
 double sharp_count(const std::vector<Fold>& folds, double angle) {
   const double least = std::cos(angle);
-  return static_cast<double>(std::count_if(
-      folds.begin(), folds.end(), [&](const Fold& fold) { return fold.cosine <= least && fold.convex; }));
+  return static_cast<double>(
+      std::count_if(folds.begin(), folds.end(), [&](const Fold& fold) { return fold.cosine <= least && fold.convex; }));
 }
 
 double sharp_length(const Mesh& mesh, const std::vector<Fold>& folds, double angle) {
