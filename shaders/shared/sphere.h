@@ -56,7 +56,9 @@
 
 #define SPHERE_NO_COLOR 0xffffffffu  // of a pair: nothing of it is solved
 
-// SphereOrdered.flags.
+#define SPHERE_GROUND_BODY SPHERE_MAX_BODIES  // of a world: the ground, behind all bodies
+
+// SphereOrdered.kind.
 #define SPHERE_STRIKES 1u    // a contact closes fast enough to bounce
 #define SPHERE_BOUNCES 2u    // and has pressed: it bounces at the end of the step
 #define SPHERE_REFRESHED 4u  // strikes, and no ball is in it
@@ -70,11 +72,11 @@
 #define SPHERE_ROW_BLOCK 32u  // manifolds whose rows lie side by side, part by part: their invocations' reads are one
 
 // Sweeps of the solve over all manifolds.
-#define SWEEP_WARM_START 0u
-#define SWEEP_FIRST_PUSH 1u
-#define SWEEP_PUSH 2u
+#define SWEEP_PUSH 0u
+#define SWEEP_RELAX 1u
+#define SWEEP_FIRST_PUSH 2u  // from here on there is more to do than to push contacts
 #define SWEEP_FIRST_RELAX 3u
-#define SWEEP_RELAX 4u
+#define SWEEP_WARM_START 4u  // from here on nothing is pushed
 #define SWEEP_BOUNCE 5u
 
 // Buffers of a part's samples, which no struct describes (read by shaders/sphere/samples.h):
@@ -142,7 +144,7 @@ struct SphereProgress {
   uint clusters_tested, nodes_tested, contacts, dropped;
   uint nodes_possible, nodes_possible_high, colors, coloring_rounds;
   uint need_candidates;  // need of the list of candidates
-  uint base_colors, base_manifolds;  // when all were colored anew: colors, manifolds
+  uint base_colors, base_waste;  // when all were colored anew: colors, and how long invocations wait for one another
   uint lists_made, colorings;        // counters: lists of pairs that may come near, colorings of all manifolds
   // Read back, states lie behind it: vectors begin at multiples of 16 bytes.
 };
@@ -228,7 +230,7 @@ struct SpherePair {
 };
 
 struct SphereManifold {
-  uvec4 state;       // contacts, presses, found
+  uvec4 state;       // contacts, those that press, found, visits of contacts that a sweep is expected to need
   vec3 found_position;     // of b in the frame of a when contacts were found
   uint unused;
   vec4 found_orientation;
@@ -244,16 +246,19 @@ struct SphereContact {
   vec4 force;        // on b (N): normal, friction (world axes)
 };
 
-// A manifold that is solved in this step, in order of color; of a color those with most contacts first. Manifold l of a
-// block of `stride` (SPHERE_ROW_BLOCK, less in the last block of a color) has part p of its row k at
-// row + (k SPHERE_ROW_PARTS + p) stride, row = l + the block's first.
+// A manifold that is solved in this step, in order of color; of a color those that need most visits of contacts first.
+// Manifold l of a block of `stride` (SPHERE_ROW_BLOCK, less in the last block of a color) has part p of its row k at
+// row + (k SPHERE_ROW_PARTS + p) stride, row = l + the block's first. Sweeps solve the contacts that may press
+// (shaders/sphere/near.h).
 struct SphereOrdered {
-  uint a, b;         // bodies (of all worlds); b may be SPHERE_GROUND
-  uint slot;         // of the manifold, in the world
+  uint bodies;       // a | b << 16, counted in the world; b may be SPHERE_GROUND_BODY
   uint row;          // in the world, counted in vec4
-  uint stride, count;
-  uint flags;
+  uint kind;         // flags | contacts << 8 | stride << 12 | a bit for each contact that may press << 24
+  float slack;       // gap (m) that all other contacts have at least
+  float arm;         // longest lever of a contact (m)
   float friction;    // where it holds
+  float yield;       // most by which an impulse at a contact changes the speed at another one (1/kg)
+  uint slot;         // of the manifold, in the world
 };
 
 // A pair whose contacts are to be found. Its candidates are in no order, and none depends on one.

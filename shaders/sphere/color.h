@@ -4,15 +4,20 @@
 const uint UNCOLORED = 0xfffffffeu, NOT_SOLVED = SPHERE_NO_COLOR;
 const uint LAST_COLOR = SPHERE_COLORS - 1u;  // any number of manifolds, solved one by one
 
-// Different for all pairs of a world of up to 16,384 bodies: manifolds with many contacts come first, so that those of a
-// color have about as many, and then the order of a hash. Each step of the hash is one to one on 28 bits (the finaliser
+// Visits of contacts that a sweep is expected to need: a normal and a friction a contact.
+const uint MOST_VISITS = 2u * SPHERE_MAX_CONTACTS;
+
+uint visits_of(SphereWorld world, SpherePair pair) { return manifolds[world.pairs.x + pair.slot].state.w; }
+
+// Different for all pairs of a world of up to 16,384 bodies: manifolds that need many visits come first, so that those of a
+// color need about as many, and then the order of a hash. Each step of the hash is one to one on 28 bits (the finaliser
 // of MurmurHash3, cut).
 uint key_of(SphereWorld world, SpherePair pair) {
   uint a = pair.a - world.bodies.x, b = pair.b == SPHERE_GROUND ? a : pair.b - world.bodies.x;
   uint key = a << 14 | b;
   key = (key ^ key >> 14) * 0x85ebca6bu & 0x0fffffffu;
   key = (key ^ key >> 13) * 0xc2b2ae35u & 0x0fffffffu;
-  return SPHERE_MAX_CONTACTS - manifolds[world.pairs.x + pair.slot].state.x << 28 | key ^ key >> 14;
+  return min(MOST_VISITS - visits_of(world, pair), 15u) << 28 | key ^ key >> 14;
 }
 
 uint lowest_free(uvec2 used) {

@@ -3,8 +3,8 @@
 // without a color get one by Jones and Plassmann (1993, "A parallel graph coloring heuristic"): a manifold whose key is
 // the lowest among the uncolored ones of both its bodies takes the lowest color that both still have. That is the
 // greedy coloring in order of the keys, whatever runs when; an order by index would wait along rows of neighbours. All
-// are colored anew where that needs more colors than the last time, and when a quarter of the manifolds has gone: each
-// color is a barrier in every sweep. Twin: color_manifolds().
+// are colored anew where that needs more colors than the last time, because each color is a barrier in every sweep, and
+// in the next step where neighbours in the order need too different numbers of visits. Twin: color_manifolds().
 #include "shared/sphere.h"
 
 layout(local_size_x = SPHERE_WORLD_GROUP) in;
@@ -24,12 +24,13 @@ layout(std430, binding = BIND_COLORS) writeonly buffer Colors { uint color_start
 layout(std430, binding = BIND_ORDER) coherent buffer Order { SphereOrdered order[]; };
 
 shared uint lowest[SPHERE_MAX_BODIES], used_low[SPHERE_MAX_BODIES], used_high[SPHERE_MAX_BODIES];
-shared uint members[SPHERE_COLORS * SPHERE_MAX_CONTACTS];  // by color and length: how many, then where the next one goes
+shared uint members[SPHERE_COLORS * (2 * SPHERE_MAX_CONTACTS + 1)];  // by color and visits: how many, then where the next one goes
 shared uint color_members[SPHERE_COLORS], starts[SPHERE_COLORS];
 shared uint twice_low[SPHERE_MAX_BODIES], twice_high[SPHERE_MAX_BODIES];  // colors that two manifolds of a body had
-shared uint uncolored, some_twice, highest_color, solved;
+shared uint uncolored, some_twice, highest_color;
+shared uint visits, longest_visits;  // of contacts: of all manifolds, and of the longest of each block of neighbours
 shared uint left[2];  // a manifold is uncolored; take turns
-shared uint contact_count, row_count, row_top;
+shared uint contact_count, row_top;
 
 #define lowest_of(i) lowest[i]
 #define used_low_of(i) used_low[i]
@@ -57,14 +58,12 @@ void place_colors(SphereWorld world, uint w, uint list, uint count) {
   progress[w].ordered = sum;
   progress[w].colors += colors;
   progress[w].contacts += contact_count;
-  progress[w].rows = row_count / SPHERE_ROW_PARTS;
-  if (progress[w].rows > world.rows.y) progress[w].overflow = SPHERE_ROW_OVERFLOW;
   put_last_in_order(world, list, count);
 }
 
 #define FOR_OWN(i, count) for (uint i = gl_LocalInvocationIndex; i < (count); i += SPHERE_WORLD_GROUP)
 // Places in the list of pairs of manifolds without a color lie where their order will.
-#define uncolored_at(k) order[world.pairs.x + (k)].a
+#define uncolored_at(k) order[world.pairs.x + (k)].row
 
 void add_uncolored(SphereWorld world, uint p) {
   pairs[p].color = UNCOLORED;
@@ -89,9 +88,9 @@ bool is_twice(uint i, uvec2 bit) { return (uvec2(twice_low[i], twice_high[i]) & 
 // Each manifold's color of the last step is claimed on its bodies, unless all are to be colored anew.
 void keep_colors(SphereWorld world, uint list, uint count, bool anew) {
   FOR_OWN(i, world.bodies.y) used_low[i] = used_high[i] = twice_low[i] = twice_high[i] = 0u;
-  if (gl_LocalInvocationIndex == 0u) uncolored = some_twice = highest_color = solved = contact_count = 0u;
+  if (gl_LocalInvocationIndex == 0u) uncolored = some_twice = highest_color = visits = contact_count = 0u;
   barrier();
-  uint own_contacts = 0u, own_solved = 0u;
+  uint own_contacts = 0u, own_visits = 0u;
   FOR_OWN(p, count) {
     SpherePair pair = pairs[list + p];
     uint n = contacts_to_solve(world, list + p);
@@ -100,7 +99,7 @@ void keep_colors(SphereWorld world, uint list, uint count, bool anew) {
       if (pair.color != NOT_SOLVED) pairs[list + p].color = NOT_SOLVED;
       continue;
     }
-    ++own_solved;
+    own_visits += visits_of(world, pair);
     if (anew || pair.color >= LAST_COLOR) {
       add_uncolored(world, list + p);
       continue;
@@ -110,7 +109,7 @@ void keep_colors(SphereWorld world, uint list, uint count, bool anew) {
     if (pair.b != SPHERE_GROUND && moves(pair.b)) claim(pair.b - world.bodies.x, bit);
   }
   atomicAdd(contact_count, own_contacts);
-  atomicAdd(solved, own_solved);
+  atomicAdd(visits, own_visits);
   memoryBarrierBuffer();
   barrier();
 }
@@ -161,7 +160,7 @@ uint color_all(SphereWorld world, uint w, uint list, uint count) {
     keep_colors(world, list, count, anew);
     if (some_twice != 0u) drop_colors_that_are_twice(world, list, count);
     rounds += color_uncolored(world);
-    bool good = highest_color < progress[w].base_colors && 4u * solved >= 3u * progress[w].base_manifolds;
+    bool good = highest_color < progress[w].base_colors;
     if (!anew && good) return rounds;
     if (anew) break;
     memoryBarrierBuffer();
@@ -170,14 +169,27 @@ uint color_all(SphereWorld world, uint w, uint list, uint count) {
   return rounds | COLORED_ANEW;
 }
 
+// Neighbours wait until the longest of them has had its visits of contacts. Where that takes an eighth longer than when
+// all were colored anew, the next step does so again.
+void judge_colors(uint w, bool anew) {
+  uint waste = (longest_visits << 10u) / max(visits, 1u);
+  if (anew) {
+    progress[w].base_colors = highest_color + 1u;
+    progress[w].base_waste = waste;
+    ++progress[w].colorings;
+  } else if (8u * waste > 9u * progress[w].base_waste) {
+    progress[w].base_colors = 0u;
+  }
+}
+
 void main() {
   uint w = running[gl_WorkGroupID.x], thread = gl_LocalInvocationIndex;
   SphereWorld world = worlds[w];
   if (progress[w].steps_left == 0u || progress[w].overflow != 0u) return;
   uint count = progress[w].pairs, list = 2u * world.pairs.x + progress[w].page * world.pairs.y;
 
-  FOR_OWN(k, SPHERE_COLORS * SPHERE_MAX_CONTACTS) members[k] = 0u;
-  if (thread == 0u) row_count = row_top = 0u;
+  FOR_OWN(k, SPHERE_COLORS * VISIT_KINDS) members[k] = 0u;
+  if (thread == 0u) row_top = longest_visits = 0u;
   uint rounds = color_all(world, w, list, count);
   memoryBarrierBuffer();
   barrier();
@@ -188,15 +200,18 @@ void main() {
   if (thread == 0u) {
     place_colors(world, w, list, count);
     progress[w].coloring_rounds += rounds & ~COLORED_ANEW;
-    if ((rounds & COLORED_ANEW) != 0u) {
-      progress[w].base_colors = highest_color + 1u;
-      progress[w].base_manifolds = solved;
-      ++progress[w].colorings;
-    }
   }
   barrier();
   FOR_OWN(p, count) put_in_order(world, list + p);
   memoryBarrierBuffer();
   barrier();
-  FOR_OWN(o, starts[LAST_COLOR]) join_block(world, o);
+  uint ordered = starts[LAST_COLOR] + members_in(LAST_COLOR);
+  FOR_OWN(o, ordered) take_rows(world, o);
+  memoryBarrierBuffer();
+  barrier();
+  FOR_OWN(o, ordered) join_block(world, o);
+  if (thread != 0u) return;
+  judge_colors(w, (rounds & COLORED_ANEW) != 0u);
+  progress[w].rows = row_top / SPHERE_ROW_PARTS;
+  if (progress[w].rows > world.rows.y) progress[w].overflow = SPHERE_ROW_OVERFLOW;
 }

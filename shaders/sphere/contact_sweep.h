@@ -57,13 +57,13 @@ void apply_along(float impulse, vec3 normal, Moments m, inout Side a, inout Side
 
 // hit: something of its manifold is, which alone needs to know whether a contact has pressed. Returns whether there may be
 // friction: where the contact has not pressed before either, it is 0.
-bool solve_normal(uint at, uint stride, Give give, bool hit, inout Side a, inout Side b) {
+bool solve_normal(uint at, uint stride, Give give, bool hit, out float change, inout Side a, inout Side b) {
   Row row = row_at(at, stride);
   vec2 before = impulses[at];  // gap behind it
   Moments moments = moments_of(row);
   float total = normal_impulse(before.x, speed_along(row.normal, moments, a, b), before.y, row.normal_mass, give);
-  float change = total - before.x;
-  unconverged = unconverged || is_unconverged(change, row.normal_mass, settings.tolerance * world.gravity.w);
+  change = total - before.x;
+  unconverged = unconverged || is_unconverged(change, row.normal_mass, tolerance);
   apply_along(change, row.normal, moments, a, b);
   impulses[at].x = total;
   if (hit && total > 0.0) keep_lasting(at, stride, lasting_at(at, stride), true);

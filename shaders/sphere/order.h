@@ -1,10 +1,14 @@
-// The order in which manifolds are solved: by color, of a color those with most contacts first, so that manifolds whose
-// rows lie side by side have about as many. Whoever includes this says where lie members_of(k), the number of manifolds
-// of a color and a length (k = kind_of()) and later where the next of them goes; members_in(c), that of a color; start_of(c),
-// where it begins; row_count and row_top, the vec4 that rows take in all and those given out so far. Needs the bindings
-// Bodies, States, Pairs, Manifolds, Order, and sphere/color.h.
+// The order in which manifolds are solved: by color, of a color those that need most visits of contacts first, so that
+// neighbours, which wait for one another, need about as many. Whoever includes this says where lie members_of(k), the
+// number of manifolds of a color and a number of visits (k = kind_of()) and later where the next of them goes;
+// members_in(c), that of a color; start_of(c), where it begins; row_top, the vec4 of rows given out so far; longest_visits, the
+// sum over blocks of their longest. Needs the
+// bindings Bodies, States, Pairs, Manifolds, Order, and sphere/color.h.
+#include "sphere/ordered.h"
 
-uint kind_of(uint color, uint count) { return color * SPHERE_MAX_CONTACTS + SPHERE_MAX_CONTACTS - count; }
+const uint VISIT_KINDS = MOST_VISITS + 1u;
+
+uint kind_of(uint color, uint visits) { return color * VISIT_KINDS + MOST_VISITS - visits; }
 
 uint contacts_of(SphereWorld world, uint p) { return manifolds[world.pairs.x + pairs[p].slot].state.x; }
 
@@ -16,43 +20,41 @@ uint contacts_to_solve(SphereWorld world, uint p) {
 }
 
 // A manifold has its color.
-void count_member(SphereWorld world, uint p, uint color) {
-  atomicAdd(members_of(kind_of(color, contacts_of(world, p))), 1u);
+void count_member(SphereWorld world, uint p, uint color) { 
+  SpherePair pair = pairs[p];  // a copy: what is coherent cannot be an argument
+  atomicAdd(members_of(kind_of(color, visits_of(world, pair))), 1u);
 }
 
 // Manifolds without a color of their own are solved one by one, in the order of their pairs.
 uint block_of(uint color) { return color == LAST_COLOR ? 1u : SPHERE_ROW_BLOCK; }
 
-// One group: how many manifolds and rows each color has, and where in it those of each length begin.
+// One group: how many manifolds each color has, and where in it those of each number of visits begin.
 void count_colors() {
   for (uint c = gl_LocalInvocationIndex; c < SPHERE_COLORS; c += gl_WorkGroupSize.x) {
-    uint count = 0u, sum = 0u, first = 0u, vectors = 0u, block = block_of(c);
-    for (uint n = 1u; n <= SPHERE_MAX_CONTACTS; ++n) count += members_of(kind_of(c, n));
-    members_in(c) = count;
-    for (uint n = SPHERE_MAX_CONTACTS; n > 0u; --n) {
-      uint own = members_of(kind_of(c, n));
-      members_of(kind_of(c, n)) = sum;
+    uint sum = 0u;
+    for (uint visits = MOST_VISITS + 1u; visits > 0u; --visits) {
+      uint own = members_of(kind_of(c, visits - 1u));
+      members_of(kind_of(c, visits - 1u)) = sum;
       sum += own;
-      for (; first < sum; first += block) vectors += SPHERE_ROW_PARTS * n * min(block, count - first);
     }
-    if (vectors > 0u) atomicAdd(row_count, vectors);
+    members_in(c) = sum;
   }
 }
 
-// Manifold `index` of its color. The first of a block takes the rows of all of it; the others learn later where those
-// are (join_block).
+// Manifold `index` of its color; its rows are given out later (take_rows, join_block).
 void put_in_order(SphereWorld world, SpherePair pair, uint count, uint index) {
   uint block = block_of(pair.color), lane = index % block, stride = min(block, members_in(pair.color) - (index - lane));
-  uint row = lane == 0u ? atomicAdd(row_top, SPHERE_ROW_PARTS * stride * count) : 0u;
-  order[world.pairs.x + start_of(pair.color) + index] =
-      SphereOrdered(pair.a, pair.b, pair.slot, row, stride, count, lane, 0.0);
+  uint b = pair.b == SPHERE_GROUND ? SPHERE_GROUND_BODY : pair.b - world.bodies.x;
+  if (lane == 0u) atomicAdd(longest_visits, visits_of(world, pair));
+  order[world.pairs.x + start_of(pair.color) + index] = SphereOrdered(
+      pack_bodies(pair.a - world.bodies.x, b), 0u, pack_kind(lane, count, stride, 0u), 0.0, 0.0, 0.0, 0.0, pair.slot);
 }
 
 void put_in_order(SphereWorld world, uint p) {
   SpherePair pair = pairs[p];
   if (pair.color >= LAST_COLOR) return;
-  uint count = contacts_of(world, p);
-  put_in_order(world, pair, count, atomicAdd(members_of(kind_of(pair.color, count)), 1u));
+  uint visits = visits_of(world, pair);
+  put_in_order(world, pair, contacts_of(world, p), atomicAdd(members_of(kind_of(pair.color, visits)), 1u));
 }
 
 // One invocation: those of the last color are solved one by one, so their order counts.
@@ -64,8 +66,18 @@ void put_last_in_order(SphereWorld world, uint list, uint count) {
   }
 }
 
-// When all of the color are in order.
+// When all are in order: the first manifold of a block takes rows for all of it, as many as that with most contacts has.
+void take_rows(SphereWorld world, uint o) {
+  uint at = world.pairs.x + o, stride = stride_of(order[at].kind), most = 0u;
+  if (lane_of(order[at].kind) != 0u) return;
+  for (uint lane = 0u; lane < stride; ++lane) most = max(most, count_of(order[at + lane].kind));
+  order[at].row = atomicAdd(row_top, SPHERE_ROW_PARTS * stride * most);
+}
+
+// When all blocks have rows.
 void join_block(SphereWorld world, uint o) {
-  uint at = world.pairs.x + o, lane = order[at].flags;
-  if (lane != 0u) order[at].row = order[at - lane].row + lane;
+  uint at = world.pairs.x + o, lane = lane_of(order[at].kind);
+  if (lane == 0u) return;
+  order[at].row = order[at - lane].row + lane;
+  order[at].kind = without_lane(order[at].kind);
 }

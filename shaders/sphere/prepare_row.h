@@ -2,6 +2,8 @@
 // Shapes, Tensors, Contacts, Order, Rows, Impulses, sphere/body.h, sphere/solve_step.h, and sphere/contact_row.h. Twin:
 // prepare().
 #include "shared/sphere/row.h"
+#include "sphere/near.h"
+#include "sphere/ordered.h"
 #include "sphere/pair_material.h"
 #include "sphere/ball.h"
 
@@ -34,8 +36,13 @@ float approach_of(Row row, float gap, Side a, Side b) {
   return speed_at_impact(dot(relative_velocity(row, a, b), row.normal), gap, falls * dot(row.normal, world.gravity.xyz));
 }
 
-// With the force of the last step as impulse of a sub-step. Returns the contact's approach.
-float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Side a, Side b) {
+// Of what cannot move: 0.
+float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? dot(lever, lever) : 0.0; }
+
+// With the force of the last step as impulse of a sub-step. Returns the contact's approach. arm_squared: of the longest
+// lever (m2).
+float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Side a, Side b,
+                  inout float arm_squared) {
   bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the field is a's
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
@@ -44,6 +51,7 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   float gap = dot(start_b.position + row.rb - start_a.position - row.ra, row.normal);
   go_half_way(of_a, start_a.ahead, start_b.ahead, row.ra, row.rb, row.normal);
   keep_row(at, stride, row, gap, a, b);
+  arm_squared = max(arm_squared, max(length_squared(a, row.ra), length_squared(b, row.rb)));
   float along = kept * plan.sub_step * c.force.x;
   vec3 friction = kept * plan.sub_step * c.force.yzw;
   impulses[at] = vec2(along, gap);
@@ -52,22 +60,44 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   return approach_of(row, gap, a, b);
 }
 
-// Rows, flags and friction of manifold o. What is hit gets levers of where its bodies are now by the first sweep.
+// Which contacts may press in the first sub-step. What is hit keeps all, and gets levers of where its bodies are now by
+// the first sweep.
+void find_first_near(uint first_row, uint stride, float reach, bool strikes, inout SphereOrdered m) {
+  uint near = 0u, count = count_of(m.kind);
+  m.slack = NO_LIMIT;
+  for (uint k = 0u; k < count; ++k) {
+    vec2 impulse = impulses[first_row + SPHERE_ROW_PARTS * k * stride];  // gap behind it
+    if (strikes || impulse.x > 0.0 || !(impulse.y > NEAR_REACH * reach))
+      near |= 1u << k;
+    else
+      m.slack = min(m.slack, impulse.y);
+  }
+  m.kind = with_near(m.kind, near);
+}
+
+// Rows of manifold o, and what its sweeps need.
 void prepare_manifold(uint o) {
   SphereOrdered m = order[world.pairs.x + o];
-  Start start_a = start_of_body(m.a), start_b = start_of_body(m.b);
-  Side a = starting_side(m.a), b = starting_side(m.b);
+  Members of = bodies_of(world, m.bodies);
+  Start start_a = start_of_body(of.a), start_b = start_of_body(of.b);
+  Side a = starting_side(of.a), b = starting_side(of.b);
+  uint count = count_of(m.kind), stride = stride_of(m.kind), first = SPHERE_ROW_PARTS * world.rows.x + m.row;
   bool strikes = false;
-  for (uint k = 0u; k < m.count; ++k) {
-    uint at = SPHERE_ROW_PARTS * (world.rows.x + k * m.stride) + m.row;
-    uint contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k;
-    float approach = prepare_row(at, m.stride, contacts[contact], start_a, start_b, a, b);
+  float arm_squared = 0.0, least_mass = NO_LIMIT;
+  for (uint k = 0u; k < count; ++k) {
+    uint at = first + SPHERE_ROW_PARTS * k * stride, contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k;
+    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, a, b, arm_squared);
     contacts[contact].approach = approach;
+    least_mass = min(least_mass, rows[at].w);
     strikes = strikes || approach <= -settings.restitution_speed;
   }
-  bool rolls = is_ball(m.a) || is_ball(m.b);  // the point where a ball touches does not turn with it
-  m.flags = restitution_of(m) > 0.0 ? SPHERE_RESTITUTES : 0u;
-  if (strikes) m.flags |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_REFRESHED);
-  order[world.pairs.x + o].flags = m.flags;
-  order[world.pairs.x + o].friction = friction_between(m);
+  bool rolls = is_ball(of.a) || is_ball(of.b);  // the point where a ball touches does not turn with it
+  if (restitution_of(of) > 0.0) m.kind |= SPHERE_RESTITUTES;
+  if (strikes) m.kind |= SPHERE_STRIKES | (rolls ? 0u : SPHERE_REFRESHED);
+  m.friction = friction_between(of);
+  m.arm = sqrt(arm_squared);
+  m.yield = yield_of(least_mass);
+  float reach = reach_of(b.v - a.v, a.w, b.w, m.arm);
+  find_first_near(first, stride, plan.sub_step * reach, strikes, m);
+  order[world.pairs.x + o] = m;
 }

@@ -166,7 +166,7 @@ void end_choice(SphereWorld world, SpherePair pair, uint count) {
   vec3 position;
   vec4 orientation;
   relative_pose(pair, position, orientation);
-  manifolds[world.pairs.x + pair.slot] = SphereManifold(uvec4(count, 0u, 1u, 0u), position, 0u, orientation);
+  manifolds[world.pairs.x + pair.slot] = SphereManifold(uvec4(count, 0u, 1u, count), position, 0u, orientation);
   if (count == 0u)
     atomicAdd(progress[world_index].pairs_culled, 1u);
   else

@@ -19,10 +19,11 @@ layout(std430, binding = BIND_ORDER) buffer Order { SphereOrdered order[]; };
 layout(std430, binding = BIND_ROWS) restrict buffer Rows { vec4 rows[]; };
 layout(std430, binding = BIND_IMPULSES) restrict buffer Impulses { vec2 impulses[]; };
 
-shared vec4 velocity[SPHERE_MAX_BODIES];  // w: inverse mass, 0 = nothing moves it in this step
-shared vec4 spin[SPHERE_MAX_BODIES];      // w: 1 = a contact is near
-shared vec4 moved[SPHERE_MAX_BODIES];     // since contacts were found; w: speed when the sub-step began
-shared vec4 turned[SPHERE_MAX_BODIES];    // rotation vector, since then; w: 1 = a contact slips
+// Of bodies, and behind them of the ground.
+shared vec4 velocity[SPHERE_MAX_BODIES + 1];  // w: inverse mass, 0 = nothing moves it in this step
+shared vec4 spin[SPHERE_MAX_BODIES + 1];      // w: 1 = a contact is near
+shared vec4 moved[SPHERE_MAX_BODIES + 1];     // since contacts were found; w: speed when the sub-step began
+shared vec4 turned[SPHERE_MAX_BODIES + 1];    // rotation vector, since then; w: 1 = a contact slips
 shared uint starts[SPHERE_COLORS + 1];
 shared uint any_bounce, any_impact;
 shared uint some_unconverged[2];  // a contact is; take turns
@@ -39,13 +40,14 @@ uint ordered;
 
 // The manifolds of color c that are this invocation's in every sweep: nobody else touches their rows. The last color
 // is that of manifolds which share bodies: one invocation takes them in order.
-uint first_of(uint c) {
-  return c < SPHERE_COLORS - 1u ? starts[c] + gl_LocalInvocationIndex : gl_LocalInvocationIndex == 0u ? starts[c] : ordered;
+uint own_first(uint c) {
+  if (c < SPHERE_COLORS - 1u) return gl_LocalInvocationIndex;
+  return gl_LocalInvocationIndex == 0u ? 0u : ordered;
 }
-uint stride_of(uint c) { return c < SPHERE_COLORS - 1u ? SPHERE_WORLD_GROUP : 1u; }
-#define FOR_OWN_MANIFOLDS(o)                                      \
-  for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) \
-    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c))
+uint own_step(uint c) { return c < SPHERE_COLORS - 1u ? SPHERE_WORLD_GROUP : 1u; }
+#define FOR_OWN_MANIFOLDS(o)                                              \
+  for (uint c = 0u, begin = 0u; begin < ordered; begin = starts[++c]) \
+    for (uint o = begin + own_first(c); o < starts[c + 1u]; o += own_step(c))
 #define FOR_OWN_BODIES(i) for (uint i = gl_LocalInvocationIndex; i < world.bodies.y; i += SPHERE_WORLD_GROUP)
 
 void begin_body(uint i) {
@@ -59,8 +61,12 @@ void begin_body(uint i) {
 
 // One sweep over all manifolds, color by color.
 void sweep(uint kind) {
-  for (uint c = 0u; c < SPHERE_COLORS && starts[c] < ordered; ++c) {
-    for (uint o = first_of(c); o < starts[c + 1u]; o += stride_of(c)) solve_manifold(o, kind);
+  Give give = firmly_now;
+  if (kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH) give = softly_now;
+  for (uint c = 0u, begin = 0u; begin < ordered; ++c) {
+    uint end = starts[c + 1u];
+    for (uint o = begin + own_first(c); o < end; o += own_step(c)) solve_manifold(o, kind, give);
+    begin = end;
     barrier();
   }
 }
@@ -145,6 +151,10 @@ void main() {
   if (gl_LocalInvocationIndex < 2u) some_unconverged[gl_LocalInvocationIndex] = 0u;
   if (gl_LocalInvocationIndex == 0u) any_impact = 0u;
   FOR_OWN_BODIES(i) begin_body(i);
+  if (gl_LocalInvocationIndex == 0u) {
+    const uint i = SPHERE_GROUND_BODY;
+    velocity[i] = spin[i] = moved[i] = turned[i] = vec4(0.0);
+  }
   barrier();
   FOR_OWN_MANIFOLDS(o) if (begin_manifold(o)) any_impact = 1u;
   barrier();

@@ -6,6 +6,8 @@
 #include "shared/language.h"
 #include "shared/sphere/row.h"
 #include "sphere/ball.h"
+#include "sphere/near.h"
+#include "sphere/ordered.h"
 #include "sphere/pair_material.h"
 #include "sphere/solve_step.h"
 
@@ -16,15 +18,12 @@ bool unconverged = false;
 
 #include "sphere/contact_sweep.h"
 
-// Of what cannot move nothing is read. Inertia of manifolds that are refreshed is of where their bodies are now.
-Side side_of(uint body, bool refreshed) {
-  Side s = Side(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
-  if (body == SPHERE_GROUND) return s;
-  uint i = body - world.bodies.x;
-  s.inverse_mass = velocity_of(i).w;
+// Inertia of manifolds that are refreshed is of where their bodies are now. What cannot move has neither speed nor inertia.
+Side side_of(uint i, bool refreshed) {
+  vec4 v = velocity_of(i);
+  Side s = Side(v.xyz, spin_of(i).xyz, v.w, vec3(0.0), vec3(0.0));
   if (s.inverse_mass == 0.0) return s;
-  s.v = velocity_of(i).xyz;
-  s.w = spin_of(i).xyz;
+  uint body = world.bodies.x + i;
   if (!refreshed) {
     s.tensor = tensors[body].diagonal.xyz;
     s.tensor_mixed = tensors[body].mixed.xyz;
@@ -39,9 +38,8 @@ Side side_of(uint body, bool refreshed) {
   return s;
 }
 
-void keep_side(uint body, Side s) {
+void keep_side(uint i, Side s) {
   if (s.inverse_mass == 0.0) return;
-  uint i = body - world.bodies.x;
   velocity_of(i) = vec4(s.v, s.inverse_mass);
   spin_of(i) = vec4(s.w, 1.0);  // a contact is near
 }
@@ -52,148 +50,201 @@ struct Place {
   vec4 orientation;
 };
 
-Place place_of(uint body) {
-  if (body == SPHERE_GROUND) return Place(vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0));
-  uint i = body - world.bodies.x;
+Place place_of(uint i) {
+  if (i == SPHERE_GROUND_BODY) return Place(vec3(0.0), vec4(0.0, 0.0, 0.0, 1.0));
+  uint body = world.bodies.x + i;
   if (velocity_of(i).w == 0.0) return Place(states[body].position.xyz, tensors[body].orientation);
   return Place(states[body].position.xyz + moved_of(i).xyz,
                normalize(quat_multiply(quat_of_turn(turned_of(i).xyz), tensors[body].orientation)));
 }
 
-struct Way {
+// What cannot move has not.
+struct Displacement {
   vec3 moved, turned;
 };
 
-Way way_of(uint body) {
-  if (body == SPHERE_GROUND || velocity_of(body - world.bodies.x).w == 0.0) return Way(vec3(0.0), vec3(0.0));
-  return Way(moved_of(body - world.bodies.x).xyz, turned_of(body - world.bodies.x).xyz);
+Displacement displacement_of(uint i) { return Displacement(moved_of(i).xyz, turned_of(i).xyz); }
+
+// A manifold as a sweep sees it.
+struct Manifold {
+  uint a, b;  // bodies, counted in the world
+  uint kind, stride, row;
+  float slack, arm, yield, friction;
+};
+
+Manifold manifold_at(uint o) {
+  SphereOrdered m = order[world.pairs.x + o];
+  return Manifold(first_of_bodies(m.bodies), second_of_bodies(m.bodies), m.kind, stride_of(m.kind),
+                  world.rows.x * SPHERE_ROW_PARTS + m.row, m.slack, m.arm, m.yield, m.friction);
 }
+Members members_at(uint o) { return bodies_of(world, order[world.pairs.x + o].bodies); }
+bool has(Manifold m, uint flag) { return (m.kind & flag) != 0u; }
 
-SphereOrdered ordered_at(uint o) { return order[world.pairs.x + o]; }
-void set_flags(uint o, uint flags) { order[world.pairs.x + o].flags = flags; }
+uint first_contact(uint o) { return SPHERE_MAX_CONTACTS * (world.pairs.x + order[world.pairs.x + o].slot); }
 
-uint first_row(SphereOrdered m) { return world.rows.x * SPHERE_ROW_PARTS + m.row; }
+// Rows of a manifold and the contacts that they are of.
+#define FOR_CONTACTS(at, contact, m, o)                                                             \
+  for (uint at = m.row, contact = first_contact(o), end_contact = contact + count_of(m.kind); contact < end_contact; \
+       at += SPHERE_ROW_PARTS * m.stride, ++contact)
+// Rows of the contacts that may press. Each invocation goes from one to the next.
+#define FOR_NEAR(at, m)                                                            \
+  for (uint left = near_of(m.kind), at = row_of(m, left); left != 0u; \
+       left &= left - 1u, at = row_of(m, left))
+uint row_of(Manifold m, uint left) { return m.row + SPHERE_ROW_PARTS * m.stride * uint(findLSB(left)); }
 
-uint first_contact(SphereOrdered m) { return SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot); }
-
-// Rows of a manifold.
-#define FOR_ROWS(at, m)                                             \
-  for (uint i = 0u, at = first_row(m); i < m.count; \
-       ++i, at += SPHERE_ROW_PARTS * m.stride)
-// The same, and the contacts that they are of.
-#define FOR_CONTACTS(at, contact, m)                                                                     \
-  for (uint i = 0u, at = first_row(m), contact = first_contact(m); i < m.count;                          \
-       ++i, at += SPHERE_ROW_PARTS * m.stride, ++contact)
-
-float friction_of(SphereOrdered m) { return grip * m.friction; }
-bool refreshed(SphereOrdered m) { return (m.flags & SPHERE_REFRESHED) != 0u; }
-bool restitutes(SphereOrdered m) { return (m.flags & SPHERE_RESTITUTES) != 0u; }
-// Levers, gaps and masses of a manifold that is hit, of where its bodies are now.
-void refresh_levers(SphereOrdered m, Side a, Side b) {
-  Place pa = place_of(m.a), pb = place_of(m.b);
-  FOR_CONTACTS(at, contact, m) {
-    Row row = row_at(at, m.stride);
-    SphereContact c = contacts[contact];
-    vec3 on_a = pa.position + rotate(pa.orientation, c.anchor_a), on_b = pb.position + rotate(pb.orientation, c.anchor_b);
-    impulses[at].y = dot(levers_now(pa.position, on_a, pb.position, on_b, row.ra, row.rb), row.normal);
-    keep_row(at, m.stride, row, found_gap_at(at, m.stride), a, b);
-  }
-}
-
+float friction_of(Manifold m) { return grip * m.friction; }
 // Returns whether a contact closes fast.
 bool begin_manifold(uint o) {
-  SphereOrdered m = ordered_at(o);
-  spin_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
-  if (m.b != SPHERE_GROUND) spin_of(m.b - world.bodies.x).w = 1.0;
-  return (m.flags & SPHERE_STRIKES) != 0u;
+  Manifold m = manifold_at(o);
+  spin_of(m.a).w = spin_of(m.b).w = 1.0;  // all that come here write the same
+  return has(m, SPHERE_STRIKES);
 }
 
-// Gaps of contacts, bodies having moved; to first order in the turns.
-void observe_gaps(SphereOrdered m) {
-  Way a = way_of(m.a), b = way_of(m.b);
-  FOR_ROWS(at, m) {
-    Row row = row_at(at, m.stride);
-    vec3 way = b.moved + cross(b.turned, row.rb) - a.moved - cross(a.turned, row.ra);
-    impulses[at].y = found_gap_at(at, m.stride) + dot(way, row.normal);
+// Which contacts may press.
+void keep_near(uint o, uint near, inout Manifold m) {
+  m.kind = with_near(m.kind, near);
+  order[world.pairs.x + o].kind = m.kind;
+  order[world.pairs.x + o].slack = m.slack;
+}
+
+// Gap of a contact, bodies having moved; to first order in the turns.
+float gap_now(uint at, uint stride, Displacement a, Displacement b) {
+  Row row = row_at(at, stride);
+  vec3 moved = b.moved + cross(b.turned, row.rb) - a.moved - cross(a.turned, row.ra);
+  return found_gap_at(at, stride) + dot(moved, row.normal);
+}
+
+// Levers, gap and masses of a contact that is hit, of where its bodies are now; returns the gap.
+float refresh_row(uint at, uint stride, SphereContact c, Place pa, Place pb, Side a, Side b) {
+  Row row = row_at(at, stride);
+  vec3 on_a = pa.position + rotate(pa.orientation, c.anchor_a), on_b = pb.position + rotate(pb.orientation, c.anchor_b);
+  float gap = dot(levers_now(pa.position, on_a, pb.position, on_b, row.ra, row.rb), row.normal);
+  keep_row(at, stride, row, found_gap_at(at, stride), a, b);
+  return gap;
+}
+
+// Gaps when bodies have moved, and which contacts may press from now on. What is hit keeps all.
+void observe(uint o, bool refreshed, Side a, Side b, inout Manifold m) {
+  Displacement by_a = displacement_of(m.a), by_b = displacement_of(m.b);
+  Place pa = Place(vec3(0.0), vec4(0.0)), pb = pa;
+  if (refreshed) {
+    pa = place_of(m.a);
+    pb = place_of(m.b);
   }
+  float reach = NEAR_REACH * plan.sub_step * reach_of(b.v - a.v, a.w, b.w, m.arm);
+  bool all_may = has(m, SPHERE_STRIKES);
+  uint near = 0u, count = count_of(m.kind), contact = refreshed ? first_contact(o) : 0u;
+  m.slack = NO_LIMIT;
+  for (uint k = 0u, at = m.row; k < count; ++k, at += SPHERE_ROW_PARTS * m.stride) {
+    float gap;
+    if (refreshed)
+      gap = refresh_row(at, m.stride, contacts[contact + k], pa, pb, a, b);
+    else
+      gap = gap_now(at, m.stride, by_a, by_b);
+    impulses[at].y = gap;
+    if (all_may || impulses[at].x > 0.0 || !(gap > reach))
+      near |= 1u << k;
+    else
+      m.slack = min(m.slack, gap);
+  }
+  keep_near(o, near, m);
 }
 
-void resist_turn(SphereOrdered m, inout Side a, inout Side b) {
+void resist_turn(Manifold m, inout Side a, inout Side b) {
   Patch area = open_patch(vec3(0.0));
-  FOR_ROWS(at, m) gather(area, impulses[at].x, rows[at + m.stride].xyz, rows[at].xyz);
+  FOR_NEAR(at, m) gather(area, impulses[at].x, rows[at + m.stride].xyz, rows[at].xyz);
   if (area.impulse <= 0.0) return;
   close_patch(area, a.w - b.w);
-  FOR_ROWS(at, m) spread(area, impulses[at].x, rows[at + m.stride].xyz);
-  float radius = settings.patch_radius * world.gravity.w, arm = is_ball(m.a) || is_ball(m.b) ? 0.0 : radius;
+  FOR_NEAR(at, m) spread(area, impulses[at].x, rows[at + m.stride].xyz);
+  float radius = settings.patch_radius * world.gravity.w;
+  float arm = is_ball(world.bodies.x + m.a) || m.b != SPHERE_GROUND_BODY && is_ball(world.bodies.x + m.b) ? 0.0 : radius;
   resist(area.normal, area.spin, most_against_spin(area, radius, friction_of(m)), a, b);
   resist(area.tip_axis, area.tipping, most_against_tipping(area, radius, arm), a, b);
 }
 
-void push_manifold(SphereOrdered m, bool pushes, inout Side a, inout Side b) {
-  Give give = firmly_now;
-  if (pushes) give = softly_now;
-  uint rubs = 0u;  // a bit a contact
-  FOR_ROWS(at, m) if (solve_normal(at, m.stride, give, (m.flags & SPHERE_STRIKES) != 0u, a, b)) rubs |= 1u << i;
-  // Each invocation goes from one contact that presses to the next: half of all only wait for their gap to close.
-  for (float friction = friction_of(m); rubs != 0u; rubs &= rubs - 1u)
-    solve_friction(first_row(m) + SPHERE_ROW_PARTS * m.stride * uint(findLSB(rubs)), m.stride, friction, a, b);
+// The bodies approach each other too fast to leave out any contact in this sub-step.
+void all_may_press(uint o, inout Manifold m) {
+  m.slack = NO_LIMIT;
+  keep_near(o, all_of(count_of(m.kind)), m);
 }
 
-void solve_manifold(uint o, uint kind) {
-  SphereOrdered m = ordered_at(o);
-  if (kind == SWEEP_BOUNCE && (m.flags & SPHERE_BOUNCES) == 0u) return;
-  Side a = side_of(m.a, refreshed(m)), b = side_of(m.b, refreshed(m));
-  if (refreshed(m) && (kind == SWEEP_FIRST_RELAX || kind == SWEEP_WARM_START && first_sub_step)) refresh_levers(m, a, b);
-  if (kind == SWEEP_WARM_START) {
-    FOR_CONTACTS(at, contact, m)
-      warm_start(at, m.stride, restitutes(m) && strikes(contacts[contact].approach), a, b);
-  } else if (kind == SWEEP_BOUNCE) {
-    FOR_CONTACTS(at, contact, m) bounce(at, m.stride, restitution_of(m), contacts[contact].approach, a, b);
-  } else {
-    if (kind == SWEEP_FIRST_PUSH) resist_turn(m, a, b);
-    if (kind == SWEEP_FIRST_RELAX && !refreshed(m)) observe_gaps(m);
-    push_manifold(m, kind == SWEEP_FIRST_PUSH || kind == SWEEP_PUSH, a, b);
+void push_manifold(uint o, Give give, Manifold m, inout Side a, inout Side b) {
+  float reach = plan.sub_step * reach_of(b.v - a.v, a.w, b.w, m.arm), growth = plan.sub_step * m.yield;
+  if (!(reach < m.slack)) all_may_press(o, m);
+  uint rubs = 0u;  // a bit a contact
+  for (uint left = near_of(m.kind); left != 0u;) {
+    float change;
+    uint done = left ^ left - 1u;  // contacts up to this one
+    if (solve_normal(row_of(m, left), m.stride, give, has(m, SPHERE_STRIKES), change, a, b)) rubs |= left & done;
+    reach += growth * abs(change);
+    if (!(reach < m.slack)) all_may_press(o, m);
+    left = near_of(m.kind) & ~done;
   }
+  for (float friction = friction_of(m); rubs != 0u; rubs &= rubs - 1u)
+    solve_friction(row_of(m, rubs), m.stride, friction, a, b);
+}
+
+// What a manifold does in sweeps other than those that merely repeat the one before. Few loops: on llvmpipe each costs a
+// turn even where it is not run, and an invocation has 65,535.
+void begin_sweep(uint o, uint kind, bool refreshed, inout Manifold m, inout Side a, inout Side b) {
+  if (kind == SWEEP_FIRST_RELAX || refreshed && kind == SWEEP_WARM_START && first_sub_step) observe(o, refreshed, a, b, m);
+  if (kind == SWEEP_FIRST_PUSH) resist_turn(m, a, b);
+  if (kind != SWEEP_WARM_START && !(kind == SWEEP_BOUNCE && has(m, SPHERE_BOUNCES))) return;
+  uint contact = first_contact(o);
+  FOR_NEAR(at, m) {
+    float approach = contacts[contact + uint(findLSB(left))].approach;
+    if (kind == SWEEP_WARM_START)
+      warm_start(at, m.stride, has(m, SPHERE_RESTITUTES) && strikes(approach), a, b);
+    else
+      bounce(at, m.stride, restitution_of(members_at(o)), approach, a, b);
+  }
+}
+
+void solve_manifold(uint o, uint kind, Give give) {
+  Manifold m = manifold_at(o);
+  bool refreshed = has(m, SPHERE_REFRESHED);
+  Side a = side_of(m.a, refreshed), b = side_of(m.b, refreshed);
+  if (kind >= SWEEP_FIRST_PUSH) begin_sweep(o, kind, refreshed, m, a, b);
+  if (kind <= SWEEP_FIRST_RELAX) push_manifold(o, give, m, a, b);
   keep_side(m.a, a);
-  if (m.b != SPHERE_GROUND) keep_side(m.b, b);
+  keep_side(m.b, b);
 }
 
 // Whether a contact of the manifold is to bounce.
 bool bounces(uint o) {
-  SphereOrdered m = ordered_at(o);
-  if (!restitutes(m) || (m.flags & SPHERE_STRIKES) == 0u) return false;
+  Manifold m = manifold_at(o);
+  if (!has(m, SPHERE_RESTITUTES) || !has(m, SPHERE_STRIKES)) return false;
   bool any = false;
-  FOR_CONTACTS(at, contact, m)
+  FOR_CONTACTS(at, contact, m, o)
     any = any || pressed_at(at, m.stride) && is_hit(at, m.stride, contacts[contact].approach);
-  if (any) set_flags(o, m.flags | SPHERE_BOUNCES);
+  if (any) order[world.pairs.x + o].kind = m.kind | SPHERE_BOUNCES;
   return any;
 }
 
 // Impulses back into the contacts, as forces. An impact is over: it must not warm-start the next step.
 void keep_forces(uint o) {
-  SphereOrdered m = ordered_at(o);
+  Manifold m = manifold_at(o);
+  bool restitutes = has(m, SPHERE_RESTITUTES);
   uint presses = 0u;
-  FOR_CONTACTS(at, contact, m) {
+  FOR_CONTACTS(at, contact, m, o) {
     float share = 1.0, approach = contacts[contact].approach;
-    if (!restitutes(m) || !strikes(approach))
+    if (!restitutes || !strikes(approach))
       share = lasting_share_at(at, m.stride, rows[at].w);
-    else if ((m.flags & SPHERE_BOUNCES) != 0u && is_hit(at, m.stride, approach))
+    else if (has(m, SPHERE_BOUNCES) && is_hit(at, m.stride, approach))
       share = 0.0;
     contacts[contact].force = share / plan.sub_step * vec4(impulses[at].x, friction_at(at, m.stride));
-    if (share * impulses[at].x > 0.0) presses = 1u;
+    if (share * impulses[at].x > 0.0) ++presses;
   }
-  manifolds[world.pairs.x + m.slot].state.y = presses;
+  uint slot = world.pairs.x + order[world.pairs.x + o].slot;
+  manifolds[slot].state.y = presses;
+  manifolds[slot].state.w = uint(bitCount(near_of(m.kind))) + presses;
 }
 
 // Bodies with a contact that has all the friction that its force allows.
 void note_sliding(uint o) {
-  SphereOrdered m = ordered_at(o);
+  Manifold m = manifold_at(o);
   float friction = friction_of(m);
   bool slip = false;
-  FOR_ROWS(at, m) {
-    slip = slip || slips(friction * impulses[at].x, length(friction_at(at, m.stride)), 0.0);
-  }
-  if (!slip) return;
-  turned_of(m.a - world.bodies.x).w = 1.0;  // all that come here write the same
-  if (m.b != SPHERE_GROUND) turned_of(m.b - world.bodies.x).w = 1.0;
+  FOR_NEAR(at, m) slip = slip || slips(friction * impulses[at].x, length(friction_at(at, m.stride)), 0.0);
+  if (slip) turned_of(m.a).w = turned_of(m.b).w = 1.0;  // all that come here write the same
 }

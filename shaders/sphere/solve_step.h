@@ -9,6 +9,7 @@ Give softly_now, firmly_now;  // how contacts give way before and after bodies m
 float grip;                   // share of friction that holds
 float kept;                   // share of the last step's forces that this one begins with
 bool first_sub_step;          // of the step
+float tolerance;              // m/s: a contact whose speed a sweep changes by more is not solved yet
 
 // What holds for sub-step k of world w.
 void take_sub_step_of(uint w, uint k) {
@@ -18,6 +19,7 @@ void take_sub_step_of(uint w, uint k) {
   softly_now = softly(plan.sub_step, softness.x, softness.y, softness.z * size, settings.push_speed / softness.w * size);
   firmly_now = firmly(plan.sub_step);
   first_sub_step = k == 0u;
+  tolerance = settings.tolerance * size;
   grip = int(k) < plan.slip_sub_steps ? 0.0 : progress[w].grip;
   kept = progress[w].forgets != 0u ? 0.0 : 1.0;
 }

@@ -32,9 +32,10 @@ void at_least(gl::Buffer<T>& buffer, std::size_t count) {
     buffer.grow(std::max<std::size_t>({count, buffer.size() + buffer.size() / 8, 1}));
 }
 
-/// Rows that are needed where all contacts are solved: blocks of manifolds of unlike length leave 10 to 18 % unused.
+/// Rows that are needed where all contacts are solved. A block of manifolds has as many for each as its longest needs,
+/// and manifolds are in order of the contacts that press: 256 connecting rods with 2,671 contacts need 4,290 rows.
 std::size_t rows_for(std::size_t contacts) {
-  return contacts + contacts / 4;
+  return contacts + 5 * contacts / 8;
 }
 
 /// Of a list of pairs that may come near: each two bodies, and each with the ground.

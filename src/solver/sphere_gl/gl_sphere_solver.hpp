@@ -10,7 +10,7 @@ namespace sphere_gl {
 /// Sizes that cost time, no result. Lists grow: too small a one costs a repeated step.
 struct Capacity {
   std::size_t pairs = 4;            ///< of bodies near each other, per body of a world
-  std::size_t rows = 12;            ///< of contacts that are solved, per body of a world
+  std::size_t rows = 17;            ///< of contacts that are solved, per body of a world
   std::size_t candidates = 4;       ///< and samples that they come from, per pair that there is room for
   std::size_t most_candidates = 0;  ///< of one step; 0: as many as fit a quarter of `memory`
   std::size_t bodies = 0;           ///< expected in a world; the more, the fewer worlds at once
