@@ -4,6 +4,7 @@
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "bin_scenes/part/part_model.hpp"
+#include "dataset/whole_folders.hpp"
 #include "tool/commands.hpp"
 #include "tool/fitted_bin.hpp"
 #include "tool/progress_bar.hpp"
@@ -76,7 +77,8 @@ std::string part_text(const Draft& d, const fs::path& folder) {
   const NewOptions& o = d.options;
   const double mass = density * d.part->mass().volume;
   std::string text = "parts:\n";
-  text += line("  - model: " + quoted(path_from(folder, o.part)), "relative to this file");
+  const std::string path = path_from(folder, o.part);
+  text += line("  - model: " + quoted(path), fs::path(path).is_absolute() ? "" : "relative to this file");
   const std::string size = size_text(d.part->mesh().bounds().size());
   if (d.unit.unit)
     text += line(std::string("    unit: ") + name_of(*d.unit.unit), size + ", " + d.unit.reason);
@@ -177,9 +179,10 @@ void check_options(const NewOptions& options) {
     throw input_error("'" + options.out + "' is no name of a request", "--out", "end it with .yaml");
   if (fs::exists(options.out) && !options.overwrite)
     throw input_error("is there already", options.out, "choose another name with --out, or add --overwrite");
-  const fs::path folder = fs::path(options.out).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder))
-    throw input_error("there is no folder '" + folder.string() + "'", "--out", "make it first");
+  fs::path there = fs::absolute(options.out).lexically_normal().parent_path();
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there))
+    throw input_error("'" + there.string() + "' is no folder", "--out", "name a file in a folder");
 }
 
 }  // namespace
@@ -206,6 +209,7 @@ int new_request(const NewOptions& options) {
   if (draft.sensor) draft.place = place_sensor(*draft.sensor, draft.bin);
 
   const fs::path folder = fs::path(options.out).parent_path();
+  if (!folder.empty()) make_directory(folder);
   write_text(options.out, request_text(draft, folder.empty() ? "." : folder));
   if (!draft.place.warning.empty()) std::fprintf(stderr, "bin_scenes: note: %s\n", draft.place.warning.c_str());
   if (options.pour) return pour_once(draft);

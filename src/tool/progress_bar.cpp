@@ -37,6 +37,16 @@ void put(const std::string& text) {
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 
+/// s between lines in a file or pipe; 0: none.
+double seconds_between_lines() {
+  constexpr double usual = 30.0;
+  const char* given = std::getenv("BIN_SCENES_PROGRESS");
+  if (!given || !*given) return usual;
+  char* end = nullptr;
+  const double value = std::strtod(given, &end);
+  return *end == 0 && value >= 0.0 ? value : usual;
+}
+
 double seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
 }
@@ -51,19 +61,26 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+/// "  7 % "; empty while nothing is known.
+std::string percent_text(double fraction) {
+  if (fraction < 0.001) return "";
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%3.0f %% ", 100.0 * std::min(fraction, 1.0));
+  return digits;
+}
+
+/// ", 1:20 left", or the time spent while that is not known.
+std::string time_text(double fraction, double spent, std::optional<double> left) {
+  if (!left && fraction >= 0.001) left = spent * (1.0 - fraction) / fraction;
+  return left ? ", " + clock_text(*left) + " left" : ", " + clock_text(spent);
+}
+
 }  // namespace
 
 std::string progress_line(double fraction, const std::string& text, double spent, std::optional<double> left,
                           std::size_t columns, bool colors) {
-  const bool known = fraction >= 0.001;
-  if (!left && known) left = spent * (1.0 - fraction) / fraction;
-  std::string behind = left ? ", " + clock_text(*left) + " left" : ", " + clock_text(spent);
-  std::string bar, percent;
-  if (known) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "%3.0f %% ", 100.0 * std::min(fraction, 1.0));
-    percent = digits;
-  }
+  const std::string percent = percent_text(fraction);
+  std::string behind = time_text(fraction, spent, left), bar;
   const std::size_t width = columns >= 60 ? 20 : columns >= 40 ? 10 : 0;
   if (width > 0) {
     const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width));
@@ -77,7 +94,11 @@ std::string progress_line(double fraction, const std::string& text, double spent
 }
 
 ProgressBar::ProgressBar(bool ticking)
-    : terminal_(draws()), ticking_(ticking && terminal_), start_(Clock::now()), last_(start_) {
+    : terminal_(draws()),
+      every_(terminal_ ? 0.0 : seconds_between_lines()),
+      ticking_(ticking && (terminal_ || every_ > 0.0)),
+      start_(Clock::now()),
+      last_(start_) {
   if (ticking_) thread_ = std::thread([this] { tick(); });
 }
 
@@ -100,17 +121,17 @@ void ProgressBar::stage(double from, double to, const std::string& text) {
 }
 
 void ProgressBar::set(const State& state) {
-  if (!terminal_) return;
+  if (!terminal_ && every_ <= 0.0) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   state_ = state;
-  if (state.since - last_ >= pause) draw();
+  if (!terminal_ || state.since - last_ >= pause) draw();
 }
 
 void ProgressBar::draw() {
   const Clock::time_point now = Clock::now();
-  if (!state_ || now - start_ < unseen) return;
+  if (!state_ || (terminal_ ? now - start_ < unseen : seconds(now - last_) < every_)) return;
   last_ = now;
-  shown_ = true;
+  shown_ = terminal_;
   const double before = seconds(state_->since - start_), in_stage = seconds(now - state_->since);
   double fraction = state_->from;
   if (state_->to > state_->from && state_->from > 0.0) {  // nears its end, and never gets there by itself
@@ -120,6 +141,9 @@ void ProgressBar::draw() {
   std::optional<double> left = state_->left;
   if (!left && state_->to == state_->from && fraction >= 0.001)  // runs down until the caller reports more
     left = std::max(0.0, before * (1.0 - fraction) / fraction - in_stage);
+  if (!terminal_)
+    return put("bin_scenes: " + percent_text(fraction) + state_->text + time_text(fraction, before + in_stage, left) +
+               "\n");
   // The last column stays free: a terminal may go to the next line behind it.
   put(erase_line +
       progress_line(fraction, state_->text, before + in_stage, left, columns_of_terminal() - 1, wants_colors()));

@@ -1,4 +1,5 @@
-/// One line on a terminal that says how far a job is and how long it still takes; nothing anywhere else.
+/// One line on a terminal that says how far a job is and how long it still takes. Where standard error is no terminal,
+/// a line every 30 s; BIN_SCENES_PROGRESS is another number of seconds, 0 for none.
 #pragma once
 
 #include <chrono>
@@ -12,8 +13,9 @@ namespace bin_scenes {
 
 class ProgressBar {
  public:
-  /// Draws on standard error, if that is a terminal that can, from half a second on: what is done sooner needs no bar.
-  /// @param ticking  a thread redraws while the caller is busy. Not for a process that forks and goes on in the child.
+  /// Draws on standard error from half a second on: what is done sooner needs no bar.
+  /// @param ticking  a thread redraws while the caller is busy. Not for a process that forks and continues in the
+  /// child.
   explicit ProgressBar(bool ticking = true);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -37,7 +39,9 @@ class ProgressBar {
   void draw();
   void tick();
 
-  bool terminal_, ticking_, shown_ = false, over_ = false;
+  bool terminal_;
+  double every_;  ///< s between lines where there is no terminal; 0: none
+  bool ticking_, shown_ = false, over_ = false;
   Clock::time_point start_, last_;
   std::optional<State> state_;
   std::mutex mutex_;

@@ -27,6 +27,21 @@ TEST_F(CommandLine, NewWritesARequestWithABinThatItsHeapFills) {
   EXPECT_EQ(json("again/scene_000000/scene.json")["report"]["state_hash"], scene["report"]["state_hash"]);
 }
 
+TEST_F(CommandLine, NewMakesFoldersAndNamesPathsAsTheyAre) {
+  put("part.stl", box_stl(30));
+  EXPECT_EQ(run("new part.stl --no-pour --out near/by/first.yaml").code, 0);
+  EXPECT_NE(text("near/by/first.yaml").find("model: ../../part.stl"), std::string::npos);
+  EXPECT_NE(text("near/by/first.yaml").find("# relative to this file"), std::string::npos);
+  EXPECT_EQ(run("new part.stl --no-pour --out far/a/b/c/d/first.yaml").code, 0);
+  EXPECT_NE(text("far/a/b/c/d/first.yaml").find("model: /"), std::string::npos);
+  EXPECT_EQ(text("far/a/b/c/d/first.yaml").find("relative to this file"), std::string::npos);
+  const Outcome refused = run("new part.stl --no-pour --out part.stl/first.yaml");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("part.stl' is no folder"), std::string::npos) << refused.err;
+  EXPECT_EQ(run("new nothing.stl --no-pour --out not/made/first.yaml").code, 2);
+  EXPECT_FALSE(fs::exists(dir / "not"));  // nothing is left of what failed
+}
+
 TEST_F(CommandLine, NewMakesRoomForPinsAndSheetsThatLean) {
   struct Case {
     Vec3 size;  // mm
@@ -92,7 +107,6 @@ TEST_F(CommandLine, NewRefusesBadInputAndOverwritesNothing) {
   refused("open.stl", {"open.stl", "--thickness"});
   put("n\xff.stl", box_stl(0.04));
   refused("n\xff.stl --count 3", {"n\\xff.stl", "no UTF-8", "rename"});
-  expect_failure("new box.stl --out none/new.yaml", 2, {"none"});
   expect_failure("new box.stl --out new", 2, {".yaml"});
   EXPECT_EQ(run("new open.stl --out new.yaml --thickness 0.002 --no-pour").code, 0);
   EXPECT_NE(text("new.yaml").find("thickness: 0.002"), std::string::npos);

@@ -203,8 +203,22 @@ class Progress(Folder):
         for variables in ({"TERM": "dumb"}, {"TERM": ""}):
             terminal = self.run_in(100, "sensor", "stereo_0.7m_1200mm", **variables)
             self.assertEqual(terminal.read(), "")
-        run = subprocess.run([TOOL, "sensor", "stereo_0.7m_1200mm"], capture_output=True, text=True, check=True)
-        self.assertEqual(run.stderr, "")
+
+    def lines(self, seconds):
+        """What a job prints into a pipe."""
+        environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"), "BIN_SCENES_PROGRESS": seconds}
+        run = subprocess.run([TOOL, "generate", "heaps.yaml", "--out", "out", "--scenes", "2", "--overwrite"], cwd=self.folder,
+                             env=environment, capture_output=True, text=True, check=True)
+        return run.stderr.splitlines()
+
+    def test_lines_where_there_is_no_terminal(self):
+        lines = self.lines("1e-9")
+        self.assertGreater(len(lines), 2)
+        for line in lines:
+            self.assertRegex(line, r"^bin_scenes: ( *\d+ % )?\S.*, \d+:\d\d( left)?$")
+        self.assertTrue(any("scene 1" in line for line in lines), lines)
+        self.assertEqual(self.lines("0"), [])
+        self.assertEqual(self.lines("3600"), [])  # an hour has not passed
 
 
 if __name__ == "__main__":
