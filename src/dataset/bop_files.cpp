@@ -1,3 +1,4 @@
+/// Finds masks, images and depth of a view by the names that BOP gives them, and decodes run lengths.
 #include "dataset/bop_files.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,4 @@
+/// The command `audit`: reads options and data set, audits heap by heap, and prints what is wrong.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "dataset/whole_folders.hpp"

@@ -1,3 +1,4 @@
+/// Limits, ids, and the order of what is wrong: parts and images by their worst figure in units of its limit.
 #include "tool/audit_judge.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,4 @@
+/// Renders the models at their stated poses by the library's own rays, and compares masks and depth with the result.
 #include "tool/audit_labels.hpp"
 
 #include "bin_scenes/core/error.hpp"

@@ -1,3 +1,4 @@
+/// Robust fits of what all labels of a camera have in common: errors of K, and of depth.
 #include "tool/camera_error.hpp"
 
 #include <Eigen/Dense>

@@ -1,3 +1,4 @@
+/// Overlap and sub-pixel shift of two masks.
 #include "tool/label_compare.hpp"
 
 #include <Eigen/Dense>

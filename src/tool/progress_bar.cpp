@@ -1,3 +1,4 @@
+/// Draws the line of progress, or writes lines into a file or pipe, from the thread that works or from one of its own.
 #include "tool/progress_bar.hpp"
 
 #include <sys/ioctl.h>
