@@ -2,7 +2,6 @@
 /// page.
 #include "dataset/report.hpp"
 
-#include "bin_scenes/core/error.hpp"
 #include "bin_scenes/output/scene_writer.hpp"
 #include "core/read_file.hpp"
 #include "dataset/data_folder.hpp"
@@ -11,6 +10,7 @@
 #include "dataset/published.hpp"
 #include "dataset/scene_index.hpp"
 #include "dataset/whole_folders.hpp"
+#include "output/ply.hpp"
 #include "output/png.hpp"
 #include "output/png_reader.hpp"
 #include "output/tiff.hpp"
@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
 
 namespace bin_scenes {
@@ -82,29 +81,14 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
   return base64(png8(width, height, image.channels, small));
 }
 
-/// Vertices (m) and triangles of a PLY file that this project wrote (mm).
+/// Vertices (m) and triangles of a model of the data set (mm).
 Json model_of(const fs::path& path) {
-  const std::string bytes = read_file(path.string()), end = "end_header\n";
-  const auto count = [&](const std::string& element) {
-    const std::size_t found = bytes.find("element " + element + " ");
-    return found == std::string::npos ? 0 : std::strtoul(bytes.c_str() + found + 9 + element.size(), nullptr, 10);
-  };
-  const std::size_t vertices = count("vertex"), faces = count("face"), head = bytes.find(end);
-  if (head == std::string::npos || vertices > bytes.size() || faces > bytes.size() ||
-      bytes.size() != head + end.size() + 12 * vertices + 13 * faces)
-    throw input_error("is no whole PLY of this project", path.string(), "run the plan into its folder again");
-  const char* at = bytes.data() + head + end.size();
+  const Mesh mesh = read_ply(path.string());
   Json model = {{"vertices", Json::array()}, {"triangles", Json::array()}};
-  for (std::size_t i = 0; i < 3 * vertices; ++i, at += 4) {
-    float mm;
-    std::memcpy(&mm, at, 4);
-    model["vertices"].push_back(rounded(static_cast<double>(mm) / 1e3));
-  }
-  for (std::size_t i = 0; i < faces; ++i, at += 13) {
-    std::int32_t corner[3];
-    std::memcpy(corner, at + 1, 12);
-    for (const std::int32_t k : corner) model["triangles"].push_back(k);
-  }
+  for (const Vec3& v : mesh.vertices)
+    for (int i = 0; i < 3; ++i) model["vertices"].push_back(rounded(v[i] / 1e3));
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t k : t) model["triangles"].push_back(k);
   return model;
 }
 

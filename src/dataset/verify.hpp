@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -16,7 +15,7 @@
 namespace bin_scenes {
 
 struct BopModel {
-  std::vector<std::array<double, 3>> vertices;  ///< mm
+  std::vector<Vec3> vertices;  ///< mm
 };
 
 struct Finding {

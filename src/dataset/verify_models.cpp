@@ -1,11 +1,8 @@
-#include "bin_scenes/core/types.hpp"
-#include "core/read_file.hpp"
+#include "bin_scenes/core/error.hpp"
 #include "dataset/verify.hpp"
 #include "output/bop_image.hpp"
 #include "output/evaluation_mesh.hpp"
-
-#include <array>
-#include <cstring>
+#include "output/ply.hpp"
 
 namespace bin_scenes {
 
@@ -14,36 +11,24 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Vertices of the binary PLY files that this project writes: three floats each, first in the file's data.
-std::vector<std::array<double, 3>> read_vertices(const std::string& path) {
-  const std::string bytes = read_file(path), end = "end_header\n", element = "element vertex ";
-  const std::size_t count_at = bytes.find(element), data = bytes.find(end);
-  std::vector<std::array<double, 3>> vertices;
-  if (count_at == std::string::npos || data == std::string::npos) return vertices;
-  const std::size_t count = std::stoul(bytes.substr(count_at + element.size(), 12));
-  const char* at = bytes.data() + data + end.size();
-  if (data + end.size() + count * 12 > bytes.size()) return vertices;
-  for (std::size_t i = 0; i < count; ++i, at += 12) {
-    float v[3];
-    std::memcpy(v, at, sizeof v);
-    vertices.push_back({static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])});
+/// Vertices of a model (mm); none if its file is missing or damaged.
+std::vector<Vec3> vertices_in(const std::string& path) {
+  try {
+    return read_ply(path).vertices;
+  } catch (const Error&) {
+    return {};
   }
-  return vertices;
 }
 
-struct Bounds3 {
-  Vec3 lower = Vec3::Constant(1e300), upper = Vec3::Constant(-1e300);
-  explicit Bounds3(const std::vector<std::array<double, 3>>& vertices) {
-    for (const auto& v : vertices) {
-      lower = lower.cwiseMin(Vec3(v[0], v[1], v[2]));
-      upper = upper.cwiseMax(Vec3(v[0], v[1], v[2]));
-    }
-  }
-};
+Aabb bounds_of(const std::vector<Vec3>& vertices) {
+  Aabb bounds;
+  for (const Vec3& v : vertices) bounds.extend(v);
+  return bounds;
+}
 
-bool info_fits(const Json& model, const std::vector<std::array<double, 3>>& vertices) {
-  const Bounds3 bounds(vertices);
-  const Vec3 size = bounds.upper - bounds.lower;
+bool info_fits(const Json& model, const std::vector<Vec3>& vertices) {
+  const Aabb bounds = bounds_of(vertices);
+  const Vec3 size = bounds.size();
   const double diameter = model.value("diameter", 0.0);
   bool good = !vertices.empty() && diameter >= size.maxCoeff() * 0.999 && diameter <= size.norm() * 1.001 &&
               std::abs(model.value("size_x", 0.0) - size.x()) < 1e-3 * diameter &&
@@ -68,8 +53,8 @@ void verify_evaluation_models(const fs::path& folder, const Json& info, const st
   verify_files(folder, findings);
   for (const auto& [id, model] : models) {
     const std::string path = model_path(folder, std::to_string(id));
-    const Bounds3 whole(model.vertices), resampled(fs::exists(path) ? read_vertices(path) : decltype(model.vertices)());
-    const double size = (whole.upper - whole.lower).norm();
+    const Aabb whole = bounds_of(model.vertices), resampled = bounds_of(vertices_in(path));
+    const double size = whole.size().norm();
     findings.expect((whole.lower - resampled.lower).norm() < evaluation_spacing * size &&
                         (whole.upper - resampled.upper).norm() < evaluation_spacing * size,
                     "model_eval", path, "is missing, or has not the size of the model");
@@ -87,7 +72,7 @@ std::map<int, BopModel> verify_models(const DataFolder& folder, Findings& findin
   verify_files(models, findings);
   for (const auto& [key, model] : info->items()) {
     const std::string path = model_path(models, key);
-    const auto vertices = fs::exists(path) ? read_vertices(path) : std::vector<std::array<double, 3>>();
+    const std::vector<Vec3> vertices = vertices_in(path);
     findings.expect(info_fits(model, vertices), "model_info", path, "models_info does not fit the model");
     all[std::stoi(key)].vertices = vertices;
   }

@@ -49,11 +49,6 @@ void verify_parts(const SceneFile& scene, const std::string& where, Findings& fi
 }
 
 /// Of scene.json: x, y, width, height.
-std::array<int, 4> box_of(const Extent& e) {
-  if (e.count == 0) return {-1, -1, -1, -1};
-  return {e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1};
-}
-
 void verify_truth(const SceneSensor& sensor, const std::string& where, Findings& findings) {
   for (const PartTruth& part : *sensor.truth) {
     const std::size_t seen = part.visible_pixels, all = part.all_pixels;
@@ -107,7 +102,7 @@ void verify_images(const SceneFile& scene, const SceneSensor& sensor, const fs::
     const Extent& e = extents.at(static_cast<std::size_t>(part.id));
     findings.expect(e.count == part.visible_pixels, "label_counts", where,
                     part_name(part.id) + " has " + std::to_string(e.count) + " pixels");
-    findings.expect(box_of(e) == part.visible_box, "label_boxes", where,
+    findings.expect(e.xywh() == part.visible_box, "label_boxes", where,
                     part_name(part.id) + ": pixels do not fill the box");
   }
   const double scale = sensor.depth_scale, near = sensor.near, far = sensor.far;

@@ -1,6 +1,6 @@
 #include "grasp/rays.hpp"
 
-#include "grasp/tree_walk.hpp"
+#include "part/tree_walk.hpp"
 
 #include <algorithm>
 #include <cmath>

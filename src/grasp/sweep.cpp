@@ -2,7 +2,7 @@
 /// are tried against the axes of faces and coordinates alone, which may keep a node that is apart, but loses none.
 #include "grasp/sweep.hpp"
 
-#include "grasp/tree_walk.hpp"
+#include "part/tree_walk.hpp"
 
 #include <cmath>
 

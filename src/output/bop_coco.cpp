@@ -18,7 +18,7 @@ std::array<int, 4> box_of(const MaskBox& mask) {
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x)
       if (mask.inside[i++]) box.extend(mask.left + x, mask.top + y);
-  return {box.left, box.top, box.right - box.left + 1, box.bottom - box.top + 1};
+  return box.xywh();
 }
 
 Json annotation(const BopImage& image, std::size_t entry, std::size_t image_id) {

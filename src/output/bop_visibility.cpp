@@ -12,17 +12,6 @@ namespace {
 
 constexpr double nearest = 1e-4;  ///< m along the optical axis
 
-/// Bounds that grow.
-struct Bounds {
-  int left = 1 << 30, top = 1 << 30, right = -(1 << 30), bottom = -(1 << 30);
-  void add(int x, int y) {
-    left = std::min(left, x), right = std::max(right, x);
-    top = std::min(top, y), bottom = std::max(bottom, y);
-  }
-  bool empty() const { return right < left; }
-  std::array<int, 4> box() const { return {left, top, right - left, bottom - top}; }
-};
-
 /// Depth of a mesh alone on a canvas around the image, three times as wide and as high, where it covers pixel centres.
 struct Alone {
   int left = 0, top = 0, width = 0, height = 0;
@@ -90,7 +79,7 @@ std::optional<Alone> alone(const Mesh& mesh, const Pose& pose, const Lens& lens)
   return canvas;
 }
 
-MaskBox empty_mask(const Bounds& bounds) {
+MaskBox empty_mask(const PixelBox& bounds) {
   MaskBox mask;
   if (bounds.empty()) return mask;
   mask.left = bounds.left, mask.top = bounds.top;
@@ -123,12 +112,12 @@ BopVisibility true_visibility(const RangeImage& image, const std::vector<std::ui
   seen.all = image.total.at(place);
   seen.visible_mask = visible_mask(image, id, seen_box);
   if (!image.silhouettes.empty()) seen.whole_mask = whole_mask(image.silhouettes.at(place));
-  Bounds all;
+  PixelBox all;
   const MaskBox& whole = seen.whole_mask;
   for (int y = whole.top, i = 0; y < whole.top + whole.height; ++y) {
     for (int x = whole.left; x < whole.left + whole.width; ++x, ++i) {
       if (!whole.inside[static_cast<std::size_t>(i)]) continue;
-      all.add(x, y);
+      all.extend(x, y);
       seen.valid +=
           counts[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)] > 0;
     }
@@ -139,14 +128,14 @@ BopVisibility true_visibility(const RangeImage& image, const std::vector<std::ui
     for (int y = canvas->top; y < canvas->top + canvas->height; ++y) {
       for (int x = canvas->left; x < canvas->left + canvas->width; ++x, ++i) {
         if (canvas->depth[i] == 0.0f) continue;
-        all.add(x, y);
+        all.extend(x, y);
         seen.all += x < 0 || y < 0 || x >= image.width || y >= image.height;
       }
     }
   }
   if (seen.visible > 0) {
-    seen.box = all.box();
-    seen.visible_box = {seen_box.left, seen_box.top, seen_box.right - seen_box.left, seen_box.bottom - seen_box.top};
+    seen.box = all.first_to_last();
+    seen.visible_box = seen_box.first_to_last();
   }
   return seen;
 }
@@ -156,7 +145,7 @@ std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_
   const std::optional<Alone> canvas = alone(mesh, model_in_camera, lens);
   if (!canvas) return std::nullopt;
   BopVisibility seen;
-  Bounds all, inside, visible;
+  PixelBox all, inside, visible;
   // Calls visit(x, y, whether the pixel is visible) for pixels of the image; counts and bounds only need one pass,
   // masks another, in the bounds found by the first.
   const auto each = [&](const auto& visit, const auto& beside) {
@@ -175,14 +164,14 @@ std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_
   };
   each(
       [&](int x, int y, bool valid, bool shown) {
-        inside.add(x, y);
+        inside.extend(x, y);
         seen.valid += valid;
         if (!shown) return;
-        visible.add(x, y);
+        visible.extend(x, y);
         ++seen.visible;
       },
       [&](int x, int y) {
-        all.add(x, y);
+        all.extend(x, y);
         ++seen.all;
       });
   seen.whole_mask = empty_mask(inside);
@@ -194,8 +183,8 @@ std::optional<BopVisibility> bop_visibility(const Mesh& mesh, const Pose& model_
       },
       [](int, int) {});
   if (seen.visible > 0) {
-    seen.box = all.box();
-    seen.visible_box = visible.box();
+    seen.box = all.first_to_last();
+    seen.visible_box = visible.first_to_last();
   }
   return seen;
 }

@@ -10,12 +10,14 @@
 
 namespace bin_scenes {
 
-/// Inclusive pixel bounds.
+/// Inclusive pixel bounds, which may be outside the image.
 struct PixelBox {
-  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+  int left = 1 << 30, top = 1 << 30, right = -(1 << 30), bottom = -(1 << 30);
   void extend(int x, int y);
   bool empty() const { return right < left; }
-  std::array<int, 4> xywh() const;  ///< x, y, width, height as BOP writes them; -1 for nothing
+  std::array<int, 4> xywh() const;  ///< x, y, width, height; -1 for nothing
+  /// As scene_gt_info.json of BOP has it: x, y, and the last pixel less the first.
+  std::array<int, 4> first_to_last() const { return {left, top, right - left, bottom - top}; }
 };
 
 /// By part id, of the pixels that truly show it.

@@ -5,6 +5,7 @@
 #include "bin_scenes/core/assertion.hpp"
 
 #include "ray_parity.hpp"
+#include "tree_walk.hpp"
 #include "winding_terms.hpp"
 
 #include <algorithm>
@@ -255,55 +256,33 @@ NearestPoint MeshQuery::nearest(const Vec3& point, double limit) const {
 }
 
 double MeshQuery::winding(const Vec3& point) const {
-  const std::vector<Node>& nodes = tree_->nodes;
-  std::array<std::uint32_t, stack_size> stack;
-  std::size_t top = 0;
-  if (!nodes.empty()) stack[top++] = 0;
   double angle = 0.0;
   SolidAngles near;
-  while (top > 0) {
-    const std::uint32_t index = stack[--top];
-    const Node& node = nodes[index];
+  const auto sum_far = [&](std::uint32_t index) {
     const Moments& moments = tree_->moments[index];
     const double far = far_ratio * moments.reach;
-    if ((moments.center - point).squaredNorm() > far * far) {
-      angle += far_solid_angle(moments, point);
-    } else if (node.count) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        near.add(tree_->corners[i], point);
-      }
-    } else {
-      stack[top++] = node.first;
-      stack[top++] = index + 1;
-    }
-  }
+    if (!((moments.center - point).squaredNorm() > far * far)) return false;
+    angle += far_solid_angle(moments, point);
+    return true;
+  };
+  any_leaf(tree_->nodes, sum_far, [&](std::uint32_t i) {
+    near.add(tree_->corners[i], point);
+    return false;
+  });
   return (angle + near.sum()) / (4.0 * M_PI);
 }
 
 bool MeshQuery::inside(const Vec3& point) const {
   if (!tree_->is_closed) return winding(point) > 0.5;
-  const std::vector<Node>& nodes = tree_->nodes;
-  std::array<std::uint32_t, stack_size> stack;
-  std::size_t top = 0;
-  if (!nodes.empty()) stack[top++] = 0;
   int sum = 0;
-  while (top > 0) {
-    const std::uint32_t index = stack[--top];
-    const Node& node = nodes[index];
-    if (!ray_meets(node.box, point)) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Corner& t = tree_->corners[i];
-      const std::optional<int> change = crossing(t.a, t.ab, t.ac, point);
-      if (!change) return winding(point) > 0.5;
-      sum += *change;
-    }
-  }
-  return sum > 0;
+  const auto missed = [&](std::uint32_t index) { return !ray_meets(tree_->nodes[index].box, point); };
+  const bool unclear = any_leaf(tree_->nodes, missed, [&](std::uint32_t i) {
+    const Corner& t = tree_->corners[i];
+    const std::optional<int> change = crossing(t.a, t.ab, t.ac, point);
+    sum += change.value_or(0);
+    return !change;
+  });
+  return unclear ? winding(point) > 0.5 : sum > 0;
 }
 
 double MeshQuery::signed_distance(const Vec3& point) const {
@@ -312,26 +291,13 @@ double MeshQuery::signed_distance(const Vec3& point) const {
 }
 
 void MeshQuery::overlapping_impl(const Aabb& box, void (*visit)(void*, std::size_t), void* context) const {
-  const std::vector<Node>& nodes = tree_->nodes;
-  std::array<std::uint32_t, stack_size> stack;
-  std::size_t top = 0;
-  if (!nodes.empty()) stack[top++] = 0;
-  while (top > 0) {
-    const std::uint32_t index = stack[--top];
-    const Node& node = nodes[index];
-    if (!node.box.overlaps(box)) continue;
-    if (node.count) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::uint32_t triangle = tree_->corners[i].triangle;
-        Aabb bounds;
-        for (const std::uint32_t v : tree_->mesh.triangles[triangle]) bounds.extend(tree_->mesh.vertices[v]);
-        if (bounds.overlaps(box)) visit(context, triangle);
-      }
-    } else {
-      stack[top++] = node.first;
-      stack[top++] = index + 1;
-    }
-  }
+  const auto apart = [&](const Aabb& of_node) { return !of_node.overlaps(box); };
+  any_near(*this, apart, [&](std::size_t triangle) {
+    Aabb bounds;
+    for (const std::uint32_t v : tree_->mesh.triangles[triangle]) bounds.extend(tree_->mesh.vertices[v]);
+    if (bounds.overlaps(box)) visit(context, triangle);
+    return false;
+  });
 }
 
 }  // namespace bin_scenes

@@ -4,6 +4,7 @@
 #include "bin_scenes/core/assertion.hpp"
 #include "bin_scenes/part/mesh_query.hpp"
 #include "ray_parity.hpp"
+#include "tree_walk.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,17 +81,13 @@ void add_passage(const Mesh& mesh, std::size_t triangle, const Ray& ray, double 
 
 /// Until the ray has left as many solids as it was in; infinite if it never does.
 double length_inside(const MeshQuery& query, const Ray& ray, double least) {
-  std::vector<std::uint32_t> open{0};
   std::vector<Passage> passages;
-  while (!open.empty()) {
-    const std::uint32_t index = open.back();
-    open.pop_back();
-    const MeshQuery::Node& node = query.nodes()[index];
-    if (!meets(ray, node.box)) continue;
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      add_passage(query.mesh(), query.leaf_triangle(i), ray, least, passages);
-    if (node.count == 0) open.insert(open.end(), {node.first, index + 1});
-  }
+  any_near(
+      query, [&](const Aabb& box) { return !meets(ray, box); },
+      [&](std::size_t triangle) {
+        add_passage(query.mesh(), triangle, ray, least, passages);
+        return false;
+      });
   std::sort(passages.begin(), passages.end());
   int inside_of = 1;
   for (const Passage& passage : passages) {

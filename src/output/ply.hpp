@@ -1,0 +1,13 @@
+/// PLY files of models.
+#pragma once
+
+#include "bin_scenes/mesh/mesh.hpp"
+
+#include <string>
+
+namespace bin_scenes {
+
+/// A file that write_ply() wrote of a mesh, in its unit. Throws an input Error for every other file.
+Mesh read_ply(const std::string& path);
+
+}  // namespace bin_scenes

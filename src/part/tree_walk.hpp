@@ -1,0 +1,47 @@
+/// The one walk through the tree of a mesh.
+#pragma once
+
+#include "bin_scenes/core/assertion.hpp"
+#include "bin_scenes/part/mesh_query.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace bin_scenes {
+
+/// Calls `use(position)` for the triangles of all leaves that are not left out, until it returns true. Returns whether
+/// it did. A node is left out with everything below it where `skip(index)` is true.
+template <class Skip, class Use>
+bool any_leaf(const std::vector<MeshQuery::Node>& nodes, const Skip& skip, const Use& use) {
+  if (nodes.empty()) return false;
+  std::array<std::uint32_t, 128> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const std::uint32_t at = stack[--size];
+    if (skip(at)) continue;
+    const MeshQuery::Node& node = nodes[at];
+    if (node.count == 0) {
+      BIN_SCENES_ASSERT(size + 2 <= stack.size());
+      stack[size++] = node.first;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (use(i)) return true;
+  }
+  return false;
+}
+
+/// The same for a mesh: `use(triangle)` for the triangles of all leaves whose boxes, and those above them, are not
+/// `apart(box)`.
+template <class Apart, class Use>
+bool any_near(const MeshQuery& mesh, const Apart& apart, const Use& use) {
+  const std::vector<MeshQuery::Node>& nodes = mesh.nodes();
+  return any_leaf(
+      nodes, [&](std::uint32_t index) { return apart(nodes[index].box); },
+      [&](std::uint32_t position) { return use(mesh.leaf_triangle(position)); });
+}
+
+}  // namespace bin_scenes
