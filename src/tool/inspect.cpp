@@ -86,161 +86,186 @@ HullOptions default_hulls() {
   return hulls;
 }
 
-/// What each solver makes of the part with its default settings. Errors are fractions of the diagonal.
-Json proxies_json(const PartModel& part, ProgressBar& bar) {
+VoxelOptions default_voxels() {
   const SolverSettings defaults;
   VoxelOptions voxels;
   voxels.voxels = defaults.thesis.voxels;
   voxels.tightness = defaults.thesis.tightness;
+  return voxels;
+}
+FieldOptions default_field() {
   FieldOptions field;
-  field.cell = defaults.sphere.field_cell;
+  field.cell = SolverSettings().sphere.field_cell;
+  return field;
+}
+std::size_t sample_count(const PartModel& part) {
   SampleOptions samples;
-  samples.count = defaults.sphere.fine_samples;
-  const HullOptions hulls = default_hulls();
+  samples.count = SolverSettings().sphere.fine_samples;
+  return part.samples(samples).samples.size();
+}
 
+/// The model keeps the proxies that each solver makes of it with its default settings.
+struct Inspection {
+  PartModelPtr part;
+  SymmetryReport symmetries;         ///< only of a closed surface, and so the errors: an open one has no volume
+  ShapeError spheres, field, hulls;  ///< fractions of the diagonal
+  std::string cache;
+  std::size_t files_made = 0;  ///< in the cache
+
+  const char* cache_state() const { return cache.empty() ? "off" : files_made == 0 ? "warm" : "cold"; }
+  double symmetry_residual() const {
+    std::vector<double> errors = symmetries.discrete_error;
+    errors.insert(errors.end(), symmetries.continuous_error.begin(), symmetries.continuous_error.end());
+    return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+  }
+};
+
+void measure_proxies(Inspection& found, ProgressBar& bar) {
+  const PartModel& part = *found.part;
   bar.stage(0.25, 0.35, "distance field");
-  const auto& nodes = part.field(field).nodes;
-  const Json field_error = json_of(part.field_error(field));
+  found.field = part.field_error(default_field());
   bar.stage(0.35, 0.45, "spheres");
-  const Json sphere_error = json_of(part.sphere_error(voxels));
+  found.spheres = part.sphere_error(default_voxels());
   bar.stage(0.45, 0.85, "convex hulls");
-  const ConvexHulls& decomposition = part.hulls(hulls);
+  part.hulls(default_hulls());
   bar.stage(0.85, 1.0, "errors of the convex hulls");
-  const Json hull_error = json_of(part.hull_error(hulls));
-  return {{"spheres", {{"count", part.spheres(voxels).spheres.size()}, {"error", sphere_error}}},
-          {"samples", {{"count", part.samples(samples).samples.size()}}},
-          {"field", {{"nodes", nodes}, {"error", field_error}}},
-          {"hulls",
-           {{"count", decomposition.hulls.size()},
-            {"met", decomposition.met},
-            {"surface_error", decomposition.surface_error},
-            {"volume_error", decomposition.volume_error},
-            {"error", hull_error}}}};
+  found.hulls = part.hull_error(default_hulls());
+  sample_count(part);
 }
 
-/// `bin_scenes symmetries` shows more.
-Json symmetries_json(const PartModel& part) {
-  const SymmetryReport report = examine_symmetries(part);
-  std::vector<double> errors = report.discrete_error;
-  errors.insert(errors.end(), report.continuous_error.begin(), report.continuous_error.end());
-  return {{"round_axes", report.symmetries.continuous.size()},
-          {"discrete", report.symmetries.discrete.size()},
-          {"residual", errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end())},
-          {"nearly", report.nearly.size()}};
-}
-
-Json inspection(const InspectOptions& options) {
+Inspection inspected(const InspectOptions& options) {
   LoadOptions load;
   load.require_closed = false;
   load.unit = unit_given(options.unit);
   load.solid = options.solid;
   load.tessellation.chord = options.chord;
   if (options.angle) load.tessellation.angle = *options.angle;
-  const std::string cache = Cache::global().directory();
-  const std::size_t before = files_below(cache);
+  Inspection found;
+  found.cache = Cache::global().directory();
+  const std::size_t before = files_below(found.cache);
   ProgressBar bar;
   bar.stage(0.0, 0.1, "reading " + options.model);
-  const PartModelPtr part = PartModel::load(options.model, load);
-  const LoadReport& report = part->load_report();
-  const Aabb box = part->mesh().bounds();
-  Json json = {{"model", options.model}, {"file", file_json(report)}};
-  json["size"] = json_of(box.size());
-  json["lower"] = json_of(box.lower);
-  json["diagonal"] = part->diagonal();
-  json["vertices"] = part->mesh().vertices.size();
-  json["triangles"] = part->mesh().triangles.size();
-  json["shells"] = report.shells;
-  json["watertight"] = report.closed;
-  json["open_edges"] = report.open_edges;
-  if (report.closed) {  // an open surface has no volume, and nothing can be made of it
-    json["mass_properties"] = mass_json(part->mass());
+  found.part = PartModel::load(options.model, load);
+  const LoadReport& report = found.part->load_report();
+  if (report.closed) {
     bar.stage(0.1, 0.25, "symmetries");
-    json["symmetries"] = symmetries_json(*part);
-    json["proxies"] = proxies_json(*part, bar);
-    if (!options.hulls.empty()) write_hulls_obj(part->hulls(default_hulls()), options.hulls);
+    found.symmetries = examine_symmetries(*found.part);
+    measure_proxies(found, bar);
+    if (!options.hulls.empty()) write_hulls_obj(found.part->hulls(default_hulls()), options.hulls);
   } else if (!options.hulls.empty()) {
     throw input_error("an open surface has no convex hulls", options.model,
                       "close its " + std::to_string(report.open_edges) + " open edges, or leave out --hulls");
   }
-  const std::size_t after = files_below(cache),
-                    made = after - std::min(before, after);  // others may clear it meanwhile
-  json["cache"] = {{"directory", cache},
-                   {"state", cache.empty() ? "off"
-                             : made == 0   ? "warm"
-                                           : "cold"},
-                   {"files_made", made}};
+  const std::size_t after = files_below(found.cache);
+  found.files_made = after - std::min(before, after);  // others may clear it meanwhile
+  return found;
+}
+
+Json proxies_json(const Inspection& found) {
+  const PartModel& part = *found.part;
+  const ConvexHulls& hulls = part.hulls(default_hulls());
+  return {{"spheres", {{"count", part.spheres(default_voxels()).spheres.size()}, {"error", json_of(found.spheres)}}},
+          {"samples", {{"count", sample_count(part)}}},
+          {"field", {{"nodes", part.field(default_field()).nodes}, {"error", json_of(found.field)}}},
+          {"hulls",
+           {{"count", hulls.hulls.size()},
+            {"met", hulls.met},
+            {"surface_error", hulls.surface_error},
+            {"volume_error", hulls.volume_error},
+            {"error", json_of(found.hulls)}}}};
+}
+
+Json json_of(const Inspection& found, const std::string& model) {
+  const PartModel& part = *found.part;
+  const LoadReport& report = part.load_report();
+  const Aabb box = part.mesh().bounds();
+  Json json = {{"model", model},
+               {"file", file_json(report)},
+               {"size", json_of(box.size())},
+               {"lower", json_of(box.lower)},
+               {"diagonal", part.diagonal()},
+               {"vertices", part.mesh().vertices.size()},
+               {"triangles", part.mesh().triangles.size()},
+               {"shells", report.shells},
+               {"watertight", report.closed},
+               {"open_edges", report.open_edges}};
+  if (report.closed) {
+    const SymmetryReport& s = found.symmetries;
+    json["mass_properties"] = mass_json(part.mass());
+    json["symmetries"] = {{"round_axes", s.symmetries.continuous.size()},
+                          {"discrete", s.symmetries.discrete.size()},
+                          {"residual", found.symmetry_residual()},
+                          {"nearly", s.nearly.size()}};
+    json["proxies"] = proxies_json(found);
+  }
+  json["cache"] = {{"directory", found.cache}, {"state", found.cache_state()}, {"files_made", found.files_made}};
   return json;
 }
 
-void print_error(const char* name, const std::string& count, const Json& error) {
+void print_error(const char* name, const std::string& count, const ShapeError& error) {
   std::printf("  %-8s %-18s proxy to mesh max %.3f %% mean %.3f %%, mesh to proxy max %.3f %%, volume %+.2f %%\n", name,
-              count.c_str(), 100 * error["to_mesh_max"].get<double>(), 100 * error["to_mesh_mean"].get<double>(),
-              100 * error["from_mesh_max"].get<double>(), 100 * error["volume"].get<double>());
+              count.c_str(), 100 * error.to_mesh_max, 100 * error.to_mesh_mean, 100 * error.from_mesh_max,
+              100 * error.volume);
 }
 
-void print_text(const Json& j) {
-  const auto number = [](const Json& value) { return value.get<double>(); };
-  const Json& size = j["size"];
-  std::printf("%s\n", j["model"].get<std::string>().c_str());
-  std::printf("size        %.4g x %.4g x %.4g m (unit %s)\n", number(size[0]), number(size[1]), number(size[2]),
-              j["file"]["unit"].get<std::string>().c_str());
-  std::printf("mesh        %zu vertices, %zu triangles, %zu shells\n", j["vertices"].get<std::size_t>(),
-              j["triangles"].get<std::size_t>(), j["shells"].get<std::size_t>());
-  if (j["file"].contains("tessellation_error"))
+void print_file(const Inspection& found, const std::string& model) {
+  const Mesh& mesh = found.part->mesh();
+  const LoadReport& report = found.part->load_report();
+  const Vec3 size = mesh.bounds().size();
+  std::printf("%s\n", model.c_str());
+  std::printf("size        %.4g x %.4g x %.4g m (unit %s)\n", size.x(), size.y(), size.z(), unit_text(report).c_str());
+  std::printf("mesh        %zu vertices, %zu triangles, %zu shells\n", mesh.vertices.size(), mesh.triangles.size(),
+              report.shells);
+  if (report.tessellation_error > 0.0)
     std::printf("triangles   at most %.3g mm (%.2g %% of the diagonal) from the true surface\n",
-                1000 * number(j["file"]["tessellation_error"]),
-                100 * number(j["file"]["tessellation_error"]) / number(j["diagonal"]));
-  for (const Json& flag : j["file"]["flags"]) {
-    std::printf("flag        %s (%s)\n", flag["text"].get<std::string>().c_str(),
-                flag["remedy"].get<std::string>().c_str());
-  }
-  if (!j["watertight"].get<bool>()) {
+                1000 * report.tessellation_error, 100 * report.tessellation_error / found.part->diagonal());
+  for (const Flag& flag : report.flags) std::printf("flag        %s (%s)\n", flag.text.c_str(), flag.remedy.c_str());
+}
+
+void print_solid(const Inspection& found) {
+  const PartModel& part = *found.part;
+  const MassProperties& m = part.mass();
+  const SymmetryReport& s = found.symmetries;
+  std::printf("watertight  yes\n");
+  std::printf("volume      %.6g m3, surface %.6g m2, %.6g kg at 1000 kg/m3\n", m.volume, m.area, 1000 * m.volume);
+  std::printf("centre      %.6g %.6g %.6g m\n", m.center.x(), m.center.y(), m.center.z());
+  std::printf("moments     %.4g %.4g %.4g kg m2 at 1000 kg/m3\n", 1000 * m.principal.x(), 1000 * m.principal.y(),
+              1000 * m.principal.z());
+  std::printf("symmetries  %zu round axes, %zu further turns, residual %.3g mm; nearly %zu (bin_scenes symmetries)\n",
+              s.symmetries.continuous.size(), s.symmetries.discrete.size(), 1000 * found.symmetry_residual(),
+              s.nearly.size());
+  std::printf("proxies     errors in %% of the diagonal (%.4g m)\n", part.diagonal());
+  print_error("spheres", std::to_string(part.spheres(default_voxels()).spheres.size()), found.spheres);
+  const auto& [nx, ny, nz] = part.field(default_field()).nodes;
+  print_error("field", std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz), found.field);
+  const ConvexHulls& hulls = part.hulls(default_hulls());
+  print_error("hulls", std::to_string(hulls.hulls.size()), found.hulls);
+  const HullOptions goal = default_hulls();
+  if (!hulls.met)
+    std::printf("  %-8s these hulls miss their goal, %g %% of the diagonal and %g %% of the volume, with %d at most\n",
+                "", 100 * goal.max_error, 100 * goal.max_volume_error, goal.max_hulls);
+  std::printf("  %-8s %zu\n", "samples", sample_count(part));
+}
+
+void print_text(const Inspection& found, const std::string& model) {
+  const LoadReport& report = found.part->load_report();
+  print_file(found, model);
+  if (report.closed)
+    print_solid(found);
+  else
     std::printf("watertight  no: %zu open edges; close them, or give the part a `thickness` in the request\n",
-                j["open_edges"].get<std::size_t>());
-  } else {
-    const Json& m = j["mass_properties"];
-    const Json &c = m["center_of_mass"], &p = m["principal_moments_at_1_kg_m3"];
-    std::printf("watertight  yes\n");
-    std::printf("volume      %.6g m3, surface %.6g m2, %.6g kg at 1000 kg/m3\n", number(m["volume"]), number(m["area"]),
-                1000 * number(m["volume"]));
-    std::printf("centre      %.6g %.6g %.6g m\n", number(c[0]), number(c[1]), number(c[2]));
-    std::printf("moments     %.4g %.4g %.4g kg m2 at 1000 kg/m3\n", 1000 * number(p[0]), 1000 * number(p[1]),
-                1000 * number(p[2]));
-    const Json& s = j["symmetries"];
-    std::printf("symmetries  %zu round axes, %zu further turns, residual %.3g mm; nearly %zu (bin_scenes symmetries)\n",
-                s["round_axes"].get<std::size_t>(), s["discrete"].get<std::size_t>(), 1000 * number(s["residual"]),
-                s["nearly"].get<std::size_t>());
-    const Json& x = j["proxies"];
-    std::printf("proxies     errors in %% of the diagonal (%.4g m)\n", number(j["diagonal"]));
-    print_error("spheres", std::to_string(x["spheres"]["count"].get<std::size_t>()), x["spheres"]["error"]);
-    const Json& n = x["field"]["nodes"];
-    print_error("field",
-                std::to_string(n[0].get<int>()) + " x " + std::to_string(n[1].get<int>()) + " x " +
-                    std::to_string(n[2].get<int>()),
-                x["field"]["error"]);
-    print_error("hulls", std::to_string(x["hulls"]["count"].get<std::size_t>()), x["hulls"]["error"]);
-    if (!x["hulls"]["met"].get<bool>()) {
-      const HullOptions goal = default_hulls();
-      std::printf(
-          "  %-8s these hulls miss their goal, %g %% of the diagonal and %g %% of the volume, with %d at most\n", "",
-          100 * goal.max_error, 100 * goal.max_volume_error, goal.max_hulls);
-    }
-    std::printf("  %-8s %zu\n", "samples", x["samples"]["count"].get<std::size_t>());
-  }
-  const Json& cache = j["cache"];
-  std::printf("cache       %s %s (%zu files made now)\n", cache["state"].get<std::string>().c_str(),
-              cache["directory"].get<std::string>().c_str(), cache["files_made"].get<std::size_t>());
+                report.open_edges);
+  std::printf("cache       %s %s (%zu files made now)\n", found.cache_state(), found.cache.c_str(), found.files_made);
 }
 
 }  // namespace
 
 int inspect(const InspectOptions& options) {
-  const Json json = inspection(options);
-  if (options.json) {
-    std::cout << json.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";  // names of files are any bytes
-  } else {
-    print_text(json);
-  }
+  const Inspection found = inspected(options);
+  if (options.json)  // names of files are any bytes
+    std::cout << json_of(found, options.model).dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
+  else
+    print_text(found, options.model);
   return exit_done;
 }
 
