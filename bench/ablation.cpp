@@ -77,7 +77,7 @@ const Mechanism mechanisms[] = {
      }},
     {"slide", "nodes of curved faces stay where they are",
      [](Variant& v) { change_samples(v, [](Samples& s) { s.face_spacing = 0; }); }},
-    {"way back", "the nearest way out, or none", [](Variant& v) { v.settings.way_back = false; }},
+    {"way back", "the nearest exit, or none", [](Variant& v) { v.settings.way_back = false; }},
     {"margin", "contacts within the reach of a step alone", [](Variant& v) { v.settings.margin = 0; }},
     {"speculation", "contacts within the margin alone", [](Variant& v) { v.settings.speculation = false; }},
     {"soonest first", "eight contacts of a pair by depth and spread",

@@ -133,7 +133,7 @@ struct SphereProgress {
   float time_step;                           // s, of this step
   uint cuts_left;                            // of a whole step
   uint cold_steps;                           // yet to come, with more sweeps
-  float grip;                                // share of friction that holds
+  float friction_share;                                // share of friction that holds
   uint forgets;                              // the next step begins without the forces of the last one
   uint refinement, effort;                   // sub-steps in place of one; times as many sweeps
   uint listed;                               // entries of the list of pairs that may come near; 0: to be made

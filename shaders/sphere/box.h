@@ -15,14 +15,14 @@ Box box_of(SphereWorld world, uint body) {
   mat3 r = rotation_of(states[body].orientation);
   vec4 center = shapes[bodies[body].ids.x].box_center, half_size = shapes[bodies[body].ids.x].box_half;
   float margin = reach(world, body, center.w, half_size.w);
-  vec3 middle = states[body].position.xyz + r * center.xyz;
+  vec3 mid = states[body].position.xyz + r * center.xyz;
   vec3 extent = magnitudes(r) * half_size.xyz + margin;
-  Box box = Box(vec4(middle, margin), vec4(extent, 0.0));
+  Box box = Box(vec4(mid, margin), vec4(extent, 0.0));
   if (!moves(body)) return box;
   box.half_size.w = 1.0;
   for (uint k = 0u; k < world.pairs.w; ++k) {
     vec4 plane = planes[world.pairs.z + k].plane;
-    if (dot(plane.xyz, middle) - dot(abs(plane.xyz), extent) < plane.w) box.half_size.w = 2.0;
+    if (dot(plane.xyz, mid) - dot(abs(plane.xyz), extent) < plane.w) box.half_size.w = 2.0;
   }
   return box;
 }

@@ -24,6 +24,6 @@ vec3 velocity_at(uint body, vec3 anchor) {
 // Whether a contact that does not press yet closes in this step, by more than `least` (m).
 bool strikes(SphereContact c, SpherePair pair, float least) {
   vec3 nearing = velocity_at(pair.a, c.anchor_a) - velocity_at(pair.b, c.anchor_b);
-  float way = time_step * dot(nearing, normal_of(c, pair));
-  return way > least && way > separation_of(c, pair);
+  float approach = time_step * dot(nearing, normal_of(c, pair));
+  return approach > least && approach > separation_of(c, pair);
 }

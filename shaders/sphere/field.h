@@ -14,7 +14,7 @@ Field field_of(uint shape) {
                s.grid.x * s.grid.y, s.grid.w);
 }
 
-// m: no way within the part is longer.
+// m: no path within the part is longer.
 float span_of(Field f) { return f.ball > 0.0 ? 2.0 * f.ball : f.cell * length(f.most + 1.001); }
 
 #include "shared/sphere/field.h"

@@ -28,15 +28,15 @@ Box listed_box(SphereWorld world, uint body, Box now) {
   vec4 center = shapes[bodies[body].ids.x].box_center, half_size = shapes[bodies[body].ids.x].box_half;
   float can_move = bodies[body].material.x > 0.0 ? 1.0 : 0.0;
   if (!present(body)) return Box(vec4(0.0), vec4(vec3(-1e30), can_move));
-  vec3 middle = now.center.xyz, extra = vec3(LISTED_MOVE * half_size.w);
+  vec3 mid = now.center.xyz, extra = vec3(LISTED_MOVE * half_size.w);
   if (moves(body)) {
     float seconds = LISTED_STEPS * time_step;
-    vec3 way = seconds * (states[body].velocity.xyz + 0.5 * seconds * world.gravity.xyz);
-    middle += 0.5 * way;
-    extra += 0.5 * abs(way) + min(seconds * length(states[body].spin.xyz), 1.0) * center.w +
+    vec3 path = seconds * (states[body].velocity.xyz + 0.5 * seconds * world.gravity.xyz);
+    mid += 0.5 * path;
+    extra += 0.5 * abs(path) + min(seconds * length(states[body].spin.xyz), 1.0) * center.w +
              seconds * time_step * length(world.gravity.xyz);  // the box grows with the speed
   }
-  return Box(vec4(middle, 0.0), vec4(now.half_size.xyz + extra, can_move));
+  return Box(vec4(mid, 0.0), vec4(now.half_size.xyz + extra, can_move));
 }
 
 // What bodies are listed by.

@@ -2,7 +2,7 @@
 
 float time_step;  // s, of this step
 
-// Way the surface of a body may move in one step, and the distance at which contacts are kept.
+// How far the surface of a body may move in one step, and the distance at which contacts are kept.
 float reach(SphereWorld world, uint body, float radius, float diagonal) {
   float base = 0.5 * settings.margin * diagonal;
   if (!moves(body)) return base;
@@ -10,8 +10,8 @@ float reach(SphereWorld world, uint body, float radius, float diagonal) {
                  length(world.gravity.xyz) * time_step) * time_step;
 }
 
-// Way that the bodies of a pair may make towards each other in one step (m).
-float way_of(SphereWorld world, SpherePair pair) {
+// Distance by which the bodies of a pair may approach each other in one step (m).
+float travel_of(SphereWorld world, SpherePair pair) {
   bool ground = pair.b == SPHERE_GROUND;
   SphereState a = states[pair.a];
   vec3 v = ground ? -a.velocity.xyz : states[pair.b].velocity.xyz - a.velocity.xyz;

@@ -1,4 +1,4 @@
-// Where a body is half way through the step: contacts are found there, and their levers and normals are of then. Twin:
+// Where a body is halfway through the step: contacts are found there, and their levers and normals are of then. Twin:
 // StepPlan::half_way, Placement. Needs the bindings Settings, States and sphere/body.h.
 struct Placement {
   vec3 position;

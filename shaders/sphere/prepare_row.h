@@ -7,7 +7,7 @@
 #include "sphere/pair_material.h"
 #include "sphere/ball.h"
 
-// Where a body is when contacts were found, and half way through the step from there.
+// Where a body is when contacts were found, and halfway through the step from there.
 struct Start {
   vec3 position;
   vec4 orientation;

@@ -146,14 +146,14 @@ void carry_forces(uint count, float near, mat3 ra, mat3 rb, bool ground) {
       if (chosen_source[n] != NO_SOURCE) continue;
       float nearest = near;
       for (uint k = 0u; k < old_count; ++k) {
-        float way = length(old[k].anchor_a - chosen_on_a[n].xyz);
-        if (source_taken[k] == 1u || way > nearest) continue;
+        float moved = length(old[k].anchor_a - chosen_on_a[n].xyz);
+        if (source_taken[k] == 1u || moved > nearest) continue;
         bool field_of_a = (old[k].feature & SPHERE_SIDE_B) != 0u;
         vec3 normal = old[k].normal.xyz;
         if (!field_of_a) normal = (ground ? normal : rb * normal) * ra;
         if (dot(normal, chosen_normal[n]) < ALIKE) continue;
         chosen_source[n] = k;
-        nearest = way;
+        nearest = moved;
       }
       if (chosen_source[n] != NO_SOURCE) source_taken[chosen_source[n]] = 1u;
     }
@@ -180,8 +180,8 @@ void choose_contacts(SphereWorld world, SpherePair pair) {
   if (!ground) b = placement_of(pair.b);
   mat3 ra = a.rotation, rb = b.rotation;
   float size = size_of(pair);
-  // What is fast may meet all that is within its way.
-  float soon = SOON * size + max(0.0, way_of(world, pair) - settings.margin * size);
+  // What is fast may meet all that is within its travel.
+  float soon = SOON * size + max(0.0, travel_of(world, pair) - settings.margin * size);
   uint count = reduce(size, soon);
   carry_forces(count, samples_of(pair.a).size.y, ra, rb, ground);
   if (thread < count) {

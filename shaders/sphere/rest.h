@@ -10,9 +10,9 @@ void note_motion(uint body, uint w) {
   uint shape = bodies[body].ids.x;
   float within = progress[w].sleep == SPHERE_SLEEP_BY_TOUCH ? settings.touch_move : settings.rest_move;
   float limit = within * shapes[shape].box_half.w;
-  vec3 way = s.position.xyz - s.still_position.xyz;
+  vec3 moved = s.position.xyz - s.still_position.xyz;
   float turned = 2.0 * length(quat_multiply(quat_conjugate(s.still_orientation), s.orientation).xyz);
-  if (length(way) > limit || turned * shapes[shape].box_center.w > limit) {
+  if (length(moved) > limit || turned * shapes[shape].box_center.w > limit) {
     states[body].still_position = vec4(s.position.xyz, 0.0);
     states[body].still_orientation = s.orientation;
   } else {

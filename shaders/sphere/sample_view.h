@@ -38,7 +38,7 @@ Drift drift_of(uint points, Placement at, uint over, Placement frame) {
                rest * ((w - frame_w) * frame.rotation));
 }
 
-// The samples of a, or of b, against the field of the other, where the bodies are half way through the step.
+// The samples of a, or of b, against the field of the other, where the bodies are halfway through the step.
 View view_of(SpherePair pair, Placement a, Placement b, bool of_a, float margin) {
   Placement at = b, frame = a;
   mat3 b_to_a = transpose(a.rotation) * b.rotation, a_to_b = transpose(b_to_a);

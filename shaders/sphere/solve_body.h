@@ -42,7 +42,7 @@ void integrate_velocity(uint i, float h) {
   spin_of(i) = vec4(gyrated(own.xyz, states[body].orientation, shapes[bodies[body].ids.x], h), own.w);
 }
 
-// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's way
+// Friction that slips brakes evenly: with the speed that a sub-step ends with, a sliding part stops half a sub-step's travel
 // too early. What holds, rolls or swings keeps its energy with that speed, and would gain some with the mean.
 void integrate_position(uint i, float h) {
   if (velocity_of(i).w == 0.0) return;

@@ -92,7 +92,7 @@ uint first_contact(uint o) { return SPHERE_MAX_CONTACTS * (world.pairs.x + order
        left &= left - 1u, at = row_of(m, left))
 uint row_of(Manifold m, uint left) { return m.row + SPHERE_ROW_PARTS * m.stride * uint(findLSB(left)); }
 
-float friction_of(Manifold m) { return grip * m.friction; }
+float friction_of(Manifold m) { return friction_share * m.friction; }
 // Returns whether a contact closes fast.
 bool begin_manifold(uint o) {
   Manifold m = manifold_at(o);
@@ -171,17 +171,17 @@ void all_may_press(uint o, inout Manifold m) {
 void push_manifold(uint o, Give give, Manifold m, inout Side a, inout Side b) {
   float reach = plan.sub_step * reach_of(b.v - a.v, a.w, b.w, m.arm), growth = plan.sub_step * m.yield;
   if (!(reach < m.slack)) all_may_press(o, m);
-  uint rubs = 0u;  // a bit a contact
+  uint slides = 0u;  // a bit a contact
   for (uint left = near_of(m.kind); left != 0u;) {
     float change;
     uint done = left ^ left - 1u;  // contacts up to this one
-    if (solve_normal(row_of(m, left), m.stride, give, has(m, SPHERE_STRIKES), change, a, b)) rubs |= left & done;
+    if (solve_normal(row_of(m, left), m.stride, give, has(m, SPHERE_STRIKES), change, a, b)) slides |= left & done;
     reach += growth * abs(change);
     if (!(reach < m.slack)) all_may_press(o, m);
     left = near_of(m.kind) & ~done;
   }
-  for (float friction = friction_of(m); rubs != 0u; rubs &= rubs - 1u)
-    solve_friction(row_of(m, rubs), m.stride, friction, a, b);
+  for (float friction = friction_of(m); slides != 0u; slides &= slides - 1u)
+    solve_friction(row_of(m, slides), m.stride, friction, a, b);
 }
 
 // What a manifold does in sweeps other than those that merely repeat the one before. Few loops: on llvmpipe each costs a

@@ -5,8 +5,8 @@
 
 SphereWorld world;
 StepPlan plan;
-Give softly_now, firmly_now;  // how contacts give way before and after bodies move
-float grip;                   // share of friction that holds
+Give softly_now, firmly_now;  // how compliant contacts are before and after bodies move
+float friction_share;                   // share of friction that holds
 float kept;                   // share of the last step's forces that this one begins with
 bool first_sub_step;          // of the step
 float tolerance;              // m/s: a contact whose speed a sweep changes by more is not solved yet
@@ -20,6 +20,6 @@ void take_sub_step_of(uint w, uint k) {
   firmly_now = firmly(plan.sub_step);
   first_sub_step = k == 0u;
   tolerance = settings.tolerance * size;
-  grip = int(k) < plan.slip_sub_steps ? 0.0 : progress[w].grip;
+  friction_share = int(k) < plan.slip_sub_steps ? 0.0 : progress[w].friction_share;
   kept = progress[w].forgets != 0u ? 0.0 : 1.0;
 }

@@ -15,7 +15,7 @@ void take_world_of(SpherePair pair) {
 }
 
 // Distance at which contacts of the pair are kept.
-float margin_of(SpherePair pair) { return settings.margin * size_of(pair) + way_of(worlds[world_index], pair); }
+float margin_of(SpherePair pair) { return settings.margin * size_of(pair) + travel_of(worlds[world_index], pair); }
 
 SphereSamples samples_of(uint body) {
   uint shape = bodies[body].ids.x;

@@ -34,9 +34,9 @@ vec3 node_center(ThesisSheet sheet, vec4 center, int du, int dv) {
 }
 
 float node_depth(ThesisSheet sheet, vec4 center, int du, int dv) {
-  float way = sheet_deep(sheet, center) ? sheet_height(sheet, center)
+  float height = sheet_deep(sheet, center) ? sheet_height(sheet, center)
                                         : distance(center.xyz, node_center(sheet, center, du, dv));
-  return center.w + sheet.origin.w - way;
+  return center.w + sheet.origin.w - height;
 }
 
 // Index of the sheet in its world and steps from the nearest node: the same in every batch.
@@ -114,7 +114,7 @@ ThesisContact contact_with(uint other, uint sphere, uint body, ThesisWorld world
   vec4 own_face = settings.modified_normals != 0u ? face_normal(sphere) : vec4(0.0);
   vec3 n = deep ? other_face.xyz : contact_normal(line, own_face, other_face);
 
-  // In the middle of the overlap, on the line of centres: the same point seen from both spheres.
+  // In the centre of the overlap, on the line of centres: the same point seen from both spheres.
   vec3 point = center.xyz - line * (center.w - 0.5 * depth);
   if (deep) point = center.xyz - n * center.w;
   ThesisContact contact;

@@ -24,9 +24,9 @@ void main() {
 
   // Gravity was added before the step. A body that touches nothing moves with the mean of old and new velocity, which
   // is exact in free fall; where something pushes back, the new velocity counts.
-  vec3 way = dt * states[b].velocity.xyz;
-  if (neighbour_counts[b] == 0u) way -= 0.5 * dt * dt * worlds[bodies[b].range.z].gravity.xyz;
-  states[b].position.xyz += way;
+  vec3 travel = dt * states[b].velocity.xyz;
+  if (neighbour_counts[b] == 0u) travel -= 0.5 * dt * dt * worlds[bodies[b].range.z].gravity.xyz;
+  states[b].position.xyz += travel;
 
   vec4 q = states[b].orientation;
   vec3 w = states[b].spin.xyz, inverse = bodies[b].inverse_inertia.xyz;

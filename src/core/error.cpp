@@ -45,7 +45,7 @@ Shown shown(const std::string& text, std::size_t from, std::size_t most) {
   return line;
 }
 
-/// One line of at most `most` bytes: what a file or a request put in is shown as text, without its middle if it is
+/// One line of at most `most` bytes: what a file or a request put in is shown as text, without its centre if it is
 /// long.
 std::string line_of(const std::string& text, std::size_t most) {
   const Shown all = shown(text, 0, most);

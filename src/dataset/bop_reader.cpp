@@ -1,5 +1,5 @@
 /// Reads scene_gt, scene_camera and scene_gt_info of every scene below a folder. Poses are turned into a world whose z
-/// points up, told by the set or by the caller.
+/// points up, given by the set or by the caller.
 #include "dataset/bop_reader.hpp"
 
 #include "bin_scenes/core/error.hpp"
@@ -191,7 +191,7 @@ BopSet read_bop_set(const std::string& root, const BopReadOptions& options) {
     for (auto& [object, path] : set.models) {
       path = (models / ("obj_" + six_digits(static_cast<std::size_t>(object)) + ".ply")).string();
       if (!models_info.contains(std::to_string(object)))
-        throw input_error("does not tell of object " + std::to_string(object) + ", which scenes show",
+        throw input_error("does not describe object " + std::to_string(object) + ", which scenes show",
                           (models / "models_info.json").string(), "add its entry");
       if (!fs::is_regular_file(path)) throw input_error("is missing, and scenes show it", path, "add the model");
     }

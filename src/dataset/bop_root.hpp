@@ -8,7 +8,7 @@
 
 namespace bin_scenes {
 
-/// Text by name of the file in DIR/bop, as the scenes that are there tell it: camera*.json, dataset_info.json and
+/// Text by name of the file in DIR/bop, as the scenes that are there imply it: camera*.json, dataset_info.json and
 /// test_targets_*.json of the split `test`, else `val`, else the first one.
 std::map<std::string, std::string> bop_root_files(const DataFolder& folder, const DataSetFacts& facts);
 void write_bop_root(const DataFolder& folder, const DataSetFacts& facts);

@@ -8,7 +8,7 @@
 ///     DIR/bop/*.json                       cameras, targets and description of all scenes together
 ///     DIR/samples/000007/                  BOP's layout by images, until it is packed into
 ///     DIR/shards/shard-000000.tar, ...
-///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not tell itself but times
+///     DIR/index.sqlite                     state, times, digests: nothing that a scene does not state itself but times
 ///
 /// Everything but index.sqlite is the same, byte for byte, however it was made.
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace bin_scenes {
 
-/// What dataset.json tells.
+/// What dataset.json states.
 struct DataSetFacts {
   std::string plan_sha256;       ///< of everything that decides the scenes
   std::string plan_text_sha256;  ///< of plan.yaml alone
@@ -64,7 +64,7 @@ DataSetFacts read_facts(const std::filesystem::path& root);
 
 /// Makes the folder with dataset.json and plan.yaml, or checks that it is of the same plan and version. Throws an input
 /// Error with advice for a folder of another plan or version, or of something else. A plan of more heaps is the same
-/// plan: the facts that are there tell so, and put_plan() makes them new.
+/// plan: the facts that are there say so, and put_plan() makes them new.
 DataSetFacts claim(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 void put_plan(const DataFolder& folder, const DataSetFacts& facts, const std::string& plan_text);
 

@@ -16,7 +16,7 @@ using PageJson = nlohmann::ordered_json;
 
 constexpr std::size_t most_grasps = 10;
 
-/// Free, or what is in the way, in the order of the tests.
+/// Free, or what obstructs it, in the order of the tests.
 constexpr const char* fates[] = {"free", "blocked", "slips", "approach", "closing", "lift"};
 
 /// One of `fates`, from the text that reason_of() gives a grasp.

@@ -20,11 +20,11 @@ function gripper_mesh(g, width, colour, inner) {
 }
 
 // The best grasps, green where nearly all of friction and force is spare, red where none is. `each(grasp, colour)`.
-function grasp_meshes(told, each) {
+function grasp_meshes(view, each) {
   const group = new THREE.Group();
-  for (const grasp of told.grasps) {
+  for (const grasp of view.grasps) {
     const colour = new THREE.Color().setHSL(0.33 * Math.min(1, grasp.score), 0.85, 0.4);
-    const mesh = gripper_mesh(told.grippers.find((g) => g.name === grasp.gripper), grasp.width, colour, grasp.inner);
+    const mesh = gripper_mesh(view.grippers.find((g) => g.name === grasp.gripper), grasp.width, colour, grasp.inner);
     mesh.position.set(...grasp.pose.position); mesh.quaternion.set(...grasp.pose.orientation_xyzw);
     group.add(mesh);
     each(grasp, colour);
@@ -33,9 +33,9 @@ function grasp_meshes(told, each) {
 }
 
 // How many grasps of each gripper are free, and why the others are not: a paragraph each, which fits a panel of any width.
-function grasp_counts(told, place) {
+function grasp_counts(view, place) {
   const fates = [["lift blocked", "blocked"], ["slips", "slips"], ["meets something on its approach", "approach"], ["as it closes", "closing"], ["during the lift", "lift"]];
-  for (const c of told.counts) {
+  for (const c of view.counts) {
     const line = make("p", "", place), all = c.free + fates.reduce((sum, [, key]) => sum + c[key], 0);
     make("b", c.gripper, line);
     line.append(`: ${c.free} of ${all} grasps are free; ` + fates.filter(([, key]) => c[key]).map(([text, key]) => `${text} ${c[key]}`).join(", "));

@@ -17,7 +17,7 @@ namespace bin_scenes {
 
 class HeapMaker {
  public:
-  /// @param first  heap by which faults of the plan are told from faults of a draw
+  /// @param first  heap by which faults of the plan are distinguished from faults of a draw
   HeapMaker(const Plan& plan, const DataFolder& folder, std::size_t first)
       : plan_(plan), folder_(folder), facts_(facts_of(plan)), first_(first) {}
 

@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Adds up what summaries of scenes tell (dataset/record.hpp).
+/// Adds up what summaries of scenes state (dataset/record.hpp).
 class Seen {
  public:
   void add(const nlohmann::json& summary);

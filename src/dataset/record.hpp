@@ -1,4 +1,4 @@
-/// What a worker tells of the heaps that it made; the index keeps it.
+/// What a worker reports of the heaps that it made; the index keeps it.
 #pragma once
 
 #include "bin_scenes/config/scene_file.hpp"

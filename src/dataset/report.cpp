@@ -42,13 +42,13 @@ double rounded(double value) {
 
 /// Grey images of sensors are dim, as only highlights come near to white: all but the brightest hundredth fills the
 /// range.
-void brighten(std::vector<std::uint8_t>& shades) {
-  if (shades.empty()) return;
-  std::vector<std::uint8_t> sorted = shades;
+void brighten(std::vector<std::uint8_t>& levels) {
+  if (levels.empty()) return;
+  std::vector<std::uint8_t> sorted = levels;
   const auto bright = sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
   std::nth_element(sorted.begin(), bright, sorted.end());
   const unsigned most = std::max<unsigned>(*bright, 1);
-  for (std::uint8_t& shade : shades) shade = static_cast<std::uint8_t>(std::min(255u, shade * 255u / most));
+  for (std::uint8_t& level : levels) level = static_cast<std::uint8_t>(std::min(255u, level * 255u / most));
 }
 
 /// A picture of the first sensor, made small; empty if the data set has none.
@@ -77,7 +77,7 @@ std::string small_picture(const DataFolder& folder, const DataSetFacts& facts, s
     }
   }
   brighten(small);
-  for (std::uint8_t& shade : small) shade &= 0xf0u;  // fewer shades pack better; nobody sees it at this size
+  for (std::uint8_t& level : small) level &= 0xf0u;  // fewer levels pack better; nobody sees it at this size
   return base64(png8(width, height, image.channels, small));
 }
 
@@ -97,7 +97,7 @@ Json scene_in_3d(const DataFolder& folder, const DataSetFacts& facts, std::size_
   const auto scene = scene_in(folder.scene(number));
   if (!scene) return {};
   Json view = {{"scene", number}, {"parts", Json::array()}, {"models", Json::array()}, {"size", {0.4, 0.4, 0.4}}};
-  view["told"] = grasp_view(folder.scene(number).string());
+  view["grasps"] = grasp_view(folder.scene(number).string());
   const Vec3& size = scene->bin.inner_size;
   if (scene->bin.kind == Bin::Kind::box) view["size"] = {size.x(), size.y(), size.z()};
   std::map<int, int> object_of;

@@ -81,10 +81,10 @@ double estimate_scene_bytes(const Plan& plan) {
 
 namespace {
 
-/// Those that are not `done`. `tell` is called from time to time.
+/// Those that are not `done`. `report` is called from time to time.
 void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& options,
                 const std::set<std::size_t>& done, const std::function<void(const HeapRecord&)>& made,
-                const std::function<void()>& tell) {
+                const std::function<void()>& report) {
   static const std::atomic<bool> never{false};
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   std::unique_ptr<HeapMaker> maker;  // of each worker, made in it
@@ -110,7 +110,7 @@ void make_heaps(const Plan& plan, const DataFolder& folder, const RunOptions& op
                       answer["remedy"]);
         made(record_of(answer));
       },
-      options.stop ? *options.stop : never, tell);
+      options.stop ? *options.stop : never, report);
 }
 
 RunProgress progress_so_far(const DataSetFacts& facts, const RunOptions& options, std::size_t done,
@@ -149,14 +149,14 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
   RunProgress progress = progress_so_far(facts, options, done.size(), index.counts());
   check_disk(plan, folder, progress.heaps - done.size(), options);
   const auto begin = Clock::now();
-  const auto tell = [&] {
+  const auto report = [&] {
     const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
     const double made = static_cast<double>(progress.heaps_done - done.size());
     progress.scenes_per_hour = made * static_cast<double>(facts.steps + 1) / spent * 3600.0;
     progress.remaining_s = made > 0.0 ? spent / made * static_cast<double>(progress.heaps - progress.heaps_done) : 0.0;
     if (options.progress) options.progress(progress);
   };
-  tell();
+  report();
   std::optional<ShardPacker> packer;
   if (plan.wants("shards") && options.shards == 1) packer.emplace(folder, facts, done);
   const auto made = [&](const HeapRecord& record) {
@@ -166,24 +166,24 @@ RunProgress run_dataset(const Plan& plan, const std::string& directory, const Ru
     progress.rejected += record.rejected.size();
     progress.failed += !record.accepted;
     if (packer) packer->add(record.heap);
-    tell();
+    report();
   };
   try {
-    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, made, tell);
+    if (progress.heaps_done < progress.heaps) make_heaps(plan, folder, options, done, made, report);
     stop_if_cancelled();
   } catch (...) {
     remove_leftovers(folder);  // of the workers that have just been stopped
     throw;
   }
   progress.phase = "pack";
-  tell();
+  report();
   if (plan.wants("bop") || plan.wants("shards")) write_models(plan, folder);
   if (plan.wants("bop")) write_bop_root(folder, facts);
   if (packer) packer->pack_all();
   const IndexCounts all = index.counts();
   progress.not_poured = all.not_poured;
   progress.asked_for = all.asked_for;
-  tell();
+  report();
   return progress;
 }
 

@@ -12,7 +12,7 @@ namespace bin_scenes {
 
 namespace {
 
-// Texts only: one way to bind and to read them serves all. Sorting and sums cast.
+// Texts only: one method to bind and to read them serves all. Sorting and sums cast.
 constexpr const char* schema[] = {
     "create table if not exists heaps (heap integer primary key, state text, attempts integer, wall_s real, "
     "cpu_s real, memory_mb real, stages_ms text, made_at text default (datetime('now')))",

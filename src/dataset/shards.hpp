@@ -24,7 +24,7 @@ std::size_t shard_count(const DataSetFacts& facts);
 nlohmann::ordered_json offsets_of(const DataFolder& folder, std::size_t shard);
 
 /// Packs samples into shards, with an offset index beside each (shard-000000.json: key -> file -> [offset, bytes]),
-/// tells in key_to_shard.json where each image is, and removes the samples. What was packed before is kept; killed at
+/// records in key_to_shard.json where each image is, and removes the samples. What was packed before is kept; killed at
 /// any instant, it goes on from there. Throws Error.
 class ShardPacker {
  public:

@@ -1,4 +1,4 @@
-/// Submits an array job, looks at it once a second, and tells its shares once Slurm no longer knows it.
+/// Submits an array job, looks at it once a second, and reports its shares once Slurm no longer knows it.
 #include "dataset/slurm.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -130,16 +130,16 @@ std::vector<std::string> run_slurm_job(const SlurmJob& job) {
     id = submit(job, folder);
     write_text(note.string(), id);
   }
-  job.tell((runs ? "found job " : "submitted job ") + id);
-  std::map<std::string, int> told;
+  job.report((runs ? "found job " : "submitted job ") + id);
+  std::map<std::string, int> stated;
   for (;;) {
     const std::map<std::string, int> states = states_of(id);
     if (states.empty()) break;
-    if (states != told) {
+    if (states != stated) {
       std::string text = "job " + id + ":";
       for (const auto& [state, count] : states) text += " " + std::to_string(count) + " " + state;
-      job.tell(text);
-      told = states;
+      job.report(text);
+      stated = states;
     }
     for (int i = 0; i < 10; ++i) {
       stop_if_cancelled();

@@ -12,7 +12,7 @@ struct SlurmJob {
   std::string plan, out;             ///< shares lie in OUT/.shares until they are merged into OUT
   std::size_t shares = 4, cpus = 1;  ///< tasks; cores a task
   std::vector<std::string> options;  ///< further ones of sbatch
-  std::function<void(const std::string&)> tell;
+  std::function<void(const std::string)> report;
   const std::atomic<bool>* stop = nullptr;
 };
 

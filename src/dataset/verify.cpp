@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::pair<const char*, const char*> known_invariants[] = {
-    {"plan_unchanged", "plan.yaml has the digest that dataset.json tells"},
+    {"plan_unchanged", "plan.yaml has the digest that dataset.json states"},
     {"no_leftovers", "no file or folder is half-written"},
     {"heap_known", "the index knows what became of every heap, or of every one of the shares made here"},
     {"scene_there", "every scene of the index has its folder"},
@@ -47,10 +47,10 @@ constexpr std::pair<const char*, const char*> known_invariants[] = {
     {"image_size", "images have the size of their sensor"},
     {"label_measured", "what was measured carries its true label, and nothing else a label"},
     {"label_range", "labels are those of parts"},
-    {"label_counts", "as many pixels carry a label as the truth tells"},
+    {"label_counts", "as many pixels carry a label as the truth has"},
     {"label_boxes", "pixels of a label fill their box"},
     {"depth_range", "depths lie between near and far"},
-    {"validity_codes", "validity is a code, and tells where there is depth"},
+    {"validity_codes", "validity is a code, and says where there is depth"},
     {"bop_json", "BOP's three JSON files are there and speak of the same images"},
     {"bop_parts", "BOP lists the parts of the scene, each once"},
     {"bop_rotation", "rotations are orthonormal and right-handed"},
@@ -59,27 +59,27 @@ constexpr std::pair<const char*, const char*> known_invariants[] = {
     {"bop_object", "objects have a model"},
     {"bop_image", "images of every modality are there, with the size of the sensor"},
     {"bop_coco", "scene_gt_coco annotates every visible part, with its object and its mask"},
-    {"bop_root", "cameras, targets and description beside the scenes are those that the scenes tell"},
-    {"bop_pinhole", "sensors that BOP shows have no distortion, which its files cannot tell"},
-    {"bop_disjoint", "no pixel shows two parts, unless measured depth tells what is visible"},
+    {"bop_root", "cameras, targets and description beside the scenes are those that the scenes imply"},
+    {"bop_pinhole", "sensors that BOP shows have no distortion, which its files cannot express"},
+    {"bop_disjoint", "no pixel shows two parts, unless measured depth decides what is visible"},
     {"bop_labels", "visible masks are where the true labels have their part, with output png"},
     {"bop_mask_there", "each part has its masks, with the size of the image"},
-    {"bop_mask_count", "masks have as many pixels as scene_gt_info tells"},
-    {"bop_mask_box", "masks fill the boxes that scene_gt_info tells"},
+    {"bop_mask_count", "masks have as many pixels as scene_gt_info states"},
+    {"bop_mask_box", "masks fill the boxes that scene_gt_info states"},
     {"bop_mask_inside", "what is visible lies in the whole silhouette"},
     {"bop_fraction", "visible fraction is the ratio of the counts"},
     {"bop_unseen", "boxes are -1 exactly where nothing is seen"},
     {"bop_reprojection", "the model, projected with its pose, fills its box"},
-    {"model_info", "models_info tells box, diameter and symmetries of the model file"},
+    {"model_info", "models_info states box, diameter and symmetries of the model file"},
     {"model_eval", "models_eval holds every model, as large as it is"},
     {"shard_tar", "shards are whole tar files"},
-    {"shard_keys", "each image is in one shard, that which key_to_shard tells"},
+    {"shard_keys", "each image is in one shard, that which key_to_shard names"},
     {"shard_complete", "each image of a scene is in a shard with all its files"},
-    {"shard_offsets", "offset indices tell where the files lie"},
+    {"shard_offsets", "offset indices state where the files lie"},
     {"shard_size", "a shard has no more images than the plan says"},
     {"shard_images", "depth, true labels and true normals of a shard unpack to one size"},
     {"shard_labels", "visible masks of a shard are where its true labels have their part"},
-    {"shard_masks", "run lengths add up to the image, and to the counts told"}};
+    {"shard_masks", "run lengths add up to the image, and to the counts stated"}};
 
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> all;
@@ -104,7 +104,7 @@ void verify_root(const DataFolder& folder, const DataSetFacts& facts, Findings& 
   for (const auto& [name, text] : bop_root_files(folder, facts)) {
     const fs::path path = folder.root / "bop" / name;
     findings.expect(fs::is_regular_file(path) && read_file(path.string()) == text, "bop_root", path.string(),
-                    "is missing, or not what the scenes tell");
+                    "is missing, or not what the scenes imply");
   }
 }
 
@@ -148,7 +148,7 @@ void verify_files(const fs::path& folder, Findings& findings) {
     listed.insert(name);
     if (!findings.expect(fs::is_regular_file(path), "file_there", path.string(), "is missing")) continue;
     const bool size = entry.is_object() && entry.value("bytes", std::uintmax_t{0}) == fs::file_size(path);
-    if (findings.expect(size, "file_size", path.string(), "has another size than files.json tells"))
+    if (findings.expect(size, "file_size", path.string(), "has another size than files.json states"))
       findings.expect(entry.value("sha256", "") == sha256_of_file(path.string()), "file_digest", path.string(),
                       "has changed since it was written");
   }

@@ -48,7 +48,7 @@ bool near_box(const Json& box, const Extent& e, int tolerance) {
   return true;
 }
 
-/// What the visible masks of an image tell together.
+/// What the visible masks of an image say together.
 struct Owners {
   std::vector<std::uint16_t> part;  ///< by pixel: the last one whose mask has it, id + 1
   std::size_t twice = 0;            ///< pixels in the masks of several parts
@@ -62,10 +62,10 @@ struct Owners {
   }
 };
 
-/// The camera in whose image boxes are told.
+/// The camera in whose image boxes are given.
 struct BoxCamera {
   Mat3 k;
-  Pose told_in_it;  ///< frame of the camera that scene.json tells
+  Pose given_in_it;  ///< frame of the camera that scene.json states
 };
 
 /// One image of a scene: what its files say, and where they lie.
@@ -82,7 +82,7 @@ struct ImageFiles {
   std::string name() const { return folder.string() + ", image " + std::to_string(place.image) + place.suffix; }
 };
 
-/// The annotation of a part tells what its visible mask and scene_gt tell.
+/// The annotation of a part states what its visible mask and scene_gt state.
 void verify_annotation(const ImageFiles& image, std::size_t entry, const LoadedImage& seen, const Json& annotation,
                        const std::string& where, Findings& findings) {
   MaskBox mask{0, 0, seen.width, seen.height, {}};
@@ -91,7 +91,7 @@ void verify_annotation(const ImageFiles& image, std::size_t entry, const LoadedI
                     annotation.at("area") == image.info[entry].at("px_count_visib") &&
                     annotation.at("ignore") == (image.info[entry].at("visib_fract") < 0.1) &&
                     annotation.at("segmentation").at("counts") == run_lengths(mask, seen.width, seen.height);
-  findings.expect(good, "bop_coco", where, "scene_gt_coco tells another object or mask");
+  findings.expect(good, "bop_coco", where, "scene_gt_coco states another object or mask");
 }
 
 /// From run lengths if there are such, otherwise from a PNG file.
@@ -136,7 +136,7 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
   }
   const std::size_t count = info.at("px_count_visib"), total = info.at("px_count_all");
   findings.expect(visible.count == count && all.count <= total, "bop_mask_count", where,
-                  "has " + std::to_string(visible.count) + " pixels, " + std::to_string(count) + " are told");
+                  "has " + std::to_string(visible.count) + " pixels, " + std::to_string(count) + " are stated");
   findings.expect(beside == 0, "bop_mask_inside", where, std::to_string(beside) + " pixels lie beside the silhouette");
   if (count > 0)
     findings.expect(near_box(info.at("bbox_visib"), visible, 1), "bop_mask_box", where,
@@ -147,9 +147,9 @@ void verify_masks(const ImageFiles& image, std::size_t entry, const Json* annota
 void verify_projection(const Json& truth, const Json& info, const ImageFiles& image, const BopModel& model,
                        const std::string& where, Findings& findings) {
   const Mat3 in_told = matrix_of(truth.at("cam_R_m2c"));
-  const Mat3 turn = image.box_camera.told_in_it.orientation.toRotationMatrix() * in_told;
-  const Vec3 shift = image.box_camera.told_in_it.orientation * vector_of(truth.at("cam_t_m2c")) +
-                     1e3 * image.box_camera.told_in_it.position;
+  const Mat3 turn = image.box_camera.given_in_it.orientation.toRotationMatrix() * in_told;
+  const Vec3 shift = image.box_camera.given_in_it.orientation * vector_of(truth.at("cam_t_m2c")) +
+                     1e3 * image.box_camera.given_in_it.position;
   double left = 1e300, top = 1e300, right = -1e300, bottom = -1e300;
   for (const auto& v : model.vertices) {
     const Vec3 p = image.box_camera.k * (turn * Vec3(v[0], v[1], v[2]) + shift);
@@ -168,20 +168,20 @@ std::optional<LoadedImage> true_labels(const fs::path& scene, const Sensor& sens
   const fs::path path = scene / (sensor.name + "_truth_labels.png");
   try {
     return load_png(path.string());
-  } catch (const Error&) {  // image_size tells it
+  } catch (const Error&) {  // image_size reports it
     return std::nullopt;
   }
 }
 
 /// scene_camera against the sensor of scene.json.
 void verify_camera(const ImageFiles& image, Findings& findings) {
-  const Json& told = image.camera;
+  const Json& stated = image.camera;
   const Pose bin_in_camera = image.sensor.pose->inverse();
   const double scale = 1e3 * image.sensor.depth_scale;
-  const bool same = (matrix_of(told.at("cam_K")) - matrix_of(image.sensor.k)).norm() < 1e-6 &&
-                    std::abs(told.at("depth_scale").get<double>() - scale) < 1e-9 * scale &&
-                    (matrix_of(told.at("cam_R_w2c")) - bin_in_camera.orientation.toRotationMatrix()).norm() < 1e-6 &&
-                    (vector_of(told.at("cam_t_w2c")) - 1e3 * bin_in_camera.position).norm() < 1e-3;
+  const bool same = (matrix_of(stated.at("cam_K")) - matrix_of(image.sensor.k)).norm() < 1e-6 &&
+                    std::abs(stated.at("depth_scale").get<double>() - scale) < 1e-9 * scale &&
+                    (matrix_of(stated.at("cam_R_w2c")) - bin_in_camera.orientation.toRotationMatrix()).norm() < 1e-6 &&
+                    (vector_of(stated.at("cam_t_w2c")) - 1e3 * bin_in_camera.position).norm() < 1e-3;
   findings.expect(same, "bop_camera", image.name(), "scene_camera is not that of the sensor in scene.json");
 }
 
@@ -284,7 +284,7 @@ SensorFiles files_of(const fs::path& folder, const std::string& suffix, bool coc
   return files;
 }
 
-/// The sensors as they truly are. Errors of their calibration, which scene.json does not tell, are drawn again from
+/// The sensors as they truly are. Errors of their calibration, which scene.json does not contain, are drawn again from
 /// request.yaml; its models may lie elsewhere now, and what is not needed is left out.
 std::vector<Sensor> true_devices(const fs::path& folder, const SceneFile& scene) {
   const std::string request = fs::absolute(folder / "request.yaml").string();
@@ -294,17 +294,17 @@ std::vector<Sensor> true_devices(const fs::path& folder, const SceneFile& scene)
     overrides.emplace_back(sensor + "preset=''");
     if (scene.sensors[i].model == "image") overrides.emplace_back(sensor + "lamps=[]");
   }
-  Request told = read_request(request, overrides);
-  for (std::size_t i = 0; i < told.sensors.size(); ++i) {
-    told.sensors[i].pose = scene.sensors.at(i).pose;
-    told.sensors[i] = resolved(told.sensors[i], told.bin);
+  Request stated = read_request(request, overrides);
+  for (std::size_t i = 0; i < stated.sensors.size(); ++i) {
+    stated.sensors[i].pose = scene.sensors.at(i).pose;
+    stated.sensors[i] = resolved(stated.sensors[i], stated.bin);
   }
   std::vector<Sensor> devices;
-  for (std::size_t i = 0; i < told.sensors.size(); ++i) devices.push_back(true_device(told.sensors, i, scene.seed));
+  for (std::size_t i = 0; i < stated.sensors.size(); ++i) devices.push_back(true_device(stated.sensors, i, scene.seed));
   return devices;
 }
 
-/// By sensor. Boxes of masks that follow measured depth are those of the camera that is told; those of true masks are
+/// By sensor. Boxes of masks that follow measured depth are those of the camera that is stated; those of true masks are
 /// the true device's.
 std::vector<BoxCamera> cameras_of(const DataFolder& folder, const DataSetFacts& facts, std::size_t number,
                                   const SceneFile& scene) {
@@ -315,7 +315,7 @@ std::vector<BoxCamera> cameras_of(const DataFolder& folder, const DataSetFacts& 
   const std::vector<Sensor> devices = true_devices(folder.scene(number), scene);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     cameras[i].k = matrix_of(devices.at(i).k);
-    cameras[i].told_in_it = devices[i].pose->inverse() * *scene.sensors[i].pose;
+    cameras[i].given_in_it = devices[i].pose->inverse() * *scene.sensors[i].pose;
   }
   return cameras;
 }

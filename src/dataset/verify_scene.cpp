@@ -1,5 +1,5 @@
-/// scene.json against its keys and limits, and images against labels and visible fractions. Only what the files tell is
-/// used.
+/// scene.json against its keys and limits, and images against labels and visible fractions. Only what the files state
+/// is used.
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/core/types.hpp"
 #include "bin_scenes/sensor/validity.hpp"

@@ -1,4 +1,4 @@
-/// Reads every shard as a tar file and compares keys, offsets, sizes and masks with what the set tells of its images.
+/// Reads every shard as a tar file and compares keys, offsets, sizes and masks with what the set states of its images.
 #include "bin_scenes/core/error.hpp"
 #include "core/read_file.hpp"
 #include "dataset/shards.hpp"
@@ -109,7 +109,7 @@ void verify_offsets(const fs::path& tar, const ShardImages& images, Findings& fi
       good &= static_cast<bool>(in) && there == bytes && offsets[key][name].at(1) == bytes.size();
     }
   }
-  findings.expect(good, "shard_offsets", path.string(), "does not tell where the files of the shard lie");
+  findings.expect(good, "shard_offsets", path.string(), "does not state where the files of the shard lie");
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ void verify_shards(const DataFolder& folder, const DataSetFacts& facts, Findings
       findings.expect(found.emplace(key, shard).second, "shard_keys", where,
                       "holds " + key + ", which another shard holds");
       findings.expect(map.is_object() && map.value(key, Json()) == shard, "shard_keys", where,
-                      "holds " + key + ", but key_to_shard.json does not tell so");
+                      "holds " + key + ", but key_to_shard.json does not say so");
       bool complete = true;
       for (const char* file : files_of_image) complete &= files.count(file) == 1;
       if (!findings.expect(complete, "shard_complete", where + ", " + key, "lacks a file")) continue;

@@ -1,4 +1,4 @@
-/// Folders of a scene's files that appear whole or not at all, and tell later whether they still are.
+/// Folders of a scene's files that appear whole or not at all, and can check later whether they still are.
 #pragma once
 
 #include "bin_scenes/config/formats.hpp"

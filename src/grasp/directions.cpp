@@ -15,7 +15,7 @@ constexpr double across = 0.05;          ///< cosine: 3 degrees
 constexpr double sharp = 0.85;           ///< cosine between the normals beside an edge: 32 degrees
 constexpr double large_face = 0.02;      ///< of the surface
 constexpr double long_edge = 0.2;        ///< / diagonal, all edges of a direction together
-constexpr std::size_t most_known = 256;  ///< directions that are told apart
+constexpr std::size_t most_known = 256;  ///< directions that are distinguished
 constexpr std::size_t most_of_a_kind = 6;
 
 /// Directions with weights; opposite ones are the same.

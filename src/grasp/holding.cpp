@@ -1,7 +1,7 @@
 /// Two pads hold a force and a moment about the closing axis together by an ellipsoid (Howe & Cutkosky 1996, "Practical
 /// force-motion models for sliding manipulation"). They hold a moment across that axis, as of a weight beside the pads,
 /// by pressing away from their centres and by friction. A cup is torn off when force and tilting moment lift one side
-/// of its ring, and slides when friction of the ring gives way (Mahler et al. 2018, "Dex-Net 3.0", equations of its
+/// of its ring, and slides when friction of the ring is exceeded (Mahler et al. 2018, "Dex-Net 3.0", equations of its
 /// model).
 #include "grasp/holding.hpp"
 
@@ -21,7 +21,7 @@ double farthest(const Aabb& box, const Vec3& direction) {
 }
 
 /// Arm (m) with which the pads' forces alone hold a moment across the closing axis, gripper's frame: the one presses
-/// at the near end of its contact, the other at the far end. Forces from within point the other way.
+/// at the near end of its contact, the other at the far end. Forces from within point in the opposite direction.
 double arm_of(const Grasp& grasp, const Vec3& moment) {
   const Vec3 along = Vec3::UnitX().cross((grasp.inner ? -1.0 : 1.0) * moment.normalized());
   return farthest(grasp.second, along) + farthest(grasp.first, -along);

@@ -38,11 +38,11 @@ Aabb bounds_of(const Pad& pad) {
   for (const double height : {-2.0 * pad.give, pad.start})
     for (const double u : {-pad.half_u, pad.half_u})
       for (const double v : {-pad.half_v, pad.half_v})
-        box.extend(pad.middle + u * pad.u + v * pad.v + height * pad.out);
+        box.extend(pad.center + u * pad.u + v * pad.v + height * pad.out);
   return box;
 }
 
-/// All that the pad may meet on its way.
+/// All that the pad may meet on its path.
 std::vector<Patch> patches_below(const MeshQuery& mesh, const Pad& pad) {
   std::vector<Patch> patches;
   const Mesh& m = mesh.mesh();
@@ -53,7 +53,7 @@ std::vector<Patch> patches_below(const MeshQuery& mesh, const Pad& pad) {
     Patch patch;
     patch.normal = Vec3(area.dot(pad.u), area.dot(pad.v), area.dot(pad.out)) / length;
     for (const std::uint32_t i : m.triangles[t]) {
-      const Vec3 x = m.vertices[i] - pad.middle;
+      const Vec3 x = m.vertices[i] - pad.center;
       patch.polygon.emplace_back(x.dot(pad.u), x.dot(pad.v), x.dot(pad.out));
     }
     clip(patch.polygon, 0, 1.0, pad.half_u);

@@ -14,10 +14,10 @@ namespace bin_scenes {
 
 namespace {
 
-constexpr int grasp_format = 7;              ///< raise it whenever the way grasps are found changes
-constexpr double symmetry_limit = 1e-3;      ///< / diagonal: symmetries that a gripper cannot tell from exact ones
-constexpr double first_apart = 0.03;         ///< / diagonal: of thinning
-constexpr double first_angle = 0.3;          ///< rad
+constexpr int grasp_format = 7;          ///< raise it whenever the search for grasps changes
+constexpr double symmetry_limit = 1e-3;  ///< / diagonal: symmetries that a gripper cannot distinguish from exact ones
+constexpr double first_apart = 0.03;     ///< / diagonal: of thinning
+constexpr double first_angle = 0.3;      ///< rad
 constexpr std::size_t left_out_one_of = 8;   ///< for the measure of coverage
 constexpr double covered_within = 3.0;       ///< times those distances: a pose that a placed grasp covers
 constexpr std::size_t most_grasps = 2000;    ///< that no symmetry makes alike

@@ -21,7 +21,7 @@ namespace {
 constexpr double lies_on = 0.05;       ///< load / weight of the lighter one, from which a part lies on another
 constexpr double supports = 0.2;       ///< sine of the normal's angle to the horizontal, from which a contact supports
 constexpr double most_overlap = 0.02;  ///< / smaller diagonal: of parts at rest, which is no hold
-constexpr double side_play = 1e-3;     ///< / smaller diagonal: by which a gripper gives way to what it grazes
+constexpr double side_play = 1e-3;     ///< / smaller diagonal: by which a gripper yields to what it grazes
 constexpr double cone_step = 0.18;     ///< rad: between the tilts of lifts that are tried
 constexpr int cone_directions = 8;     ///< of each tilt
 
@@ -119,7 +119,7 @@ bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direct
   const double smaller = std::min(part.box.diagonal(), other.box.diagonal());
   if (stands_over(other, part, direction, limit, 2e-3 * smaller)) return true;
   // Parts at rest overlap a little where they touch. What they lie on is left behind by a small raise, and sides slide
-  // along each other when the overlap is taken out and a gripper gives way a little; only what is still in the way then
+  // along each other when the overlap is taken out and a gripper yields a little; only what still obstructs it then
   // counts.
   for (const double raise : {1e-5, 2e-4, 2e-3}) {
     const Pose pose = nudged(part, direction, raise * smaller, smaller);

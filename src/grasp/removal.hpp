@@ -14,7 +14,7 @@ std::vector<PartPick> picks_of(const Scene& scene, const LoadedRequest& loaded, 
 std::vector<int> order_removal(std::vector<PartPick>& picks, const PlacedParts& placed,
                                std::vector<SceneGrasps::HeldSet>& sets);
 
-/// Whether `other` is in the way of `part` as it goes along `direction` (unit) up to `limit` (m).
+/// Whether `other` obstructs `part` as it goes along `direction` (unit) up to `limit` (m).
 bool hinders(const PlacedPart& other, const PlacedPart& part, const Vec3& direction, double limit);
 
 }  // namespace bin_scenes

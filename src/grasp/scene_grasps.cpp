@@ -1,5 +1,5 @@
 /// Grasps of the parts are taken to where the parts lie and asked, cheapest question first: tilt, what blocks the part,
-/// what the grasp holds, and what the gripper meets on its way.
+/// what the grasp holds, and what the gripper meets on its path.
 #include "bin_scenes/grasp/scene_grasps.hpp"
 
 #include "bin_scenes/core/assertion.hpp"

@@ -125,7 +125,7 @@ class Searcher {
     return false;
   }
 
-  void add(std::vector<Candidate>& all, const Vec3& middle, const Vec3& axis, const ClosingAxis& of) const {
+  void add(std::vector<Candidate>& all, const Vec3& center, const Vec3& axis, const ClosingAxis& of) const {
     const Vec3& up = s_.placed.up();
     const Vec3 steepest = axis.dot(up) * axis - up;
     if (!(steepest.norm() > 1e-3)) return;
@@ -136,8 +136,8 @@ class Searcher {
       Mat3 frame;
       frame << axis, z.cross(axis), z;
       const Aperture guess{of.width, of.inner};
-      const double cost = tilt + lever(middle) + width_cost * s_.gripper.between_fingers(guess) / s_.gripper.travel();
-      all.push_back({{middle, Quat(frame).normalized()}, tilt, cost, guess, 0});
+      const double cost = tilt + lever(center) + width_cost * s_.gripper.between_fingers(guess) / s_.gripper.travel();
+      all.push_back({{center, Quat(frame).normalized()}, tilt, cost, guess, 0});
     }
   }
 
@@ -146,11 +146,11 @@ class Searcher {
     const Vec3& up = s_.placed.up();
     for (const ClosingAxis& one : s_.grasps.axes) {
       const Pose pose = s_.part.pose * one.pose;
-      const Vec3 &middle = pose.position, axis = pose.orientation * Vec3::UnitX();
+      const Vec3 &center = pose.position, axis = pose.orientation * Vec3::UnitX();
       const double slope = std::asin(std::clamp(std::abs(axis.dot(up)), 0.0, 1.0));
       if (slope > s_.gripper.tilt) continue;
-      add(all, middle, axis, one);
-      if (slope > level && slope < levelled_up_to) add(all, middle, (axis - axis.dot(up) * up).normalized(), one);
+      add(all, center, axis, one);
+      if (slope > level && slope < levelled_up_to) add(all, center, (axis - axis.dot(up) * up).normalized(), one);
     }
     return all;
   }

@@ -1,5 +1,5 @@
-/// A cup is set on the surface along its normal. Rays along its axis tell the heights below its ring and within it; the
-/// bellows takes up their tilt, the lip what is left (Mahler et al. 2018, "Dex-Net 3.0"; Cao et al. 2021,
+/// A cup is set on the surface along its normal. Rays along its axis measure the heights below its ring and within it;
+/// the bellows takes up their tilt, the lip what is left (Mahler et al. 2018, "Dex-Net 3.0"; Cao et al. 2021,
 /// "SuctionNet-1Billion", which scores a seal by what a plane through the ring leaves).
 #include "grasp/suction_grasps.hpp"
 
@@ -60,7 +60,7 @@ class CupFitter {
   CupFitter(const PartModel& part, const Gripper& gripper)
       : part_(part), gripper_(gripper), above_(gripper.radius + gripper.travel()) {}
 
-  /// None where the ring or the middle finds no surface: it hangs over an edge or a hole.
+  /// None where the ring or the centre finds no surface: it hangs over an edge or a hole.
   std::optional<Footprint> footprint(const Pose& pose) const {
     Footprint print;
     if (!ring(pose, gripper_.radius, print.ring)) return std::nullopt;

@@ -102,10 +102,10 @@ bool Sweep::meets(const MeshQuery& mesh, const Pose& pose) const {
   const Sweep here = placed(pose.inverse());
   const auto apart = [&](const Aabb& box) {
     if (!here.bounds_.overlaps(box)) return true;
-    const Vec3 middle = box.center() - here.center_, half = 0.5 * box.size();
+    const Vec3 mid = box.center() - here.center_, half = 0.5 * box.size();
     for (int f = 0; f < here.face_count_; ++f) {
       const Face& face = here.faces_[f];
-      if (std::abs(face.normal.dot(middle)) > face.extent + face.normal.cwiseAbs().dot(half)) return true;
+      if (std::abs(face.normal.dot(mid)) > face.extent + face.normal.cwiseAbs().dot(half)) return true;
     }
     return false;
   };

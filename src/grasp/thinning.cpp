@@ -68,7 +68,7 @@ Quat PoseMeasure::about_axis(const Pose& a, const Pose& b, double arm) const {
 }
 
 double PoseMeasure::distance(const Pose& a, const Pose& b, const Limits& limits, double enough) const {
-  if (axes_.size() > 1) {  // a ball: only where its middle is, seen from the gripper, matters
+  if (axes_.size() > 1) {  // a ball: only where its centre is, seen from the gripper, matters
     Vec3 here = a.inverse() * axes_[0].point, there = b.inverse() * axes_[0].point;
     if (type_ == Gripper::Type::suction) {
       here = Vec3(here.head<2>().norm(), 0.0, here.z());

@@ -11,7 +11,7 @@ namespace bin_scenes {
 
 class PoseMeasure {
  public:
-  /// @param symmetries  of the part; empty: poses are told apart that symmetries make alike
+  /// @param symmetries  of the part; empty: poses are kept apart that symmetries make alike
   PoseMeasure(const Symmetries& symmetries, Gripper::Type type);
 
   struct Limits {

@@ -300,7 +300,7 @@ TopoDS_Shape chosen(const Collector& all, const LoadOptions& options, Solids& re
   return fused(solids);
 }
 
-/// Largest distance of the surface from the plane of a triangle, in its middle and over its edges.
+/// Largest distance of the surface from the plane of a triangle, in its centre and over its edges.
 double sag(const BRepAdaptor_Surface& surface, const std::array<gp_Pnt2d, 3>& uv, const std::array<Vec3, 3>& corners) {
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   if (!(normal.norm() > 0.0)) return 0.0;

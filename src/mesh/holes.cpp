@@ -98,10 +98,10 @@ void fill_with_least_area(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
 }
 
 void fill_with_fan(Mesh& mesh, const std::vector<std::uint32_t>& loop) {
-  Vec3 middle = Vec3::Zero();
-  for (const std::uint32_t v : loop) middle += mesh.vertices[v];
+  Vec3 mid = Vec3::Zero();
+  for (const std::uint32_t v : loop) mid += mesh.vertices[v];
   const auto center = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back(middle / static_cast<double>(loop.size()));
+  mesh.vertices.push_back(mid / static_cast<double>(loop.size()));
   for (std::size_t i = 0; i < loop.size(); ++i) {
     mesh.triangles.push_back({loop[i], loop[(i + 1) % loop.size()], center});
   }

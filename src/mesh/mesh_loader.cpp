@@ -161,7 +161,7 @@ class Repair {
            "nothing to do: the shape is unchanged within " + number(junction_tolerance()) + " m");
     }
   }
-  /// A vertex in the middle of an edge is off it by its own rounding in the file: six decimals of a part of 5 cm are
+  /// A vertex in the centre of an edge is off it by its own rounding in the file: six decimals of a part of 5 cm are
   /// 1e-5 of it, though equal vertices agree to the last digit. Only open edges are looked at, so this is safe.
   double junction_tolerance() const { return 20.0 * tolerance(); }
 

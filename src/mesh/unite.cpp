@@ -209,9 +209,9 @@ class Union {
   /// Whether the space before a piece is outside of all solids. Of pieces that cover each other one is enough.
   bool outer(const Polygon& piece, std::uint32_t t) {
     const std::uint32_t own = labels_.of_triangle[t];
-    Vec3 middle = Vec3::Zero();
-    for (const Vec3& p : piece) middle += p / static_cast<double>(piece.size());
-    const Vec3 before = middle + 2 * tolerance_ * normals_[t];
+    Vec3 center = Vec3::Zero();
+    for (const Vec3& p : piece) center += p / static_cast<double>(piece.size());
+    const Vec3 before = center + 2 * tolerance_ * normals_[t];
     Aabb point;
     point.extend(before);
     double around = volume_[own] < 0 ? -1.0 : 0.0;  // before the wall of a cavity its own shell counts as minus one
@@ -227,7 +227,7 @@ class Union {
       if (u > t || normals_[t].dot(normals_[u]) <= 0 || !coplanar(t, u)) return false;
       const std::array<Vec3, 3> other = corners(u);
       for (int k = 0; k < 3; ++k) {
-        if ((other[(k + 1) % 3] - other[k]).cross(middle - other[k]).dot(normals_[u]) < 0) return false;
+        if ((other[(k + 1) % 3] - other[k]).cross(center - other[k]).dot(normals_[u]) < 0) return false;
       }
       return true;
     });

@@ -15,7 +15,7 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 /// Halves every edge longer than `longest`, once. An edge is halved in both of its triangles: no cracks appear.
 bool halve_edges(Mesh& mesh, double longest) {
   std::map<Edge, std::uint32_t> middles;
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) -> std::uint32_t {
+  const auto center = [&](std::uint32_t a, std::uint32_t b) -> std::uint32_t {
     if ((mesh.vertices[a] - mesh.vertices[b]).norm() <= longest) return a;  // none
     const auto [known, is_new] = middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
     if (is_new) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
@@ -23,7 +23,7 @@ bool halve_edges(Mesh& mesh, double longest) {
   };
   std::vector<Triangle> triangles;
   for (const Triangle& t : mesh.triangles) {
-    const std::array<std::uint32_t, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
+    const std::array<std::uint32_t, 3> m = {center(t[0], t[1]), center(t[1], t[2]), center(t[2], t[0])};
     const std::array<bool, 3> cut = {m[0] != t[0], m[1] != t[1], m[2] != t[2]};
     const auto count = std::count(cut.begin(), cut.end(), true);
     if (count == 0) {

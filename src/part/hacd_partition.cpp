@@ -53,11 +53,11 @@ std::vector<Mesh> shells(const Mesh& mesh) {
 /// Halves every edge longer than `longest`, in all triangles at once so that no gap opens.
 Mesh cut(Mesh mesh, double longest) {
   for (int round = 0; round < 6 && mesh.triangles.size() < 4 * max_triangles; ++round) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) -> std::int64_t {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> centers;
+    const auto center = [&](std::uint32_t a, std::uint32_t b) -> std::int64_t {
       if ((mesh.vertices[a] - mesh.vertices[b]).norm() <= longest) return -1;
       const auto [entry, added] =
-          middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+          centers.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
       if (added) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
       return entry->second;
     };
@@ -65,7 +65,7 @@ Mesh cut(Mesh mesh, double longest) {
     for (const Triangle& t : mesh.triangles) {
       // Corners and cut edges in turn form a polygon of 3 to 6 points; ears between two cuts come off first.
       std::array<std::int64_t, 3> cuts;
-      for (int k = 0; k < 3; ++k) cuts[k] = middle(t[k], t[(k + 1) % 3]);
+      for (int k = 0; k < 3; ++k) cuts[k] = center(t[k], t[(k + 1) % 3]);
       std::vector<std::uint32_t> polygon;
       for (int k = 0; k < 3; ++k) {
         const std::int64_t before = cuts[(k + 2) % 3], after = cuts[k];
@@ -79,7 +79,7 @@ Mesh cut(Mesh mesh, double longest) {
       for (std::size_t k = 1; k + 1 < polygon.size(); ++k) finer.push_back({polygon[0], polygon[k], polygon[k + 1]});
     }
     mesh.triangles = finer;
-    if (middles.empty()) break;
+    if (centers.empty()) break;
   }
   return mesh;
 }

@@ -9,7 +9,7 @@ namespace bin_scenes {
 MassProperties mass_properties(const Mesh& mesh) {
   MassProperties result;
   BIN_SCENES_ASSERT(indices_in_range(mesh));
-  // Signed tetrahedra between each triangle and one apex. The apex is free for a closed mesh; the middle of the
+  // Signed tetrahedra between each triangle and one apex. The apex is free for a closed mesh; the centre of the
   // bounding box keeps the sums small when the part lies far from the origin of its file.
   const Vec3 apex = mesh.empty() ? Vec3(Vec3::Zero()) : mesh.bounds().center();
   double volume6 = 0.0;           // six times the volume

@@ -120,10 +120,10 @@ struct MeshQuery::Tree {
         corners.push_back({va, mesh.vertices[b] - va, mesh.vertices[c] - va, order[i]});
       }
     } else {
-      const std::size_t middle = split(order, begin, end, centers, depth);
-      build(order, begin, middle, depth + 1);
+      const std::size_t mid = split(order, begin, end, centers, depth);
+      build(order, begin, mid, depth + 1);
       nodes[index].first = static_cast<std::uint32_t>(nodes.size());
-      build(order, middle, end, depth + 1);
+      build(order, mid, end, depth + 1);
     }
     moments[index] = moments_of(corners, first_corner, corners.size());
   }
@@ -168,18 +168,18 @@ struct MeshQuery::Tree {
         }
       }
       if (best > 0) {
-        const auto middle = std::partition(order.begin() + begin, order.begin() + end,
-                                           [&](std::uint32_t t) { return bin_of(t) < best; });
-        return static_cast<std::size_t>(middle - order.begin());
+        const auto mid = std::partition(order.begin() + begin, order.begin() + end,
+                                        [&](std::uint32_t t) { return bin_of(t) < best; });
+        return static_cast<std::size_t>(mid - order.begin());
       }
     }
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+    const std::size_t mid = begin + (end - begin) / 2;
+    std::nth_element(order.begin() + begin, order.begin() + mid, order.begin() + end,
                      [&](std::uint32_t s, std::uint32_t t) {
                        const double cs = center(s), ct = center(t);
                        return cs != ct ? cs < ct : s < t;
                      });
-    return middle;
+    return mid;
   }
 
   static double half_area(const Aabb& box) {

@@ -69,13 +69,13 @@ std::vector<ConcaveEdge> concave_edges(const Mesh& mesh) {
     far -= a + b;
     const double angle = std::acos(std::clamp(m.dot(n), -1.0, 1.0));
     if (angle < concave || m.dot(far - a) <= 0) continue;
-    const Vec3 along = (b - a).normalized(), middle = 0.5 * (a + b);
+    const Vec3 along = (b - a).normalized(), center = 0.5 * (a + b);
     Vec3 across = along.cross(m + n);
     if (across.norm() < 1e-6) across = m;
     edges.push_back({a,
                      b,
                      angle * (b - a).norm(),
-                     {plane_through(middle, across.normalized()), plane_through(middle, m), plane_through(middle, n)}});
+                     {plane_through(center, across.normalized()), plane_through(center, m), plane_through(center, n)}});
   }
   return edges;
 }

@@ -244,14 +244,14 @@ void cluster_order(const std::vector<SurfaceSample>& samples, std::vector<std::u
   for (std::size_t i = begin; i < end; ++i) box.extend(samples[order[i]].point);
   int axis;
   box.size().maxCoeff(&axis);
-  const std::size_t middle = begin + runs / 2 * cluster;
-  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+  const std::size_t mid = begin + runs / 2 * cluster;
+  std::nth_element(order.begin() + begin, order.begin() + mid, order.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) {
                      const double pa = samples[a].point[axis], pb = samples[b].point[axis];
                      return pa != pb ? pa < pb : a < b;
                    });
-  cluster_order(samples, order, begin, middle, cluster);
-  cluster_order(samples, order, middle, end, cluster);
+  cluster_order(samples, order, begin, mid, cluster);
+  cluster_order(samples, order, mid, end, cluster);
 }
 
 std::vector<SurfaceSample> clustered(const std::vector<SurfaceSample>& samples, std::size_t cluster) {

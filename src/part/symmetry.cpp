@@ -21,7 +21,7 @@ constexpr int highest_order = 100;            ///< of a discrete symmetry
 constexpr double nearly = 3.0;                ///< times the limit
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Points all over the surface: vertices, and of meshes with few of them the middles of faces, since large faces have
+/// Points all over the surface: vertices, and of meshes with few of them the centers of faces, since large faces have
 /// few vertices.
 std::vector<Vec3> surface_points(const Mesh& mesh) {
   std::vector<Vec3> points = mesh.vertices;
@@ -299,9 +299,9 @@ Symmetries find_symmetries(const PartModel& part, double tolerance) {
 double diameter(const Mesh& mesh) {
   // Only vertices far from the centre can be ends of the longest distance: in order of that, most pairs are never
   // tried.
-  const Vec3 middle = mesh.bounds().center();
+  const Vec3 center = mesh.bounds().center();
   std::vector<std::pair<double, const Vec3*>> far;
-  for (const Vec3& vertex : mesh.vertices) far.emplace_back((vertex - middle).norm(), &vertex);
+  for (const Vec3& vertex : mesh.vertices) far.emplace_back((vertex - center).norm(), &vertex);
   std::sort(far.begin(), far.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   double longest = 0.0;
   for (std::size_t i = 0; i < far.size() && 2.0 * far[i].first > longest; ++i)

@@ -50,7 +50,7 @@ std::vector<Vec3> far_directions(const Mesh& mesh, const Vec3& center, const Vec
   return directions;
 }
 
-/// The middle of the surface around a direction, seen from the centre, shifted there until it stays.
+/// The centre of the surface around a direction, seen from the centre, shifted there until it stays.
 Vec3 middle_around(const Mesh& mesh, const Vec3& center, Vec3 direction) {
   const double within = std::cos(0.4);  // rad: half of what is between arms of an icosahedron, and less
   for (int shift = 0; shift < 20; ++shift) {
@@ -68,7 +68,7 @@ Vec3 middle_around(const Mesh& mesh, const Vec3& center, Vec3 direction) {
 }
 
 /// Along the arms of a part whose moments are all equal, as of a tetrapod or a jack: towards the farthest vertices, no
-/// two of one arm, and from there to its middle, since the vertices of a rounded end lie beside it.
+/// two of one arm, and from there to its centre, since the vertices of a rounded end lie beside it.
 std::vector<Vec3> arm_directions(const Mesh& mesh, const Vec3& center) {
   constexpr double one_arm = 0.6;  // rad
   std::vector<Vec3> arms, directions;

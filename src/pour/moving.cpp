@@ -25,7 +25,7 @@ Twist velocity_at(const Motion& motion, double t) {
 }
 
 /// What a bin's motion is to those in it over the step of `dt` seconds from t on: changes are those of the whole step,
-/// so that the steps add up to the path; the rest is as in its middle.
+/// so that the steps add up to the path; the rest is as in its centre.
 Frame frame_at(const Motion& motion, const Vec3& gravity, double t, double dt) {
   BIN_SCENES_ASSERT(dt > 0.0);
   const Twist begin = velocity_at(motion, t), end = velocity_at(motion, t + dt);

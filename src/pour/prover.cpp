@@ -265,7 +265,7 @@ class Attempt {
   std::vector<BodyState> before_, states_;
   BodyState held_;
   std::vector<Pose> starts_;  ///< of the gripper's bodies
-  Vec3 contact_;              ///< middle of the ring, in the part's frame
+  Vec3 contact_;              ///< centre of the ring, in the part's frame
   double patience_ = 0.0;     ///< s
   Stage stage_ = Stage::grasp;
   double time_ = 0.0;    ///< s of the stage

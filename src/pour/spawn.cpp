@@ -20,7 +20,7 @@ Aabb posed_bounds(const PartModel& part, const Quat& orientation) {
   return box;
 }
 
-/// Between the walls, with its centre of mass in their middle.
+/// Between the walls, with its centre of mass in their centre.
 bool fits(const PartModel& part, const Quat& orientation, const Vec3& size) {
   const Aabb bounds = posed_bounds(part, orientation);
   const Vec3 center = orientation * part.mass().center;
@@ -28,16 +28,16 @@ bool fits(const PartModel& part, const Quat& orientation, const Vec3& size) {
   return 2.0 * reach.x() <= size.x() && 2.0 * reach.y() <= size.y();
 }
 
-/// Adds the pieces of a triangle, none longer than `edge`, to the cells their middles lie in.
+/// Adds the pieces of a triangle, none longer than `edge`, to the cells their centers lie in.
 void scatter(const std::array<Vec3, 3>& triangle, const Aabb& bounds, double edge, const std::array<int, 3>& counts,
              std::vector<Aabb>& cells) {
   const auto& [a, b, c] = triangle;
   const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
   if (const double longest = std::max({ab, bc, ca}); longest > edge) {
     const int k = longest == ab ? 0 : longest == bc ? 1 : 2;
-    const Vec3 &p = triangle[k], &q = triangle[(k + 1) % 3], &r = triangle[(k + 2) % 3], middle = 0.5 * (p + q);
-    scatter({p, middle, r}, bounds, edge, counts, cells);
-    scatter({middle, q, r}, bounds, edge, counts, cells);
+    const Vec3 &p = triangle[k], &q = triangle[(k + 1) % 3], &r = triangle[(k + 2) % 3], mid = 0.5 * (p + q);
+    scatter({p, mid, r}, bounds, edge, counts, cells);
+    scatter({mid, q, r}, bounds, edge, counts, cells);
     return;
   }
   const Vec3 at = ((a + b + c) / 3.0 - bounds.lower) / edge;
@@ -175,22 +175,22 @@ std::optional<Pose> Rain::place(const PartModel& part, const Cover& shape, Rando
     if (!within(sides, pose.position)) continue;
 
     double clear = opening_.lower.z() - bounds.lower.z(), heap = clear;
-    const Vec3 middle = pose * shape.center;
+    const Vec3 mid = pose * shape.center;
     for (std::size_t i = 0; i < own.size(); ++i) own[i] = pose * shape.balls[i].center;
     const auto too_high = [&] {
       const double z = clear + drop_height_;
       return (best && z >= best->position.z()) || z + bounds.lower.z() > opening_.upper.z() + drop_height_;
     };
     for (const auto& [top, number] : order_) {  // the highest first, so that most of those below need no test
-      if (too_high() || top - middle.z() + shape.radius < heap) break;
+      if (too_high() || top - mid.z() + shape.radius < heap) break;
       Obstacle& other = obstacles_[number];
       const double& known = other.settled ? heap : clear;
-      if (lift(other.center, other.cover->radius, middle, shape.radius) <= known) continue;
+      if (lift(other.center, other.cover->radius, mid, shape.radius) <= known) continue;
       const std::vector<Vec3>& balls = balls_of(other);
       for (std::size_t k = 0; k < balls.size(); ++k) {
         const Vec3& ball = balls[k];
         const double radius = other.cover->balls[k].radius;
-        if (lift(ball, radius, middle, shape.radius) <= known) continue;
+        if (lift(ball, radius, mid, shape.radius) <= known) continue;
         for (std::size_t i = 0; i < own.size(); ++i) {
           if (ball.z() - own[i].z() + radius + shape.balls[i].radius < known) continue;
           const double height = lift(ball, radius, own[i], shape.balls[i].radius);
@@ -218,15 +218,15 @@ std::vector<Pose> grid_poses(const std::vector<const PartModel*>& parts, const O
   const std::size_t nx = columns(size.x()), ny = columns(size.y());
   std::vector<Opening::Side> sides = opening.sides;
   for (Opening::Side& side : sides) side.distance -= 0.5 * diameter;
-  const Vec3 middle = 0.5 * (opening.lower + opening.upper);
+  const Vec3 mid = 0.5 * (opening.lower + opening.upper);
   std::vector<Vec3> places;  // of the columns, on the rim
   for (std::size_t y = 0; y < ny; ++y)
     for (std::size_t x = 0; x < nx; ++x) {
-      const Vec3 place(middle.x() + (x - 0.5 * (nx - 1.0)) * cell, middle.y() + (y - 0.5 * (ny - 1.0)) * cell,
+      const Vec3 place(mid.x() + (x - 0.5 * (nx - 1.0)) * cell, mid.y() + (y - 0.5 * (ny - 1.0)) * cell,
                        opening.upper.z());
       if (within(sides, place)) places.push_back(place);
     }
-  if (places.empty()) places.emplace_back(middle.x(), middle.y(), opening.upper.z());
+  if (places.empty()) places.emplace_back(mid.x(), mid.y(), opening.upper.z());
   std::vector<Pose> poses;
   poses.reserve(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -59,8 +59,8 @@ Penetration bin_penetration(const MeshQuery& part, const Pose& pose, const Bin& 
       break;
   }
   if (!bin_mesh) return {};
-  const Vec3 middle = bin.pose.inverse() * (pose * part.mesh().bounds().center());
-  return overlap({part}, pose, {*bin_mesh, closed(bin_mesh->mesh()), middle}, bin.pose);
+  const Vec3 center = bin.pose.inverse() * (pose * part.mesh().bounds().center());
+  return overlap({part}, pose, {*bin_mesh, closed(bin_mesh->mesh()), center}, bin.pose);
 }
 
 }  // namespace bin_scenes

@@ -47,15 +47,15 @@ std::pair<bool, bool> ConvexCell::measure_heights(const Plane& plane, Clipping& 
   return {any_in, any_out};
 }
 
-/// The cap is convex: its corners in order of angle about their middle.
+/// The cap is convex: its corners in order of angle about their centre.
 void ConvexCell::add_cap(const Plane& plane, Clipping& c) {
   if (c.cap.size() < 3) return;
-  Vec3 middle = Vec3::Zero();
-  for (const int v : c.cap) middle += c.kept[v] / static_cast<double>(c.cap.size());
+  Vec3 center = Vec3::Zero();
+  for (const int v : c.cap) center += c.kept[v] / static_cast<double>(c.cap.size());
   const Tangents along(plane.normal);
   c.order.clear();
   for (const int v : c.cap) {
-    const Vec3 arm = c.kept[v] - middle;
+    const Vec3 arm = c.kept[v] - center;
     c.order.emplace_back(std::atan2(along.y.dot(arm), along.x.dot(arm)), v);
   }
   std::sort(c.order.begin(), c.order.end());

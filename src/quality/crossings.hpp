@@ -9,7 +9,7 @@ namespace bin_scenes {
 
 /// The common segment of two triangles.
 struct Crossing {
-  Vec3 point;                                     ///< in the middle of it
+  Vec3 point;                                     ///< in the centre of it
   Aabb box;                                       ///< around it
   std::array<std::size_t, 2> triangles = {0, 0};  ///< of a and b
 };

@@ -33,8 +33,8 @@ void err_in_lens_and_baseline(const CalibrationSettings& sigma, Random draw, Sen
   device.k[5] += sigma.center * draw.normal();
   const double longer = sigma.baseline * draw.normal();
   const auto move = [&](std::optional<Pose>& light) {
-    const Vec3 way = light->position - device.pose->position;
-    if (way.norm() > 0.0) light->position += longer * way.normalized();
+    const Vec3 offset = light->position - device.pose->position;
+    if (offset.norm() > 0.0) light->position += longer * offset.normalized();
   };
   move(device.projector.pose);
   move(device.laser.pose);

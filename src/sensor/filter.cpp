@@ -20,7 +20,7 @@ void take_away(RangeImage& image, std::size_t pixel, Validity code) {
   if (!image.points.empty()) image.points[pixel] = {nan, nan, nan};
 }
 
-/// Pixels of the window that have nearly the depth of its middle, which does not count.
+/// Pixels of the window that have nearly the depth of its centre, which does not count.
 int neighbours_of(const RangeImage& image, int column, int row, const OutlierFilter& settings) {
   const int reach = settings.window / 2;
   const auto depth = [&](int x, int y) { return image.depth[static_cast<std::size_t>(y) * image.width + x]; };

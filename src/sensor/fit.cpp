@@ -32,37 +32,37 @@ BallFit fit_ball(const std::vector<Vec3>& points) {
     right += row * (p - about).squaredNorm();
   }
   const Eigen::Vector4d linear = normal.ldlt().solve(right);
-  Vec3 middle = 0.5 * linear.head<3>();
-  double radius = std::sqrt(linear[3] + middle.squaredNorm());
+  Vec3 center = 0.5 * linear.head<3>();
+  double radius = std::sqrt(linear[3] + center.squaredNorm());
   for (int i = 0; i < 10; ++i) {
     normal.setZero();
     right.setZero();
     for (const Vec3& p : points) {
-      const Vec3 way = p - about - middle;
-      const double distance = way.norm();
-      const Eigen::Vector4d row(way.x() / distance, way.y() / distance, way.z() / distance, 1.0);
+      const Vec3 arm = p - about - center;
+      const double distance = arm.norm();
+      const Eigen::Vector4d row(arm.x() / distance, arm.y() / distance, arm.z() / distance, 1.0);
       normal += row * row.transpose();
       right += row * (distance - radius);
     }
     const Eigen::Vector4d step = normal.ldlt().solve(right);
-    middle += step.head<3>();
+    center += step.head<3>();
     radius += step[3];
     if (step.norm() < 1e-12) break;
   }
-  fit.middle = about + middle;
+  fit.center = about + center;
   fit.radius = radius;
-  for (const Vec3& p : points) fit.residuals.push_back((p - fit.middle).norm() - radius);
+  for (const Vec3& p : points) fit.residuals.push_back((p - fit.center).norm() - radius);
   return fit;
 }
 
 PlaneFit fit_plane(const std::vector<Vec3>& points) {
   PlaneFit fit;
   if (points.size() < 3) return fit;
-  fit.middle = mean_of(points);
+  fit.center = mean_of(points);
   Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - fit.middle) * (p - fit.middle).transpose();
+  for (const Vec3& p : points) spread += (p - fit.center) * (p - fit.center).transpose();
   fit.normal = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(0);
-  for (const Vec3& p : points) fit.residuals.push_back(fit.normal.dot(p - fit.middle));
+  for (const Vec3& p : points) fit.residuals.push_back(fit.normal.dot(p - fit.center));
   return fit;
 }
 

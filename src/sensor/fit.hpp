@@ -8,15 +8,15 @@
 namespace bin_scenes {
 
 struct BallFit {
-  Vec3 middle = Vec3::Zero();
+  Vec3 center = Vec3::Zero();
   double radius = 0.0;
-  std::vector<double> residuals;  ///< distance from the middle - radius
+  std::vector<double> residuals;  ///< distance from the centre - radius
 };
 /// NaN of fewer than four points.
 BallFit fit_ball(const std::vector<Vec3>& points);
 
 struct PlaneFit {
-  Vec3 middle = Vec3::Zero(), normal = Vec3::UnitZ();
+  Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ();
   std::vector<double> residuals;  ///< along the normal
 };
 PlaneFit fit_plane(const std::vector<Vec3>& points);

@@ -9,7 +9,7 @@ namespace bin_scenes {
 
 namespace {
 
-/// Each edge is passed as often one way as the other.
+/// Each edge is passed equally often in both directions.
 bool closed(const Mesh& mesh) {
   std::vector<std::uint64_t> there, back;
   there.reserve(3 * mesh.triangles.size());

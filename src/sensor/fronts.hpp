@@ -11,7 +11,7 @@ namespace bin_scenes {
 /// front. The fronts cover whatever the mesh covers.
 bool shows_fronts_only(const Mesh& mesh);
 
-/// Of each triangle: whether all of the mesh lies behind its plane, so that the mesh does not shade it. Of meshes of
+/// Of each triangle: whether all of the mesh lies behind its plane, so that the mesh does not occlude it. Of meshes of
 /// many corners it may say no where it is so.
 std::vector<char> outermost_triangles(const Mesh& mesh);
 

@@ -29,7 +29,7 @@ Distorted distort(const std::array<double, 5>& d, const Vec2& u) {
   return out;
 }
 
-/// Inside the first fold of the distortion, where it still maps one to one; checked along the way from the axis.
+/// Inside the first fold of the distortion, where it still maps one to one; checked along a line from the axis.
 bool before_fold(const std::array<double, 5>& d, const Vec2& u) {
   constexpr int steps = 4;
   for (int i = 1; i <= steps; ++i) {

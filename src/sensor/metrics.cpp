@@ -24,9 +24,9 @@ Vec3 as_vector(const std::array<float, 3>& p) {
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), median, values.end());
+  return *median;
 }
 
 /// At the origin, looking along z; what stood beside the camera stays there.
@@ -88,41 +88,41 @@ std::array<Vec3, 7> positions(const Sensor& sensor, const std::array<double, 3>&
           Vec3(half.x(), half.y(), z[2])};
 }
 
-/// One ball after the other: they would light and shade each other.
+/// One ball after the other: they would light and occlude each other.
 void measure_balls(const Sensor& sensor, SensorMetrics& m) {
   const std::array<Vec3, 7> places = positions(sensor, m.distances, 0.55);
   const Mesh ball = ball_target(m.ball_radius, 5);
-  std::array<Vec3, 7> middles;
+  std::array<Vec3, 7> centers;
   for (int i = 0; i < 7; ++i) {
     Targets targets;
     targets.add(ball, {places[i], Quat::Identity()}, {albedo, 0.0, 0.4});
     const BallFit fit = fit_ball(points_with(shot(sensor, targets, 0), 1));
     m.probing_form[i] = range_of(fit.residuals);
     m.probing_size[i] = 2.0 * (fit.radius - m.ball_radius);
-    middles[i] = fit.middle;
+    centers[i] = fit.center;
   }
   for (int a = 0; a < 7; ++a) {
     for (int b = 0; b < a; ++b) {
-      const double right = (places[a] - places[b]).norm(), error = std::abs((middles[a] - middles[b]).norm() - right);
+      const double right = (places[a] - places[b]).norm(), error = std::abs((centers[a] - centers[b]).norm() - right);
       m.sphere_spacing = std::fmax(m.sphere_spacing, error);  // of a ball that was not seen: no number
       m.dimension_trueness = std::fmax(m.dimension_trueness, error / right);
     }
   }
 }
 
-Targets plate(const Vec3& middle, const Quat& turn, double size) {
+Targets plate(const Vec3& center, const Quat& turn, double size) {
   Targets targets;
   const double thickness = 0.01 * size;
-  targets.add(box_target({size, size, thickness}), {middle + turn * Vec3(0, 0, 0.5 * thickness), turn},
+  targets.add(box_target({size, size, thickness}), {center + turn * Vec3(0, 0, 0.5 * thickness), turn},
               {albedo, 0.0, 0.4});
   return targets;
 }
 
 /// Points of the plate's face without a rim of a twentieth of its size: its sides are seen there, and edges.
-std::vector<Vec3> points_on_face(const RangeImage& image, const Vec3& middle, const Quat& turn, double size) {
+std::vector<Vec3> points_on_face(const RangeImage& image, const Vec3& center, const Quat& turn, double size) {
   std::vector<Vec3> points = points_with(image, 1);
   const auto on_rim = [&](const Vec3& p) {
-    const Vec3 there = turn.conjugate() * (p - middle);
+    const Vec3 there = turn.conjugate() * (p - center);
     return there.head<2>().cwiseAbs().maxCoeff() > 0.45 * size;
   };
   points.erase(std::remove_if(points.begin(), points.end(), on_rim), points.end());
@@ -144,11 +144,11 @@ void measure_flatness(const Sensor& sensor, SensorMetrics& m) {
       {m.distances[2], Quat::Identity()},
   }};
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Vec3 middle(0, 0, poses[i].first);
+    const Vec3 center(0, 0, poses[i].first);
     const Quat& turn = poses[i].second;
     const double side = turn.isApprox(Quat::Identity()) ? size : tilted;
-    Targets targets = plate(middle, turn, side);
-    m.flatness[i] = range_of(fit_plane(points_on_face(shot(sensor, targets, 0), middle, turn, side)).residuals);
+    Targets targets = plate(center, turn, side);
+    m.flatness[i] = range_of(fit_plane(points_on_face(shot(sensor, targets, 0), center, turn, side)).residuals);
   }
 }
 
@@ -180,7 +180,7 @@ void measure_noise(const Sensor& sensor, SensorMetrics& m) {
 
   constexpr int tile = 15;
   std::vector<double> local;
-  std::vector<Vec3> middles;
+  std::vector<Vec3> centers;
   for (int y = 0; y + tile <= image.height; y += tile) {
     for (int x = 0; x + tile <= image.width; x += tile) {
       std::vector<Vec3> points;
@@ -193,11 +193,11 @@ void measure_noise(const Sensor& sensor, SensorMetrics& m) {
       double sum = 0.0;
       for (const double r : fit.residuals) sum += r * r;
       local.push_back(std::sqrt(sum / static_cast<double>(fit.residuals.size())));
-      middles.push_back(fit.middle);
+      centers.push_back(fit.center);
     }
   }
   m.local_planarity = median(local);
-  if (middles.size() > 3) m.global_planarity = range_of(fit_plane(middles).residuals);
+  if (centers.size() > 3) m.global_planarity = range_of(fit_plane(centers).residuals);
 }
 
 }  // namespace
@@ -206,9 +206,9 @@ SensorMetrics measure_sensor(const Sensor& given) {
   const Sensor sensor = at_origin(given);
   SensorMetrics m;
   m.sphere_spacing = m.dimension_trueness = m.global_planarity = std::numeric_limits<double>::quiet_NaN();
-  const double middle = std::sqrt(sensor.near * sensor.far);
-  m.distances = {std::max(0.8 * middle, 1.02 * sensor.near), middle, std::min(1.2 * middle, 0.98 * sensor.far)};
-  const Eigen::Vector2d half = half_field(sensor, middle);
+  const double center = std::sqrt(sensor.near * sensor.far);
+  m.distances = {std::max(0.8 * center, 1.02 * sensor.near), center, std::min(1.2 * center, 0.98 * sensor.far)};
+  const Eigen::Vector2d half = half_field(sensor, center);
   m.ball_radius = 0.2 * half.minCoeff();
   for (const double z : m.distances) {
     for (const double degrees : {0.0, 30.0, 50.0, 70.0}) {

@@ -32,16 +32,16 @@ std::array<float, 3> fitted_normal(const std::vector<std::array<float, 3>>& poin
     const double z = points[at][2];
     return Vec3(points[at][0] / z, points[at][1] / z, 1.0 / z);
   };
-  const Vec3 middle = seen(row * width + column);
-  if (!middle.allFinite()) return no_vector;
+  const Vec3 center = seen(row * width + column);
+  if (!center.allFinite()) return no_vector;
   double n = 0.0, x = 0.0, y = 0.0, q = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, xq = 0.0, yq = 0.0;
   for (std::size_t r = row - std::min(reach, row); r <= std::min(row + reach, height - 1); ++r) {
     for (std::size_t c = column - std::min(reach, column); c <= std::min(column + reach, width - 1); ++c) {
       const std::size_t at = r * width + c;
       if (std::isnan(points[at][2])) continue;
-      const Vec3 d = seen(at) - middle;
+      const Vec3 d = seen(at) - center;
       // |dz| / z0 is |dq| / q, and lateral distance / z0 is that of the directions.
-      const double rise = d.z() / (d.z() + middle.z());
+      const double rise = d.z() / (d.z() + center.z());
       if (!(rise * rise <= steepest * steepest * (d.x() * d.x() + d.y() * d.y()))) continue;
       n += 1.0, x += d.x(), y += d.y(), q += d.z();
       xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y(), xq += d.x() * d.z(), yq += d.y() * d.z();
@@ -52,7 +52,7 @@ std::array<float, 3> fitted_normal(const std::vector<std::array<float, 3>>& poin
   constexpr double flat = 1e-6;  // of the spread of directions: points on a line
   if (!(n >= 3.0 && determinant > flat * (xx + yy) * (xx + yy))) return no_vector;
   const double a = (yy * xq - xy * yq) / determinant, b = (xx * yq - xy * xq) / determinant;
-  const double at_axis = middle.z() + q / n - a * (middle.x() + x / n) - b * (middle.y() + y / n);
+  const double at_axis = center.z() + q / n - a * (center.x() + x / n) - b * (center.y() + y / n);
   const Vec3 normal = -Vec3(a, b, at_axis).normalized();  // n . p = 1 beyond the plane, seen from the camera
   return {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())};
 }

@@ -1,4 +1,4 @@
-/// Places cameras by the bin's rim or mesh and turns projector or laser to its middle. Refuses what stands in a wall,
+/// Places cameras by the bin's rim or mesh and turns projector or laser to its centre. Refuses what stands in a wall,
 /// below the floor or in a part, or looks away.
 #include "bin_scenes/sensor/resolve.hpp"
 
@@ -16,14 +16,14 @@ namespace {
 
 /// What a camera above the bin has to see: the rim and its height, or the floor.
 struct Rim {
-  Vec3 middle, half;
+  Vec3 center, half;
 };
 
 Rim rim_of(const Bin& bin, const Aabb* bounds) {
   Rim rim{Vec3(0.0, 0.0, bin.kind == Bin::Kind::box ? bin.inner_size.z() : 0.0), 0.5 * bin.inner_size};
   if (bin.kind == Bin::Kind::box) rim.half.head<2>().array() += bin.wall_thickness;
   if (bin.kind == Bin::Kind::mesh && bounds && !bounds->empty()) {
-    rim.middle = {bounds->center().x(), bounds->center().y(), bounds->upper.z()};
+    rim.center = {bounds->center().x(), bounds->center().y(), bounds->upper.z()};
     rim.half = 0.5 * bounds->size();
   }
   return rim;
@@ -65,7 +65,7 @@ bool crosses(const Aabb& box, const Vec3& origin, const Vec3& direction, double 
   return first <= last;
 }
 
-/// The space where parts can lie; empty where that cannot be told. A floor has no walls and bears as much as is poured.
+/// The space where parts can lie; empty where that is unknown. A floor has no walls and bears as much as is poured.
 Aabb room_of(const Bin& bin, const Aabb* bounds) {
   Aabb room;
   const double wide = 1e4;
@@ -128,10 +128,10 @@ bool in_wall(const Bin& bin, const Vec3& position) {
 bool sheet_meets(const Aabb& room, const Sensor& sensor) {
   constexpr int rays = 32, places = 16;
   const double half = std::tan(0.5 * sensor.settings.of<LaserLineSettings>().fan),
-               way = sensor.scan.step * (sensor.scan.profiles - 1);
+               travel = sensor.scan.step * (sensor.scan.profiles - 1);
   for (int k = 0; k <= places; ++k) {
     const Vec3 start = sensor.laser.pose->position +
-                       way * (static_cast<double>(k) / places - 0.5) * sensor.scan.direction.normalized();
+                       travel * (static_cast<double>(k) / places - 0.5) * sensor.scan.direction.normalized();
     for (int i = 0; i <= rays; ++i) {
       const Vec3 ray(0.0, half * (2.0 * i / rays - 1.0), 1.0);
       if (crosses(room, start, sensor.laser.pose->orientation * ray, 2.0 * sensor.far)) return true;
@@ -200,7 +200,7 @@ void check_sensor(const Sensor& sensor, const LoadedRequest& loaded, const Aabb*
   if (model.projector) looks("projector", lens_of(sensor.projector), *sensor.projector.pose);
   if (model.laser && !room.empty() && !sheet_meets(room, sensor)) {
     refuse("the laser looks away from the bin", where,
-           "z of its frame points forward, in the middle of the sheet; turn it, or leave its pose out");
+           "z of its frame points forward, in the center of the sheet; turn it, or leave its pose out");
   }
   if (model.check_places) model.check_places(sensor, where);
 }
@@ -238,7 +238,7 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
     refuse("K is not a 3x3 matrix of intrinsics", where, "give nine numbers, row by row, with fx, fy > 0");
   }
   if (!full.pose) {
-    const auto [middle, half] = rim_of(bin, bounds);
+    const auto [center, half] = rim_of(bin, bounds);
     const double columns = std::min(full.k[2], sensor.width - 1 - full.k[2]);
     const double rows = std::min(full.k[5], sensor.height - 1 - full.k[5]);
     if (!(columns > 0.0 && rows > 0.0)) {
@@ -246,7 +246,7 @@ Sensor resolved(const Sensor& sensor, const Bin& bin, const Aabb* bounds) {
     }
     const double height =
         1.05 * std::max((full.k[0] * half.x() + std::abs(full.k[1]) * half.y()) / columns, full.k[4] * half.y() / rows);
-    const Vec3 eye = middle + std::max(height, 1.05 * sensor.near) * Vec3::UnitZ();
+    const Vec3 eye = center + std::max(height, 1.05 * sensor.near) * Vec3::UnitZ();
     full.pose = Pose{eye, Quat(0.0, 1.0, 0.0, 0.0)};  // half a turn about x: z down, y to the rear
   }
   Vec3 target = middle_of(bin, bounds);

@@ -27,7 +27,7 @@ void set_transform(RTCGeometry instance, const Pose& pose) {
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
 }
 
-/// Rays go to Embree in eights, the width of AVX2: neighbours share most of the way through the tree.
+/// Rays go to Embree in eights, the width of AVX2: neighbours share most of the path through the tree.
 constexpr int lanes = 8;
 
 bool usable(const Ray& ray) {
@@ -82,7 +82,8 @@ void occluded(RTCScene scene, const RayOf& ray_of, std::uint8_t* blocked, std::s
 
 struct SceneryCache::State {
   struct Entry {
-    std::weak_ptr<const PartModel> model;  // tells a new model at an old address from the one whose tree this is
+    std::weak_ptr<const PartModel>
+        model;  // distinguishes a new model at an old address from the one whose tree this is
     MeshTreePtr tree;
   };
   std::mutex mutex;

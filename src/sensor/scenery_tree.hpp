@@ -1,4 +1,4 @@
-/// A mesh and its search tree in Embree, with what its triangles tell: made once a model.
+/// A mesh and its search tree in Embree, with data of its triangles: made once a model.
 #pragma once
 
 #include "bin_scenes/sensor/scenery.hpp"

@@ -40,7 +40,7 @@ void check_baseline(const std::string& key, double baseline) {
 
 void check_outliers(const std::string& key, const OutlierFilter& outlier) {
   if (outlier.window % 2 == 0)
-    throw input_error("is even: a window has a middle", key + ".window", "3, 5 or 7 is usual");
+    throw input_error("is even: a window has a center", key + ".window", "3, 5 or 7 is usual");
   const int most = outlier.window * outlier.window - 1;
   if (outlier.neighbours > most)
     throw input_error("is more than a window of " + std::to_string(outlier.window) + " pixels has", key + ".neighbours",

@@ -66,7 +66,7 @@ inline std::string users_of(bool SensorModel::*device) {
   return names_of(device) + ": ";
 }
 
-/// Those that see indirect light unless told not to.
+/// Those that see indirect light unless switched off.
 inline std::string with_bounces() {
   std::string names;
   for (const SensorModel* model : sensor_models())

@@ -148,7 +148,7 @@ bool ClearSight::clear(const Vec3& point, const Vec3& there, const Eigen::Vector
   const double u = (pixel.x() + 0.5) * (1.0 / cell_size), v = (pixel.y() + 0.5) * (1.0 / cell_size);
   if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return false;
   const Cell& cell = cells_[static_cast<std::size_t>(v) * columns_ + static_cast<std::size_t>(u)];
-  const double depth = there.z() + 2.0 * off_surface;  // what comes nearer than this may shade the point
+  const double depth = there.z() + 2.0 * off_surface;  // what comes nearer than this may occlude the point
   if (face.on_floor) return cell.first * depth < 1.0;
   if (cell.body != face.body || face.normal.dot(origin_ - point) <= 0.0) return false;
   if (scenery_.on_floor() && point.z() < off_surface) return false;

@@ -28,22 +28,22 @@ Mesh ball_target(double radius, int level) {
                     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vec3& v : ball.vertices) v.normalize();
   for (int i = 0; i < level; ++i) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [it, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(ball.vertices.size()));
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> centers;
+    const auto center = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [it, fresh] = centers.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(ball.vertices.size()));
       if (fresh) ball.vertices.push_back((ball.vertices[a] + ball.vertices[b]).normalized());
       return it->second;
     };
     std::vector<Triangle> finer;
     for (const Triangle& t : ball.triangles) {
-      const std::uint32_t a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
+      const std::uint32_t a = center(t[0], t[1]), b = center(t[1], t[2]), c = center(t[2], t[0]);
       for (const Triangle& f : {Triangle{t[0], a, c}, Triangle{t[1], b, a}, Triangle{t[2], c, b}, Triangle{a, b, c}}) {
         finer.push_back(f);
       }
     }
     ball.triangles = std::move(finer);
   }
-  // Mean distance of a facet's points from the middle, by the points of a rule that is exact for cubics.
+  // Mean distance of a facet's points from the centre, by the points of a rule that is exact for cubics.
   double sum = 0.0, area = 0.0;
   for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
     const auto [i, j, k] = ball.triangles[t];

@@ -247,8 +247,8 @@ LabelFigures LabelAuditor::figures(const BopView& view, std::size_t entry, const
   }
   const std::optional<long> stated = view.parts[entry].px_visible;
   if (seen && stated) {
-    const double told = static_cast<double>(*stated), there = static_cast<double>(seen->count());
-    figures.counted = 100.0 * std::abs(there - told) / std::max({1.0, told, there});
+    const double expected = static_cast<double>(*stated), there = static_cast<double>(seen->count());
+    figures.counted = 100.0 * std::abs(there - expected) / std::max({1.0, expected, there});
   }
   if (stored.depth) measure_depth(own.image, entry, *stored.depth, seen, figures);
   return figures;

@@ -34,7 +34,7 @@ bool same_heap(const BopView& a, const BopView& b) {
   return true;
 }
 
-/// Where parts that lie on the table end: the middle of what ends near the lowest point.
+/// Where parts that lie on the table end: the centre of what ends near the lowest point.
 double fitted_floor(const std::vector<double>& ends, double diagonal) {
   const double lowest = *std::min_element(ends.begin(), ends.end());
   std::vector<double> near;

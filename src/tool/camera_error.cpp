@@ -79,9 +79,9 @@ Eigen::VectorXd chosen(const Eigen::MatrixXd& rows, const Eigen::VectorXd& value
 
 double median_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto center = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), center, values.end());
+  return *center;
 }
 
 Eigen::Vector2d CameraError::at(const Eigen::Vector2d& at, const std::array<double, 9>& k) const {

@@ -17,7 +17,7 @@ namespace {
 constexpr double least_stated = 0.001, most_stated = 2.0, least_guessed = 0.005, most_guessed = 0.6;
 
 // Of 80 parts of each sample model, poured: a heap is 0.9 to 2.1 times as large as the convex hulls of its parts,
-// thirteen models, 1.5 in the middle. A wrong guess of a third changes the bin's sides by a tenth.
+// thirteen models, 1.5 in the centre. A wrong guess of a third changes the bin's sides by a tenth.
 constexpr double heap_per_hull = 1.5;
 // Of rods: they fill 5.4 / slenderness of a random packing (Philipse 1996, Langmuir 12, 1127).
 constexpr double filled_by_rods = 5.4;
@@ -108,7 +108,7 @@ FittedBin fit_bin(const Mesh& part, std::size_t count) {
   const double length = std::max(std::cbrt(heap / (level_of_length * width_of_length)), 1.7 * diagonal);
   const double width = std::max(width_of_length * length, 1.3 * diagonal);
   fitted.level = heap / (length * width);
-  // Poured in the middle, a heap has a top: half as high again as it is in the mean, and a part that stands upon it.
+  // Poured in the centre, a heap has a top: half as high again as it is in the mean, and a part that stands upon it.
   const double upright = (fitted.loose > heap_per_hull ? upright_slender : upright_part) * diagonal;
   fitted.inner_size = {rounded_up(length), rounded_up(width), rounded_up(1.6 * fitted.level + upright)};
   return fitted;

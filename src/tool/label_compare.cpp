@@ -105,18 +105,18 @@ Eigen::Vector2d centroid(const Patch& patch) {
   return count > 0.0 ? Eigen::Vector2d(sum / count) : Eigen::Vector2d::Zero();
 }
 
-/// The normal equations of told(p) = own(p - shift) at a shift.
+/// The normal equations of stated(p) = own(p - shift) at a shift.
 struct Equations {
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   double squares = 0.0;  ///< of the residuals
 
-  Equations(const Patch& own, const Patch& told, const Patch& weight, const Eigen::Vector2d& shift) {
-    for (int y = 1; y + 1 < told.height; ++y) {
-      for (int x = 1; x + 1 < told.width; ++x) {
+  Equations(const Patch& own, const Patch& stated, const Patch& weight, const Eigen::Vector2d& shift) {
+    for (int y = 1; y + 1 < stated.height; ++y) {
+      for (int x = 1; x + 1 < stated.width; ++x) {
         if (weight.at(x, y) == 0.0f) continue;
         const double u = x - shift.x(), v = y - shift.y();
-        const double residual = static_cast<double>(told.at(x, y) - own.between(u, v));
+        const double residual = static_cast<double>(stated.at(x, y) - own.between(u, v));
         const Eigen::Vector2d slope(0.5 * static_cast<double>(own.between(u - 1.0, v) - own.between(u + 1.0, v)),
                                     0.5 * static_cast<double>(own.between(u, v - 1.0) - own.between(u, v + 1.0)));
         matrix += slope * slope.transpose();
@@ -138,11 +138,11 @@ struct Fit {
   double squares;
 };
 
-std::optional<Fit> fit(const Patch& own, const Patch& told, const Patch& weight, Eigen::Vector2d shift) {
+std::optional<Fit> fit(const Patch& own, const Patch& stated, const Patch& weight, Eigen::Vector2d shift) {
   constexpr int steps = 25;
   constexpr double most_shift = 15.0, longest_step = 2.0;  // px
   for (int step = 0; step < steps; ++step) {
-    const Equations equations(own, told, weight, shift);
+    const Equations equations(own, stated, weight, shift);
     if (!states_both(equations.matrix)) return std::nullopt;
     Eigen::Vector2d move = equations.matrix.ldlt().solve(equations.right);
     if (move.norm() > longest_step) move *= longest_step / move.norm();
@@ -150,7 +150,7 @@ std::optional<Fit> fit(const Patch& own, const Patch& told, const Patch& weight,
     if (shift.norm() > most_shift) return std::nullopt;
     if (move.norm() < 1e-3) break;
   }
-  return Fit{shift, Equations(own, told, weight, shift).squares};
+  return Fit{shift, Equations(own, stated, weight, shift).squares};
 }
 
 }  // namespace
@@ -177,19 +177,20 @@ double tolerant_iou(const BinaryImage& a, const BinaryImage& b) {
   return 1.0 - static_cast<double>(apart) / static_cast<double>(all);
 }
 
-std::optional<Eigen::Vector2d> mask_shift(const BinaryImage& own, const BinaryImage& told, const BinaryImage& hidden) {
+std::optional<Eigen::Vector2d> mask_shift(const BinaryImage& own, const BinaryImage& stated,
+                                          const BinaryImage& hidden) {
   constexpr int margin = 8;
   Window of_own, window;
   of_own.extend(own);
   window.extend(own);
-  window.extend(told);
+  window.extend(stated);
   if (of_own.empty()) return std::nullopt;
   const Window limit = of_own.grown(20, own.width, own.height);  // what is further away no shift explains
   window = window.grown(margin, own.width, own.height);
   window = {std::max(window.left, limit.left), std::max(window.top, limit.top), std::min(window.right, limit.right),
             std::min(window.bottom, limit.bottom)};
   if (window.width() < 4 || window.height() < 4) return std::nullopt;
-  Patch a = cut(own, window), b = cut(told, window);
+  Patch a = cut(own, window), b = cut(stated, window);
   const Eigen::Vector2d apart = centroid(b) - centroid(a);
   smooth(a);
   smooth(b);

@@ -13,10 +13,11 @@ namespace bin_scenes {
 /// differ on borders. 1 if both are empty.
 double tolerant_iou(const BinaryImage& a, const BinaryImage& b);
 
-/// By how much (px; x right, y down) `told` has to be moved against `own`: told(p) = own(p - shift). Least squares of
-/// the smoothed images by Gauss-Newton steps (Lucas and Kanade 1981), exact to a few hundredths of a pixel for shapes
-/// of some hundred pixels. Pixels where `hidden` is set, and their neighbours, do not count; `hidden` may be empty.
-/// None if too little of the border is seen to state both directions, or if no shift within 15 px makes both agree.
-std::optional<Eigen::Vector2d> mask_shift(const BinaryImage& own, const BinaryImage& told, const BinaryImage& hidden);
+/// By how much (px; x right, y down) `stated` has to be moved against `own`: stated(p) = own(p - shift). Least squares
+/// of the smoothed images by Gauss-Newton steps (Lucas and Kanade 1981), exact to a few hundredths of a pixel for
+/// shapes of some hundred pixels. Pixels where `hidden` is set, and their neighbours, do not count; `hidden` may be
+/// empty. None if too little of the border is seen to state both directions, or if no shift within 15 px makes both
+/// agree.
+std::optional<Eigen::Vector2d> mask_shift(const BinaryImage& own, const BinaryImage& stated, const BinaryImage& hidden);
 
 }  // namespace bin_scenes

@@ -13,7 +13,7 @@ inline double degrees(double radians) {
 }
 
 /// SVG with two panels, a curve for each albedo, sigma on one logarithmic scale: over distance, facing, and over
-/// incidence at the middle distance. Throws an input Error for a sensor without noise, an environment Error if it
+/// incidence at the centre distance. Throws an input Error for a sensor without noise, an environment Error if it
 /// cannot be written.
 void write_sigma_plot(const std::string& path, const SensorMetrics& metrics);
 

@@ -203,7 +203,7 @@ struct Laser {
   double width_mm = 0.3;
 };
 
-/// laser_line: how camera and laser move over the bin together; their poses are those at the middle of their path.
+/// laser_line: how camera and laser move over the bin together; their poses are those at the centre of their path.
 struct Scan {
   Vec3 direction = Vec3::UnitX();
   double step = 0.0005;

@@ -17,7 +17,7 @@ struct ImageLamp {
     dome,      ///< the sky: light from everywhere that nothing blocks
     projector  ///< white light of Sensor::projector
   } type = Type::area;
-  std::optional<Pose> pose;    ///< area, ring: middle in the bin frame, light leaves along z; none: the camera's
+  std::optional<Pose> pose;    ///< area, ring: centre in the bin frame, light leaves along z; none: the camera's
   double radiance = 1.0;       ///< only ratios between lamps count; of a projector that of a white surface at 1 m
   Vec3 colour = Vec3::Ones();  ///< times radiance, of red, green and blue
   double width = 0.3;          ///< area: m along x

@@ -10,7 +10,7 @@
 
 namespace bin_scenes {
 
-/// Standard deviation of depth by the model's formula, in the middle of the image; NaN where it measures nothing.
+/// Standard deviation of depth by the model's formula, in the centre of the image; NaN where it measures nothing.
 struct PredictedSigma {
   double distance;   ///< m along the optical axis
   double incidence;  ///< rad, between the optical axis and the surface's normal, turned about the camera's x
@@ -18,10 +18,10 @@ struct PredictedSigma {
   double sigma;      ///< m
 };
 
-/// Lengths in m; NaN of what is not measured. Where a figure has seven positions, they are the middle of the volume,
+/// Lengths in m; NaN of what is not measured. Where a figure has seven positions, they are the centre of the volume,
 /// left, right, up, down, near, far.
 struct SensorMetrics {
-  std::array<double, 3> distances{};  ///< nearest, middle and farthest plane of the volume measured in
+  std::array<double, 3> distances{};  ///< nearest, centre and farthest plane of the volume measured in
   std::vector<PredictedSigma> predicted;
   double ball_radius = 0.0;
   std::array<double, 7> probing_form{};  ///< range of residuals to the ball fitted, 0.3 % of the points left out
@@ -34,7 +34,7 @@ struct SensorMetrics {
   double global_planarity =
       0.0;  ///< range of the centres of those planes about one plane: the error that averaging leaves
   double dimension_trueness = 0.0;  ///< largest error of a distance between two balls / the distance
-  std::size_t valid_points = 0;     ///< of the plate in the middle
+  std::size_t valid_points = 0;     ///< of the plate in the centre
 };
 
 /// @param sensor  with or without poses: it is put at the origin, looking along z, and projector and laser keep their

@@ -42,7 +42,7 @@ INLINE bool turn_into_cone(IN(Cone) cone, INOUT(vec3) direction, float least) {
   return true;
 }
 
-// Unit direction in the middle of the cone; 0 of a cone of all directions.
+// Unit direction along the axis of the cone; 0 of a cone of all directions.
 INLINE vec3 middle_of(IN(Cone) cone) {
   uint bounds = bounds_of(cone);
   if (bounds == SPHERE_AXIS) return axis_of(cone);

@@ -3,7 +3,7 @@
 #define SHARED_SPHERE_CONSTANTS_H
 #define SPHERE_MAX_CONTACTS 8   // per pair, after reduction; with more, faces on each other sway
 #define SPHERE_CLUSTER 16       // nodes
-#define SPHERE_MAX_WAYS 4u      // out of a point near sharp edges
+#define SPHERE_MAX_EXITS 4u     // out of a point near sharp edges
 #define SPHERE_MAX_WALLS 6u     // that a point in a crease stands before
 #define SPHERE_EDGE_BLOCK 4u    // cells of the field on a side of a block of edges
 #define SPHERE_EDGE_REACH 3.0f  // cells: edges within it of a point are in the list of its block

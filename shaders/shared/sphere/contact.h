@@ -4,7 +4,7 @@
 #ifndef SHARED_SPHERE_CONTACT_H
 #define SHARED_SPHERE_CONTACT_H
 
-// How contacts give way in a sweep.
+// How compliant contacts are in a sweep.
 struct Give {
   float sub_step;                         // s
   float rate, mass_share, impulse_share;  // of an implicit spring over a sub-step
@@ -77,9 +77,9 @@ INLINE Mask slips(Real most, Real f1, Real f2) {
   return (most > 0.0f) AND(f1 * f1 + f2 * f2 > 0.999f * most * most);
 }
 
-// An impact is told from a force: a force may grow by half in a sub-step, and by what stops impact_speed(). Beyond, the
-// impulse was that of an impact: it is over, and the next sub-step does not begin with it. A few sweeps do not take it
-// back from a heap, which would be thrown up.
+// An impact is distinguished from a force: a force may grow by half in a sub-step, and by what stops impact_speed().
+// Beyond, the impulse was that of an impact: it is over, and the next sub-step does not begin with it. A few sweeps do
+// not take it back from a heap, which would be thrown up.
 const float FORCE_GROWTH = 1.5f;  // more = heaps rebound, less = loads of a deep heap are found later
 
 // Speed (m/s) that a force may take from its bodies in the first sub-step of its life. `weight`: m/s2.

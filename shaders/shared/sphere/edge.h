@@ -53,7 +53,7 @@ INLINE bool nearest_points(IN(vec3) u, float uu, IN(vec3) v, IN(vec3) w, OUT(flo
   return det >= as_parallel * uu * vv;
 }
 
-// Whether an edge can be pressed along a normal, where `away` is the way out of its part, roughly.
+// Whether an edge can be pressed along a normal, where `away` points roughly out of its part.
 INLINE bool presses_between(IN(Edge) edge, IN(vec3) normal, IN(vec3) away) {
   const float least_along = 0.3f;  // of the normal along `away`, which may lean, but not to the other side
   const float most_beyond = 0.1f;  // of the normal beyond the faces of the edge: 6 degrees
@@ -142,7 +142,7 @@ INLINE bool cross_edges(IN(Samples) other, IN(Field) field, IN(vec3) p, IN(vec3)
 }
 
 // Whether a line through a point along a unit direction crosses a sharp edge of the other part within a cell, which can
-// be pressed along the `normal` of both. `away`: the way out of the other part, roughly.
+// be pressed along the `normal` of both. `away` points roughly out of the other part.
 INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(vec3) direction, IN(vec3) away,
                         INOUT(vec3) normal) {
   float nearest = field.cell;
@@ -165,7 +165,8 @@ INLINE bool passes_edge(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(v
   return found;
 }
 
-// Whether a point of the surface lies on a sharp edge, or a corner where such edges end, as far as the grid can tell.
+// Whether a point of the surface lies on a sharp edge, or a corner where such edges end, as far as the grid can
+// resolve.
 INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float near = 0.5f * field.cell;
   Range list = edges_near(other, field, point);
@@ -181,54 +182,54 @@ INLINE bool is_on_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
 
 const uint OF_A_FACE = 0u, TO_AN_EDGE = 1u, BY_THE_FIELD = 2u;
 
-// A way out of a part: unit direction, and m to its surface (negative inside).
-struct WayOut {
+// An exit of a part: unit direction, and m to its surface (negative inside).
+struct Exit {
   vec3 away;
   float distance;
   uint number;  // among those that press at one point
   uint kind;    // the normal of a face; a direction to an edge, which may lean; or either, as the field has it
 };
 
-INLINE WayOut way_of(uint kind, IN(vec3) away, float distance) {
-  WayOut way;
-  way.away = away;
-  way.distance = distance;
-  way.number = 0u;
-  way.kind = kind;
-  return way;
+INLINE Exit exit_of(uint kind, IN(vec3) away, float distance) {
+  Exit exit;
+  exit.away = away;
+  exit.distance = distance;
+  exit.number = 0u;
+  exit.kind = kind;
+  return exit;
 }
 
 // The shortest first. An invocation has one such list at a time.
-struct WaysOut {
+struct Exits {
   uint count;
-  MEMBER_LIST(WayOut, way, SPHERE_MAX_WAYS)
+  MEMBER_LIST(Exit, exit, SPHERE_MAX_EXITS)
 };
-LANE_LIST(WayOut, way_lists, SPHERE_MAX_WAYS)
-#define WAY(ways, i) LISTED(ways.way, way_lists, i)
+LANE_LIST(Exit, exit_lists, SPHERE_MAX_EXITS)
+#define EXIT(exits, i) LISTED(exits.exit, exit_lists, i)
 
 // Sharp edges that a point is beside, as they are found.
 struct EdgesBeside {
-  WaysOut faces;                                // one of each face that meets there
-  MEMBER_LIST(float, to_edge, SPHERE_MAX_WAYS)  // m, from the point to the edge that each face is of
-  WayOut outside;                               // by the nearest edge, for a point outside
-  float nearest;                                // m, to that edge
+  Exits faces;                                   // one of each face that meets there
+  MEMBER_LIST(float, to_edge, SPHERE_MAX_EXITS)  // m, from the point to the edge that each face is of
+  Exit outside;                                  // by the nearest edge, for a point outside
+  float nearest;                                 // m, to that edge
 };
-LANE_LIST(float, to_edge_lists, SPHERE_MAX_WAYS)
+LANE_LIST(float, to_edge_lists, SPHERE_MAX_EXITS)
 #define TO_EDGE(found, i) LISTED(found.to_edge, to_edge_lists, i)
 
-// Adds the way out by a face, or takes the place of one of the same face by an edge farther away.
-INLINE void add_face(INOUT(EdgesBeside) found, IN(WayOut) face, float to_edge) {
+// Adds the exit by a face, or takes the place of one of the same face by an edge farther away.
+INLINE void add_face(INOUT(EdgesBeside) found, IN(Exit) face, float to_edge) {
   const float like = 0.95f;  // cosine of normals that count as of one face
   uint i = 0u;
-  while (i < found.faces.count && dot(WAY(found.faces, i).away, face.away) < like) ++i;
+  while (i < found.faces.count && dot(EXIT(found.faces, i).away, face.away) < like) ++i;
   if (i < found.faces.count && TO_EDGE(found, i) <= to_edge) return;
-  if (i == SPHERE_MAX_WAYS) {
+  if (i == SPHERE_MAX_EXITS) {
     i = 0u;
-    for (uint k = 1u; k < SPHERE_MAX_WAYS; ++k)
-      if (WAY(found.faces, k).distance < WAY(found.faces, i).distance) i = k;
-    if (WAY(found.faces, i).distance >= face.distance) return;
+    for (uint k = 1u; k < SPHERE_MAX_EXITS; ++k)
+      if (EXIT(found.faces, k).distance < EXIT(found.faces, i).distance) i = k;
+    if (EXIT(found.faces, i).distance >= face.distance) return;
   }
-  WAY(found.faces, i) = face;
+  EXIT(found.faces, i) = face;
   TO_EDGE(found, i) = to_edge;
   found.faces.count = max(found.faces.count, i + 1u);
 }
@@ -238,8 +239,8 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
   float to_edge = length(off);
   vec3 into_1 = bound_at(cone, 0u), into_2 = bound_at(cone, 1u);
   Faces faces = faces_at(cone, along);
-  WayOut face_1 = way_of(OF_A_FACE, faces.normal_1, dot(off, faces.normal_1));
-  WayOut face_2 = way_of(OF_A_FACE, faces.normal_2, dot(off, faces.normal_2));
+  Exit face_1 = exit_of(OF_A_FACE, faces.normal_1, dot(off, faces.normal_1));
+  Exit face_2 = exit_of(OF_A_FACE, faces.normal_2, dot(off, faces.normal_2));
   for (int f = 0; f < 2; ++f) add_face(found, f == 0 ? face_1 : face_2, to_edge);
   if (to_edge >= found.nearest) return;
   found.nearest = to_edge;
@@ -248,15 +249,15 @@ INLINE void add_edge(INOUT(EdgesBeside) found, IN(Cone) cone, IN(vec3) along, IN
   else if (face_2.distance >= face_1.distance && dot(off, into_2) >= 0.0f)
     found.outside = face_2;
   else
-    found.outside = way_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(faces.normal_1 + faces.normal_2) : unit(off), to_edge);
+    found.outside = exit_of(TO_AN_EDGE, to_edge <= 0.0f ? unit(faces.normal_1 + faces.normal_2) : unit(off), to_edge);
 }
 
-INLINE void sort_by_length(INOUT(WaysOut) ways) {
-  for (uint i = 1u; i < ways.count; ++i)
-    for (uint k = i; k > 0u && WAY(ways, k).distance > WAY(ways, k - 1u).distance; --k) {
-      WayOut longer = WAY(ways, k - 1u);
-      WAY(ways, k - 1u) = WAY(ways, k);
-      WAY(ways, k) = longer;
+INLINE void sort_by_length(INOUT(Exits) exits) {
+  for (uint i = 1u; i < exits.count; ++i)
+    for (uint k = i; k > 0u && EXIT(exits, k).distance > EXIT(exits, k - 1u).distance; --k) {
+      Exit longer = EXIT(exits, k - 1u);
+      EXIT(exits, k - 1u) = EXIT(exits, k);
+      EXIT(exits, k) = longer;
     }
 }
 
@@ -283,14 +284,14 @@ INLINE bool is_at_corner(IN(Samples) other, IN(Field) field, IN(vec3) point, IN(
   return count > 2u;
 }
 
-// The ways out of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
+// The exits of a point within a cell of sharp edges, by the planes of the faces that meet there: inside all of them
 // each is one, outside there is one, that to the nearest edge or above its face. None where no edge is near.
-INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
+INLINE Exits exits_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) point) {
   float flush = flush_in(field);
   EdgesBeside found;
   found.faces.count = 0u;
   found.nearest = field.cell;
-  found.outside = way_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
+  found.outside = exit_of(OF_A_FACE, vec3(0.0f, 0.0f, 0.0f), 0.0f);
   vec3 corner = point + vec3(field.cell, 0.0f, 0.0f);  // the nearest end of an edge that the point is past
   Range list = edges_near(other, field, point);
   for (uint k = list.first; k < list.end && !is_crease(other, listed_edge(other, k)); ++k) {
@@ -307,14 +308,14 @@ INLINE WaysOut ways_out_at_edge(IN(Samples) other, IN(Field) field, IN(vec3) poi
   }
   if (found.faces.count == 0u && is_at_corner(other, field, point, corner)) {
     float distance = length(point - corner);
-    WAY(found.faces, 0) = way_of(TO_AN_EDGE, (point - corner) / distance, distance);
+    EXIT(found.faces, 0) = exit_of(TO_AN_EDGE, (point - corner) / distance, distance);
     found.faces.count = 1u;
     return found.faces;
   }
   bool inside = true;
-  for (uint i = 0u; i < found.faces.count; ++i) inside = inside && WAY(found.faces, i).distance <= flush;
+  for (uint i = 0u; i < found.faces.count; ++i) inside = inside && EXIT(found.faces, i).distance <= flush;
   if (!inside) {
-    WAY(found.faces, 0) = found.outside;
+    EXIT(found.faces, 0) = found.outside;
     found.faces.count = 1u;
   }
   sort_by_length(found.faces);

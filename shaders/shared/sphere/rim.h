@@ -21,9 +21,9 @@ INLINE bool find_rim(IN(Plane) plane, float top, IN(vec3) position, float radius
   rim.along = cross(normal, up);
   rim.start = offset_of(plane) * normal + top * up - position;
   rim.step_size = face_spacing;
-  float middle = dot(rim.along, position), half_length = sqrt(near);
-  rim.first = int(floor((middle - half_length) / face_spacing));
-  rim.last = int(ceil((middle + half_length) / face_spacing));
+  float center = dot(rim.along, position), half_length = sqrt(near);
+  rim.first = int(floor((center - half_length) / face_spacing));
+  rim.last = int(ceil((center + half_length) / face_spacing));
   return true;
 }
 
@@ -47,7 +47,7 @@ INLINE bool may_touch_rim(IN(Rim) rim, float before, float here, float after, fl
 // rim can press there.
 INLINE bool touch_rim(IN(Rim) rim, IN(Plane) plane, IN(Field) field, IN(mat3) rotation, int i, INOUT(float) t,
                       INOUT(Touch) touch) {
-  const float least_out = -0.1f;  // the way out of the rim is upwards, off the wall, or between the two
+  const float least_out = -0.1f;  // the exit from the rim is upwards, off the wall, or between the two
   float lower = rim.step_size * float(i - 1), upper = rim.step_size * float(i + 1);
   for (int turn = 0; turn < RIM_ROUNDS; ++turn) {
     float t0 = lower + (upper - lower) / 3.0f, t1 = upper - (upper - lower) / 3.0f;

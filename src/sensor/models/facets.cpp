@@ -15,8 +15,9 @@ double slant(double cosine, double a2) {
 }
 
 /// As a direction's slant, of facets that are wider across than along.
-double slant(const Vec3& way, const Widths& w) {
-  return std::sqrt(w.along * w.along * way.x() * way.x() + w.across * w.across * way.y() * way.y() + way.z() * way.z());
+double slant(const Vec3& direction, const Widths& w) {
+  return std::sqrt(w.along * w.along * direction.x() * direction.x() +
+                   w.across * w.across * direction.y() * direction.y() + direction.z() * direction.z());
 }
 
 /// Share of light from a direction that leaves after one facet: the mean of G2 / G1 over the facets that the direction
@@ -115,9 +116,9 @@ class BrushedTable {
       }
     }
   }
-  double at(double roughness, double anisotropy, const Vec3& way) const {
+  double at(double roughness, double anisotropy, const Vec3& direction) const {
     return over(place_of(anisotropy), aspects, [&](int a) {
-      return over(roughness, roughnesses, [&](int r) { return in_layer(values_[a][r], way); });
+      return over(roughness, roughnesses, [&](int r) { return in_layer(values_[a][r], direction); });
     });
   }
   double mean(double roughness, double anisotropy) const {
@@ -135,9 +136,9 @@ class BrushedTable {
     const double share = place * steps - i, low = value(i);
     return share > 0.0 ? low + share * (value(i + 1) - low) : low;
   }
-  static double in_layer(const Layer& layer, const Vec3& way) {
-    const double turn = std::atan2(std::abs(way.y()), std::abs(way.x())) / (0.5 * M_PI);
-    return over(std::sqrt(std::min(way.z(), 1.0)), cosines, [&](int c) {
+  static double in_layer(const Layer& layer, const Vec3& direction) {
+    const double turn = std::atan2(std::abs(direction.y()), std::abs(direction.x())) / (0.5 * M_PI);
+    return over(std::sqrt(std::min(direction.z(), 1.0)), cosines, [&](int c) {
       return over(turn, turns, [&](int t) { return layer[static_cast<std::size_t>(c)][static_cast<std::size_t>(t)]; });
     });
   }

@@ -12,7 +12,7 @@ namespace bin_scenes {
 /// Lobe of a mirror with facets distributed by GGX (Walter et al. 2007, "Microfacet models for refraction"; shadowing
 /// correlated by height), over a white matte surface that faces the light. It sends back all light from everywhere.
 /// @param alpha  width, 0.001 to 1
-/// @param in, out, half  cosines of the normal to light, to eye and to what is half way between them; above 0
+/// @param in, out, half  cosines of the normal to light, to eye and to what is halfway between them; above 0
 /// @param once   share that a facet sends on at this angle, 1 of a perfect mirror
 /// @param often  mean of that share over all angles
 double facet_lobe(double alpha, double in, double out, double half, double once = 1.0, double often = 1.0);

@@ -45,9 +45,9 @@ double below(double x) {
 std::vector<double> shares_of_neighbours(double sigma, int reach) {
   std::vector<double> shares;
   for (int k = 0; k < samples; ++k) {
-    const double column = static_cast<double>(k) / samples - 0.5, middle = std::floor(column + 0.5);
+    const double column = static_cast<double>(k) / samples - 0.5, center = std::floor(column + 0.5);
     for (int j = -reach; j <= reach; ++j)
-      shares.push_back(below((middle + j + 0.5 - column) / sigma) - below((middle + j - 0.5 - column) / sigma));
+      shares.push_back(below((center + j + 0.5 - column) / sigma) - below((center + j - 0.5 - column) / sigma));
   }
   return shares;
 }
@@ -55,11 +55,12 @@ std::vector<double> shares_of_neighbours(double sigma, int reach) {
 int bits_of(const StructuredLightSettings& s, int width) {
   const int needed = bits_for(2.0 * std::ceil(width / s.period)), bits = s.gray_bits ? s.gray_bits : needed;
   if (bits < needed) {
-    throw input_error(
-        std::to_string(bits) + " Gray-code images tell " + std::to_string(static_cast<int>(std::ldexp(1.0, bits - 1))) +
-            " fringes apart, the projector has " + std::to_string(static_cast<int>(std::ceil(width / s.period))),
-        "structured_light.gray_bits",
-        "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
+    throw input_error(std::to_string(bits) + " Gray-code images distinguish " +
+                          std::to_string(static_cast<int>(std::ldexp(1.0, bits - 1))) +
+                          " fringes apart, the projector has " +
+                          std::to_string(static_cast<int>(std::ceil(width / s.period))),
+                      "structured_light.gray_bits",
+                      "give " + std::to_string(needed) + ", 0 for as many as needed, or a longer period");
   }
   return bits;
 }
@@ -92,7 +93,7 @@ Fringes::Fringes(const StructuredLightSettings& s, int width, int bits)
   std::vector<float> shown(static_cast<std::size_t>(columns) * count);
   for (int j = 0; j < columns; ++j) {
     float* const out = &shown[static_cast<std::size_t>(j) * count];
-    const double x = j - margin + 0.5;  // the middle of the projector's pixel, from the edge of its image
+    const double x = j - margin + 0.5;  // the centre of the projector's pixel, from the edge of its image
     const auto light = [&](double value) {
       const double level = std::round(levels * std::pow(value, s.gamma)) / levels;
       return static_cast<float>(black_ + (1.0 - black_) * level);
@@ -113,11 +114,11 @@ Fringes::Fringes(const StructuredLightSettings& s, int width, int bits)
   std::vector<double> sum(count);
   for (int i = 0; i <= samples * (width + 1) + 1; ++i) {
     const double column = static_cast<double>(i) / samples - 0.5;
-    const int middle = static_cast<int>(std::floor(column + 0.5));
+    const int center = static_cast<int>(std::floor(column + 0.5));
     std::fill(sum.begin(), sum.end(), 0.0);
     double total = 0.0;
-    for (int j = middle - reach; j <= middle + reach; ++j) {
-      const double share = shares[static_cast<std::size_t>(i % samples * (2 * reach + 1) + j - middle + reach)];
+    for (int j = center - reach; j <= center + reach; ++j) {
+      const double share = shares[static_cast<std::size_t>(i % samples * (2 * reach + 1) + j - center + reach)];
       const float* const in = &shown[static_cast<std::size_t>(std::clamp(j + margin, 0, columns - 1)) * count];
       for (int n = 0; n < count; ++n) sum[n] += share * in[n];
       total += share;

@@ -1,5 +1,5 @@
 /// How much light of a projector a surface sends to an eye, and which points lie in shadow. Rays are asked where
-/// neither clear sight nor a drawing tells.
+/// neither clear sight nor a drawing decides.
 #include "sensor/models/illumination.hpp"
 
 #include "sensor/models/facets.hpp"
@@ -85,7 +85,7 @@ bool falls_on(const LightSource& source, const SeenPoint& p, const Vec3& there, 
 std::vector<std::uint8_t> shaded(const LightSource& source, const Mat3& turn, const std::vector<Ray>& rays,
                                  Scenery::Rays kind) {
   std::vector<std::uint8_t> blocked(rays.size());
-  if (source.shades) {
+  if (source.occlusion) {
     std::vector<Spot> spots(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Vec3 p = turn * (rays[i].origin - source.pose.position);
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> shaded(const LightSource& source, const Mat3& turn, co
       spots[i].u = source.lens.fx * p.x() * spots[i].near + source.lens.cx;
       spots[i].v = source.lens.fy * p.y() * spots[i].near + source.lens.cy;
     }
-    if (source.shades->draw(spots.data(), spots.size())) {
+    if (source.occlusion->draw(spots.data(), spots.size())) {
       for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = spots[i].face != Scenery::no_face;
       return blocked;
     }
@@ -162,9 +162,9 @@ double gain_of(const ImagerSettings& imager, const std::vector<Lit>& lit, const 
     losses.push_back(distance * distance * distance / std::max(std::abs(depths[i] - light_z), 1e-6));
   }
   if (losses.empty()) return imager.exposure;
-  const auto middle = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);
-  std::nth_element(losses.begin(), middle, losses.end());
-  return imager.exposure * *middle;
+  const auto median = losses.begin() + static_cast<std::ptrdiff_t>(losses.size() / 2);
+  std::nth_element(losses.begin(), median, losses.end());
+  return imager.exposure * *median;
 }
 
 }  // namespace bin_scenes

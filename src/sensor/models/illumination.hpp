@@ -50,8 +50,8 @@ struct LightSource {
   const Pose& pose;
   const Surfaces& surfaces;
   // What spares rays to points.
-  const ClearSight* sight = nullptr;    ///< of the light: where the face is known
-  const SpotDrawing* shades = nullptr;  ///< of all depths from the light: where points are many
+  const ClearSight* sight = nullptr;       ///< of the light: where the face is known
+  const SpotDrawing* occlusion = nullptr;  ///< of all depths from the light: where points are many
 };
 
 /// Light of a projector at points seen from an eye.
@@ -61,7 +61,7 @@ void light(const LightSource& source, const Vec3& eye, const SeenPoint* points, 
 void light(const LightSource& source, const Vec3* eyes, const SeenPoint* points, Lit* lit, std::size_t count);
 
 /// Ray from just above a surface to a point, for Scenery::blocked. The gap keeps single precision from letting a
-/// surface shade itself.
+/// surface occlude itself.
 Ray ray_between(const Vec3& surface, const Vec3& normal, const Vec3& point);
 
 /// The gain of an exposure: a white surface's signal is gain * reflected / distance^2. With automatic exposure, a white

@@ -20,9 +20,9 @@ double median_depth(const View& view, double otherwise) {
   for (std::size_t i = 0; i < view.depth.size(); i += i % width + step < width ? step : width - i % width)
     if (!std::isnan(view.depth[i])) depths.push_back(view.depth[i]);
   if (depths.empty()) return otherwise;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  const auto median = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), median, depths.end());
+  return *median;
 }
 
 PathTracer::Setup setup_of(const Sensor& sensor) {

@@ -16,7 +16,7 @@ Measurement take_image(const Scenery& scenery, const View& view, const Sensor& s
                        const Random& paths, const Random& noise, Picture& picture);
 
 /// Signal / radiance: a white matte surface that faces the camera, at reference_distance along its axis or, if that is
-/// 0, at the median depth of the view, has the signal `exposure` where nothing shades it. 0 where no lamp lights it.
+/// 0, at the median depth of the view, has the signal `exposure` where nothing occludes it. 0 where no lamp lights it.
 double image_gain(const Lamps& lamps, const Sensor& sensor, const View& view);
 
 }  // namespace bin_scenes

@@ -16,7 +16,7 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr int passes = 4;      ///< the last one reaches 16 pixels far
 constexpr float grain = 3.0f;  ///< standard deviations by which two pixels of the same light may differ
-constexpr std::array<float, 3> tap{0.375f, 0.25f, 0.0625f};  ///< by the distance from the middle; a cubic spline
+constexpr std::array<float, 3> tap{0.375f, 0.25f, 0.0625f};  ///< by the distance from the centre; a cubic spline
 
 struct Pixel {
   Vec3f point, normal;  ///< m, bin frame

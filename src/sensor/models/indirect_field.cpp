@@ -18,7 +18,7 @@ constexpr int coarsest = 8;          // pixel: largest distance between nodes
 constexpr int finest = 1;            // pixel: smallest one
 constexpr int tile_size = 4;         // pixel: of one tile all pixels ask the same nodes
 constexpr double averaged = 0.2;     // of the distance to other surfaces: as far as indirect light is nearly linear
-constexpr float foretold = 0.4f;     // share of the nodes' slopes in what lies between them
+constexpr float predicted = 0.4f;    // share of the nodes' slopes in what lies between them
 constexpr int most_samples = 1024;   // rays a node
 constexpr float one_normal = 0.97f;  // cosine: facets of a curved surface that turn by less are one face
 constexpr float one_plane = 0.15f;   // distance off a face's plane / distance on it
@@ -177,12 +177,12 @@ void IndirectField::divide(Nodes& out, int left, int top, int spacing, std::vect
     std::vector<std::size_t> same(pixels.begin(), rest);
     if (same.empty()) same.push_back(seed);  // of a normal that is no number
     pixels.erase(pixels.begin(), rest == pixels.begin() ? rest + 1 : rest);
-    const std::size_t middle = middle_of(same);
-    const double size = spacing * view_.depth[middle] / view_.lens.fx;
+    const std::size_t center = middle_of(same);
+    const double size = spacing * view_.depth[center] / view_.lens.fx;
     const double dense = near_by(setup_.samples) * narrowness(scene_.surfaces.of(own.line));
     const double too_near = spacing <= finest ? std::numeric_limits<double>::infinity() : 1.0 / (dense * size);
-    if (look(middle, too_near, light)) {
-      add_node(out, middle, spacing, light);
+    if (look(center, too_near, light)) {
+      add_node(out, center, spacing, light);
       continue;
     }
     const int half = spacing / 2;
@@ -251,7 +251,7 @@ bool IndirectField::nearest(std::size_t pixel, int count, float* channels) const
 }
 
 /// A plane through the nodes around, the nearer the heavier. Where the light bends, such a mean errs by as much to one
-/// side as the mean of what the nodes' own slopes foretell errs to the other: the middle of both is taken. A little
+/// side as the mean of what the nodes' own slopes predict errs to the other: the centre of both is taken. A little
 /// less of the slopes, for they do not know where the lit surface ends.
 bool IndirectField::at(std::size_t pixel, int count, float* channels) const {
   std::fill(channels, channels + count, 0.0f);
@@ -293,7 +293,7 @@ bool IndirectField::at(std::size_t pixel, int count, float* channels) const {
     const float* const value = &nodes_.followed[3 * static_cast<std::size_t>(u.node) * growing_];
     const float *const right = value + growing_, *const down = right + growing_;
     for (int c = 0; c < std::min(count, growing_); ++c) {
-      channels[c] += weight * (value[c] - foretold * (u.x * right[c] + u.y * down[c]));
+      channels[c] += weight * (value[c] - predicted * (u.x * right[c] + u.y * down[c]));
     }
     const std::size_t others = static_cast<std::size_t>(u.node) * static_cast<std::size_t>(channels_ - growing_);
     for (int c = growing_; c < count; ++c)

@@ -138,7 +138,7 @@ Vec3 carried_back(const Vec3& slope, const SeenPoint& met, const Vec3& direction
   return slope - slope.dot(direction) / met.normal.dot(direction) * met.normal;
 }
 
-/// The same for the length of a way that goes on from where the ray ends.
+/// The same for the length of a path that goes on from where the ray ends.
 Vec3 longer_by(const Vec3& slope, const SeenPoint& met, const Vec3& direction) {
   return carried_back(slope, met, direction) - met.normal / met.normal.dot(direction);
 }
@@ -158,7 +158,7 @@ void add_paths(const Lamp& lamp, const Batch& batch, const Batch* before, std::v
     // A cone about the ray covers as much of the plane as a step beside the ray's origin does.
     path.spread = batch.angles[i] * batch.distances[i] * (path.slope - path.slope.dot(direction) * direction).norm();
     path.length = lit.distance + batch.distances[i];
-    path.longer = longer_by(lamp.way(met.position), met, direction);
+    path.longer = longer_by(lamp.direction_at(met.position), met, direction);
     if (before) {
       const std::size_t k = batch.onward_of[i];
       const SeenPoint& first = before->met[k];

@@ -1,4 +1,4 @@
-/// Light that reaches a point by way of other surfaces. Patterns are linear in light: what a point gets is a set of
+/// Light that reaches a point via other surfaces. Patterns are linear in light: what a point gets is a set of
 /// paths, each from a place of the pattern and with a weight, and serves every pattern (Gupta et al. 2013, "A practical
 /// approach to 3D scanning in the presence of interreflections, subsurface scattering and defocus").
 #pragma once
@@ -19,8 +19,8 @@ class Lamp {
   virtual void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const = 0;
   /// By how much the column grows with a point's place (1/m).
   virtual Vec3 slope(const Vec3& point, double column) const = 0;
-  /// Unit, the way that its light goes at a point.
-  virtual Vec3 way(const Vec3& point) const = 0;
+  /// Unit, the direction of its light at a point.
+  virtual Vec3 direction_at(const Vec3& point) const = 0;
 };
 
 class ProjectorLamp : public Lamp {
@@ -28,7 +28,7 @@ class ProjectorLamp : public Lamp {
   ProjectorLamp(const Scenery& scenery, const Lens& projector, const Pose& pose, const Surfaces& surfaces);
   void light(const SeenPoint* points, const Vec3* eyes, Lit* lit, std::size_t count) const override;
   Vec3 slope(const Vec3& point, double column) const override;
-  Vec3 way(const Vec3& point) const override { return (point - pose_.position).normalized(); }
+  Vec3 direction_at(const Vec3& point) const override { return (point - pose_.position).normalized(); }
 
  private:
   const Scenery& scenery_;
@@ -43,8 +43,8 @@ struct Path {
   double weight;       ///< white light that reaches the eye: Lit::reflected / distance^2 as of direct light
   double spread;       ///< columns that the sample stands for, from one side to the other
   Vec3 slope;          ///< by which the column grows as the point moves (1/m), direction and all planes kept
-  double length;       ///< m, from the lamp by way of the other surfaces to the point
-  Vec3 longer;         ///< by which the length grows in the same way
+  double length;       ///< m, from the lamp via the other surfaces to the point
+  Vec3 longer;         ///< by which the length grows likewise
 };
 
 struct Gathered {

@@ -53,7 +53,7 @@ void Lamps::add_everywhere(double radiance) {
 }
 
 void Lamps::sample_flat(const Flat& flat, double share, const Vec3& from, double u, double v, Sample& out) const {
-  Vec3 point = flat.middle;
+  Vec3 point = flat.center;
   if (flat.ring) {
     const double inner = flat.width * flat.width, outer = flat.height * flat.height;
     const Eigen::Vector2d disc = std::sqrt(inner + u * (outer - inner)) * on_unit_circle(v);
@@ -61,9 +61,9 @@ void Lamps::sample_flat(const Flat& flat, double share, const Vec3& from, double
   } else {
     point += (u - 0.5) * flat.width * flat.x + (v - 0.5) * flat.height * flat.y;
   }
-  const Vec3 way = point - from;
-  out.distance = way.norm();
-  out.direction = way / out.distance;
+  const Vec3 offset = point - from;
+  out.distance = offset.norm();
+  out.direction = offset / out.distance;
   const double cosine = -flat.normal.dot(out.direction);
   if (!(cosine > 0.0)) return;
   out.density = share * out.distance * out.distance / (flat.area * cosine);
@@ -71,9 +71,9 @@ void Lamps::sample_flat(const Flat& flat, double share, const Vec3& from, double
 }
 
 void Lamps::sample_beam(const Beam& beam, double share, const Vec3& from, Sample& out) {
-  const Vec3 way = beam.pose.position - from;
-  out.distance = way.norm();
-  out.direction = way / out.distance;
+  const Vec3 offset = beam.pose.position - from;
+  out.distance = offset.norm();
+  out.direction = offset / out.distance;
   const auto pixel = beam.lens.project(beam.pose.inverse() * from);
   if (pixel && beam.lens.inside(*pixel)) out.light = M_PI * beam.radiance / (share * out.distance * out.distance);
 }
@@ -102,9 +102,9 @@ double Lamps::distance_to(const Flat& flat, const Vec3& origin, const Vec3& dire
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double cosine = -flat.normal.dot(direction);
   if (!(cosine > 0.0)) return none;
-  const double distance = flat.normal.dot(origin - flat.middle) / cosine;
+  const double distance = flat.normal.dot(origin - flat.center) / cosine;
   if (!(distance > 0.0)) return none;
-  const Vec3 place = origin + distance * direction - flat.middle;
+  const Vec3 place = origin + distance * direction - flat.center;
   const double x = place.dot(flat.x), y = place.dot(flat.y), square = x * x + y * y;
   const bool inside = flat.ring ? square >= flat.width * flat.width && square <= flat.height * flat.height
                                 : std::abs(x) <= 0.5 * flat.width && std::abs(y) <= 0.5 * flat.height;
@@ -142,8 +142,8 @@ Rgb Lamps::on_plate(const Vec3& point, const Vec3& normal) const {
   for (int i = 0; i < side; ++i) {
     for (int k = 0; k < side; ++k) {
       const double u = (i + 0.5) / side, v = (k + 0.5) / side, turn = 2.0 * M_PI * v, radius = std::sqrt(u);
-      const Vec3 way = radius * (std::cos(turn) * along.x + std::sin(turn) * along.y) + std::sqrt(1.0 - u) * normal;
-      for (const Dome& dome : domes_) sum += dome.at(way.z());
+      const Vec3 offset = radius * (std::cos(turn) * along.x + std::sin(turn) * along.y) + std::sqrt(1.0 - u) * normal;
+      for (const Dome& dome : domes_) sum += dome.at(offset.z());
       for (std::size_t lamp = 0; lamp < shares_.size(); ++lamp) {
         Sample sample;
         sample_one(lamp, 1.0, point, u, v, sample);

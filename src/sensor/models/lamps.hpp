@@ -48,12 +48,12 @@ class Lamps {
   bool any_behind_all(Met weight) const { return !domes_.empty() || (weight != Met::unsampled && !skies_.empty()); }
   /// The same of lamps that have a place: whether a ray runs into one, whatever lies between.
   bool flat_ahead(const Vec3& origin, const Vec3& direction, Met weight) const;
-  /// Radiance of a white matte plate that nothing shades.
+  /// Radiance of a white matte plate that nothing occludes.
   Rgb on_plate(const Vec3& point, const Vec3& normal) const;
 
  private:
   struct Flat {
-    Vec3 middle, x, y, normal;
+    Vec3 center, x, y, normal;
     Rgb radiance;
     bool ring;
     double width, height;  ///< of a ring inner and outer radius

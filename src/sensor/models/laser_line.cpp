@@ -50,9 +50,9 @@ LaserLine::LaserLine(const Scenery& scenery, const Surfaces& surfaces, const Set
       if (!std::isnan(hit.distance)) distances.push_back(hit.distance);
     }
     if (distances.size() > 1) distances.erase(distances.begin());
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    reference_ = *middle;
+    const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    reference_ = *median;
   }
 }
 
@@ -64,12 +64,12 @@ void LaserLine::keep_what_the_camera_can_see() {
   const Vec3 laser = to_camera_ * (setup_.laser_pose.position - setup_.camera_pose.position);
   /// -1: before the image's first sample, 1: behind its last one, 0: perhaps in it.
   const auto side = [&](const Vec3& direction) {
-    const Vec3 way = to_camera_ * direction;
-    if (!(way.z() > 0.0)) return 0;
+    const Vec3 ray = to_camera_ * direction;
+    if (!(ray.z() > 0.0)) return 0;
     int sides[2];
     for (const int end : {0, 1}) {
-      const double depth = std::max(end ? setup_.far : setup_.near, 1e-6), run = (depth - laser.z()) / way.z();
-      const auto pixel = run > 0.0 ? setup_.camera.project(laser + run * way) : std::nullopt;
+      const double depth = std::max(end ? setup_.far : setup_.near, 1e-6), run = (depth - laser.z()) / ray.z();
+      const auto pixel = run > 0.0 ? setup_.camera.project(laser + run * ray) : std::nullopt;
       if (!pixel) return 0;
       sides[end] = along(*pixel) < -1.0 ? -1 : along(*pixel) > samples_ ? 1 : 0;
     }

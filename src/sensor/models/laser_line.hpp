@@ -36,9 +36,9 @@ class LaserLine {
  public:
   struct Setup {
     Lens camera;
-    Pose camera_pose, laser_pose;  ///< in the bin frame, at the middle of the scan; the sheet is the laser's y-z plane
+    Pose camera_pose, laser_pose;  ///< in the bin frame, at the centre of the scan; the sheet is the laser's y-z plane
     double line_width = 3e-4;      ///< m, between the points of 1/e^2
-    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, way from a profile to the next, bin frame
+    Vec3 scan = 5e-4 * Vec3::UnitX();  ///< m, step from a profile to the next, bin frame
     int profiles = 1000;
     LaserLineSettings settings;
     ImagerSettings imager;
@@ -51,7 +51,7 @@ class LaserLine {
             const Random& key = Random(0, 0, Stream::sensor));
 
   Profiles scanned(const Random& random) const;
-  /// Standard deviation of the depth (m) of the middle sample of the middle profile, over lines anywhere between two
+  /// Standard deviation of the depth (m) of the centre sample of the centre profile, over lines anywhere between two
   /// rows: drawn, as the peak's is no formula. NaN where there is no line.
   double depth_sigma() const;
 

@@ -17,14 +17,14 @@ void LaserLine::follow(const Carriage& at, const std::vector<Hit>& hits, const R
   for (std::size_t i = 0; i + 1 < hits.size(); ++i) {
     const Hit& hit = hits[i];
     if (std::isnan(hit.distance)) continue;
-    const Vec3& way = directions_[i];
-    const Vec3 point = at.laser + hit.distance * way;
+    const Vec3& ray = directions_[i];
+    const Vec3 point = at.laser + hit.distance * ray;
     const double depth = std::clamp((to_camera_ * (point - at.eye)).z(), setup_.near, setup_.far);
-    const double angle = std::atan2(way.cross(directions_[i + 1]).norm(), way.dot(directions_[i + 1]));
+    const double angle = std::atan2(ray.cross(directions_[i + 1]).norm(), ray.dot(directions_[i + 1]));
     const double line = std::sqrt(2.0 * M_PI) * sigma_at(depth) * depth / focal;  // m: as wide as one of even light
     sources.push_back({{point, hit.normal, hit.line, true, hit.label},
                        setup_.settings.power * reference_ * line * angle,
-                       hit.distance * way.norm() * angle});
+                       hit.distance * ray.norm() * angle});
   }
   const auto count = static_cast<std::size_t>(setup_.indirect.samples) * directions_.size() / 32;
   glow.follow({at.eye, setup_.camera_pose.orientation}, at.laser, sources, count, setup_.indirect.bounces, key);
@@ -40,8 +40,8 @@ void LaserLine::add_second_lines(const Carriage& at, const SheetGlow& glow, std:
     taken.clear();
     for (; line != lines.end() && line->sample == s; ++line) {
       if (!line->visible) continue;
-      const int middle = static_cast<int>(std::lround(line->across)), reach = reach_of(sigma_at(line->depth));
-      taken.emplace_back(middle - reach, middle + reach);
+      const int center = static_cast<int>(std::lround(line->across)), reach = reach_of(sigma_at(line->depth));
+      taken.emplace_back(center - reach, center + reach);
     }
     const int place = glow.brightest(s, setup_.settings.min_signal / scales_.front(), taken);
     if (place >= 0) places.emplace_back(s, place);

@@ -6,12 +6,12 @@
 namespace bin_scenes {
 
 LaserLine::Setup laser_line_setup(const Sensor& s) {
-  const Vec3 way = s.scan.step * s.scan.direction.normalized();
+  const Vec3 step = s.scan.step * s.scan.direction.normalized();
   return {lens_of(s),
           *s.pose,
           *s.laser.pose,
           1e-3 * s.laser.width_mm,
-          way,
+          step,
           s.scan.profiles,
           s.settings.of<LaserLineSettings>(),
           s.imager,

@@ -34,7 +34,7 @@ Multipath::Multipath(const Scenery& scenery, const View& view, const Surfaces& s
       lamp_(scenery, view.lens, view.pose, surfaces),
       field_({scenery, surfaces, lamp_}, view, setup, phasors(mean_light(view, surfaces)), rays) {}
 
-/// Ways are those from the light to the surface that a pixel sees.
+/// Lengths are those from the light to the surface that a pixel sees.
 IndirectField::Pattern Multipath::phasors(double unit) const {
   const auto add = [this](const std::vector<Path>& paths, const Vec3* steps, float* out) {
     for (const Path& path : paths) {

@@ -1,4 +1,4 @@
-/// Light that reaches a time-of-flight camera by way of other surfaces. It comes later than direct light, and the
+/// Light that reaches a time-of-flight camera via other surfaces. It comes later than direct light, and the
 /// camera measures the phase of their sum: corners and what lies beside walls are measured too far (Fuchs 2010,
 /// "Multipath interference compensation in time-of-flight camera images"; Freedman et al. 2014, "SRA: fast removal of
 /// general multipath for ToF sensors").
@@ -27,7 +27,7 @@ class Multipath {
   IndirectField::Pattern phasors(double unit) const;
 
   const View& view_;
-  double wave_;  ///< rad/m of light's way
+  double wave_;  ///< rad/m of the light's path
   ProjectorLamp lamp_;
   IndirectField field_;
 };

@@ -1,9 +1,9 @@
-/// Radiance that reaches a camera's pixels by way of up to two other surfaces (Kajiya 1986, "The rendering equation").
-/// Where a path meets a surface, a point on a lamp is drawn and asked whether it is seen, and a direction of the
-/// surface's lobe is followed; what both find is weighted by how likely each was to find it. On matte surfaces lamps
-/// are found by their points alone.
+/// Radiance that reaches a camera's pixels after up to two reflections at other surfaces (Kajiya 1986, "The rendering
+/// equation"). Where a path meets a surface, a point on a lamp is drawn and asked whether it is seen, and a direction
+/// of the surface's lobe is followed; what both find is weighted by how likely each was to find it. On matte surfaces
+/// lamps are found by their points alone.
 ///
-/// From the second surface on, mirrors are at least as rough as `soft`: what a few of the paths see of a lamp by way of
+/// From the second surface on, mirrors are at least as rough as `soft`: what a few of the paths see of a lamp via
 /// two mirrors would be bright grains (Kaplanyan, Dachsbacher 2013, "Path space regularization for holistic and robust
 /// light transport").
 ///
@@ -48,7 +48,7 @@ class PathTracer {
   };
   /// What makes a pixel's radiance uncertain.
   struct Grain {
-    float variance = 0.0f;           ///< of red, green and blue's mean, as far as both halves of the paths tell
+    float variance = 0.0f;           ///< of red, green and blue's mean, as far as both halves of the paths show
     std::array<Side, 2> sides = {};  ///< those that paths see first; the shares of others are missing
     bool one_face() const { return sides[0].share == 1.0f; }
   };
@@ -58,7 +58,7 @@ class PathTracer {
 
  private:
   struct Vertex {
-    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, shades
+    Vec3 position = Vec3::Zero(), face = position, normal = position;  ///< `normal`: smooth across edges, for shading
     Vec3 to_eye = Vec3::Zero();
     std::int32_t line = -1;
     std::uint16_t label = 0;

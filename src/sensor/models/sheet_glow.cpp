@@ -12,7 +12,7 @@ namespace bin_scenes {
 namespace {
 
 constexpr int coarse_cell = 8;       // pixel, across and along
-constexpr double widest = 48.0;      // pixel: of what is spread wider, the middle
+constexpr double widest = 48.0;      // pixel: of what is spread wider, the centre
 const double tent = std::sqrt(6.0);  // half width of a tent / its standard deviation
 
 /// Digits of a number behind the point, in reverse order: places that fill [0, 1) evenly (Halton's).
@@ -83,7 +83,7 @@ SheetGlow::SheetGlow(const Scenery& scenery, const Surfaces& surfaces, const Cam
       fine_(samples_, across_, 4, 1),
       coarse_(samples_, across_, coarse_cell, coarse_cell) {}
 
-/// Light on its way.
+/// Light that travels.
 struct SheetGlow::Flight {
   SeenPoint from;
   Vec3 to_light;  ///< unit, back to where it came from

@@ -1,4 +1,4 @@
-/// Light of a laser's sheet that reaches the camera by way of other surfaces: where a shiny surface throws the line
+/// Light of a laser's sheet that reaches the camera via other surfaces: where a shiny surface throws the line
 /// onto another one, the camera sees a second line.
 ///
 /// Light is followed from the line: rays of the fan go on from what they meet, in directions drawn from the surface's

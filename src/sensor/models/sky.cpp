@@ -72,8 +72,8 @@ class RgbeReader {
     pixels_.resize(width);
     for (std::uint8_t& c : pixels_[0]) c = byte();
     const Pixel& first = pixels_[0];
-    const std::size_t told = first[2] * std::size_t{256} + first[3];
-    if (first[0] == 2 && first[1] == 2 && told == width && width >= 8) {
+    const std::size_t stated = first[2] * std::size_t{256} + first[3];
+    if (first[0] == 2 && first[1] == 2 && stated == width && width >= 8) {
       for (std::size_t channel = 0; channel < 4; ++channel) read_runs(channel);
     } else {
       for (std::size_t i = 1; i < width; ++i)

@@ -22,7 +22,7 @@ std::shared_ptr<const Panorama> read_panorama(const std::string& path);
 
 class Sky {
  public:
-  /// @param turn  rad about the vertical; at 0 the picture's middle lies in the direction of x
+  /// @param turn  rad about the vertical; at 0 the picture's centre lies in the direction of x
   Sky(std::shared_ptr<const Panorama> picture, const Eigen::Array3d& scale, double turn);
   Eigen::Array3d at(const Vec3& direction) const;
 

@@ -87,7 +87,7 @@ std::vector<float> Stereo::pattern() const {
                      setup_.projector.fx / view_.lens.fx);
 }
 
-/// Light by way of other surfaces: the mean of the pattern.
+/// Light via other surfaces: the mean of the pattern.
 std::vector<float> Stereo::haze(const View& view, const Random& random) const {
   if (setup_.indirect.bounces == 0) return {};
   const ProjectorLamp lamp(scenery_, setup_.projector, setup_.projector_pose, surfaces_);

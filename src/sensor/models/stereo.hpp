@@ -1,6 +1,6 @@
 /// Two cameras side by side and a dot projector. `decoded` renders both images and matches them; `analytic` errs as
 /// such a matcher does: by a disparity whose noise is the same over a window; without dots it matches edges only. Light
-/// by way of other surfaces comes from many dots: a haze over the pattern.
+/// via other surfaces comes from many dots: a haze over the pattern.
 #pragma once
 
 #include "bin_scenes/core/random.hpp"

@@ -79,7 +79,7 @@ StructuredLight::StructuredLight(const Scenery& scenery, const View& view, const
       whites_(view.depth.size()),
       planes_(view.depth.size()),
       worn_(textured(surfaces) ? view.depth.size() : 0) {
-  constexpr std::size_t rows = 8;  // points enough to draw what shades them
+  constexpr std::size_t rows = 8;  // points enough to draw what occludes them
   const auto height = static_cast<std::size_t>(view_.lens.height);
   in_parallel((height + rows - 1) / rows,
               [&](std::size_t k) { light_rows(k * rows, std::min((k + 1) * rows, height)); });
@@ -172,7 +172,7 @@ void StructuredLight::light_rows(std::size_t first, std::size_t last) {
   }
 }
 
-/// The automatic exposure looks at a grid of pixels: some ten thousand tell the median distance as well as all do.
+/// The automatic exposure looks at a grid of pixels: some ten thousand give the median distance as well as all do.
 double StructuredLight::gain() const {
   constexpr double enough = 16384;
   const auto width = static_cast<std::size_t>(view_.lens.width), height = static_cast<std::size_t>(view_.lens.height);
@@ -262,7 +262,7 @@ void StructuredLight::deliver(Measurement& out, const Pixel& pixel, double colum
   if (good) out.depth[pixel.index] = z;
 }
 
-/// Takes a pixel away whose second fringe tells another depth, or is too weak to tell one.
+/// Takes a pixel away whose second fringe gives another depth, or is too weak to give one.
 void StructuredLight::take_reflection(Measurement& out, const Pixel& pixel, double column, double second) const {
   Validity& validity = out.validity[pixel.index];
   if (validity != Validity::valid) return;
@@ -293,7 +293,7 @@ bool StructuredLight::too_dark(const float* indirect) const {
   return amplitude + 6.0 * fringes_.amplitude_sigma(std::sqrt(imager_.variance(mean))) < setup_.settings.min_modulation;
 }
 
-/// The light of a pixel near an edge. False: it is told already what becomes of the pixel.
+/// The light of a pixel near an edge. False: it is decided already what becomes of the pixel.
 bool StructuredLight::blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const {
   const Blend blend = strip.blend(pixel, [](const Strip::Cells&, const Strip::Values&) {});
   if (blend.outside) out.validity[pixel.index] = Validity::outside;
@@ -310,8 +310,8 @@ bool StructuredLight::blended(const Strip& strip, const Pixel& pixel, Received& 
   return true;
 }
 
-/// The noise of what is received, and what is told of the pixel.
-void StructuredLight::tell(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const {
+/// The noise of what is received, and what is reported of the pixel.
+void StructuredLight::report(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const {
   Validity& validity = out.validity[pixel.index];
   out.intensity[pixel.index] = static_cast<float>(std::min(got.fringe.mean, 1.0));
   const double scale = scale_for(got.fringe, got.column);
@@ -371,7 +371,7 @@ void StructuredLight::measure_row(const Strip& strip, std::size_t row, const Ran
       add_phasor(fringes_, indirect + cosine, got.column, got.fringe.amplitude);
       if (second_) add_phasor(*second_, indirect + second_cosine, got.second_column, got.second_amplitude);
     }
-    tell(p, got, noise, out);
+    report(p, got, noise, out);
   }
 }
 

@@ -5,13 +5,13 @@
 /// amplitude B = s * amplitude * (blur by the pixel's footprint). The chip's noise sigma(A) makes the phase err by
 /// sqrt(2 / steps) sigma / B and the column by period / 2 pi of that; the ray meets the plane of that column.
 ///
-/// Where a pixel sees one face in even light, what its centre sees tells all. Near edges of faces, of light and of
+/// Where a pixel sees one face in even light, what its centre sees is enough. Near edges of faces, of light and of
 /// albedo, the light is summed over cells of a sixteenth of a pixel, weighted by the pixel's box and the lens's blur
 /// (structured_light_strip.hpp).
 ///
-/// Light by way of other surfaces adds a fringe of its own, of another phase: the sum of both is read
+/// Light via other surfaces adds a fringe of its own, of another phase: the sum of both is read
 /// (indirect_field.hpp). Where it is brighter than the projector's own it may turn bits of the Gray code; there both
-/// fidelities make the images. A second fringe of another period may tell whether light bounced (ReflectionFilter).
+/// fidelities make the images. A second fringe of another period may show whether light bounced (ReflectionFilter).
 #pragma once
 
 #include "bin_scenes/core/random.hpp"
@@ -106,7 +106,7 @@ class StructuredLight {
   void read(const Strip& strip, const Pixel& pixel, std::vector<float>& images, Random& draw, Measurement& out) const;
   bool blended(const Strip& strip, const Pixel& pixel, Received& got, Measurement& out) const;
   struct Noise;
-  void tell(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const;
+  void report(const Pixel& pixel, const Received& got, Noise& noise, Measurement& out) const;
   void measure_row(const Strip& strip, std::size_t row, const Random& random, Measurement& out) const;
   template <class Work>
   void in_strips(const Work& work) const;

@@ -5,7 +5,7 @@
 
 namespace bin_scenes {
 
-/// What a ray through the middle of each cell meets first.
+/// What a ray through the centre of each cell meets first.
 void StructuredLight::Strip::first_hits(const std::vector<Place>& places, const std::vector<Ray>& rays,
                                         std::vector<Hit>& hits) const {
   std::vector<Spot> spots(places.size());

@@ -265,10 +265,10 @@ float StructuredLight::Strip::off_face(const Pixel& pixel, int right, int down, 
   const Lens& lens = model_.view_.lens;
   const auto across = static_cast<float>(pixel.normal.x() / lens.fx),
              along = static_cast<float>(pixel.normal.y() / lens.fy);
-  const auto middle = static_cast<float>(pixel.normal.dot(pixel.ray)) + across * static_cast<float>(right) +
+  const auto center = static_cast<float>(pixel.normal.dot(pixel.ray)) + across * static_cast<float>(right) +
                       along * static_cast<float>(down);
   const auto plane = static_cast<float>(pixel.plane), step = static_cast<float>(model_.setup_.settings.edge_step);
-  const Values here = middle + across * across_ + along * down_;
+  const Values here = center + across * across_ + along * down_;
   return ((cells.depth * here - plane).abs() < step * here.abs()).select(Values::Zero(), weight).sum();
 }
 

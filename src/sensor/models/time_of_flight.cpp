@@ -1,4 +1,4 @@
-/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light, to which light by way of
+/// Casts four rays a pixel, more where depth jumps, and weighs their depths by returned light, to which light via
 /// other surfaces is added. Noise is drawn along and across the ray.
 #include "sensor/models/time_of_flight.hpp"
 
@@ -36,7 +36,7 @@ class Row {
         edge_step_(edge_step),
         turn_(view.pose.orientation.toRotationMatrix()) {}
 
-  Vec3 middle(std::size_t x) const { return view_.lens.ray(static_cast<double>(x), static_cast<double>(row_)); }
+  Vec3 center(std::size_t x) const { return view_.lens.ray(static_cast<double>(x), static_cast<double>(row_)); }
 
   /// @param jitter  of each pixel's rays (pixel)
   std::vector<Returned> returned(const std::vector<Eigen::Vector2d>& jitter) const {
@@ -90,7 +90,7 @@ class Row {
       const Eigen::Vector2d& j = jitter[cell.pixel];
       const Vec3 offset((j.x() + cells::across(cell.number)) / view_.lens.fx,
                         (j.y() + cells::down(cell.number)) / view_.lens.fy, 0.0);
-      rays.push_back({view_.pose.position, turn_ * (middle(cell.pixel) + offset), near_, far_});
+      rays.push_back({view_.pose.position, turn_ * (center(cell.pixel) + offset), near_, far_});
     }
     return rays;
   }
@@ -99,7 +99,7 @@ class Row {
     const std::size_t i = row_ * static_cast<std::size_t>(view_.lens.width) + x;
     const auto& n = view_.normal[i];
     const Vec3 normal = turn_ * Vec3(n[0], n[1], n[2]);
-    const double plane = view_.depth[i] * normal.dot(turn_ * middle(x));
+    const double plane = view_.depth[i] * normal.dot(turn_ * center(x));
     return std::abs(hit.distance - plane / normal.dot(ray.direction)) < edge_step_;
   }
   /// What lies on the face that the centre sees has the centre's depth: jitter of the ray moves edges, not planes.
@@ -125,7 +125,7 @@ class Row {
   Mat3 turn_;
 };
 
-/// Light by way of other surfaces, where a pixel's centre sees: the camera measures the phase of the sum.
+/// Light via other surfaces, where a pixel's centre sees: the camera measures the phase of the sum.
 /// @param ray  through the centre, z = 1
 void add(const Multipath& multipath, std::size_t pixel, const Vec3& ray, Returned& light) {
   const std::complex<double> late = multipath.at(pixel);
@@ -154,7 +154,7 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
       const std::size_t i = y * width + x;
       if (!std::isnan(view.depth[i])) {
         const auto& n = view.normal[i];
-        incidence[x] = std::acos(std::clamp(-Vec3(n[0], n[1], n[2]).dot(row.middle(x).normalized()), 0.0, 1.0));
+        incidence[x] = std::acos(std::clamp(-Vec3(n[0], n[1], n[2]).dot(row.center(x).normalized()), 0.0, 1.0));
       }
       if (!setup.noise) continue;
       draw.normals(jitter[x].x(), jitter[x].y());
@@ -166,7 +166,7 @@ Measurement time_of_flight(const Scenery& scenery, const View& view, const Surfa
       double axial = 0.0, unused = 0.0;
       if (setup.noise) draw.normals(axial, unused);
       if (std::isnan(view.depth[i])) continue;
-      if (multipath) add(*multipath, i, row.middle(x), light[x]);
+      if (multipath) add(*multipath, i, row.center(x), light[x]);
       out.intensity[i] = static_cast<float>(std::min(light[x].signal, 1.0));
       if (light[x].signal < s.min_signal) {
         out.validity[i] = Validity::dark;

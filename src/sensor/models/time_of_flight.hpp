@@ -1,5 +1,5 @@
 /// A time-of-flight camera: its light stands at the lens, so nothing is in shadow; noise along the ray and across it
-/// (time_of_flight_noise.hpp), pixels whose light comes back from two depths, and light that comes late, by way of
+/// (time_of_flight_noise.hpp), pixels whose light comes back from two depths, and light that comes late, via
 /// other surfaces (multipath.hpp).
 #pragma once
 

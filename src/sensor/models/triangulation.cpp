@@ -23,7 +23,7 @@ double Triangulation::depth(const Vec3& ray, double column) const {
   const auto on_plane = [&](double c) { return (c * ahead_there_ - share_there_) / (a.share - c * a.depth); };
   double z = on_plane(column);
   if (distorted_) {
-    // The distorted column of where the plane is met tells by how much to move the plane; distortion varies slowly.
+    // The distorted column of where the plane is met gives by how much to move the plane; distortion varies slowly.
     const Vec3 direction = turn_ * ray;
     double plane = column;
     for (int i = 0; i < 20; ++i) {

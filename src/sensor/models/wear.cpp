@@ -13,12 +13,12 @@ namespace {
 
 /// A disc, as thick as a scratch is wide, or a ball.
 struct Grain {
-  Vec3 middle, normal;
+  Vec3 center, normal;
   double radius;
 };
 
 struct Grains {
-  std::uint64_t number;  ///< tells the kinds apart
+  std::uint64_t number;  ///< distinguishes the kinds
   double radius;         ///< m, largest
   double width;          ///< m, of a disc; 0: a ball
   double ragged;         ///< amplitude of the outline's waves / radius
@@ -30,9 +30,9 @@ struct Grains {
     return 4.0 / 3.0 * M_PI * radius * radius * radius * mean_cube;
   }
   bool covers(const Grain& grain, const Vec3& point) const {
-    const Vec3 way = point - grain.middle;
-    if (width > 0.0 && !(std::abs(way.dot(grain.normal)) < 0.5 * width)) return false;
-    return way.squaredNorm() < grain.radius * grain.radius;
+    const Vec3 offset = point - grain.center;
+    if (width > 0.0 && !(std::abs(offset.dot(grain.normal)) < 0.5 * width)) return false;
+    return offset.squaredNorm() < grain.radius * grain.radius;
   }
 };
 
@@ -56,7 +56,7 @@ void find_grains(const Grains& kind, double share, const Random& key, const Cell
         for (double left = draw.uniform(); left > none; left *= draw.uniform()) {
           Grain grain;
           const double a = draw.uniform(), b = draw.uniform(), c = draw.uniform();
-          grain.middle = kind.radius * (corner + Vec3(a, b, c));
+          grain.center = kind.radius * (corner + Vec3(a, b, c));
           const double up = draw.uniform(-1.0, 1.0), turn = draw.uniform(0.0, 2.0 * M_PI),
                        flat = std::sqrt(1.0 - up * up);
           grain.normal = Vec3(flat * std::cos(turn), flat * std::sin(turn), up);

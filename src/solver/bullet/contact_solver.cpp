@@ -65,7 +65,7 @@ void ContactSolver::configure(btContactSolverInfo& info) {
   info.m_splitImpulse = false;
 }
 
-/// Contacts are found where bodies are half-way through the step, which is taken back here.
+/// Contacts are found where bodies are halfway through the step, which is taken back here.
 void ContactSolver::note_depth(const btPersistentManifold& manifold) {
   const btCollisionObject* bodies[] = {manifold.getBody0(), manifold.getBody1()};
   for (int p = 0; p < manifold.getNumContacts(); ++p) {
@@ -94,7 +94,7 @@ void ContactSolver::convertContacts(btPersistentManifold** manifolds, int count,
   for (int m = 0; m < count; ++m) note_depth(*manifolds[m]);
   // The tangents a point got when it was found stay its tangents (the flag keeps Bullet from choosing new ones), so
   // that the impulses along them mean the same in the next step. Both bodies are pushed at one and the same point,
-  // half-way across the gap or overlap: a pair of friction forces along two lines would be a torque from nowhere.
+  // halfway across the gap or overlap: a pair of friction forces along two lines would be a torque from nowhere.
   for (int m = 0; m < count; ++m)
     for (int p = 0; p < manifolds[m]->getNumContacts(); ++p) {
       btManifoldPoint& point = manifolds[m]->getContactPoint(p);
@@ -167,7 +167,7 @@ void ContactSolver::begin() {
 /// over, and the next sub-step does not begin with it. A few sweeps do not take it back from a heap, which would be
 /// thrown up.
 void ContactSolver::forget_impacts(btScalar speed) {
-  if (speed == 0) return;  // without weight nothing tells a force from an impact
+  if (speed == 0) return;  // without weight nothing distinguishes a force from an impact
   for (int c = 0; c < m_tmpSolverContactConstraintPool.size(); ++c) {
     btSolverConstraint& row = m_tmpSolverContactConstraintPool[c];
     const btScalar most = force_growth * contacts_[c].lasting + speed * row.m_jacDiagABInv;

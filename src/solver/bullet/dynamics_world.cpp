@@ -64,7 +64,7 @@ void DynamicsWorld::predictUnconstraintMotion(btScalar dt) {
     Vec3 angular = from_bt(axes.transpose() * body.getAngularVelocity());
     const double turned = angular.norm() * dt / turn_per_step;
     const int cuts = turned < most_cuts ? std::max(1, static_cast<int>(std::ceil(turned))) : most_cuts;
-    btQuaternion turn(0, 0, 0, 1);  // in the body frame: each cut turns the axes the next one is told in
+    btQuaternion turn(0, 0, 0, 1);  // in the body frame: each cut turns the axes in which the next one is given
     for (int k = 0; k < cuts; ++k) {
       const Vec3 end = torque_free_step(motion.inertia, angular, dt / cuts);
       turn = (turn * rotation(to_bt(Vec3(0.5 * (angular + end))) * (dt / cuts))).normalized();

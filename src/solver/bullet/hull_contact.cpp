@@ -66,10 +66,10 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
     for (int i = 0; i < corners.size(); ++i)
       for (int k = 0; k < manifold.getNumContacts() && !corners[i].known; ++k)
         corners[i].known = corners[i].point.distance(manifold.getContactPoint(k).getPositionWorldOnB()) < reach;
-    btVector3 middle(0, 0, 0);
+    btVector3 center(0, 0, 0);
     btScalar deepest = BT_LARGE_FLOAT;
     for (int i = 0; i < corners.size(); ++i) {
-      middle += corners[i].point / btScalar(corners.size());
+      center += corners[i].point / btScalar(corners.size());
       deepest = std::min(deepest, corners[i].depth);
     }
     const auto choose = [&](int place, const auto& measure) {
@@ -83,7 +83,7 @@ struct Patch : public btDiscreteCollisionDetectorInterface::Result {
       return btScalar(1) - std::max(btScalar(0), c.depth - deepest - same * reach) / reach;
     };
     choose(0, [&](const Corner& c) {
-      return c.depth <= deepest + same * reach ? c.point.distance2(middle) : deepest - c.depth;
+      return c.depth <= deepest + same * reach ? c.point.distance2(center) : deepest - c.depth;
     });
     const btVector3 origin = corners[0].point;
     choose(1, [&](const Corner& c) { return nearness(c) * c.point.distance(origin); });

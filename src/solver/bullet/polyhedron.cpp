@@ -24,11 +24,11 @@ struct Flat {
 void turn_in_order(Flat& face, const std::vector<Vec3>& vertices) {
   std::sort(face.corners.begin(), face.corners.end());
   face.corners.erase(std::unique(face.corners.begin(), face.corners.end()), face.corners.end());
-  Vec3 middle = Vec3::Zero();
-  for (const std::uint32_t v : face.corners) middle += vertices[v] / static_cast<double>(face.corners.size());
+  Vec3 center = Vec3::Zero();
+  for (const std::uint32_t v : face.corners) center += vertices[v] / static_cast<double>(face.corners.size());
   const Tangents along(face.normal);
   const auto angle = [&](std::uint32_t v) {
-    return std::atan2(along.y.dot(vertices[v] - middle), along.x.dot(vertices[v] - middle));
+    return std::atan2(along.y.dot(vertices[v] - center), along.x.dot(vertices[v] - center));
   };
   std::sort(face.corners.begin(), face.corners.end(), [&](std::uint32_t u, std::uint32_t v) {
     const double at_u = angle(u), at_v = angle(v);

@@ -29,7 +29,7 @@ std::unique_ptr<btCollisionShape> hull_shape(Mesh hull, const Pose& from_model, 
   return shape;
 }
 
-/// A tessellated sphere about its centre of mass, told by its vertices and its volume: hulls of few vertices would not
+/// A tessellated sphere about its centre of mass, given by its vertices and its volume: hulls of few vertices would not
 /// roll. Radius in metres, 0 if it is none.
 double sphere_radius(const PartModel& part, double tolerance) {
   double nearest = std::numeric_limits<double>::infinity();

@@ -346,7 +346,7 @@ std::vector<ContactForce> World::contact_forces() const {
       const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB +
                                 point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
                                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-      // Bullet tells what acts on its first body.
+      // Bullet reports what acts on its first body.
       ContactForce f{a, b, from_bt(point.getPositionWorldOnA()) / scale_, -from_bt(point.m_normalWorldOnB),
                      -from_bt(impulse) / (scale_ * sub_step_)};
       if (f.a < 0) f = {f.b, -1, f.point, -f.normal, -f.force};

@@ -20,7 +20,7 @@ void World::set_frame(const Frame& frame) {
   world_.setGravity(to_bt(Vec3(frame.gravity * scale_)));  // reaches those that are awake
 }
 
-/// What bodies feel of a bin that turns, over a step of `dt`, as it is in its middle.
+/// What bodies feel of a bin that turns, over a step of `dt`, as it is in its centre.
 void World::turn_with_bin(double dt) {
   const btVector3 gravity = world_.getGravity();
   for (const auto& body : bodies_) {
@@ -39,8 +39,8 @@ void World::spin_with_bin(double dt) {
     const Mat3 inertia = axes * body->motion.inertia.asDiagonal() * axes.transpose();
     const Mat3 inverse = axes * body->motion.inertia.cwiseInverse().asDiagonal() * axes.transpose();
     const Vec3 w = from_bt(body->rigid->getAngularVelocity());
-    const Vec3 middle = w + 0.5 * dt * frame_.angular_acceleration(w, inertia, inverse);
-    body->rigid->setAngularVelocity(to_bt(Vec3(w + dt * frame_.angular_acceleration(middle, inertia, inverse))));
+    const Vec3 center = w + 0.5 * dt * frame_.angular_acceleration(w, inertia, inverse);
+    body->rigid->setAngularVelocity(to_bt(Vec3(w + dt * frame_.angular_acceleration(center, inertia, inverse))));
   }
 }
 

@@ -24,7 +24,7 @@ float layers_to_come(const WorldDef& def) {
   return static_cast<float>(cover / (size.x() * size.y()) * std::min(1.0, size.prod() / filled));
 }
 
-/// Range of the values, extrapolated from the middle four fifths, so that one part far above the others does not make
+/// Range of the values, extrapolated from the centre four fifths, so that one part far above the others does not make
 /// the heap high.
 float reach(std::vector<float>& values) {
   const auto last = static_cast<float>(values.size() - 1);

@@ -40,7 +40,7 @@ inline bool colors_share_no_body(const World& world) {
   return true;
 }
 
-/// A body that has exploded has no pose, which the heap tells of.
+/// A body that has exploded has no pose, which the heap reports.
 inline bool orientations_are_unit(const World& world) {
   return each_is(world.bodies, [](const Body& b) {
     const float square = b.q.squaredNorm();

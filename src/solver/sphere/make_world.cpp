@@ -21,7 +21,8 @@ Body make_body(const Shape& shape, std::uint32_t index, const BodyDef& def) {
   body.restitution = static_cast<float>(def.restitution);
   body.inverse_mass = def.fixed ? 0.0f : static_cast<float>(1.0 / def.mass);
   body.inertia = shape.unit_inertia * static_cast<float>(def.mass);
-  // In double precision: the determinant of a half-millimetre part's inertia is below what single can tell from 0.
+  // In double precision: the determinant of a half-millimetre part's inertia is below what single precision can
+  // distinguish from 0.
   if (!def.fixed) body.inverse_inertia = body.inertia.cast<double>().inverse().cast<float>();
   return body;
 }
@@ -95,7 +96,7 @@ std::vector<Flag> flags_of(const World& world) {
     if (std::find(world.shapes.begin(), shape, *shape) == shape)  // lines may share one
       shapes.insert(shapes.end(), (*shape)->flags.begin(), (*shape)->flags.end());
   if (shapes.empty()) return flags;
-  // Of hundreds of models one tells for all: they have but one kind of flag.
+  // Of hundreds of models one stands for all: they have but one kind of flag.
   flags.push_back(shapes[0]);
   if (shapes.size() > 1) flags.back().text += "; so have those of " + std::to_string(shapes.size() - 1) + " more parts";
   return flags;
@@ -147,13 +148,13 @@ void set_force(World& world, std::size_t body, const Vec3& force, const Vec3& po
 }
 
 bool take_phase(World& world, const Phase& phase) {
-  const float grip = world.settings.friction_reserve ? static_cast<float>(phase.friction) : 1.0f;
-  if (phase.fine_samples == world.fine && phase.stiffness == world.stiffness && grip == world.grip &&
-      phase.sleep == world.sleep && !phase.forgets && !phase.begins_asleep)
+  const float friction_share = world.settings.friction_reserve ? static_cast<float>(phase.friction) : 1.0f;
+  if (phase.fine_samples == world.fine && phase.stiffness == world.stiffness &&
+      friction_share == world.friction_share && phase.sleep == world.sleep && !phase.forgets && !phase.begins_asleep)
     return false;
   world.fine = phase.fine_samples;
   world.stiffness = phase.stiffness;
-  world.grip = grip;
+  world.friction_share = friction_share;
   world.sleep = phase.sleep;
   world.forgets = phase.forgets;
   world.effort = effort_of(world);

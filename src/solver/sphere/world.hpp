@@ -66,7 +66,7 @@ struct Settings {
   Softness soft{0.25f, 10.0f, 2e-4f, 1};     ///< while parts move: damps rocking
   Softness stiff{0.35f, 10.0f, 2.5e-5f, 4};  ///< while the heap is pressed: leaves no overlap
   /// While the heap is probed: no compliance; 1/160 of the overlap is removed in a sub-step. Stiff contacts press
-  /// neighbours apart, and parts squeezed in this way are held by friction that another engine will not find.
+  /// neighbours apart, and parts squeezed like this are held by friction that another engine will not find.
   Softness rigid{1.0f, 500.0f, 0.0f, 4};
   float patch_radius = 1e-3f;  ///< d: radius of the patch of a point or line contact; resists spin and rolling.
                                ///< 0 = a part held at two points swings forever; higher = wheels stop
@@ -88,8 +88,8 @@ struct Settings {
   bool warm_start = true;        ///< a step begins with the forces of the last one
   bool speculation = true;       ///< contacts that may close in a step are found before they do
   bool soonest_first = true;     ///< of a pair's contacts those about to close go before those farther off
-  bool way_back = true;          ///< samples that are deep inside go back the way they came in
-  bool half_way_poses = true;    ///< contacts are found where bodies are half way through the step
+  bool way_back = true;          ///< samples that are deep inside go back to where they came in
+  bool half_way_poses = true;    ///< contacts are found where bodies are halfway through the step
   bool relaxation = true;        ///< sweeps that take back the velocity which pushing overlap out has left
   bool friction_reserve = true;  ///< a stage of settling may let a share of friction hold
   bool gyroscopic = true;        ///< torque of spinning parts whose inertia is not the same about all axes
@@ -208,7 +208,7 @@ struct World {
   bool fine = false;                      ///< fine samples instead of coarse ones
   Stiffness stiffness = Stiffness::soft;  ///< of contacts
   Sleep sleep = Sleep::by_island;         ///< how bodies fall asleep and wake
-  float grip = 1;                         ///< share of friction that acts
+  float friction_share = 1;               ///< share of friction that acts
   bool forgets = false;                   ///< the next step starts without remembered forces
   std::optional<JawPair> jaws;            ///< Solver::set_jaws()
   std::vector<Pull> pulls;                ///< Solver::set_force()

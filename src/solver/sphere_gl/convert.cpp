@@ -70,7 +70,7 @@ void tell_phase(const World& world, gpu::SphereProgress& progress) {
   progress.fine = world.fine ? 1 : 0;
   static_assert(static_cast<gpu::uint>(Stiffness::rigid) == SPHERE_RIGID);
   progress.stiffness = static_cast<gpu::uint>(world.stiffness);
-  progress.grip = world.grip;
+  progress.friction_share = world.friction_share;
   static_assert(static_cast<gpu::uint>(sphere::Sleep::by_part) == SPHERE_SLEEP_BY_PART &&
                 static_cast<gpu::uint>(sphere::Sleep::by_touch) == SPHERE_SLEEP_BY_TOUCH);
   progress.sleep = static_cast<gpu::uint>(world.sleep);

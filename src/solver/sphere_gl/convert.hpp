@@ -40,7 +40,7 @@ gpu::SphereState state_of(const sphere::Body& body);
 void read_state(const gpu::SphereState& state, sphere::Body& body);
 
 gpu::SphereSettingsBlock to_gpu(const sphere::Settings& settings);
-/// What follows from the phase: samples in use, softness, grip, whether forces are forgotten.
+/// What follows from the phase: samples in use, softness, friction, whether forces are forgotten.
 void tell_phase(const sphere::World& world, gpu::SphereProgress& progress);
 gpu::SpherePlane to_gpu(const sphere::Plane& plane);
 

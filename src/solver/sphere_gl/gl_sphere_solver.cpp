@@ -32,8 +32,8 @@ struct Resident {
   std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
   Batch::Slot slot = 0;
   gpu::SphereProgress progress{};
-  gpu::SphereWorst worst{};   ///< of the steps that were finished last, since it was taken
-  bool worst_taken = false;  ///< since then: the device is to forget it
+  gpu::SphereWorst worst{};       ///< of the steps that were finished last, since it was taken
+  bool worst_taken = false;       ///< since then: the device is to forget it
   std::set<std::size_t> changed;  ///< bodies to upload
   std::uint64_t steps = 0;
 };
@@ -94,7 +94,7 @@ class GlSphereSolver final : public Solver {
     });
     if (software_) r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
-    tell(r);
+    report(r);
     worlds_.emplace(next_, std::move(r));
     return next_++;
   }
@@ -125,7 +125,7 @@ class GlSphereSolver final : public Solver {
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine || phase.forgets) r.progress.refresh = 1;  // as set_phase() in make_world.cpp
-    tell(r);
+    report(r);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
       if (phase.begins_asleep)
         sphere::put_to_sleep(r.world.settings, r.world.bodies[i]);
@@ -230,7 +230,7 @@ class GlSphereSolver final : public Solver {
   Resident& world(WorldId id) const { return worlds_.at(id); }
 
   /// How its world's contacts are to be solved.
-  void tell(Resident& r) const {
+  void report(Resident& r) const {
     if (software_) r.world.effort = 1;  // software_group_bodies
     tell_phase(r.world, r.progress);
   }

@@ -21,7 +21,7 @@ std::uint32_t append(gl::Buffer<T>& buffer, std::size_t& count, const T* values,
 
 /// Puts the vectors of a normal cone behind the nodes; returns how the pass finds them.
 gpu::uint add_cone(const sphere::Cone& cone, std::vector<gpu::SphereNode>& nodes) {
-  static_assert(sphere::Cone::max_bounds < SPHERE_AXIS, "three bits tell how many");
+  static_assert(sphere::Cone::max_bounds < SPHERE_AXIS, "three bits state how many");
   const auto at = static_cast<gpu::uint>(nodes.size()) << 3;
   if (cone.bounds > 0) {
     for (int i = 0; i < cone.bounds; ++i) nodes.push_back({three(cone.bound[i]), 0});
@@ -87,7 +87,8 @@ std::uint32_t ShapeTable::index_of(const sphere::Shape& shape) {
   out.fine = add(shape.fine);
   out.box_center = vec4(shape.box_center, shape.radius);
   out.box_half = vec4(shape.box_half, shape.size);
-  // In double precision: the determinant of a half-millimetre part's inertia is below what single can tell from 0.
+  // In double precision: the determinant of a half-millimetre part's inertia is below what single precision can
+  // distinguish from 0.
   const sphere::Mat3f inverse = shape.unit_inertia.cast<double>().inverse().cast<float>();
   out.inertia = diagonal(shape.unit_inertia);
   out.inertia_mixed = mixed(shape.unit_inertia);

@@ -29,7 +29,7 @@ double largest_radius(const World& world) {
 }
 
 /// Origin and cells of the grid: the part of the domain where bodies are or may come within `horizon` and the spheres
-/// of the bin, at most grid_size cells along an axis, then about the middle one of the bodies. What lies outside goes
+/// of the bin, at most grid_size cells along an axis, then about the centre one of the bodies. What lies outside goes
 /// to the outer cells.
 void lay_grid(const World& world, const ThesisSettings& settings, double horizon, gpu::ThesisWorld& out) {
   const double cell = std::max(1.0, settings.cell_size) * 2.0 * std::max(largest_radius(world), 1e-6);

@@ -48,7 +48,7 @@ TEST(EdgeGrid, ListsEveryEdgeWithinReachOfAPoint) {
   EXPECT_LT(listed, 2000 * shape.fine.edges.size() / 4);  // lists, not the whole part
 }
 
-TEST(WaysOut, BesideAnEdgeAreStraightToItsFaces) {
+TEST(Exits, BesideAnEdgeAreStraightToItsFaces) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
@@ -56,13 +56,13 @@ TEST(WaysOut, BesideAnEdgeAreStraightToItsFaces) {
   for (const float x : {0.1f, 0.3f, 0.5f, 0.6f})
     for (const float z : {0.12f, 0.31f, 0.45f}) {
       const Vec3f point = at_edge(x * cell, z * cell);
-      const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, point);
-      ASSERT_EQ(ways.count, 2);
+      const Exits exits = exits_at_edge(shape.fine, shape.field, point);
+      ASSERT_EQ(exits.count, 2);
       const Vec3f near = x < z ? Vec3f::UnitX() : Vec3f::UnitZ(), far = x < z ? Vec3f::UnitZ() : Vec3f::UnitX();
-      EXPECT_LT((ways.way[0].away - near).norm(), 1e-5f);
-      EXPECT_LT((ways.way[1].away - far).norm(), 1e-5f);
-      EXPECT_NEAR(ways.way[0].distance, -std::min(x, z) * cell, 1e-7f);
-      EXPECT_NEAR(ways.way[1].distance, -std::max(x, z) * cell, 1e-7f);
+      EXPECT_LT((exits.exit[0].away - near).norm(), 1e-5f);
+      EXPECT_LT((exits.exit[1].away - far).norm(), 1e-5f);
+      EXPECT_NEAR(exits.exit[0].distance, -std::min(x, z) * cell, 1e-7f);
+      EXPECT_NEAR(exits.exit[1].distance, -std::max(x, z) * cell, 1e-7f);
       Vec3f gradient;
       shape.field.sample(point, gradient);
       lean = std::max(lean, (gradient - near).norm());
@@ -70,53 +70,53 @@ TEST(WaysOut, BesideAnEdgeAreStraightToItsFaces) {
   EXPECT_GT(lean, 0.3f);  // the grid alone is far off: what this is for
 }
 
-TEST(WaysOut, OutsideThereIsOneToTheFaceOrToTheEdge) {
+TEST(Exits, OutsideThereIsOneToTheFaceOrToTheEdge) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
-  const WaysOut above = ways_out_at_edge(shape.fine, shape.field, at_edge(0.4f * cell, -0.3f * cell));
+  const Exits above = exits_at_edge(shape.fine, shape.field, at_edge(0.4f * cell, -0.3f * cell));
   ASSERT_EQ(above.count, 1);
-  EXPECT_LT((above.way[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
-  EXPECT_NEAR(above.way[0].distance, 0.3f * cell, 1e-7f);
-  const WaysOut beyond = ways_out_at_edge(shape.fine, shape.field, at_edge(-0.3f * cell, -0.4f * cell));
+  EXPECT_LT((above.exit[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_NEAR(above.exit[0].distance, 0.3f * cell, 1e-7f);
+  const Exits beyond = exits_at_edge(shape.fine, shape.field, at_edge(-0.3f * cell, -0.4f * cell));
   ASSERT_EQ(beyond.count, 1);
-  EXPECT_LT((beyond.way[0].away - Vec3f(0.6f, 0, 0.8f)).norm(), 1e-5f);
-  EXPECT_NEAR(beyond.way[0].distance, 0.5f * cell, 1e-7f);
-  EXPECT_EQ(ways_out_at_edge(shape.fine, shape.field, at_edge(2 * cell, 0.1f * cell)).count, 0);
+  EXPECT_LT((beyond.exit[0].away - Vec3f(0.6f, 0, 0.8f)).norm(), 1e-5f);
+  EXPECT_NEAR(beyond.exit[0].distance, 0.5f * cell, 1e-7f);
+  EXPECT_EQ(exits_at_edge(shape.fine, shape.field, at_edge(2 * cell, 0.1f * cell)).count, 0);
 }
 
 // A hundredth of a cell is many times what contacts overlap by at rest: what has passed the edge is off its face.
-TEST(WaysOut, WhatHasPassedAnEdgeByMicrometresIsOffTheFace) {
+TEST(Exits, WhatHasPassedAnEdgeByMicrometresIsOffTheFace) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
-  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, at_edge(-0.01f * cell, 0.02f * cell));
-  ASSERT_EQ(ways.count, 1);
-  EXPECT_LT((ways.way[0].away - Vec3f::UnitX()).norm(), 1e-5f);
-  EXPECT_NEAR(ways.way[0].distance, 0.01f * cell, 1e-7f);
+  const Exits exits = exits_at_edge(shape.fine, shape.field, at_edge(-0.01f * cell, 0.02f * cell));
+  ASSERT_EQ(exits.count, 1);
+  EXPECT_LT((exits.exit[0].away - Vec3f::UnitX()).norm(), 1e-5f);
+  EXPECT_NEAR(exits.exit[0].distance, 0.01f * cell, 1e-7f);
 }
 
-TEST(WaysOut, InACornerThereAreThree) {
+TEST(Exits, InACornerThereAreThree) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const float cell = shape.field.cell;
   const Vec3f corner = 0.5f * size.cast<float>();
-  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner - cell * Vec3f(0.3f, 0.2f, 0.1f));
-  ASSERT_EQ(ways.count, 3);
-  EXPECT_LT((ways.way[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
-  EXPECT_LT((ways.way[1].away - Vec3f::UnitY()).norm(), 1e-5f);
-  EXPECT_LT((ways.way[2].away - Vec3f::UnitX()).norm(), 1e-5f);
+  const Exits exits = exits_at_edge(shape.fine, shape.field, corner - cell * Vec3f(0.3f, 0.2f, 0.1f));
+  ASSERT_EQ(exits.count, 3);
+  EXPECT_LT((exits.exit[0].away - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_LT((exits.exit[1].away - Vec3f::UnitY()).norm(), 1e-5f);
+  EXPECT_LT((exits.exit[2].away - Vec3f::UnitX()).norm(), 1e-5f);
 }
 
 // Of boxes that stand flush a corner lies beyond the ends of the other's edges by rounding.
-TEST(WaysOut, InACornerThereAreThreeThoughItIsOutByAHair) {
+TEST(Exits, InACornerThereAreThreeThoughItIsOutByAHair) {
   PartModelPtr part;
   const Shape shape = box_shape(part, size);
   const Vec3f corner = 0.5f * size.cast<float>();
-  const WaysOut ways = ways_out_at_edge(shape.fine, shape.field, corner + Vec3f(1e-7f, 1e-7f, -2e-6f));
-  ASSERT_EQ(ways.count, 3);
-  EXPECT_LT((ways.way[2].away - Vec3f::UnitZ()).norm(), 1e-5f);
-  EXPECT_NEAR(ways.way[2].distance, -2e-6f, 1e-8f);
+  const Exits exits = exits_at_edge(shape.fine, shape.field, corner + Vec3f(1e-7f, 1e-7f, -2e-6f));
+  ASSERT_EQ(exits.count, 3);
+  EXPECT_LT((exits.exit[2].away - Vec3f::UnitZ()).norm(), 1e-5f);
+  EXPECT_NEAR(exits.exit[2].distance, -2e-6f, 1e-8f);
 }
 
 // A line that leaves the box through the edge is pressed between its faces, not under its edge.
@@ -281,7 +281,7 @@ TEST(Cone, LeavesNothingOfWhatIsFarOutside) {
   EXPECT_LE(kept, 11);
 }
 
-// Their normals would be means of two faces, and the only way in which they can be pressed.
+// Their normals would be means of two faces, and the only exit in which they can be pressed.
 TEST(Samples, NodesOfFacesDoNotStandOnSharpEdges) {
   for (const Vec3& edges : {Vec3(0.06, 0.01, 0.01), Vec3(0.04, 0.04, 0.04), Vec3(0.1, 0.03, 0.002)}) {
     PartModelPtr part;

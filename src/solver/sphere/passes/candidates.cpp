@@ -36,7 +36,7 @@ void candidates_of_rim(const World& world, std::size_t k, const Shape& shape, co
   }
 }
 
-/// How the points of a body go on over another one, in whose frame this is told.
+/// How the points of a body go on over another one, in whose frame this is given.
 struct Drift {
   Vec3f drift, twist;
 

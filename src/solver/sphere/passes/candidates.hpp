@@ -19,7 +19,7 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// A body half way through the step (StepPlan::half_way), where its contacts are found.
+/// A body halfway through the step (StepPlan::half_way), where its contacts are found.
 struct Placement {
   Vec3f x;
   Mat3f rotation;

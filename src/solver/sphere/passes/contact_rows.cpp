@@ -87,15 +87,15 @@ std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t
   bundles.clear();
   colors.clear();
   for (auto next = order.begin(); next != order.end();) {
-    const int shade = color(*next);
-    const int most = shade == shared_color ? 1 : lane_count;
+    const int own_color = color(*next);
+    const int most = own_color == shared_color ? 1 : lane_count;
     const auto index = static_cast<std::uint32_t>(bundles.size());
-    if (index == 0 || bundles.back().color != shade) colors.push_back({index, index, shade == shared_color});
+    if (index == 0 || bundles.back().color != own_color) colors.push_back({index, index, own_color == shared_color});
     const std::uint32_t piece = colors.back().in_turn ? 0 : (index - colors.back().first) / bundles_per_piece;
     pieces = std::max(pieces, piece + 1);
     colors.back().last = index + 1;
     Bundle& bundle = bundles.emplace_back();
-    bundle.color = shade;
+    bundle.color = own_color;
     const auto place = [&](std::uint32_t body) {
       const std::uint32_t at = blocks.place(block, body);
       return at < blocks.bodies(block).size() ? at : at + piece;
@@ -103,7 +103,7 @@ std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t
     bundle.a.fill(place(ground));
     bundle.b = bundle.a;
     bundle.first = bundle.last = row;
-    for (; bundle.lanes < most && next != order.end() && color(*next) == shade; ++next) {
+    for (; bundle.lanes < most && next != order.end() && color(*next) == own_color; ++next) {
       const int lane = bundle.lanes++;
       const Manifold& m = world.manifolds[bundle.manifold[lane] = *next];
       bundle.last = std::max(bundle.last, bundle.first + static_cast<std::uint32_t>(m.contacts.size()));
@@ -134,7 +134,7 @@ void prepare(World& world, const std::vector<Motion>& motions, float h, Bundle& 
     Manifold& m = world.manifolds[bundle.manifold[lane]];
     const Body& a = world.bodies[m.a];
     const Body* b = m.b == ground ? nullptr : &world.bodies[m.b];
-    bundle.friction[lane] = world.grip * m.friction;
+    bundle.friction[lane] = world.friction_share * m.friction;
     bundle.restitution[lane] = m.restitution;
     const bool rolls = world.is_ball(a) || (b && world.is_ball(*b));
     bundle.refreshed[lane] = rolls ? 0 : -1;

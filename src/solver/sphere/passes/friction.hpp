@@ -24,7 +24,7 @@ inline void resist_turn(const Bundle& bundle, const std::vector<ContactRows>& ro
 }
 
 /// Which contacts press, or have friction left to take back. Half of all only wait for their gap to close.
-inline LaneMask rubs(const ContactRows& c) {
+inline LaneMask has_friction(const ContactRows& c) {
   return (c.normal_impulse > 0.0f) | (c.t1_impulse != 0.0f) | (c.t2_impulse != 0.0f);
 }
 

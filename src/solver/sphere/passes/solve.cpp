@@ -245,7 +245,7 @@ bool ContactSolver::sweep(std::uint32_t from, std::uint32_t to, bool push, bool 
     if (s.bundle.first + k < s.bundle.last) solve_normal(rows_[s.bundle.first + k], s.u, give, unconverged);
   };
   const auto friction = [&](Swept& s, std::uint32_t k) {
-    if (s.bundle.first + k < s.bundle.last && any(rubs(rows_[s.bundle.first + k])))
+    if (s.bundle.first + k < s.bundle.last && any(has_friction(rows_[s.bundle.first + k])))
       solve_friction(rows_[s.bundle.first + k], s.friction, s.bundle, s.u);
   };
   for (std::uint32_t i = from; i < to; ++i) {

@@ -68,8 +68,8 @@ void add_creases(const PartModel& part, const std::vector<Fold>& folds, Samples&
     const Cone cone = edge_cone(mesh, fold->a, fold->b, fold->faces);
     if (cone.bounds == 0) continue;
     const Vec3 out = (cone.bound[0] + cone.bound[1]).cast<double>().normalized();
-    const Vec3 middle = 0.5 * (mesh.vertices[fold->a] + mesh.vertices[fold->b]);
-    if (part.query().inside(middle + open * out)) continue;
+    const Vec3 center = 0.5 * (mesh.vertices[fold->a] + mesh.vertices[fold->b]);
+    if (part.query().inside(center + open * out)) continue;
     Edge edge{end_at(fold->a), end_at(fold->b), 0, 1, cone};
     edge.length = static_cast<float>((mesh.vertices[fold->a] - mesh.vertices[fold->b]).norm());
     samples.edges.push_back(edge);

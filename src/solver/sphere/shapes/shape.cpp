@@ -103,7 +103,7 @@ double size_at_contacts(const PartModel& part) {
   return part.load_report().closed ? std::min(part.diagonal(), thin * thickness) : part.diagonal();
 }
 
-/// / diagonal. Contacts are found half way through a step: with 0.08, a part that falls 2 m onto an edge meets the
+/// / diagonal. Contacts are found halfway through a step: with 0.08, a part that falls 2 m onto an edge meets the
 /// plate elsewhere than in shorter steps, and is thrown aside by 13 % of its speed.
 constexpr double widest_wall = 0.04;
 constexpr double of_a_rod = 1.5;  ///< wall / (2 volume / area), at least: 2 of a rod, 1 of a sheet

@@ -13,10 +13,10 @@ Cone edge_cone(const Mesh& mesh, std::uint32_t a, std::uint32_t b, const std::ar
   const Vec3 along = (mesh.vertices[b] - mesh.vertices[a]).normalized();
   for (const std::size_t face : faces) {
     const Triangle& t = mesh.triangles[face];
-    const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
-    Vec3 into = middle - mesh.vertices[a];
+    const Vec3 center = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    Vec3 into = center - mesh.vertices[a];
     into -= into.dot(along) * along;
-    if (into.norm() < 1e-9 * (mesh.vertices[b] - mesh.vertices[a]).norm()) return Cone{};  // a sliver tells nothing
+    if (into.norm() < 1e-9 * (mesh.vertices[b] - mesh.vertices[a]).norm()) return Cone{};  // a sliver says nothing
     cone.bound[cone.bounds++] = into.normalized().cast<float>();
   }
   cone.bound[cone.bounds++] = along.cast<float>();
