@@ -1,5 +1,7 @@
 #include "bin_scenes/core/error.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -61,6 +63,10 @@ std::string line_of(const std::string& text, std::size_t most) {
   return shown(text, 0, most - end.size() - gap.size()).text + gap + end;
 }
 
+bool what_is_one_line(const std::string& text) {
+  return text.size() < 1024 && text.find('\n') == std::string::npos;
+}
+
 std::string sentence(const std::string& what, const std::string& where, const std::string& remedy) {
   std::string text = where.empty() ? "" : line_of(where, 280) + ": ";
   text += line_of(what, 400);
@@ -70,6 +76,8 @@ std::string sentence(const std::string& what, const std::string& where, const st
 }  // namespace
 
 Error::Error(ErrorKind kind, const std::string& what, const std::string& where, const std::string& remedy)
-    : std::runtime_error(sentence(what, where, remedy)), kind_(kind), problem_(what), where_(where), remedy_(remedy) {}
+    : std::runtime_error(sentence(what, where, remedy)), kind_(kind), problem_(what), where_(where), remedy_(remedy) {
+  BIN_SCENES_ASSERT(!problem_.empty() && what_is_one_line(std::runtime_error::what()));
+}
 
 }  // namespace bin_scenes

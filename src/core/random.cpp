@@ -1,5 +1,7 @@
 #include "bin_scenes/core/random.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 namespace bin_scenes {
 
 namespace {
@@ -27,10 +29,12 @@ double Random::uniform() {
 }
 
 double Random::uniform(double lower, double upper) {
+  BIN_SCENES_ASSERT(lower <= upper);
   return lower + (upper - lower) * uniform();
 }
 
 std::uint64_t Random::below(std::uint64_t count) {
+  BIN_SCENES_ASSERT(count > 0);
   // Reject the short last stretch of the 64-bit range, where some remainders would come once too often.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % count + 1) % count;
   for (;;) {

@@ -1,5 +1,7 @@
 #include "bin_scenes/core/sha256.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <openssl/evp.h>
 
 #include <array>
@@ -25,6 +27,7 @@ std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned length = 0;
   EVP_DigestFinal_ex(context_->evp, digest.data(), &length);
+  BIN_SCENES_ASSERT(length == 32);
   const char* digits = "0123456789abcdef";
   std::string text;
   for (unsigned i = 0; i < length; ++i) {

@@ -2,6 +2,8 @@
 /// processes that no longer run are removed by later ones.
 #include "bin_scenes/core/temporary.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/core/error.hpp"
 
 #include <fcntl.h>
@@ -122,6 +124,7 @@ void Temporary::commit() {
   const auto fail = [&](const std::string& why) {
     return environment_error("cannot be put in place: " + why, target_, "check permissions and free space");
   };
+  BIN_SCENES_ASSERT(!path_.empty());  // else it was committed before
   const bool last = !in_a_temporary(target_);
   if (last && !sync_all(path_)) throw fail(std::strerror(errno));
   // A directory cannot be renamed over one that holds files: the two change places at once where the file system can do

@@ -60,6 +60,7 @@ std::vector<std::vector<std::string>> SceneIndex::rows(const std::string& sql,
     return environment_error("cannot be used: " + why, path_, "check permissions and free space");
   };
   if (sqlite3_prepare_v2(database_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) throw fail();
+  BIN_SCENES_ASSERT(static_cast<std::size_t>(sqlite3_bind_parameter_count(statement)) == values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     sqlite3_bind_text(statement, static_cast<int>(i) + 1, values[i].data(), static_cast<int>(values[i].size()),
                       SQLITE_TRANSIENT);

@@ -50,6 +50,7 @@ void pack_one(const DataFolder& folder, const DataSetFacts& facts, std::size_t s
                         "remove " + folder.scene(scene).string() + ", and the scene is made anew");
     files.insert(files.end(), some.begin(), some.end());
   }
+  BIN_SCENES_ASSERT(first < end && shard_of(facts, first) == shard);
   Temporary tar(folder.shard(shard).string());
   const auto places = write_tar(tar.path(), files);
   BIN_SCENES_ASSERT(places.size() == files.size() && ascends(places));

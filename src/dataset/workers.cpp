@@ -2,6 +2,8 @@
 /// replaced and its heap is given again.
 #include "dataset/workers.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/core/error.hpp"
 
 #include <poll.h>
@@ -112,6 +114,7 @@ void Workers::give(Worker& worker, std::size_t heap) {
   if (worker.pid < 0) start(worker);
   if (worker.heap != heap) worker.deaths = 0;
   worker.heap = heap;
+  BIN_SCENES_ASSERT(worker.pid >= 0 && worker.socket >= 0);
   const std::uint64_t number = heap;
   if (send(worker.socket, &number, sizeof number, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof number)) return;
   hear(worker, {});  // it died while it waited
@@ -130,6 +133,7 @@ void Workers::hear(Worker& worker, const std::function<void(const nlohmann::json
     return;
   }
   if (n < 0 && errno == EINTR) return;
+  BIN_SCENES_ASSERT(worker.heap && worker.pid >= 0);
   const std::size_t heap = *worker.heap;
   const std::string name = "worker " + std::to_string(worker.pid);
   const int status = end(worker);
@@ -161,6 +165,7 @@ void Workers::run(const std::function<std::optional<std::size_t>()>& next,
       busy.push_back(&worker);
     }
     if (busy.empty()) return;
+    BIN_SCENES_ASSERT(polled.size() == busy.size());
     const int ready = poll(polled.data(), polled.size(), patience_ms);
     for (std::size_t i = 0; ready > 0 && i < busy.size(); ++i)
       if (polled[i].revents != 0) hear(*busy[i], done);

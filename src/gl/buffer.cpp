@@ -68,6 +68,7 @@ void Storage::allocate(std::size_t bytes) {
         "out of device memory: GPU buffer '" + label_ + "' needs " + std::to_string(bytes >> 20) + " MiB",
         Device::current().renderer(), "use fewer parts or fewer scenes at once");
   glObjectLabel(GL_BUFFER, id_, static_cast<GLsizei>(label_.size()), label_.data());
+  BIN_SCENES_ASSERT(id_ != 0 && bytes % 4 == 0);
   bytes_ = bytes;
   clear();
 }
@@ -133,6 +134,7 @@ void Storage::bind(unsigned binding, std::size_t offset, std::size_t bytes) cons
 }
 
 void Storage::bind_indirect() const {
+  BIN_SCENES_ASSERT(id_ != 0 && bytes_ >= 12 && Device::is_current());
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_);
 }
 
@@ -158,6 +160,7 @@ ReadBack::~ReadBack() {
 }
 
 void ReadBack::request(const std::vector<Range>& ranges) {
+  BIN_SCENES_ASSERT(each_is(ranges, [](const Range& range) { return range.source && range.source->id() != 0; }));
   std::size_t sum = 0;
   for (const Range& range : ranges) sum += range.bytes;
   make_room(sum);

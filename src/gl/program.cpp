@@ -120,6 +120,7 @@ void Program::use() const {
 }
 
 int Program::location(const char* uniform) const {
+  BIN_SCENES_ASSERT(id_ != 0);
   const auto known = locations_.find(uniform);
   if (known != locations_.end()) return known->second;
   return locations_[uniform] = glGetUniformLocation(id_, uniform);
@@ -169,6 +170,7 @@ void dispatch_groups(const Program& program, std::size_t groups, Barrier after) 
 }
 
 void dispatch(const Program& program, std::size_t items, Barrier after) {
+  BIN_SCENES_ASSERT(program.group_size() > 0);
   dispatch_groups(program, (items + program.group_size() - 1) / program.group_size(), after);
 }
 

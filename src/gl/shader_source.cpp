@@ -1,5 +1,7 @@
 #include "shader_source.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/core/error.hpp"
 #include "core/share_folders.hpp"
 
@@ -84,6 +86,7 @@ ShaderSource read_shader(const std::string& file, const Defines& defines) {
   ShaderSource source;
   for (const auto& [name, value] : defines) source.text += "#define " + name + " " + value + "\n";
   append(shader_directory(), file, "", source);
+  BIN_SCENES_ASSERT(!source.files.empty() && source.files.front() == file);
   const char* const set = std::getenv("BIN_SCENES_SHUFFLE");
   const bool shuffled = set && std::string(set) == "1";
   if (shuffled) shuffle(source.text);

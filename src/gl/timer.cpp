@@ -1,5 +1,7 @@
 #include "bin_scenes/gl/timer.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <epoxy/gl.h>
 
 namespace bin_scenes::gl {
@@ -23,11 +25,13 @@ unsigned Timer::query() {
 
 void Timer::begin(const std::string& stage) {
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(stage.size()), stage.data());
+  BIN_SCENES_ASSERT(open_.empty() || open_.back().end);  // stages do not nest
   open_.push_back({stage, query(), 0});
   glQueryCounter(open_.back().begin, GL_TIMESTAMP);
 }
 
 void Timer::end() {
+  BIN_SCENES_ASSERT(!open_.empty() && !open_.back().end);
   open_.back().end = query();
   glQueryCounter(open_.back().end, GL_TIMESTAMP);
   glPopDebugGroup();

@@ -261,6 +261,7 @@ void judge(Scene& scene, const LoadedRequest& loaded) {
   const Worst<int> in_bin = measure_bin(report.penetration, placed, request.bin, bin_mesh);
   const Worst<int> gap = measure_gaps(report, placed, overlaps, request, bin_mesh);
 
+  BIN_SCENES_ASSERT(pair.value >= 0.0 && in_bin.value >= 0.0 && gap.value >= 0.0);
   const Acceptance& accept = request.accept;
   const auto too_deep = [&](double share, const std::string& of) {
     if (share <= accept.penetration) return;
@@ -287,6 +288,7 @@ std::vector<PartQuality> part_quality(const Scene& scene, const LoadedRequest& l
   const MeshQuery* bin_mesh = loaded.bin_model ? &loaded.bin_model->query() : nullptr;
   const std::vector<double> into_bin = depths_in_bin(placed, request.bin, bin_mesh);
   const std::vector<double> falls = free_falls(placed, overlaps, request, bin_mesh, Vec3(request.gravity.normalized()));
+  BIN_SCENES_ASSERT(into_bin.size() == placed.size() && falls.size() == placed.size());
   std::vector<PartQuality> all;
   for (std::size_t i = 0; i < placed.size(); ++i) all.push_back({placed[i].part->id, 0.0, 0.0, into_bin[i], falls[i]});
   for (const Overlapping& pair : overlaps) {
@@ -313,6 +315,7 @@ DriftReport drift(const Scene& before, const Scene& after, const std::vector<Par
     moves.push_back((end->pose * center - start.pose * center).norm());
     turns.push_back(start.pose.orientation.angularDistance(end->pose.orientation));
   }
+  BIN_SCENES_ASSERT(moves.size() == turns.size());
   static_cast<Quantiles&>(report) = quantiles(moves);
   report.turn_p95 = quantiles(turns).p95;
   report.measured = !moves.empty();

@@ -9,6 +9,8 @@
 /// side of the same faces give the same sets and are judged once.
 #include "penetration.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/core/cancel.hpp"
 #include "bin_scenes/quality/quality.hpp"
 #include "convex_cell.hpp"
@@ -48,6 +50,7 @@ std::vector<Plane> planes_near(const OverlapSide& side, const Pose& to_frame, co
   std::sort(facets.begin(), facets.end(), [](const Sized& s, const Sized& t) {
     return s.area != t.area ? s.area > t.area : s.triangle < t.triangle;
   });
+  BIN_SCENES_ASSERT(unit > 0.0 && is_rigid(to_frame));
   std::vector<Plane> planes;
   const Vec3 front = to_frame * side.front;
   for (const Sized& f : facets) {
@@ -70,6 +73,7 @@ std::vector<Plane> planes_near(const OverlapSide& side, const Pose& to_frame, co
 using Signature = std::vector<std::uint64_t>;
 
 Signature behind(const std::vector<Plane>& planes, const Vec3& x, double slack) {
+  BIN_SCENES_ASSERT(slack >= 0.0);
   Signature bits((planes.size() + 63) / 64, 0);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (planes[i].above(x) <= slack) bits[i / 64] |= std::uint64_t{1} << (i % 64);
@@ -147,6 +151,7 @@ bool within(const MeshQuery& inner, const Pose& to_outer, const MeshQuery& outer
 std::vector<Vec3> centers_inside(const OverlapSide& one, const Pose& to_frame, const OverlapSide& other,
                                  const Pose& to_other, const Aabb& box, const std::vector<std::size_t>& cut) {
   if (!other.closed) return {};
+  BIN_SCENES_ASSERT(std::is_sorted(cut.begin(), cut.end()));
   const Mesh& mesh = one.query.mesh();
   std::vector<std::size_t> triangles;
   one.query.overlapping(BoxMotion(to_frame.inverse())(box), [&](std::size_t triangle) {

@@ -1,5 +1,7 @@
 #include "sensor/fit.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -62,6 +64,7 @@ PlaneFit fit_plane(const std::vector<Vec3>& points) {
   Mat3 spread = Mat3::Zero();
   for (const Vec3& p : points) spread += (p - fit.center) * (p - fit.center).transpose();
   fit.normal = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(0);
+  BIN_SCENES_ASSERT(is_unit(fit.normal) || !spread.allFinite());
   for (const Vec3& p : points) fit.residuals.push_back(fit.normal.dot(p - fit.center));
   return fit;
 }

@@ -1,5 +1,7 @@
 #include "sensor/fronts.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -54,6 +56,7 @@ bool shows_fronts_only(const Mesh& mesh) {
 std::vector<char> outermost_triangles(const Mesh& mesh) {
   constexpr double flat = 1e-6;  // m: less than rays begin above a surface
   constexpr double most = 2e8;   // comparisons, a second
+  BIN_SCENES_ASSERT(indices_in_range(mesh));
   std::vector<char> out(mesh.triangles.size(), 0);
   double left = most;
   for (std::size_t t = 0; t < out.size() && left > 0.0; ++t) {

@@ -1,5 +1,7 @@
 #include "bin_scenes/sensor/lens.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,6 +79,7 @@ std::optional<Vec2> Lens::project(const Vec3& point) const {
 }
 
 Lens Lens::from_fov(int width, int height, double fov) {
+  BIN_SCENES_ASSERT(width > 0 && height > 0 && fov > 0.0 && fov < M_PI);
   Lens lens;
   lens.width = width;
   lens.height = height;

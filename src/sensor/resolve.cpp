@@ -2,6 +2,8 @@
 /// below the floor or in a part, or looks away.
 #include "bin_scenes/sensor/resolve.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/core/error.hpp"
 #include "bin_scenes/sensor/image_settings.hpp"
 #include "bin_scenes/sensor/sensor_model.hpp"
@@ -39,6 +41,7 @@ Pose beside(const Pose& camera, double baseline, const Vec3& target) {
   const Vec3 right = camera.orientation * Vec3::UnitX();
   Pose pose;
   pose.position = camera.position + baseline * right;
+  BIN_SCENES_ASSERT(is_rigid(camera) && target != pose.position);
   Mat3 axes;
   axes.col(2) = (target - pose.position).normalized();
   axes.col(0) = (right - axes.col(2) * axes.col(2).dot(right)).normalized();
@@ -209,6 +212,7 @@ void check_sensor(const Sensor& sensor, const LoadedRequest& loaded, const Aabb*
 
 Lens lens_of(const Sensor& sensor) {
   const std::vector<double>& k = sensor.k;
+  BIN_SCENES_ASSERT(k.size() == 9);
   Lens lens;
   lens.width = sensor.width;
   lens.height = sensor.height;

@@ -2,6 +2,8 @@
 /// is not asked again.
 #include "bin_scenes/sensor/silhouettes.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "core/in_parallel.hpp"
 #include "sensor/drawing.hpp"
 #include "sensor/spans.hpp"
@@ -124,6 +126,7 @@ void finish(Silhouette& s, const View& view, int label) {
     }
   }
   for (const std::uint64_t word : s.bits) s.count += std::bitset<64>(word).count();
+  BIN_SCENES_ASSERT(s.count <= static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height));
 }
 
 }  // namespace
@@ -146,6 +149,8 @@ std::vector<Silhouette> silhouettes(const Scenery& scenery, const View& view, do
     Silhouette& s = all[index];
     s.left = bounds.left, s.top = bounds.top;
     s.width = bounds.right - bounds.left + 1, s.height = bounds.bottom - bounds.top + 1;
+    BIN_SCENES_ASSERT(bounds.left >= 0 && bounds.top >= 0 && bounds.right < view.lens.width);
+    BIN_SCENES_ASSERT(bounds.bottom < view.lens.height);
     s.bits.assign(s.words_per_row() * static_cast<std::size_t>(s.height), 0);
     const bool in_range =
         std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) { return p.z() > near && p.z() < far; });

@@ -1,5 +1,7 @@
 #include "solver/sphere/effort.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,6 +123,7 @@ float mass_ratio_of(const World& world) {
     light = std::max(light, b.inverse_mass);
     heavy = heavy > 0 ? std::min(heavy, b.inverse_mass) : b.inverse_mass;
   }
+  BIN_SCENES_ASSERT(light >= heavy);
   return heavy > 0 ? light / heavy : 1;
 }
 

@@ -40,6 +40,23 @@ inline bool colors_share_no_body(const World& world) {
   return true;
 }
 
+/// What sleeps has no velocity.
+inline bool sleeping_bodies_stand(const World& world) {
+  return each_is(world.bodies, [](const Body& b) {
+    return !b.present || !b.asleep || b.inverse_mass == 0 || (b.v.isZero() && b.w.isZero());
+  });
+}
+
+/// Where bodies have poses at all.
+inline bool normals_are_unit(const World& world) {
+  return each_is(world.manifolds, [](const Manifold& m) {
+    return each_is(m.contacts, [](const Contact& c) {
+      const float square = c.local_normal.squaredNorm();
+      return !std::isfinite(square) || std::abs(square - 1.0f) < 1e-3f;
+    });
+  });
+}
+
 /// A body that has exploded has no pose, which the heap reports.
 inline bool orientations_are_unit(const World& world) {
   return each_is(world.bodies, [](const Body& b) {

@@ -81,6 +81,8 @@ World make_world(const WorldDef& def, const SphereSettings& settings,
       w.settings.cut_steps ? step_cuts(settings.time_step, def.gravity.norm(), w.smallest_size, settings.step_fall) : 1;
   w.settings.time_step = w.whole_step = static_cast<float>(settings.time_step / w.cuts);
   w.effort = effort_to_come(w, def);
+  BIN_SCENES_ASSERT(w.effort >= 1 && w.cuts >= 1 && w.settings.sub_steps >= 1);
+  BIN_SCENES_ASSERT(each_is(w.bodies, [](const Body& b) { return b.inverse_mass >= 0 && b.inertia.allFinite(); }));
   w.mass_ratio = mass_ratio_of(w);
   w.mass_effort = effort_of_masses(w);
   w.settings.push_speed = push_speed_of_masses(w);

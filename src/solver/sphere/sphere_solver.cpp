@@ -44,12 +44,14 @@ int cuts_of_fast(const World& world) {
 
 void step_in_cuts(World& world) {
   const int cuts = cuts_of_fast(world);
+  BIN_SCENES_ASSERT(cuts >= 1);
   world.settings.time_step = world.whole_step / static_cast<float>(cuts);
   for (int k = 0; k < cuts; ++k) step(world);
 }
 
 /// @param time_step  s: the setting, which small parts need to be cut
 void advance_world(World& world, const Steps& steps, double time_step) {
+  BIN_SCENES_ASSERT(world.cuts >= 1 && steps.rest >= 0.0 && steps.rest <= time_step);
   const auto cuts = static_cast<std::uint64_t>(world.cuts);
   for (std::uint64_t k = 0; k < steps.whole * cuts; ++k) step_in_cuts(world);
   if (steps.rest == 0.0) return;

@@ -1,5 +1,7 @@
 #include "solver/sphere/world.hpp"
 
+#include "solver/sphere/invariants.hpp"
+
 #include "bin_scenes/core/cancel.hpp"
 
 #include <chrono>
@@ -19,6 +21,7 @@ void timed(void (*pass)(World&), World& world, double& ms) {
 }  // namespace
 
 void step(World& world) {
+  BIN_SCENES_ASSERT(world.settings.time_step > 0 && manifolds_ascend(world));
   ++world.counters.steps;
   world.clock += world.settings.time_step;
   bool any_moves = false;

@@ -42,6 +42,7 @@ std::uint32_t Blocks::number(const World& world, std::size_t bodies_of_block) {
 
 void Blocks::make(const World& world, std::size_t bodies_of_block) {
   const std::uint32_t blocks = number(world, bodies_of_block);
+  BIN_SCENES_ASSERT(blocks >= 1 && each_is(block_, [&](std::uint32_t block) { return block < blocks; }));
   moving_.clear();
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
     if (world.bodies[i].moves()) moving_.push_back(i);
@@ -52,6 +53,7 @@ void Blocks::make(const World& world, std::size_t bodies_of_block) {
     return block_[world.bodies[m.a].moves() ? m.a : m.b];
   };
   counting_sort(world.order, blocks, block_of, manifold_start_, manifolds_);
+  BIN_SCENES_ASSERT(bodies_.size() == moving_.size() && manifolds_.size() == world.order.size());
   place_.assign(world.bodies.size(), unmoved);
   for (std::size_t block = 0; block < blocks; ++block) {
     const Slice bodies = this->bodies(block);

@@ -1,4 +1,6 @@
 #include "solver/sphere/passes/counting_sort.hpp"
+
+#include "solver/sphere/invariants.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -32,7 +34,9 @@ void color_manifolds(World& world) {
     return world.manifolds[i].color * (max_contacts + 1) + max_contacts -
            static_cast<int>(world.manifolds[i].contacts.size());
   };
+  BIN_SCENES_ASSERT(colors <= SPHERE_COLORS && contacts_have_room(world));
   counting_sort(solved, colors * (max_contacts + 1), key, start, world.order);
+  BIN_SCENES_ASSERT(world.order.size() == solved.size());
 }
 
 }  // namespace bin_scenes::sphere

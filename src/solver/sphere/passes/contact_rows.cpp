@@ -2,6 +2,8 @@
 /// shaders/sphere/contact_row.h.
 #include "solver/sphere/passes/contact_rows.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes::sphere {
@@ -114,6 +116,10 @@ std::uint32_t make_bundles(const World& world, const Blocks& blocks, std::size_t
   }
   for (const Color& c : colors)
     for (std::uint32_t i = c.first; !c.in_turn && i + 1 < c.last; i += 2) bundles[i].paired = true;
+  BIN_SCENES_ASSERT(colors.empty() ? bundles.empty() : colors.back().last == bundles.size());
+  BIN_SCENES_ASSERT(each_is(bundles, [](const Bundle& b) {
+    return b.lanes > 0 && b.lanes <= lane_count && b.rows() > 0 && b.rows() <= max_contacts;
+  }));
   rows.resize(row);
   return pieces;
 }

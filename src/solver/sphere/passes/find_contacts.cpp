@@ -149,6 +149,7 @@ void find_contacts(World& world) {
             [](Counters a, const Counters& b) { return a += b; });
       });
   BIN_SCENES_ASSERT(contacts_have_room(world));
+  BIN_SCENES_ASSERT(normals_are_unit(world));
 }
 
 }  // namespace bin_scenes::sphere

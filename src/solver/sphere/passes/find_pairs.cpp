@@ -232,6 +232,7 @@ void find_pairs(World& world) {
     if (b.moves() && !b.driven && near_ground(world, boxes.back())) found.emplace_back(i, ground);
   }
   const float width = strip_width(boxes);
+  BIN_SCENES_ASSERT(width > 0);
   for (std::uint32_t k = 0; k < boxes.size(); ++k) {
     boxes[k].strip = strip_at(boxes[k].lower.y(), width);
     const int last = strip_at(boxes[k].upper.y(), width);
@@ -241,6 +242,7 @@ void find_pairs(World& world) {
     return std::tie(a.strip, a.lower_x, a.box) < std::tie(b.strip, b.lower_x, b.box);
   });
   fill_lanes(entries, boxes, lanes);
+  BIN_SCENES_ASSERT(entries.size() >= boxes.size() && lanes.size() * lane_count >= entries.size());
   // Of this thread, whichever thread works on a piece.
   const std::vector<Bounds>& all_boxes = boxes;
   const std::vector<Entry>& all_entries = entries;
@@ -254,6 +256,7 @@ void find_pairs(World& world) {
     sweep(all_entries, all_boxes, all_lanes, begin, end, meeting);
   });
   sort_pairs(found, world.bodies.size());
+  BIN_SCENES_ASSERT(ascends(found));
   adopt(world, found);
 }
 

@@ -1,6 +1,8 @@
 /// Depths of contacts over the run: Solver::take_worst_contact().
 #include "solver/sphere/world.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 
 namespace bin_scenes::sphere {
@@ -12,6 +14,7 @@ void note_depths(World& world) {
     if (m.depth <= 0) continue;
     float diagonal = world.shapes[world.bodies[m.a].shape]->diagonal;
     if (m.b != ground) diagonal = std::min(diagonal, world.shapes[world.bodies[m.b].shape]->diagonal);
+    BIN_SCENES_ASSERT(diagonal > 0);
     const float relative = m.depth / diagonal;
     if (relative <= deepest.relative) continue;
     deepest.a = m.a;

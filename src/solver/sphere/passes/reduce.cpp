@@ -1,5 +1,7 @@
 #include "solver/sphere/passes/reduce.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -9,6 +11,7 @@ namespace bin_scenes::sphere {
 void reduce(const Candidates& candidates, const Manifold& old, float size, float soon, std::vector<int>& chosen) {
   chosen.clear();
   if (candidates.empty()) return;
+  BIN_SCENES_ASSERT(size > 0 && soon >= 0);
   static thread_local std::vector<float> apart, advantage, worth;
   int next = 0;
   for (std::size_t i = 1; i < candidates.size(); ++i)
@@ -51,6 +54,7 @@ void reduce(const Candidates& candidates, const Manifold& old, float size, float
 }
 
 void carry_forces(const Manifold& last, std::vector<Contact>& fresh, float near) {
+  BIN_SCENES_ASSERT(fresh.size() <= max_contacts && last.contacts.size() <= max_contacts && near >= 0);
   const std::vector<Contact>& old = last.contacts;
   std::array<bool, max_contacts> taken{}, warm{};
   const auto take = [&](std::size_t i, std::size_t k) {

@@ -150,6 +150,7 @@ void ContactSolver::prepare_motions(std::size_t unmoved) {
     motions_[i].v = padded(b.v, b.inverse_mass);
     motions_[i].w = padded(b.w);
   }
+  BIN_SCENES_ASSERT(each_is(bodies_, [this](std::uint32_t body) { return world_.bodies[body].moves(); }));
   jaws_.begin(motions_);
 }
 
@@ -341,6 +342,7 @@ void ContactSolver::finish() {
 }
 
 void solve_block(ContactSolver& solver, const StepPlan& plan) {
+  BIN_SCENES_ASSERT(plan.sub_steps >= 1 && plan.sweeps >= 1 && plan.relaxing_sweeps >= 0);
   solver.prepare();
   solver.refresh_levers();
   for (int k = 0; k < plan.sub_steps; ++k) {
@@ -384,6 +386,7 @@ void solve(World& world) {
   blocks.make(world);
   Counts counts;
   for_each_in_parallel(blocks.count(), [&](std::size_t block) { solve_block(world, blocks, block, counts); });
+  BIN_SCENES_ASSERT(counts.falling <= world.bodies.size());
   world.counters.free_steps += counts.falling;
   world.deepest.unresolved_impacts += counts.unresolved;
   BIN_SCENES_ASSERT(orientations_are_unit(world));

@@ -1,4 +1,6 @@
 #include "core/disjoint_sets.hpp"
+
+#include "solver/sphere/invariants.hpp"
 #include "solver/sphere/world.hpp"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ void note_motion(const World& world, Body& b) {
   } else {
     b.still += world.settings.time_step;
   }
+  BIN_SCENES_ASSERT(b.still >= 0);
 }
 
 bool moved_lately(const World& world, std::uint32_t body) {
@@ -75,6 +78,7 @@ void keep_held_awake(const World& world, std::vector<char>& awake) {
   for (const Manifold& m : world.manifolds)
     if (m.b != ground && !m.contacts.empty() && (world.bodies[m.a].driven || world.bodies[m.b].driven))
       awake[m.a] = awake[m.b] = 1;
+  BIN_SCENES_ASSERT(each_is(world.pulls, [&](const Pull& pull) { return pull.body < awake.size(); }));
   for (const Pull& pull : world.pulls) awake[pull.body] = 1;
 }
 
@@ -101,6 +105,7 @@ void update_sleep(World& world) {
     if (awake[i] && b.asleep && world.sleep == Sleep::by_touch) b.still = world.settings.time_step;
     b.asleep = !awake[i];
   }
+  BIN_SCENES_ASSERT(sleeping_bodies_stand(world));
 }
 
 std::vector<std::uint32_t> touched_by(const World& world, std::uint32_t body) {

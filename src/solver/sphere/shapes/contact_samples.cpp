@@ -2,6 +2,8 @@
 /// disk.
 #include "solver/sphere/shapes/contact_samples.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "part/part_bytes.hpp"
 #include "solver/sphere/shapes/missed_features.hpp"
 #include "solver/sphere/shapes/point_grid.hpp"
@@ -129,6 +131,10 @@ Samples make_samples(const PartModel& part, const std::vector<Fold>& folds, int 
   Samples made = clustered(std::move(draft), part.mass().center, spacing);
   add_creases(part, folds, made);
   made.face_spacing = static_cast<float>(face_spacing);
+  BIN_SCENES_ASSERT(made.nodes.size() == made.cones.size() && made.first_edge.size() == made.clusters.size() + 1);
+  BIN_SCENES_ASSERT(each_is(made.edges, [&](const Edge& edge) {
+    return std::max(edge.a, edge.b) < made.nodes.size() + made.crease_ends.size() && edge.length >= 0;
+  }));
   for (const Cone& cone : made.cones)
     if (!cone.axis.isZero()) made.sag = std::max(made.sag, static_cast<float>(bulge(cone, face_spacing)));
   return made;

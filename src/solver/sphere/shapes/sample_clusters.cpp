@@ -1,5 +1,7 @@
 #include "solver/sphere/shapes/sample_clusters.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -89,6 +91,9 @@ Samples clustered(Draft draft, const Vec3& center, double spacing) {
     samples.first_edge.push_back(static_cast<std::uint32_t>(e));
     samples.clusters.push_back(ball_around(points));
   }
+  BIN_SCENES_ASSERT(e == samples.edges.size() && samples.clusters.size() == clusters);
+  BIN_SCENES_ASSERT(
+      each_is(samples.edges, [&](const Edge& edge) { return edge.a <= edge.b && edge.b < samples.nodes.size(); }));
   lay_out(samples);
   return samples;
 }

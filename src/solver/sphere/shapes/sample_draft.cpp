@@ -1,5 +1,7 @@
 #include "solver/sphere/shapes/sample_draft.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,6 +18,7 @@ void Draft::add_edge(const Mesh& mesh, std::uint32_t from, std::uint32_t to, con
                      double spacing) {
   const Vec3 a = mesh.vertices[from], b = mesh.vertices[to];
   const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
+  BIN_SCENES_ASSERT(spacing > 0 && at_vertex[from] != none && at_vertex[to] != none);
   std::uint32_t last = at_vertex[from];
   for (int i = 1; i <= pieces; ++i) {
     const std::uint32_t next = i == pieces ? at_vertex[to] : add(a + (b - a) * (static_cast<double>(i) / pieces), cone);

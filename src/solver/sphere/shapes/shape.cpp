@@ -1,6 +1,8 @@
 /// Makes the collision shape of a part: how many samples it needs, its field, and what of both is kept in the cache.
 #include "solver/sphere/shapes/shape.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include "bin_scenes/part/wall_thickness.hpp"
 #include "part/part_cache.hpp"
 #include "solver/sphere/shapes/sharp_edges.hpp"
@@ -143,6 +145,8 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell,
   shape.box_center = (box.center() - mass.center).cast<float>();
   shape.box_half = (0.5 * box.size()).cast<float>();
 
+  BIN_SCENES_ASSERT(shape.radius > 0 && shape.diagonal > 0 && shape.size > 0);
+  BIN_SCENES_ASSERT(shape.unit_inertia.allFinite() && (shape.box_half.array() >= 0).all());
   shape.field.ball = ball_radius(part);
   if (shape.field.ball > 0) {
     shape.coarse = shape.fine = ball_samples(shape.field.ball);
@@ -165,6 +169,10 @@ Shape make_shape(const PartModel& part, int coarse, int fine, double field_cell,
   const DistanceField& field = made_field.get();
   shape.field.origin = (field.origin - mass.center).cast<float>();
   shape.field.cell = static_cast<float>(field.cell);
+  BIN_SCENES_ASSERT(field.cell > 0.0 && field.values.size() == static_cast<std::size_t>(field.nodes[0]) *
+                                                                   static_cast<std::size_t>(field.nodes[1]) *
+                                                                   static_cast<std::size_t>(field.nodes[2]));
+  BIN_SCENES_ASSERT(!shape.coarse.nodes.empty() && !shape.fine.nodes.empty());
   shape.field.inverse_cell = 1.0f / shape.field.cell;
   shape.field.nx = field.nodes[0];
   shape.field.ny = field.nodes[1];

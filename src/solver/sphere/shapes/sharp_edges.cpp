@@ -1,6 +1,8 @@
 /// Collects sharp edges, joins those that continue each other straight, and works out the cone of each.
 #include "solver/sphere/shapes/sharp_edges.hpp"
 
+#include "bin_scenes/core/assertion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -90,6 +92,7 @@ class Straightener {
     const Cone& cone = sharp_.convex[edge].cone;
     Run run{{edge}, {v, end}, (mesh_.vertices[end] - mesh_.vertices[v]).normalized(), {}, {}};
     run.first = run.sums = {cone.bound[0].cast<double>(), cone.bound[1].cast<double>()};
+    BIN_SCENES_ASSERT(run.edges.size() + 1 == run.vertices.size());
     return run;
   }
 
@@ -172,6 +175,7 @@ std::vector<Fold> folds_of(const Mesh& mesh, double angle) {
   std::vector<Vec3> normals(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = mesh.area_vector(t).normalized();
 
+  BIN_SCENES_ASSERT(indices_in_range(mesh) && sides.size() == 3 * mesh.triangles.size());
   std::vector<Fold> folds;
   const double flat = std::cos(angle);
   std::size_t first = 0;
@@ -234,6 +238,7 @@ double sharp_length(const Mesh& mesh, const std::vector<Fold>& folds, double ang
 }
 
 SharpEdges straightened(const Mesh& mesh, SharpEdges sharp, double most_off) {
+  BIN_SCENES_ASSERT(most_off >= 0.0 && sharp.saddles.size() == mesh.vertices.size());
   sharp.convex = Straightener(mesh, sharp, most_off).edges();
   return sharp;
 }
