@@ -1,3 +1,4 @@
+/// Signatures of two images, their costs summed over a window row by row, and the tests that a match must pass.
 #include "sensor/models/census.hpp"
 
 #include "core/in_parallel.hpp"
