@@ -1,3 +1,4 @@
+/// The list of benchmarks, the paths that they use, and the run of one with its table.
 #include "framework/benchmark.hpp"
 
 #include "bin_scenes/core/error.hpp"
