@@ -215,7 +215,7 @@ struct World {
   int cold_steps = 0;                     ///< remaining steps with Settings::cold_sweeps
   int effort = 1;                         ///< factor on sub-steps or sweeps: effort.hpp
   float mass_ratio = 1;                   ///< heaviest part / lightest
-  int mass_effort = 1;                    ///< factor on sweeps of soft contacts, for parts of unequal masses
+  int mass_effort = 1;                    ///< least factor on sweeps of soft and stiff contacts, for unequal masses
   float smallest_size = 0, least_thickness = 0, thinnest = 0;  ///< m, of the parts: Shape::size, thickness, wall
   float whole_step = 0;                                        ///< s: Settings::time_step while no part is fast
   int cuts = 1;  ///< steps for one time step of the request; more than 1 for small parts
