@@ -87,12 +87,15 @@ std::string depth_text(const std::string& camera, const DepthError& error, std::
 }
 
 /// mm, standard deviation of the parts' depths about what they have in common: noise of the sensor that averaging over
-/// a part does not remove.
+/// a part does not remove. It is no larger than the noise of the pixels; what is, are poses that err.
 double depth_noise(const LabelledImage& image) {
-  std::vector<double> sizes;
-  for (const LabelFigures& part : image.parts)
-    if (part.depth) sizes.push_back(std::abs(*part.depth));
-  return sizes.size() >= least_parts ? 1.4826 * median_of(sizes) : 0.0;
+  std::vector<double> sizes, spreads;
+  for (const LabelFigures& part : image.parts) {
+    if (!part.depth) continue;
+    sizes.push_back(std::abs(*part.depth));
+    spreads.push_back(part.depth_spread);
+  }
+  return sizes.size() >= least_parts ? std::min(1.4826 * median_of(sizes), median_of(spreads)) : 0.0;
 }
 
 /// mm that noise, at three standard deviations, does not explain.

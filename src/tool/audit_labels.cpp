@@ -197,7 +197,8 @@ void measure_depth(const RangeImage& own, std::size_t entry, const BopDepth& dep
   std::vector<double> apart;
   for (const double error : errors) apart.push_back(std::abs(error - median));
   // Of a median 1.25 times that of a mean; noise is common to about nine neighbouring pixels.
-  figures.depth_error = 1.25 * 1.4826 * median_of(apart) / std::sqrt(count / 9.0);
+  figures.depth_spread = 1.4826 * median_of(apart);
+  figures.depth_error = 1.25 * figures.depth_spread / std::sqrt(count / 9.0);
   figures.depth = median;
   figures.model_depth = sum / count;
   figures.obliqueness = oblique / count;

@@ -23,7 +23,8 @@ struct LabelFigures {
   std::optional<double> iou_visible;     ///< of mask_visib and what is visible by rays, or by bop_toolkit's rule
   std::optional<Eigen::Vector2d> shift;  ///< px, of the mask against the silhouette: x right, y down
   std::optional<double> depth;           ///< mm, median of measured less model's depth
-  double depth_error = 0.0;              ///< mm, standard error of `depth` by the spread of its pixels
+  double depth_spread = 0.0;             ///< mm, robust standard deviation of the pixels of `depth`
+  double depth_error = 0.0;              ///< mm, standard error of `depth` by that
   double model_depth = 0.0;              ///< m, mean of the pixels of `depth`
   double obliqueness = 0.0;              ///< mean of distance / depth - 1 of these pixels
   std::optional<double> visible;         ///< visib_fract less what the audit finds by the same rule

@@ -142,6 +142,16 @@ class AuditLabels(DataSetTest):
         self.assertEqual(set(named), {(1, 1, entry)}, named)
         self.assertIn("depth", named[1, 1, entry])
 
+    def test_errors_of_all_parts_are_no_noise(self):
+        random = np.random.default_rng(2)
+        count = len(read(self.scenes[0] / "scene_gt.json")["0"])
+        for entry, error in enumerate(random.normal(0, 2, count)):
+            self.move(0, 0, entry, (0, 0, error))
+        result = self.audit("--limit", "views_mm=100", code=1)
+        self.assertIn("depth", result["exceeded"])
+        named = [p for p in self.named(result) if p[:2] == (0, 0)]
+        self.assertGreater(len(named), 0.4 * count)  # 1 mm is half a standard deviation: 62 %
+
     def test_missing_files_are_named(self):
         removed = {"mask/000000_000002.png": (0, 0, 2), "mask_visib/000001_000004.png": (0, 1, 4)}
         for name, place in removed.items():
