@@ -1,13 +1,13 @@
-/// What the host costs beside a GPU, for each world and slice of 1/60 s: a pour is recorded from one world, and run again
-/// for many worlds on a device that answers and takes no time (null_device.hpp). CPU time of all threads is counted,
-/// less that of answering; it holds all that the host does for a pour: placing parts that enter, decisions, uploads,
-/// and the driver's work for dispatches, as far as llvmpipe's driver is like a card's.
+/// What the host costs beside a GPU, for each world and slice of 1/60 s: a pour is recorded from one world, and run
+/// again for many worlds on a device that answers and takes no time (test/meter/null_device.hpp). CPU time of all
+/// threads is counted, less that of answering; it holds all that the host does for a pour: placing parts that enter,
+/// decisions, uploads, and the driver's work for dispatches, as far as llvmpipe's driver is like a card's.
 #include "framework/benchmark.hpp"
 #include "framework/isolated.hpp"
-#include "null_device.hpp"
 #include "runs.hpp"
 
 #include "bin_scenes/pour/heap.hpp"
+#include "meter/null_device.hpp"
 #include "solver/sphere_gl/gl_sphere_solver.hpp"
 
 #include <cmath>
@@ -16,6 +16,9 @@
 
 namespace bin_scenes::bench {
 namespace {
+
+using meter::NullDevice;
+using meter::Tape;
 
 /// A solver for so many worlds whose lists need not grow: growth is work of the device.
 std::shared_ptr<Solver> solver_for(const LoadedRequest& all, std::size_t worlds) {
@@ -30,11 +33,13 @@ std::shared_ptr<Solver> solver_for(const LoadedRequest& all, std::size_t worlds)
 }
 
 /// Settles the first scene of a request so many times side by side. `over` is called when one has ended.
-/// @return CPU seconds, without what is made once for a solver: programs and shapes
+/// @return CPU seconds, without what is made once for a solver: programs, shapes, room for the worlds
 double settle(const LoadedRequest& all, std::size_t worlds, const std::function<void(Heap&&)>& over) {
   const SceneList scenes{worlds, [](std::size_t) { return std::size_t{0}; }};
   const std::shared_ptr<Solver> solver = solver_for(all, worlds);
-  solver->remove_world(solver->add_world(world_of(all)));
+  std::vector<WorldId> room;
+  for (std::size_t w = 0; w < worlds; ++w) room.push_back(solver->add_world(world_of(all)));
+  for (const WorldId id : room) solver->remove_world(id);
   const Clock clock;
   settle_scenes(all, solver, "", scenes, {}, [&](std::size_t, Heap&& heap) { over(std::move(heap)); });
   return clock.cpu_s();
@@ -67,13 +72,15 @@ Row measured(const Request& request, std::size_t worlds) {
 }
 
 void run(Run& out) {
-  const std::size_t parts = out.quick() ? 12 : 256;
-  Request request = bin_of("conrod", parts);
-  request.bin.inner_size = Vec3(0.40, 0.30, 0.20);  // m, as in config/conrods.yaml
-  choose_solver(request, "sphere/gpu");
-  for (const std::size_t worlds : out.quick() ? std::vector<std::size_t>{4} : std::vector<std::size_t>{64}) {
+  using Sizes = std::vector<std::size_t>;
+  const std::size_t worlds = out.quick() ? 4 : 64;
+  for (const std::size_t parts : out.quick() ? Sizes{12} : Sizes{64, 256}) {
     const Row key = Row::keys("bodies", parts, "worlds", worlds);
-    if (out.wanted(key)) out.row(Row(key).append(isolated([&] { return measured(request, worlds); }, 7200.0).row));
+    if (!out.wanted(key)) continue;
+    Request request = bin_of("conrod", parts);
+    if (parts == 256) request.bin.inner_size = Vec3(0.40, 0.30, 0.20);  // m, as in config/conrods.yaml
+    choose_solver(request, "sphere/gpu");
+    out.row(Row(key).append(isolated([&] { return measured(request, worlds); }, 7200.0).row));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "null_device.hpp"
+#include "meter/null_device.hpp"
 
 #include <epoxy/gl.h>
 
@@ -7,7 +7,7 @@
 #include <ctime>
 #include <stdexcept>
 
-namespace bin_scenes::bench {
+namespace bin_scenes::meter {
 
 namespace {
 
@@ -119,4 +119,4 @@ void NullDevice::answer(unsigned source, std::ptrdiff_t offset, unsigned target,
   cpu_s_ += thread_cpu_s() - begin;
 }
 
-}  // namespace bin_scenes::bench
+}  // namespace bin_scenes::meter

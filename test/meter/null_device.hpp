@@ -1,6 +1,6 @@
 /// A device that takes no time: it answers what the host reads, and computes nothing. The answers were recorded while a
-/// real device computed one world. So the host takes the same decisions as beside a real device, and what a run costs is
-/// what the host costs.
+/// real device computed one world. So the host takes the same decisions as beside a real device, and what a run costs
+/// is what the host costs.
 ///
 /// libepoxy calls OpenGL through pointers; a null device puts its own functions there for as long as it lives. One at a
 /// time.
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bin_scenes::bench {
+namespace bin_scenes::meter {
 
 /// What was read back of each buffer of one world, in turn, by the label of the buffer.
 using Tape = std::map<std::string, std::vector<std::vector<unsigned char>>>;
@@ -54,11 +54,11 @@ class NullDevice {
 
   bool answers_;
   Tape tape_;
-  std::map<unsigned, unsigned char*> mapped_;                               ///< buffers that the host sees
+  std::map<unsigned, unsigned char*> mapped_;                                ///< buffers that the host sees
   std::map<std::pair<std::string, std::ptrdiff_t>, std::size_t> positions_;  ///< records that a place was given
   Reads reads_;
   double cpu_s_ = 0.0;
   std::uint64_t unanswered_ = 0;
 };
 
-}  // namespace bin_scenes::bench
+}  // namespace bin_scenes::meter
