@@ -34,6 +34,10 @@
 #define BIND_SAMPLES 32
 #define BIND_IMPULSES 33
 #define BIND_WORST 34
+#define BIND_ASKS 35
+#define BIND_WATCHED 36
+#define BIND_AUDITS 37
+#define BIND_SEEN 38
 
 #define SPHERE_JOB_GROUP 64         // of a group that decides about pairs, one each
 #ifndef SPHERE_PAIR_GROUP
@@ -88,12 +92,21 @@
 // SphereState.flags.x
 #define SPHERE_PRESENT 1u
 #define SPHERE_ASLEEP 2u
+#define SPHERE_OUTSIDE 4u  // has left the bin; the host takes it out
 
 // SphereProgress.overflow: the world waits, as it was before the step, until the host has made room.
 #define SPHERE_PAIR_OVERFLOW 1u
 #define SPHERE_CANDIDATE_OVERFLOW 2u
 #define SPHERE_ROW_OVERFLOW 4u
 #define SPHERE_SAMPLE_OVERFLOW 8u
+
+// SphereAsk.flags: WatchAsk in solver/world_watch.hpp; COUNTED: the host has taken the counters of SphereProgress.
+#define SPHERE_REST_ANEW 1u
+#define SPHERE_ENERGY_ANEW 2u
+#define SPHERE_DRIVEN 4u
+#define SPHERE_COUNTED 8u
+
+#define SPHERE_BLOCKED 0x80000000u  // SphereSeen.left: the world waits for room
 
 GPU_STRUCTS_BEGIN
 
@@ -158,6 +171,43 @@ struct SphereWorst {
   uint unused0, unused1, unused2;
 };
 
+// What a world is to do and to be observed for: WatchAsk and WatchRules in solver/world_watch.hpp.
+struct SphereAsk {
+  uint steps, flags, observation;  // observation: 0 = none, or done
+  float seconds;
+  uvec4 since;
+  vec4 lower;       // m; w: rest_move, diagonals
+  vec4 upper;       // m; w: rest_turn, rad
+  uint rested, unused0, unused1, unused2;
+};
+
+// What the host reads after each stretch of steps: WatchSeen, and what is left to do.
+struct SphereSeen {
+  uint left;        // steps; and SPHERE_BLOCKED
+  uint observation, outside, fast, awake, unrested;
+  uint moved01, moved23;  // two counts each, the first one in the lower 16 bits
+};
+
+// What the watch keeps of a body. Places (m) are positions with what these are too coarse for.
+struct SphereWatched {
+  vec4 still, still_rest, still_orientation;  // pose from which rest is judged: RestWatch
+  vec4 before, before_rest;  // place at the last observation; w: kinetic energy (J), speed (m/s)
+  vec4 least, least_rest;    // place when the energy of all was least; w: kinetic energy, the most since then (J)
+  vec4 audited;              // speed of its fastest point at the last observation (m/s); 1 = its energies are known
+};
+
+// The worst energies since they began anew: EnergyReport and WorldEnergy. Observations by number, 0 = none.
+struct SphereAudit {
+  float gain;       // m g d
+  uint gainer, gain_observation;
+  float ratio;      // of speeds
+  uint thrown, beside, ratio_observation;
+  float world_gain;  // m g d of those that moved
+  uint world_observation;
+  uint begins;      // 1: the energy of all begins anew with the next observation
+  uint unused0, unused1;
+};
+
 struct SphereBody {
   uvec4 ids;        // shape, world
   vec4 material;    // inverse mass (0: fixed), friction, restitution, diagonal of the bounding box (m)
@@ -171,7 +221,7 @@ struct SphereState {
   vec4 still_position;     // pose from which rest is judged; w: s spent near it
   vec4 still_orientation;
   vec4 position_rest, velocity_rest;  // what position and velocity are too coarse for: add_exactly
-  uvec4 flags;       // bits; label of the island
+  uvec4 flags;       // bits; label of the island; 1: it was put in anew; observation in which it moved last (world_watch.hpp)
 };
 
 struct SphereTensor {  // when contacts were found
@@ -296,7 +346,8 @@ GPU_STRUCTS_END
 namespace bin_scenes::gpu {
 static_assert(sizeof(SphereSettingsBlock) == 128 && sizeof(SphereWorld) == 80, "std430");
 static_assert(sizeof(SphereProgress) == 160, "std430");
-static_assert(sizeof(SphereWorst) == 32, "std430");
+static_assert(sizeof(SphereWorst) == 32 && sizeof(SphereAsk) == 80 && sizeof(SphereSeen) == 32, "std430");
+static_assert(sizeof(SphereWatched) == 128 && sizeof(SphereAudit) == 48, "std430");
 static_assert(sizeof(SphereBody) == 32 && sizeof(SphereState) == 144 && sizeof(SphereTensor) == 80, "std430");
 static_assert(sizeof(SpherePlane) == 32 && sizeof(SphereSamples) == 64 && sizeof(SphereShape) == 272, "std430");
 static_assert(sizeof(SphereNode) == 16 && sizeof(SphereBox) == 32, "std430");

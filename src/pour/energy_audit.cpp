@@ -182,16 +182,16 @@ void EnergyAudit::compare_gains(DisjointSets& group, const std::vector<Reach>& r
   }
 }
 
-std::vector<Flag> EnergyAudit::flags() const {
+std::vector<Flag> flags_of(const EnergyReport& worst) {
   const std::string remedy = "use the other solver, shorter time steps, or a model without nearly equal fits";
   std::vector<Flag> flags;
   char text[160];
-  if (worst_.gain > flagged_gain) {
+  if (worst.gain > flagged_gain) {
     std::snprintf(text, sizeof text, "part %d gained %.3g m g d of energy from nowhere by %.3f s of simulated time",
-                  worst_.part, worst_.gain, worst_.time);
+                  worst.part, worst.gain, worst.time);
     flags.push_back({"energy_gained", text, remedy});
   }
-  const auto& thrown = worst_.thrown;
+  const auto& thrown = worst.thrown;
   if (thrown.ratio > flagged_ratio) {
     std::snprintf(text, sizeof text,
                   "part %d, beside %s, left at %.3g times the speed of what was near it by %.3f s of simulated time",

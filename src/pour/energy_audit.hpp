@@ -75,7 +75,6 @@ class EnergyAudit {
 
   const EnergyReport& worst() const { return worst_; }
   const WorstReport::EnergyGain& worst_of_world() const { return world_energy_.worst(); }
-  std::vector<Flag> flags() const;
 
  private:
   struct Body {
@@ -107,5 +106,7 @@ class EnergyAudit {
   EnergyReport worst_;
   WorldEnergy world_energy_;
 };
+
+std::vector<Flag> flags_of(const EnergyReport& worst);
 
 }  // namespace bin_scenes

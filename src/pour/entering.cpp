@@ -118,7 +118,7 @@ void HeapCore::cut_walls() {
   // No part touches the walls above the rim, and nothing carries one there.
   if (top() <= plan_->world.wall_height && motion_seconds() == 0.0) return;
   earlier_steps_ += solver_.steps(id_);
-  solver_.remove_world(id_);  // first: both at once would hold twice the memory
+  leave_world();  // first: both at once would hold twice the memory
   make_world(false);
   set_solver_phase();
 }

@@ -55,6 +55,7 @@ void HeapCore::make_world(bool raised_walls, const std::vector<std::size_t>& lif
       def.wall_height += plan_->request.pour.grid_spacing * 2.0 * plan_->largest_part * def.bodies.size();
   }
   id_ = solver_.add_world(def);
+  begin_watch();
   for (std::size_t b = 0; b < states_.size(); ++b)
     if (place_[b] == Place::in) solver_.insert(id_, b, states_[b]);
   // A solver that moves nothing says so now, and not when all has been poured.
@@ -76,13 +77,10 @@ void HeapCore::start_clock() {
   course_begun_ -= time_;
   time_ = 0.0;
   settling_.start_clock();
-  rest_ = RestWatch(states_.size());
   solver_.take_worst_contact(id_);
   deepest_ = {};
   unresolved_impacts_ = 0;
-  audit_.emplace(plan_->world);
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    if (place_[b] == Place::in) audit_->enter(b, states_[b]);
+  restart_watch();
   earlier_steps_ = std::uint64_t{0} - solver_.steps(id_);
   fresh_ = true;
 }
@@ -112,7 +110,7 @@ void HeapCore::remove(std::size_t body) {
   if (place_[body] == Place::in) {
     solver_.remove(id_, body);
     wake_kept_beside(body);
-    audit_->leave(body);
+    if (audit_) audit_->leave(body);  // a device sees that it has left
   }
   waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), body), waiting_.end());
   place_[body] = Place::removed;
@@ -130,6 +128,7 @@ void HeapCore::insert(std::size_t body, const BodyState& state) {
   BIN_SCENES_ASSERT(place_[body] != Place::in);
   solver_.insert(id_, body, state);
   if (audit_) audit_->enter(body, state);
+  if (device_) device_->enter(body);
   states_[body] = state;
   place_[body] = Place::in;
 }
@@ -151,91 +150,8 @@ double HeapCore::time_left() const {
   return steps_in(left, solver_.step_size()).count() > 0 ? left : 0.0;
 }
 
-bool HeapCore::outside(const Vec3& center) const {
-  switch (plan_->world.bin.kind) {
-    case Bin::Kind::none:
-      return false;
-    case Bin::Kind::floor:
-      return center.z() < 0.0;
-    case Bin::Kind::box: {
-      const Vec3 half = 0.5 * plan_->world.bin.inner_size;
-      return std::abs(center.x()) > half.x() || std::abs(center.y()) > half.y() || center.z() < 0.0;
-    }
-    case Bin::Kind::mesh: {
-      const Aabb& box = plan_->bin_bounds;
-      return center.x() < box.lower.x() || center.x() > box.upper.x() || center.y() < box.lower.y() ||
-             center.y() > box.upper.y() || center.z() < box.lower.z();
-    }
-  }
-  return false;
-}
-
-void HeapCore::update_rest(bool driven) {
-  const Pour& pour = plan_->request.pour;
-  const std::vector<BodyState> now = solver_.states(id_);
-  release_kept();
-  for (std::size_t b = 0; b < states_.size(); ++b) {
-    if (!moves(b)) continue;
-    const PartModel& part = this->part(b);
-    const bool finite = now[b].pose.finite();
-    BIN_SCENES_ASSERT(!finite || is_unit(now[b].pose.orientation));
-    if (finite && !is_kept(b)) states_[b] = now[b];
-    if (!finite || outside(states_[b].pose * part.mass().center)) {
-      solver_.remove(id_, b);
-      place_[b] = Place::escaped;
-      audit_->leave(b);
-      continue;
-    }
-    rest_.observe(b, time_, states_[b].pose * part.mass().center, states_[b].pose.orientation,
-                  {pour.rest_window, pour.rest_move * part.diagonal(), pour.rest_turn});
-  }
-  audit_->observe(time_, states_, driven);
-  note_worst();
-  fresh_ = true;
-}
-
-void HeapCore::note_worst() {
-  const std::optional<WorstContact> worst = solver_.take_worst_contact(id_);
-  if (!worst) return;
-  deepest_.known = true;
-  unresolved_impacts_ += worst->unresolved_impacts;
-  if (worst->relative > deepest_.relative)
-    deepest_ = {true, worst->depth, worst->relative, {worst->a, worst->b}, time_ - worst->ago};
-}
-
-bool HeapCore::slow(std::size_t body) const {
-  const PartModel& part = this->part(body);
-  const double size = part.diagonal(), limit = 0.25 * std::sqrt(plan_->world.gravity.norm() * size);
-  const Twist& v = states_[body].velocity;
-  return v.linear.norm() + 0.5 * size * v.angular.norm() <= limit;
-}
-
 bool HeapCore::moves(std::size_t body) const {
   return place_[body] == Place::in && !plan_->world.bodies[body].fixed;
-}
-
-template <class Test>
-std::size_t HeapCore::count_moving(Test test) const {
-  std::size_t count = 0;
-  for (std::size_t b = 0; b < states_.size(); ++b) count += moves(b) && test(b);
-  return count;
-}
-
-std::size_t HeapCore::count() const {
-  return count_moving([](std::size_t) { return true; });
-}
-bool HeapCore::all_rest() const {
-  return count_moving([&](std::size_t b) { return !rest_.resting(b); }) == 0;
-}
-bool HeapCore::all_slow() const {
-  return count_moving([&](std::size_t b) { return !slow(b); }) == 0;
-}
-std::size_t HeapCore::still_for_less_than(double seconds) const {
-  return count_moving([&](std::size_t b) { return rest_.still(b, time_) < seconds; });
-}
-bool HeapCore::all_asleep() const {
-  const std::vector<bool> asleep = solver_.asleep(id_);
-  return count_moving([&](std::size_t b) { return !asleep[b]; }) == 0;
 }
 
 void HeapCore::advance() {
@@ -249,18 +165,11 @@ void HeapCore::advance() {
   poured_ = before == Stage::pour;
 }
 
-std::vector<bool> HeapCore::unverified() const {
-  std::vector<bool> bodies(states_.size());
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    bodies[b] = moves(b) && rest_.still(b, time_) < settling_.checked_s();
-  return bodies;
-}
-
 void HeapCore::change_world() {
   if (!poured_) return;
   poured_ = false;
   if (walls_raised_) cut_walls();
-  rest_ = RestWatch(states_.size());  // parts that rested on coarse samples or leant on a cut wall may move again
+  restart_rest();  // parts that rested on coarse samples or leant on a cut wall may move again
   begin_motion();
 }
 
@@ -274,8 +183,7 @@ Progress HeapCore::progress() const {
   progress.phase = settling_.stage() == Stage::pour ? "pour" : "settle";
   progress.scene = index_;
   progress.parts = states_.size();
-  for (std::size_t b = 0; b < states_.size(); ++b)
-    progress.resting += place_[b] == Place::in && (!moves(b) || rest_.resting(b));
+  progress.resting = static_cast<std::size_t>(std::count(place_.begin(), place_.end(), Place::in)) - unrested();
   progress.simulated_s = time_;
   const double parts = std::max<double>(1.0, static_cast<double>(states_.size()));
   const double entered = 1.0 - waiting_.size() / parts, still = progress.resting / parts;
@@ -288,7 +196,7 @@ PartState HeapCore::state_of(std::size_t body) const {
   switch (place_[body]) {
     case Place::in:
       if (plan_->world.bodies[body].fixed) return PartState::fixed;
-      return rest_.resting(body) ? PartState::resting : PartState::moving;
+      return resting(body) ? PartState::resting : PartState::moving;
     case Place::escaped:
       return PartState::escaped;
     case Place::removed:
@@ -333,12 +241,13 @@ Scene HeapCore::scene() {
   report.simulated_s = time_;
   report.steps = earlier_steps_ + solver_.steps(id_);
   report.flags = solver_.flags(id_);
-  report.energy = audit_->worst();
-  report.worst = {deepest_, audit_->worst_of_world(), unresolved_impacts_};
+  if (device_) note_worst();
+  report.energy = device_ ? device_->energy() : audit_->worst();
+  report.worst = {deepest_, device_ ? device_->energy_of_all() : audit_->worst_of_world(), unresolved_impacts_};
   if (!deepest_.known && time_ > 0.0)
     report.flags.push_back({"depths_unknown", "this solver does not report how deep contacts were during the run",
                             "use sphere without preset thesis, or bullet, where that matters"});
-  for (Flag& flag : audit_->flags()) report.flags.push_back(std::move(flag));
+  for (Flag& flag : flags_of(report.energy)) report.flags.push_back(std::move(flag));
   const std::vector<ContactForce> forces = this->forces();
   for (const ContactForce& f : forces) scene.contacts.push_back({f.a, f.b, f.point, f.normal, f.force});
   report.jam = worst_jam(plan_->world, states_, forces);

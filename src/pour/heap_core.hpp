@@ -2,6 +2,7 @@
 /// (settle_heaps.hpp), so that many heaps of one solver are stepped together.
 #pragma once
 
+#include "pour/device_watch.hpp"
 #include "pour/energy_audit.hpp"
 #include "pour/pour_plan.hpp"
 #include "pour/settling.hpp"
@@ -42,7 +43,13 @@ class HeapCore final : private HeapView {
   const std::vector<BodyState>& states();
   /// s until the request's set time; infinity without one.
   double time_left() const;
-  void advanced(double seconds) { time_ += seconds, fresh_ = false; }
+  /// The next `seconds` are about to be simulated, and the heap is observed at their end if a slice or its set time
+  /// ends then. Where the solver's device observes worlds, it is asked to.
+  void ask(double seconds, bool slice_ends);
+  void advanced(double seconds);
+  /// After advanced(): whether the heap cannot be advanced further by what its device has seen of it. The states that
+  /// the solver has are then to be those of now. Not for solvers whose device does not observe worlds.
+  bool wants_states();
   /// Updates rest and escape, inserts waiting parts, applies the transitions. Call it at the end of a slice, then
   /// change_world(). Different heaps of a solver may be advanced by different threads at once.
   void advance();
@@ -95,6 +102,15 @@ class HeapCore final : private HeapView {
   bool end_motion();  ///< if it is over; what moved settles again
   PartState state_of(std::size_t body) const;
   bool outside(const Vec3& center) const;
+  WatchRules rules() const;
+  void take_observation();  ///< of the device
+  void begin_watch();       ///< of a new world by the device
+  void leave_world();       ///< removes it
+  void restart_rest();
+  void restart_watch();
+  bool resting(std::size_t body) const;
+  double still(std::size_t body) const;  ///< s
+  std::size_t unrested() const;
   bool slow(std::size_t body) const;
   double top() const;
   bool moves(std::size_t body) const;  ///< it is in and not fixed
@@ -133,7 +149,8 @@ class HeapCore final : private HeapView {
       0;  ///< part line: the motions of those before it, and of the bin, were in an earlier course
   std::vector<BodyState> states_;
   std::vector<Place> place_;
-  std::vector<std::size_t> waiting_;  ///< bodies that have not entered, next one first
+  std::vector<std::size_t> waiting_;   ///< bodies that have not entered, next one first
+  std::optional<DeviceWatch> device_;  ///< in place of the next two, where the solver has a WorldWatch
   RestWatch rest_;
   std::optional<EnergyAudit> audit_;  ///< of this settle
   WorstReport::Penetration deepest_;  ///< likewise

@@ -57,7 +57,7 @@ void HeapCore::remake_world(const std::vector<std::size_t>& lifted, const std::v
   }
   const std::vector<ContactForce> pressed = forces();
   earlier_steps_ += solver_.steps(id_);
-  solver_.remove_world(id_);  // first: both at once would hold twice the memory
+  leave_world();  // first: both at once would hold twice the memory
   make_world(walls_raised_, lifted);
   set_solver_phase();
   wake(awake);
@@ -126,6 +126,7 @@ void HeapCore::lift(const std::vector<std::size_t>& bodies, const Vec3& directio
       state.pose.position += direction * (distance * (piece - 1) / pieces);
       solver_.insert(id_, bodies[i], state);
     }
+    ask(slice, true);
     advanced(solver_.advance({id_}, slice));
     update_rest(true);
     wake(dragged_by(bodies, direction));

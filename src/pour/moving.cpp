@@ -104,7 +104,7 @@ bool HeapCore::end_motion() {
   put_on_path(motion_seconds() + solver_.step_size(), solver_.step_size(), true);
   settling_.start(Stage::settle);
   set_solver_phase();
-  rest_ = RestWatch(states_.size());
+  restart_rest();
   return true;
 }
 

@@ -2,6 +2,7 @@
 /// the other one is observed.
 #include "pour/settle_heaps.hpp"
 
+#include "bin_scenes/solver/world_watch.hpp"
 #include "solver/step_limit.hpp"
 
 #include "bin_scenes/core/cancel.hpp"
@@ -89,6 +90,7 @@ class Run {
     for (Running& r : group.running)
       if (r.heap->follows() && seconds > 0.0) r.heap->follow(seconds);
     group.under_way = steps_in(seconds, step_).count();
+    for (Running& r : group.running) r.heap->ask(seconds, group.under_way == group.left);
     if (group.under_way > 0) group.seconds = solver_.begin(group.ids(), seconds);
   }
 
@@ -103,8 +105,19 @@ class Run {
       for (Running& r : group.running) sample(*r.heap);
   }
 
+  /// Of heaps that are about to change, by this thread: the others need no states.
+  void read_states(Group& group) {
+    WorldWatch* const watch = solver_.watch();
+    if (!watch) return;
+    std::vector<WorldId> ids;
+    for (Running& r : group.running)
+      if (r.heap->wants_states()) ids.push_back(r.heap->id());
+    watch->read(ids);
+  }
+
   void end_slice(Group& group) {
     end_piece(group);
+    read_states(group);
     leave_if(group, [](HeapCore& heap) {
       if (heap.time_left() > 0.0) return false;
       heap.update_rest(heap.follows());
@@ -170,8 +183,10 @@ class Run {
 
   /// What the device works on is finished first: a running world takes no change.
   [[noreturn]] void cancel() {
-    for (Group& group : groups_)
+    for (Group& group : groups_) {
       if (group.begun) end_piece(group);
+      for (Running& r : group.running) r.heap->states();  // from which it can be recovered
+    }
     throw Error(ErrorKind::cancelled, "cancelled", "pour", "ask again");
   }
 

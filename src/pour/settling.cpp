@@ -135,20 +135,34 @@ void Settling::enter(Stage stage, double time) {
   BIN_SCENES_ASSERT(rechecks_ <= most_rechecks);
 }
 
+Settling::Seen Settling::seen(const HeapView& heap, double time) const {
+  return {heap, calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_, time - poured_};
+}
+
+std::array<double, 4> Settling::ages(const HeapView& heap, double time) const {
+  const Seen at = seen(heap, time);
+  return {at.calm_s, 0.5 * at.calm_s, at.in_stage - jolt, heap.rest_window()};
+}
+
+const Settling::Transition* Settling::next(const HeapView& heap, double time) const {
+  if (done()) return nullptr;
+  const Seen at = seen(heap, time);
+  for (const Transition& t : transitions)
+    if (t.from == stage_ && finish_ >= t.least && finish_ <= t.most && t.when(at)) return &t;
+  return nullptr;
+}
+
 bool Settling::advance(const HeapView& heap, double time) {
   if (done()) return false;
-  const Seen seen{heap,          calm_share * heap.rest_window(), time - begun_, advanced_ - begun_, checks_, rechecks_,
-                  time - poured_};
-  BIN_SCENES_ASSERT(seen.in_stage >= 0.0 && seen.last_stage <= seen.in_stage && seen.since_pour >= 0.0);
+  const Transition* const t = next(heap, time);
+  const Seen at = seen(heap, time);
+  BIN_SCENES_ASSERT(at.in_stage >= 0.0 && at.last_stage <= at.in_stage && at.since_pour >= 0.0);
   advanced_ = time;
-  for (const Transition& t : transitions) {
-    if (t.from != stage_ || finish_ < t.least || finish_ > t.most || !t.when(seen)) continue;
-    checked_s_ = seen.in_stage - jolt;
-    gave_up_ = t.from == Stage::recheck && t.to == Stage::done && !seen.verified();
-    enter(t.to, time);
-    return true;
-  }
-  return false;
+  if (!t) return false;
+  checked_s_ = at.in_stage - jolt;
+  gave_up_ = t->from == Stage::recheck && t->to == Stage::done && !at.verified();
+  enter(t->to, time);
+  return true;
 }
 
 Phase Settling::phase() const {

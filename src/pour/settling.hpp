@@ -86,6 +86,10 @@ class Settling {
   void ignore_stages() { finish_ = Pour::Finish::settled, ignored_ = true; }
   /// The current stage goes on, and its clock starts again at 0.
   void start_clock();
+  /// Ages for which a transition at `time` may ask HeapView::still_for_less_than() (s).
+  std::array<double, 4> ages(const HeapView& heap, double time) const;
+  /// Whether advance() would begin a stage.
+  bool will_change(const HeapView& heap, double time) const { return next(heap, time) != nullptr; }
   /// Applies the transitions at `time` (s since the start). Returns whether a stage began, the same one or another.
   bool advance(const HeapView& heap, double time);
 
@@ -104,6 +108,8 @@ class Settling {
   struct Seen;
   struct Transition;
   static const Transition transitions[];
+  const Transition* next(const HeapView& heap, double time) const;
+  Seen seen(const HeapView& heap, double time) const;
   void enter(Stage stage, double time);
 
   Pour::Finish finish_;

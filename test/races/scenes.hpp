@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bin_scenes/solver/thesis_solver.hpp"
+#include "bin_scenes/solver/world_watch.hpp"
 #include "races/recorder.hpp"
 #include "solver/sphere_gl/handful.hpp"
 
@@ -89,8 +90,15 @@ inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity
   const Carpet carpet;
   const WorldId world = solver->add_world(carpet.def);
   for (std::size_t i = 0; i < carpet.starts.size(); ++i) solver->insert(world, i, carpet.starts[i]);
+  WorldWatch& watch = *solver->watch();
+  watch.set_rules(world, {Vec3(-0.5, -0.25, 0.0), Vec3(0.5, 0.25, 0.295), 1e-3, 1e-2});  // those in the air are outside
+  WatchAsk ask;
+  ask.observation = 1;
+  ask.seconds = 2 * solver->step_size();
+  ask.rest_anew = ask.energy_anew = ask.states = true;
+  watch.ask(world, ask);
   recorder.begin();
-  solver->advance({world}, 2 * solver->step_size());
+  solver->advance({world}, ask.seconds);
   recorder.end();
   // Ten from the floor and those in the air change places: pairs part and others begin in one step.
   const std::vector<BodyState> states = solver->states(world);
@@ -99,6 +107,19 @@ inline void watch_carpet(Recorder& recorder, const sphere_gl::Capacity& capacity
     solver->insert(world, low, states[high]);
     solver->insert(world, high, states[low]);
   }
+  // Two are thrown by nobody, as the audit of their energy sees.
+  for (const std::size_t body : {std::size_t{3}, std::size_t{90}}) {
+    BodyState state = states[body];
+    state.velocity.linear.z() += 6.0;
+    solver->insert(world, body, state);
+  }
+  ask = {};
+  ask.observation = 2;
+  ask.seconds = solver->step_size();
+  ask.since = {1, 2, 1, 2};
+  ask.rested = 1;
+  ask.states = true;
+  watch.ask(world, ask);
   recorder.begin();
   solver->advance({world}, solver->step_size());
   recorder.end();

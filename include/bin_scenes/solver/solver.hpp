@@ -114,6 +114,8 @@ struct Phase {
       false;  ///< all bodies sleep as it begins, at no velocity; false: all are awake if it is a change
 };
 
+class WorldWatch;
+
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -170,6 +172,9 @@ class Solver {
   /// The worst contact of all steps since this was last asked, or since the world was made. None if the solver does not
   /// report depths.
   virtual std::optional<WorstContact> take_worst_contact(WorldId /*world*/) { return std::nullopt; }
+
+  /// Observes worlds where they are simulated; none if states() costs nothing (world_watch.hpp).
+  virtual WorldWatch* watch() { return nullptr; }
 
   /// Number of worlds that run faster side by side than one after the other.
   virtual std::size_t worlds_at_once() const { return 1; }

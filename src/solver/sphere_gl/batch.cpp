@@ -90,7 +90,10 @@ Batch::Batch(const Capacity& capacity)
       color_manifolds_(world_pass("color_manifolds", capacity)),
       solve_(world_pass("solve", capacity)),
       note_depths_(world_pass("note_depths", capacity)),
-      update_sleep_(world_pass("update_sleep", capacity)) {
+      update_sleep_(world_pass("update_sleep", capacity)),
+      begin_watch_(world_pass("begin_watch", capacity)),
+      watch_rest_(world_pass("watch_rest", capacity)),
+      audit_energy_(world_pass("audit_energy", capacity)) {
   const gl::Defines group = {{"SPHERE_PAIR_GROUP", std::to_string(pair_group_)}};
   collect_samples_ = pass("collect_samples", group);
   test_samples_ = pass("test_samples", group);
@@ -115,10 +118,14 @@ void Batch::make_room() {
   at_least(worlds_, slots_.size());
   at_least(progress_, slots_.size());
   at_least(worst_, slots_.size());
+  at_least(asks_, slots_.size());
+  at_least(audits_, slots_.size());
+  at_least(seen_, slots_.size());
   at_least(colors_, slots_.size() * (SPHERE_COLORS + 1));
   at_least(planes_, plane_arena_.size());
   at_least(bodies_, bodies);
   at_least(states_, bodies);
+  at_least(watched_, bodies);
   at_least(tensors_, bodies);
   at_least(ranges_, bodies);
   at_least(boxes_, bodies);
@@ -184,8 +191,7 @@ Batch::Slot Batch::add(const sphere::World& world, gpu::SphereProgress& progress
   for (const sphere::Plane& plane : world.planes) planes.push_back(to_gpu(plane));
   planes_.upload(r.first_plane, planes.data(), planes.size());
   std::vector<gpu::SphereBody> bodies;
-  for (const sphere::Body& b : world.bodies)
-    {
+  for (const sphere::Body& b : world.bodies) {
     const sphere::Shape& shape = *world.shapes[b.shape];
     bodies.push_back(to_gpu(b, shape.diagonal, shapes_.index_of(shape), static_cast<gpu::uint>(slot)));
   }
@@ -235,13 +241,17 @@ void Batch::remove(Slot slot) {
   slots_.give(slot);
 }
 
-void Batch::upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies) {
+void Batch::upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies,
+                          const std::vector<Mark>& marks) {
   std::vector<gpu::SphereState> states;
   for (auto body = bodies.begin(); body != bodies.end();) {
     const std::size_t first = *body;
     states.clear();
-    for (; body != bodies.end() && *body == first + states.size(); ++body)
+    for (; body != bodies.end() && *body == first + states.size(); ++body) {
       states.push_back(state_of(world.bodies[*body]));
+      states.back().flags.z = marks[*body].enters ? 1u : 0u;
+      states.back().flags.w = marks[*body].moved;
+    }
     states_.upload(regions_[slot].first_body + first, states.data(), states.size());
   }
 }
@@ -252,16 +262,36 @@ void Batch::upload_states(Slot slot, const sphere::World& world) {
   states_.upload(regions_[slot].first_body, states.data(), states.size());
 }
 
-void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds) {
-  std::sort(worlds.begin(), worlds.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<gpu::SphereProgress> neighbours;
-  for (std::size_t i = 0; i < worlds.size(); ++i) {
-    const auto& [slot, progress] = worlds[i];
-    neighbours.push_back(progress);
-    if (i + 1 < worlds.size() && worlds[i + 1].first == slot + 1) continue;
-    progress_.upload(slot + 1 - neighbours.size(), neighbours.data(), neighbours.size());
+namespace {
+
+/// Entries by slot; neighbours are one copy.
+template <class T>
+void upload_by_slot(gl::Buffer<T>& buffer, std::vector<std::pair<Batch::Slot, T>> entries) {
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<T> neighbours;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto& [slot, entry] = entries[i];
+    neighbours.push_back(entry);
+    if (i + 1 < entries.size() && entries[i + 1].first == slot + 1) continue;
+    buffer.upload(slot + 1 - neighbours.size(), neighbours.data(), neighbours.size());
     neighbours.clear();
   }
+}
+
+template <class T>
+void add_range(std::vector<gl::ReadBack::Range>& ranges, const gl::Buffer<T>& buffer, std::size_t first,
+               std::size_t count) {
+  ranges.push_back({&buffer.storage(), first * sizeof(T), count * sizeof(T)});
+}
+
+}  // namespace
+
+void Batch::upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds) {
+  upload_by_slot(progress_, std::move(worlds));
+}
+
+void Batch::upload_asks(std::vector<std::pair<Slot, gpu::SphereAsk>> worlds) {
+  upload_by_slot(asks_, std::move(worlds));
 }
 
 void Batch::forget_worst(Slot slot) {
@@ -269,15 +299,19 @@ void Batch::forget_worst(Slot slot) {
   worst_.upload(slot, &none, 1);
 }
 
-void Batch::request(const std::vector<Slot>& slots, gl::ReadBack& back) const {
+void Batch::request(const std::vector<Slot>& seen, const std::vector<Slot>& read, gl::ReadBack& back) const {
   std::vector<gl::ReadBack::Range> ranges;
-  const auto add = [&](const auto& buffer, std::size_t first, std::size_t count, std::size_t size) {
-    ranges.push_back({&buffer.storage(), first * size, count * size});
-  };
-  for (const Slot slot : slots) add(progress_, slot, 1, sizeof(gpu::SphereProgress));
-  for (const Slot slot : slots) add(worst_, slot, 1, sizeof(gpu::SphereWorst));
-  for (const Slot slot : slots)
-    add(states_, regions_[slot].first_body, regions_[slot].bodies, sizeof(gpu::SphereState));
+  for (const Slot slot : seen) add_range(ranges, seen_, slot, 1);
+  for (const Slot slot : read) add_range(ranges, progress_, slot, 1);
+  for (const Slot slot : read) add_range(ranges, worst_, slot, 1);
+  for (const Slot slot : read) add_range(ranges, audits_, slot, 1);
+  for (const Slot slot : read) add_range(ranges, states_, regions_[slot].first_body, regions_[slot].bodies);
+  back.request(ranges);
+}
+
+void Batch::request_progress(const std::vector<Slot>& slots, gl::ReadBack& back) const {
+  std::vector<gl::ReadBack::Range> ranges;
+  for (const Slot slot : slots) add_range(ranges, progress_, slot, 1);
   back.request(ranges);
 }
 

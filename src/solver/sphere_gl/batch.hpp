@@ -22,6 +22,9 @@
 ///     group/world        thread/manifold  group/world, all three
 // clang-format on
 ///
+/// begin_watch comes before the steps of a stretch, watch_rest and audit_energy behind them, a group a world: the host
+/// then reads 32 bytes of a world, and its states only when it asks for them.
+///
 /// Between the passes of one world lies nothing but a barrier, and inside `solve` a whole step's sub-steps and colors
 /// run without leaving the group. A world that has done its steps, or for whose pairs there is no room, is left as it
 /// is until the host has observed it.
@@ -45,6 +48,11 @@ namespace bin_scenes::sphere_gl {
 class Batch {
  public:
   using Slot = std::size_t;  ///< of a world
+  /// What goes up with the state of a body, for the watch.
+  struct Mark {
+    bool enters = false;  ///< its energy begins with this state
+    gpu::uint moved = 0;  ///< WatchedBody::moved
+  };
 
   explicit Batch(const Capacity& capacity = {});
 
@@ -53,17 +61,22 @@ class Batch {
   Slot add(const sphere::World& world, gpu::SphereProgress& progress);
   void remove(Slot slot);
 
-  /// Those of some bodies; neighbours are one copy.
-  void upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies);
+  /// Those of some bodies, with marks by body; neighbours are one copy.
+  void upload_states(Slot slot, const sphere::World& world, const std::set<std::size_t>& bodies,
+                     const std::vector<Mark>& marks);
   void upload_states(Slot slot, const sphere::World& world);
   /// What the steps of worlds left behind; upload takes effect at the next pass. Neighbours are one copy.
   void upload_progress(std::vector<std::pair<Slot, gpu::SphereProgress>> worlds);
+  /// What worlds are to do and to be observed for; likewise.
+  void upload_asks(std::vector<std::pair<Slot, gpu::SphereAsk>> worlds);
   /// A world's worst contact is looked for from the next step on, and no earlier one counts.
   void forget_worst(Slot slot);
-  /// Asks for where these worlds will stand, their worst contacts, and the states of their bodies, after the passes
-  /// issued so far. Wait for `back` later: it holds the progress of each slot in turn, then the worst contact of each,
-  /// then the states of each.
-  void request(const std::vector<Slot>& slots, gl::ReadBack& back) const;
+  /// Asks for what is seen of these worlds after the passes issued so far, and for all of some others or the same ones.
+  /// Wait for `back` later: it holds SphereSeen of each of `seen`; then of each of `read` the progress, then the worst
+  /// contact of each, then the audit of each, then the states of each.
+  void request(const std::vector<Slot>& seen, const std::vector<Slot>& read, gl::ReadBack& back) const;
+  /// The same for progress alone.
+  void request_progress(const std::vector<Slot>& slots, gl::ReadBack& back) const;
 
   /// Room for more pairs of a world that had too little, and for their contacts, from its progress; contents are kept.
   void grow_pairs(Slot slot, gpu::SphereProgress& progress);
@@ -91,6 +104,10 @@ class Batch {
   void solve();
   void note_depths();
   void update_sleep();
+  // Before and after the steps of a stretch.
+  void begin_watch();
+  void watch_rest();
+  void audit_energy();
 
   gl::Timer& timer() { return timer_; }
   std::size_t bytes() const;         ///< of all buffers on the device
@@ -122,7 +139,7 @@ class Batch {
   bool bound_ = false;
 
   gl::Program find_pairs_, list_jobs_, collect_samples_, test_samples_, choose_contacts_, color_manifolds_,
-      prepare_rows_, solve_, note_depths_, update_sleep_;
+      prepare_rows_, solve_, note_depths_, update_sleep_, begin_watch_, watch_rest_, audit_energy_;
   gl::Timer timer_;
 
   ShapeTable shapes_;
@@ -149,6 +166,10 @@ class Batch {
   gl::Buffer<gpu::vec4> rows_{"sphere.rows"};
   gl::Buffer<gpu::vec2> impulses_{"sphere.impulses"};
   gl::Buffer<gpu::SphereWorst> worst_{"sphere.worst"};
+  gl::Buffer<gpu::SphereAsk> asks_{"sphere.asks"};
+  gl::Buffer<gpu::SphereWatched> watched_{"sphere.watched"};
+  gl::Buffer<gpu::SphereAudit> audits_{"sphere.audits"};
+  gl::Buffer<gpu::SphereSeen> seen_{"sphere.seen"};
 };
 
 }  // namespace bin_scenes::sphere_gl

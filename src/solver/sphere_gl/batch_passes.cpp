@@ -44,6 +44,10 @@ void Batch::bind() const {
   rows_.bind(BIND_ROWS);
   impulses_.bind(BIND_IMPULSES);
   worst_.bind(BIND_WORST);
+  asks_.bind(BIND_ASKS);
+  watched_.bind(BIND_WATCHED);
+  audits_.bind(BIND_AUDITS);
+  seen_.bind(BIND_SEEN);
 }
 
 void Batch::find_pairs() {
@@ -95,6 +99,21 @@ void Batch::update_sleep() {
   gl::dispatch_groups(update_sleep_, running_count_);
 }
 
+void Batch::begin_watch() {
+  gl::Stage stage(timer_, "begin_watch");
+  gl::dispatch_groups(begin_watch_, running_count_);
+}
+
+void Batch::watch_rest() {
+  gl::Stage stage(timer_, "watch_rest");
+  gl::dispatch_groups(watch_rest_, running_count_);
+}
+
+void Batch::audit_energy() {
+  gl::Stage stage(timer_, "audit_energy");
+  gl::dispatch_groups(audit_energy_, running_count_);
+}
+
 void Batch::step() {
   find_pairs();
   find_contacts();
@@ -112,7 +131,8 @@ std::size_t Batch::bytes() const {
         &near_.storage(),         &boxes_.storage(),          &ranges_.storage(),   &pairs_.storage(),
         &free_.storage(),         &manifolds_.storage(),      &contacts_.storage(), &jobs_.storage(),
         &near_samples_.storage(), &candidate_list_.storage(), &colors_.storage(),   &order_.storage(),
-        &rows_.storage(),         &impulses_.storage(),       &worst_.storage()})
+        &rows_.storage(),         &impulses_.storage(),       &worst_.storage(),    &asks_.storage(),
+        &watched_.storage(),      &audits_.storage(),         &seen_.storage()})
     sum += s->bytes();
   return sum;
 }

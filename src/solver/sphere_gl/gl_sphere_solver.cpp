@@ -7,14 +7,14 @@
 #include "bin_scenes/gl/traffic.hpp"
 #include "solver/sphere/make_world.hpp"
 #include "solver/sphere/shapes/shape_cache.hpp"
-#include "solver/sphere_gl/batch.hpp"
+#include "solver/sphere_gl/capacity.hpp"
+#include "solver/sphere_gl/resident.hpp"
 #include "solver/step_limit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
 #include <utility>
 
 namespace bin_scenes {
@@ -24,49 +24,9 @@ namespace {
 using namespace sphere_gl;
 
 constexpr std::uint64_t steps_per_observation = 16;  ///< a world without room waits no longer than these for the host
+constexpr int most_unread = 64;  ///< stretches of steps: then counters are taken before they overflow
 
-/// What the host knows of a world: where it stood when the steps that were begun last were finished, but for the bodies
-/// changed since.
-struct Resident {
-  sphere::World world;
-  std::size_t bodies = 0;  ///< of the caller; a mesh bin adds one more behind them
-  Batch::Slot slot = 0;
-  gpu::SphereProgress progress{};
-  gpu::SphereWorst worst{};       ///< of the steps that were finished last, since it was taken
-  bool worst_taken = false;       ///< since then: the device is to forget it
-  std::set<std::size_t> changed;  ///< bodies to upload
-  std::uint64_t steps = 0;
-};
-
-/// Worlds whose steps were issued and not observed yet.
-struct Flight {
-  std::vector<WorldId> ids;
-  std::vector<Batch::Slot> slots;
-  std::unique_ptr<gl::ReadBack> back;
-  float share = 1.0f;  ///< of a whole step that each of the steps is
-  float rest = 0.0f;   ///< the same of a last one that is yet to come; 0: none
-};
-
-/// Whether it is a software device that is also used like one.
-bool is_software(const Capacity& capacity, const gl::Device& device) {
-  return device.software() && !capacity.as_on_card;
-}
-
-/// Bodies of a world that a work group of the device can hold.
-std::size_t most_bodies(const Capacity& capacity, const gl::Device& device) {
-  if (capacity.group_bodies > 0) return std::min<std::size_t>(capacity.group_bodies, SPHERE_MAX_BODIES);
-  return is_software(capacity, device) ? software_group_bodies : SPHERE_MAX_BODIES;
-}
-
-/// Throws for a world of more bodies than that.
-void check_bodies(std::size_t bodies, std::size_t most, const gl::Device& device) {
-  if (bodies <= most) return;
-  throw input_error("on " + device.renderer() + " the sphere solver takes at most " + std::to_string(most) +
-                        " bodies per scene, a mesh bin counted; this scene has " + std::to_string(bodies),
-                    "solver.sphere.device", "set solver.sphere.device: cpu");
-}
-
-class GlSphereSolver final : public Solver {
+class GlSphereSolver final : public Solver, private WorldWatch {
  public:
   GlSphereSolver(std::shared_ptr<gl::Device> device, const SphereSettings& settings, const Capacity& capacity)
       : device_(std::move(device)),
@@ -94,7 +54,9 @@ class GlSphereSolver final : public Solver {
     });
     if (software_) r.world.settings.most_impact_sweeps = r.world.settings.sharing_sweeps;  // it ends longer loops
     r.slot = batch_.add(r.world, r.progress);
-    report(r);
+    r.marks.resize(r.world.bodies.size());
+    r.watched_bodies.resize(r.bodies);
+    set_phase_of(r);
     worlds_.emplace(next_, std::move(r));
     return next_++;
   }
@@ -113,7 +75,7 @@ class GlSphereSolver final : public Solver {
   }
 
   void remove(WorldId id, std::size_t body) override {
-    Resident& r = world(id);
+    Resident& r = known(id);
     for (const std::uint32_t other : touched(r.world, body)) wake(r, other);
     wake(r, static_cast<std::uint32_t>(body));
     r.world.bodies[body].present = false;
@@ -121,11 +83,11 @@ class GlSphereSolver final : public Solver {
   }
 
   bool set_phase(WorldId id, const Phase& phase) override {
-    Resident& r = world(id);
+    Resident& r = known(id);
     const bool fine = r.world.fine;
     if (!sphere::take_phase(r.world, phase)) return true;
     if (r.world.fine != fine || phase.forgets) r.progress.refresh = 1;  // as set_phase() in make_world.cpp
-    report(r);
+    set_phase_of(r);
     for (std::size_t i = 0; i < r.world.bodies.size(); ++i) {
       if (phase.begins_asleep)
         sphere::put_to_sleep(r.world.settings, r.world.bodies[i]);
@@ -153,9 +115,9 @@ class GlSphereSolver final : public Solver {
     const auto rest = static_cast<float>(steps.rest / settings_.time_step);
     if (steps.whole > 0) {
       flight.rest = rest;
-      start(flight, steps.whole, 1.0f);
+      start(flight, steps.whole, 1.0f, rest == 0.0f);
     } else {
-      start(flight, 1, rest);
+      start(flight, 1, rest, true);
     }
     flights_.push_back(std::move(flight));
     return static_cast<double>(steps.whole) * settings_.time_step + steps.rest;
@@ -168,12 +130,12 @@ class GlSphereSolver final : public Solver {
     if (at == flights_.end()) return;
     Flight flight = std::move(*at);
     flights_.erase(at);
-    while (const std::uint64_t left = observe(flight)) issue(flight, left);
+    go_on(flight);
     if (flight.rest > 0.0f) {
-      start(flight, 1, flight.rest);
-      while (const std::uint64_t left = observe(flight)) issue(flight, left);
+      start(flight, 1, std::exchange(flight.rest, 0.0f), true);
+      go_on(flight);
     }
-    read_states(flight);
+    take(flight);
     spare_.push_back(std::move(flight.back));
     batch_.timer().collect(profile_);
   }
@@ -181,21 +143,21 @@ class GlSphereSolver final : public Solver {
   bool works_aside() const override { return true; }
 
   std::vector<BodyState> states(WorldId id) const override {
-    const Resident& r = world(id);
+    const Resident& r = known(id);
     std::vector<BodyState> out;
     for (std::size_t i = 0; i < r.bodies; ++i) out.push_back(sphere::state_of(r.world, i));
     return out;
   }
 
   std::vector<bool> asleep(WorldId id) const override {
-    const Resident& r = world(id);
+    const Resident& r = known(id);
     std::vector<bool> out(r.bodies);
     for (std::size_t i = 0; i < r.bodies; ++i) out[i] = r.world.bodies[i].asleep;
     return out;
   }
 
   std::vector<ContactForce> contact_forces(WorldId id) const override {
-    const Resident& r = world(id);
+    const Resident& r = known(id);
     device_->make_current();
     sphere::World now = r.world;
     batch_.download(r.slot, now);
@@ -203,13 +165,15 @@ class GlSphereSolver final : public Solver {
   }
 
   std::optional<WorstContact> take_worst_contact(WorldId id) override {
-    Resident& r = world(id);
+    Resident& r = known(id);
     const gpu::SphereWorst worst = std::exchange(r.worst, {});
     r.worst_taken = r.worst_taken || worst.relative > 0;
     if (worst.relative <= 0) return WorstContact();
     const auto named = [&](gpu::uint body) { return body < r.bodies ? static_cast<int>(body) : -1; };
     return WorstContact{named(worst.a), named(worst.b), worst.depth, worst.relative, worst.ago, 0};
   }
+
+  WorldWatch* watch() override { return this; }
 
   std::size_t worlds_at_once() const override { return at_once_; }
   double step_size() const override { return settings_.time_step; }
@@ -228,21 +192,53 @@ class GlSphereSolver final : public Solver {
 
  private:
   Resident& world(WorldId id) const { return worlds_.at(id); }
-
-  /// How its world's contacts are to be solved.
-  void report(Resident& r) const {
-    if (software_) r.world.effort = 1;  // software_group_bodies
-    tell_phase(r.world, r.progress);
+  /// As it is now: read from the device if it was not.
+  Resident& known(WorldId id) const {
+    Resident& r = world(id);
+    if (!r.known) read_now({&r});
+    return r;
   }
 
-  /// What has contacts with a body: found anew by the passes on the CPU, for which all others sleep.
-  static std::vector<std::uint32_t> touched(sphere::World world, std::size_t body) {
-    for (sphere::Body& b : world.bodies) sphere::put_to_sleep(world.settings, b);
-    sphere::wake(world.bodies[body]);
-    if (world.bodies[body].inverse_mass == 0) world.bodies[body].inverse_mass = 1;
-    sphere::find_pairs(world);
-    sphere::find_contacts(world);
-    return sphere::touched_by(world, static_cast<std::uint32_t>(body));
+  void set_rules(WorldId id, const WatchRules& rules) override {
+    Resident& r = world(id);
+    r.watched = true;
+    sphere_gl::set_rules(r.ask, rules);
+  }
+  void enter(WorldId id, std::size_t body) override {
+    world(id).marks[body].enters = true;
+    world(id).changed.insert(body);
+  }
+  void ask(WorldId id, const WatchAsk& ask) override {
+    Resident& r = world(id);
+    r.wants_states = ask.states;
+    set_ask(r.ask, ask);
+  }
+  const WatchSeen& seen(WorldId id) const override { return world(id).seen; }
+  void read(const std::vector<WorldId>& ids) override {
+    const gl::TrafficCount count(profile_);
+    std::vector<Resident*> unknown;
+    for (const WorldId id : ids)
+      if (!world(id).known) unknown.push_back(&world(id));
+    read_now(unknown);
+  }
+  const std::vector<WatchedBody>& bodies(WorldId id) const override { return known(id).watched_bodies; }
+  WatchedEnergy energy(WorldId id) const override { return energy_of(known(id).audit); }
+
+  void read_now(const std::vector<Resident*>& residents) const {
+    if (residents.empty()) return;
+    device_->make_current();
+    std::vector<Batch::Slot> slots;
+    for (const Resident* r : residents) slots.push_back(r->slot);
+    gl::ReadBack back;
+    batch_.request({}, slots, back);
+    read_residents(back.wait(), residents, profile_);
+  }
+
+  /// How its world's contacts are to be solved.
+  void set_phase_of(Resident& r) const {
+    if (software_) r.world.effort = 1;  // software_group_bodies
+    tell_phase(r.world, r.progress);
+    r.progress_changed = true;
   }
 
   static void wake(Resident& r, std::size_t body) {
@@ -259,95 +255,109 @@ class GlSphereSolver final : public Solver {
     return back;
   }
 
-  void start(Flight& flight, std::uint64_t steps, float share) {
+  /// @param ends  no steps follow these
+  void start(Flight& flight, std::uint64_t steps, float share, bool ends) {
     flight.share = share;
     flight.slots.clear();
     std::uint64_t most = 0;
+    std::vector<std::pair<Batch::Slot, gpu::SphereAsk>> asks;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      batch_.upload_states(r.slot, r.world, r.changed);
-      r.changed.clear();
-      if (std::exchange(r.worst_taken, false)) batch_.forget_worst(r.slot);
+      upload_changes(batch_, r);
       const std::uint64_t own = steps * static_cast<std::uint64_t>(r.world.cuts);
       most = std::max(most, own);
       r.steps += own;
-      r.progress.steps_left = static_cast<gpu::uint>(own);
+      asks.emplace_back(r.slot, r.ask);
+      asks.back().second.steps = static_cast<gpu::uint>(own);
+      if (!ends) asks.back().second.observation = 0;
+      if (std::exchange(r.counted, false)) asks.back().second.flags |= SPHERE_COUNTED;
+      r.ask.flags = 0;  // what begins anew has begun
+      if (ends) r.ask.observation = 0;
       flight.slots.push_back(r.slot);
     }
     upload_progress(flight);
+    batch_.upload_asks(std::move(asks));
+    batch_.run(flight.slots, flight.share);
+    batch_.begin_watch();
     issue(flight, most);
   }
 
+  /// Until no steps are left.
+  void go_on(Flight& flight) {
+    while (const std::uint64_t left = observe(flight)) {
+      batch_.run(flight.slots, flight.share);
+      issue(flight, left);
+    }
+  }
+
   void issue(Flight& flight, std::uint64_t left) {
-    batch_.run(flight.slots, flight.share);
     for (std::uint64_t k = 0; k < std::min(left, steps_per_observation); ++k) batch_.step();
-    batch_.request(flight.slots, *flight.back);
+    batch_.watch_rest();
+    batch_.audit_energy();
+    std::vector<Batch::Slot> read;
+    flight.read.clear();
+    for (const WorldId id : flight.ids) {
+      const Resident& r = world(id);
+      const bool last = left <= steps_per_observation && flight.rest == 0.0f;
+      if (!last || (r.watched && !r.wants_states && r.unread < most_unread)) continue;
+      flight.read.push_back(id);
+      read.push_back(r.slot);
+    }
+    batch_.request(flight.slots, read, *flight.back);
   }
 
   /// Waits for what the steps left behind, makes room where it was asked for, and returns how many steps are left.
   std::uint64_t observe(const Flight& flight) {
-    const auto* seen = static_cast<const gpu::SphereProgress*>(flight.back->wait());
+    const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
     std::uint64_t left = 0;
+    bool blocked = false;
+    for (std::size_t i = 0; i < flight.ids.size(); ++i) {
+      left = std::max<std::uint64_t>(left, seen[i].left & ~SPHERE_BLOCKED);
+      blocked = blocked || (seen[i].left & SPHERE_BLOCKED) != 0;
+    }
+    if (blocked) make_room(flight);
+    return left;
+  }
+
+  /// Of worlds some of which wait for room.
+  void make_room(const Flight& flight) {
+    gl::ReadBack back;
+    batch_.request_progress(flight.slots, back);
+    const auto* now = static_cast<const gpu::SphereProgress*>(back.wait());
     gpu::uint samples = 0, candidates = 0;
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      r.progress = *seen++;
-      const gpu::uint overflow = r.progress.overflow;
-      count(r.progress);
-      r.progress.overflow = 0;
-      if (overflow) profile_.count("steps_repeated");
-      if (overflow & SPHERE_PAIR_OVERFLOW) batch_.grow_pairs(r.slot, r.progress);
-      if (overflow & SPHERE_ROW_OVERFLOW) batch_.grow_rows(r.slot, r.progress.rows);
-      if (overflow & SPHERE_SAMPLE_OVERFLOW) samples = std::max(samples, r.progress.need);
-      candidates = std::max(candidates, r.progress.need_candidates);
-      r.progress.need = r.progress.need_candidates = 0;
-      left = std::max<std::uint64_t>(left, r.progress.steps_left);
+      r.progress = *now++;
+      take_counters(r.progress, profile_);
+      if (r.progress.overflow) profile_.count("steps_repeated");
+      make_room_for(batch_, r, samples, candidates);
     }
     if (samples + candidates > 0) batch_.grow_candidates(samples, candidates);
-    if (left > 0) upload_progress(flight);  // counters were taken
-    return left;
+    upload_progress(flight);
   }
 
   void upload_progress(const Flight& flight) {
     std::vector<std::pair<Batch::Slot, gpu::SphereProgress>> worlds;
-    for (const WorldId id : flight.ids) worlds.emplace_back(world(id).slot, world(id).progress);
+    for (const WorldId id : flight.ids) {
+      Resident& r = world(id);
+      if (std::exchange(r.progress_changed, false)) worlds.emplace_back(r.slot, r.progress);
+    }
     batch_.upload_progress(std::move(worlds));
   }
 
-  /// Moves the counters of a world to the profile.
-  void count(gpu::SphereProgress& p) {
-    profile_.count("body_steps_in_free_fall", p.free_steps);
-    profile_.count("body_steps_asleep", p.asleep_steps);
-    profile_.count("pairs", p.pairs_tested);
-    profile_.count("pairs_recycled", p.pairs_recycled);
-    profile_.count("pairs_asleep", p.pairs_asleep);
-    profile_.count("pairs_culled", p.pairs_culled);
-    profile_.count("clusters_tested", p.clusters_tested);
-    profile_.count("nodes_tested", p.nodes_tested);
-    profile_.count("nodes_possible", p.nodes_possible + (std::uint64_t{p.nodes_possible_high} << 32));
-    profile_.count("contacts", p.contacts);
-    profile_.count("contacts_reduced", p.dropped);
-    profile_.count("colors", p.colors);
-    profile_.count("coloring_rounds", p.coloring_rounds);
-    profile_.count("colorings", p.colorings);
-    profile_.count("pair_lists_made", p.lists_made);
-    profile_.count("steps", p.steps);
-    p.steps = p.free_steps = p.pairs_tested = p.pairs_recycled = p.pairs_asleep = p.clusters_tested = p.nodes_tested =
-        p.nodes_possible = p.nodes_possible_high = p.contacts = p.dropped = p.colors = p.coloring_rounds =
-            p.asleep_steps = p.pairs_culled = p.lists_made = p.colorings = 0;
-  }
-
-  void read_states(const Flight& flight) {
-    const auto* progress = static_cast<const gpu::SphereProgress*>(flight.back->wait());
-    const auto* worst = reinterpret_cast<const gpu::SphereWorst*>(progress + flight.ids.size());
-    const auto* state = reinterpret_cast<const gpu::SphereState*>(worst + flight.ids.size());
+  /// What was seen, and where states were asked for, all of the world.
+  void take(const Flight& flight) {
+    const auto* seen = static_cast<const gpu::SphereSeen*>(flight.back->wait());
     for (const WorldId id : flight.ids) {
       Resident& r = world(id);
-      r.worst = *worst++;
-      for (std::size_t i = 0; i < r.world.bodies.size(); ++i, ++state) {
-        read_state(*state, r.world.bodies[i]);
-      }
+      r.seen = seen_of(*seen++);
+      r.known = false;
+      ++r.unread;
     }
+    std::vector<Resident*> read;
+    for (const WorldId id : flight.read) read.push_back(&world(id));
+    read_residents(seen, read, profile_);
+    for (Resident* r : read) r->seen.states = true;
   }
 
   std::shared_ptr<gl::Device> device_;  ///< first: what is on it goes before it
@@ -366,17 +376,6 @@ class GlSphereSolver final : public Solver {
 };
 
 }  // namespace
-
-std::size_t sphere_gl::worlds_at_once(const Capacity& capacity, std::size_t storage_bytes, bool software) {
-  constexpr double body_bytes = 6000.0;  // on the device, with a share of the common lists: docs/develop/gpu.md
-  const double most = software ? 4.0 : 1024.0;
-  const double bodies = static_cast<double>(std::max<std::size_t>(capacity.bodies, 1));
-  const double largest_list =
-      static_cast<double>(capacity.pairs * SPHERE_MAX_CONTACTS * sizeof(gpu::SphereContact)) * bodies;
-  const double fit = std::min(
-      {most, capacity.memory / (body_bytes * bodies), 0.5 * static_cast<double>(storage_bytes) / largest_list});
-  return static_cast<std::size_t>(std::max(1.0, fit));
-}
 
 std::size_t most_gl_bodies() {
   return SPHERE_MAX_BODIES;

@@ -1,0 +1,65 @@
+/// The watch of a heap whose world is observed by the device that simulates it (solver/world_watch.hpp): keeps the
+/// times of observations, so that counts by number of observation become the answers that RestWatch gives by time.
+#pragma once
+
+#include "bin_scenes/solver/world_watch.hpp"
+
+#include <array>
+#include <vector>
+
+namespace bin_scenes {
+
+class DeviceWatch {
+ public:
+  using Ages = std::array<double, 4>;  ///< s
+
+  DeviceWatch(WorldWatch& watch, const WatchRules& rules, double rest_window)
+      : watch_(&watch), rules_(rules), window_(rest_window) {}
+
+  /// The heap is in another world from now on: rest and energies begin anew, and the worst of before is kept.
+  void begin_world(WorldId world);
+  void leave_world();  ///< before it is removed
+  /// The clock begins at 0 and nothing of before counts.
+  void restart();
+  void restart_rest() { rest_anew_ = true; }
+  void enter(std::size_t body) { watch_->enter(world_, body); }
+
+  /// The next steps end at a `time` at which the heap is observed. `ages`: what moved() will be asked for.
+  void ask(double time, const Ages& ages, bool driven, bool states);
+  /// The next steps end without an observation.
+  void ask_nothing(bool states);
+  /// The steps have ended.
+  void take();
+  void note_states() { states_ = true; }
+
+  bool observed() const { return observed_; }   ///< since restart()
+  bool is_current() const { return current_; }  ///< at the end of the steps that ended last
+  bool has_states() const { return states_; }   ///< of the steps that ended last
+  const WatchSeen& seen() const { return watch_->seen(world_); }
+  /// Bodies that moved within the last `age` seconds, one of those asked for.
+  std::size_t moved(double age) const;
+  /// Seconds since a body last moved, and whether it has rested for the window; by the states that were read last.
+  double still(std::size_t body) const;
+  bool resting(std::size_t body) const;
+  bool is_outside(std::size_t body) const { return watch_->bodies(world_)[body].outside; }
+
+  EnergyReport energy() const;
+  WorstReport::EnergyGain energy_of_all() const;
+
+ private:
+  std::uint32_t first_younger_than(double age) const;
+  void merge(WatchedEnergy energy);
+  WatchedEnergy timed(WatchedEnergy energy) const;
+
+  WorldWatch* watch_;
+  WatchRules rules_;
+  double window_;  ///< s
+  WorldId world_ = 0;
+  std::vector<double> times_{0.0};  ///< s, by number of observation; the first one is no observation
+  Ages ages_{};
+  std::uint32_t rested_ = 0;  ///< bodies that moved in or before this observation have rested
+  bool rest_anew_ = true, energy_anew_ = true, asked_ = false, observed_ = false, current_ = false, states_ = true;
+  WatchedEnergy earlier_;  ///< of worlds before, with times
+};
+
+}  // namespace bin_scenes
