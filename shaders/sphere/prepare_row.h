@@ -39,10 +39,8 @@ float approach_of(Row row, float gap, Side a, Side b) {
 // Of what cannot move: 0.
 float length_squared(Side side, vec3 lever) { return side.inverse_mass > 0.0 ? dot(lever, lever) : 0.0; }
 
-// With the force of the last step as impulse of a sub-step. Returns the contact's approach. arm_squared: of the longest
-// lever (m2).
-float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Side a, Side b,
-                  inout float arm_squared) {
+// With the force of the last step as impulse of a sub-step. Returns the contact's approach.
+float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start start_b, Side a, Side b) {
   bool of_a = (c.feature & SPHERE_SIDE_B) != 0u;  // the field is a's
   Row row;
   row.ra = rotate(start_a.orientation, c.anchor_a);
@@ -51,7 +49,6 @@ float prepare_row(uint at, uint stride, SphereContact c, Start start_a, Start st
   float gap = dot(start_b.position + row.rb - start_a.position - row.ra, row.normal);
   go_half_way(of_a, start_a.ahead, start_b.ahead, row.ra, row.rb, row.normal);
   keep_row(at, stride, row, gap, a, b);
-  arm_squared = max(arm_squared, max(length_squared(a, row.ra), length_squared(b, row.rb)));
   float along = kept * plan.sub_step * c.force.x;
   vec3 friction = kept * plan.sub_step * c.force.yzw;
   impulses[at] = vec2(along, gap);
@@ -86,9 +83,11 @@ void prepare_manifold(uint o) {
   float arm_squared = 0.0, least_mass = NO_LIMIT;
   for (uint k = 0u; k < count; ++k) {
     uint at = first + SPHERE_ROW_PARTS * k * stride, contact = SPHERE_MAX_CONTACTS * (world.pairs.x + m.slot) + k;
-    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, a, b, arm_squared);
+    float approach = prepare_row(at, stride, contacts[contact], start_a, start_b, a, b);
     contacts[contact].approach = approach;
-    least_mass = min(least_mass, rows[at].w);
+    Row row = row_at(at, stride);
+    arm_squared = max(arm_squared, max(length_squared(a, row.ra), length_squared(b, row.rb)));
+    least_mass = min(least_mass, row.normal_mass);
     strikes = strikes || approach <= -settings.restitution_speed;
   }
   bool rolls = is_ball(of.a) || is_ball(of.b);  // the point where a ball touches does not turn with it
