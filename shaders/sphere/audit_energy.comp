@@ -44,18 +44,18 @@ bool is_audited(uint body) { return is_watched(body) && (states[body].flags.x & 
 float unit_of(uint body) { return gravity * bodies[body].material.w / bodies[body].material.x; }
 float least_speed(uint body) { return sqrt(2.0 * FLAGGED_GAIN * gravity * bodies[body].material.w); }
 
-// By a way (m).
-float potential_change(uint body, vec3 way) { return -dot(world.gravity.xyz, way) / bodies[body].material.x; }
+// By a displacement (m).
+float potential_change(uint body, vec3 shift) { return -dot(world.gravity.xyz, shift) / bodies[body].material.x; }
 
 // A body that moved since the last observation: the ball that it was in, its gain and speeds.
 void compare_with_before(uint i, uint body, SphereState s, float kinetic, float worst_gain) {
   SphereWatched w = watched[body];
-  vec3 way = way_from(w.before.xyz, w.before_rest.xyz, s);
+  vec3 shift = shift_from(w.before.xyz, w.before_rest.xyz, s);
   float speed = length(s.velocity.xyz), size = bodies[body].material.w;
-  float distance = max(0.5 * (w.before_rest.w + speed) * seconds, length(way));
+  float distance = max(0.5 * (w.before_rest.w + speed) * seconds, length(shift));
   float radius = shapes[bodies[body].ids.x].box_center.w;
-  ball[i] = vec4(s.position.xyz - 0.5 * way, radius + 0.5 * distance + 0.5 * TOUCHING * size);
-  gain[i] = kinetic - w.before.w + potential_change(body, way) - ALLOWED * max(kinetic, w.before.w);
+  ball[i] = vec4(s.position.xyz - 0.5 * shift, radius + 0.5 * distance + 0.5 * TOUCHING * size);
+  gain[i] = kinetic - w.before.w + potential_change(body, shift) - ALLOWED * max(kinetic, w.before.w);
   before[i] = w.audited.x;
   now[i] = speed;
   if (gain[i] > worst_gain * unit_of(body)) gained = 1u;
@@ -67,7 +67,7 @@ vec4 terms_of(uint body, SphereState s, float kinetic) {
   SphereWatched w = watched[body];
   float swiftest = max(w.least_rest.w, kinetic), unit = unit_of(body);
   watched[body].least_rest.w = swiftest;
-  float more = kinetic - w.least.w + potential_change(body, way_from(w.least.xyz, w.least_rest.xyz, s));
+  float more = kinetic - w.least.w + potential_change(body, shift_from(w.least.xyz, w.least_rest.xyz, s));
   bool moved = abs(more) > STIRS * unit || swiftest > SWIFT * unit;
   return vec4(more, (moved ? more : min(more, 0.0)) - ALLOWED * swiftest, moved ? unit : 0.0, 0.0);
 }

@@ -29,10 +29,10 @@ bool is_outside(SphereState s, SphereAsk ask) {
 }
 
 bool is_still(uint body, SphereState s, SphereAsk ask) {
-  vec3 way = way_from(watched[body].still.xyz, watched[body].still_rest.xyz, s);
+  vec3 shift = shift_from(watched[body].still.xyz, watched[body].still_rest.xyz, s);
   vec4 turned = quat_multiply(quat_conjugate(watched[body].still_orientation), s.orientation);
   float turn = 2.0 * atan(length(turned.xyz), abs(turned.w));
-  return s.flags.w != 0u && length(way) <= ask.lower.w * bodies[body].material.w && turn <= ask.upper.w;
+  return s.flags.w != 0u && length(shift) <= ask.lower.w * bodies[body].material.w && turn <= ask.upper.w;
 }
 
 // Faster than a part that falls.

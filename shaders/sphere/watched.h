@@ -4,7 +4,7 @@
 bool is_watched(uint body) { return present(body) && bodies[body].material.x > 0.0; }
 
 // From a place to where the body's centre of mass is (m). A place is a position, and what that is too coarse for.
-vec3 way_from(vec3 position, vec3 position_rest, SphereState s) {
+vec3 shift_from(vec3 position, vec3 position_rest, SphereState s) {
   return (s.position.xyz - position) + (s.position_rest.xyz - position_rest);
 }
 
